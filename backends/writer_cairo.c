@@ -162,12 +162,12 @@ struct crop_window {
 
 static void include_points(struct crop_window *window,
                            const struct drawing_point *point, uint32_t count,
-                           double reach) {
+                           double half_width) {
   for (uint32_t i = 0; i < count; i++) {
-    window->x0 = fmin(window->x0, point[i].x - reach);
-    window->y0 = fmin(window->y0, point[i].y - reach);
-    window->x1 = fmax(window->x1, point[i].x + reach);
-    window->y1 = fmax(window->y1, point[i].y + reach);
+    window->x0 = fmin(window->x0, point[i].x - half_width);
+    window->y0 = fmin(window->y0, point[i].y - half_width);
+    window->x1 = fmax(window->x1, point[i].x + half_width);
+    window->y1 = fmax(window->y1, point[i].y + half_width);
   }
 }
 

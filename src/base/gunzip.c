@@ -53,15 +53,15 @@ static recto_status expansion_fault(const struct expansion *x, int result) {
                    x->stream.msg != NULL ? x->stream.msg : "");
 }
 
-/* Expands some more into the room that there is, which is one byte at least
+/* Expands some more into the capacity that is left, which is one byte at least
  * besides that of the NUL.
  * Returns zlib's code: Z_BUF_ERROR where there are no data left. */
 static int expand_some(struct expansion *x) {
   enum { AT_ONCE_MAX = 1 << 22 };
   size_t left = x->count - x->taken;
-  size_t room = x->to.capacity - x->to.count - 1;
+  size_t capacity = x->to.capacity - x->to.count - 1;
   uInt in = left < AT_ONCE_MAX ? (uInt)left : AT_ONCE_MAX;
-  uInt out = room < AT_ONCE_MAX ? (uInt)room : AT_ONCE_MAX;
+  uInt out = capacity < AT_ONCE_MAX ? (uInt)capacity : AT_ONCE_MAX;
   x->stream.next_in = (z_const Bytef *)(uintptr_t)(x->bytes + x->taken);
   x->stream.avail_in = in;
   x->stream.next_out = (Bytef *)(x->to.item + x->to.count);

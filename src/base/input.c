@@ -68,10 +68,10 @@ static recto_status slurp(const struct source *source, struct input *input,
   if (source->size > source->most)
     return refuse_size(source, error);
   /* One byte more than there are shows that the end is reached. */
-  size_t room = source->size > 0 ? source->size + 2 : CHUNK;
-  if (!ARRAY_RESERVE(&input->slurped, room))
+  size_t capacity = source->size > 0 ? source->size + 2 : CHUNK;
+  if (!ARRAY_RESERVE(&input->slurped, capacity))
     return error_memory(error);
-  advise_large_pages(input->slurped.item, room);
+  advise_large_pages(input->slurped.item, capacity);
   while (poll_now()) {
     if (input->slurped.capacity - input->slurped.count < 2 &&
         !ARRAY_RESERVE(&input->slurped, CHUNK))

@@ -121,14 +121,14 @@ void *arena_alloc(struct arena *arena, size_t count, size_t size) {
   bytes = align_size(bytes);
   struct arena_block *block = arena->block;
   if (block == NULL || bytes > block->size - arena->used) {
-    size_t room = block != NULL ? 2 * block->size : ARENA_BLOCK_SIZE;
-    if (room < bytes)
-      room = bytes;
-    block = mem_alloc(sizeof *block + room, 1);
+    size_t capacity = block != NULL ? 2 * block->size : ARENA_BLOCK_SIZE;
+    if (capacity < bytes)
+      capacity = bytes;
+    block = mem_alloc(sizeof *block + capacity, 1);
     if (block == NULL)
       return NULL;
     block->next = arena->block;
-    block->size = room;
+    block->size = capacity;
     arena->block = block;
     arena->used = 0;
   }

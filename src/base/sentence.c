@@ -6,11 +6,12 @@
 
 void sentence_add(struct sentence *sentence, const char *format, ...) {
   va_list arguments;
-  size_t room = sizeof sentence->text - sentence->length;
+  size_t capacity = sizeof sentence->text - sentence->length;
   va_start(arguments, format);
   int length =
-      vsnprintf(sentence->text + sentence->length, room, format, arguments);
+      vsnprintf(sentence->text + sentence->length, capacity, format, arguments);
   va_end(arguments);
   if (length > 0)
-    sentence->length += (size_t)length < room ? (size_t)length : room - 1;
+    sentence->length +=
+        (size_t)length < capacity ? (size_t)length : capacity - 1;
 }

@@ -209,12 +209,12 @@ static void exact_over(struct stream *stream) {
     empty_buffer(stream);
 }
 
-static void place_target(struct stream *stream) {
+static void commit_target(struct stream *stream) {
   struct target *target = &stream->target;
   if (stream->is_memory || stream->status != RECTO_OK)
     return;
   bool ok =
-      target->kind == TARGET_NEW ? target_place(target)
+      target->kind == TARGET_NEW ? target_commit(target)
       : target->kind == TARGET_IN_PLACE
           ? target_replace(target, stream->buffer.item, stream->buffer.count)
           : true;
@@ -240,7 +240,7 @@ static recto_status report_failure(const struct stream *stream,
 
 /* Whether the place of a stream has been taken by one before it: names that
  * differ may be one to the file system. */
-static bool is_taken(struct stream *const *stream, size_t at) {
+static bool is_path_taken(struct stream *const *stream, size_t at) {
   struct file_identity there;
   const struct target *target = &stream[at]->target;
   if (stream[at]->is_memory || target->kind != TARGET_NEW || target->existed ||
@@ -265,20 +265,20 @@ static recto_status first_fault(struct stream *const *stream, size_t count,
   return RECTO_OK;
 }
 
-static recto_status place_all(struct stream *const *stream, size_t count,
-                              recto_error *error) {
+static recto_status commit_all(struct stream *const *stream, size_t count,
+                               recto_error *error) {
   recto_status status = RECTO_OK;
   for (size_t i = 0; i < count && status == RECTO_OK; i++) {
     if (stream[i] == NULL)
       continue;
-    if (is_taken(stream, i))
+    if (is_path_taken(stream, i))
       set_fault(stream[i], RECTO_ERROR_ARGUMENT, 0);
-    place_target(stream[i]);
+    commit_target(stream[i]);
     status = first_fault(stream, count, error);
   }
   for (size_t i = 0; i < count && status != RECTO_OK; i++)
     if (stream[i] != NULL)
-      target_withdraw(&stream[i]->target);
+      target_roll_back(&stream[i]->target);
   return status;
 }
 
@@ -295,7 +295,7 @@ recto_status stream_finish_all(struct stream *const *stream, size_t count,
     status = first_fault(stream, count, error);
   }
   if (status == RECTO_OK)
-    status = place_all(stream, count, error);
+    status = commit_all(stream, count, error);
   for (size_t i = 0; i < count; i++)
     stream_discard(stream[i]);
   return status;

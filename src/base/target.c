@@ -381,7 +381,7 @@ static bool write_bytes_all(int descriptor, const char *bytes, size_t count) {
 
 /* Makes sure that there is room before a byte is changed, where the file system
  * can. */
-static bool reserve_room(int descriptor, size_t count) {
+static bool reserve_space(int descriptor, size_t count) {
 #ifdef FALLOC_FL_KEEP_SIZE
   if (count > 0 &&
       fallocate(descriptor, FALLOC_FL_KEEP_SIZE, 0, (off_t)count) != 0)
@@ -395,7 +395,7 @@ static bool reserve_room(int descriptor, size_t count) {
 
 bool target_replace(struct target *target, const char *bytes, size_t count) {
   int to = target->descriptor;
-  return reserve_room(to, count) && write_bytes_all(to, bytes, count) &&
+  return reserve_space(to, count) && write_bytes_all(to, bytes, count) &&
          ftruncate(to, (off_t)count) == 0;
 }
 
@@ -409,7 +409,7 @@ static bool copy_in_place(struct target *target) {
   off_t at = 0;
   bool ok = to >= 0 && chunk != NULL &&
             fstat(target->descriptor, &attributes) == 0 &&
-            reserve_room(to, (size_t)attributes.st_size);
+            reserve_space(to, (size_t)attributes.st_size);
   while (ok && at < attributes.st_size) {
     ssize_t got = pread(target->descriptor, chunk, CHUNK, at);
     ok = got > 0 && write_bytes_all(to, chunk, (size_t)got);
@@ -422,7 +422,7 @@ static bool copy_in_place(struct target *target) {
   return ok;
 }
 
-static bool put_in_place(struct target *target) {
+static bool move_into_place(struct target *target) {
   bool is_nameless = target->temporary == NULL;
   if (is_nameless && !target->existed && make_link(target, target->path))
     return true;
@@ -448,20 +448,20 @@ static bool is_written(int descriptor) {
 }
 
 /* No signal comes between giving the file a name and putting it in place. */
-bool target_place(struct target *target) {
+bool target_commit(struct target *target) {
   sigset_t all, before;
   sigfillset(&all);
   (void)pthread_sigmask(SIG_SETMASK, &all, &before);
-  target->is_in_place = is_written(target->descriptor) && put_in_place(target);
+  target->committed = is_written(target->descriptor) && move_into_place(target);
   int fault = errno;
   (void)pthread_sigmask(SIG_SETMASK, &before, NULL);
   errno = fault;
-  return target->is_in_place;
+  return target->committed;
 }
 
-void target_withdraw(struct target *target) {
+void target_roll_back(struct target *target) {
   struct stat there, own;
-  if (target->is_in_place && !target->existed &&
+  if (target->committed && !target->existed &&
       lstat(target->path, &there) == 0 &&
       fstat(target->descriptor, &own) == 0 && is_same_stat(&there, &own))
     unlink(target->path);

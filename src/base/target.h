@@ -10,7 +10,7 @@
 #include "base/status.h"
 
 enum target_kind {
-  TARGET_NEW,       /* written aside, then put in its place */
+  TARGET_NEW,       /* written to a temporary file, which is then renamed */
   TARGET_IN_PLACE,  /* a file whose bytes are replaced, in one go */
   TARGET_DESCRIPTOR /* a pipe, a device, or what was open already */
 };
@@ -20,12 +20,12 @@ struct target {
   int descriptor;  /* what is written to */
   char *name;      /* as the user wrote it, for messages */
   char *path;      /* with links followed; NULL for what was open already */
-  char *temporary; /* TARGET_NEW: the name that it has until it is put in its
-                      place; NULL: it has none */
+  char *temporary; /* TARGET_NEW: its name until it is committed; NULL: it
+                      has none */
   bool existed;    /* a file proper is there, and this is what it is */
   struct stat old;
   struct stat folder; /* TARGET_NEW: where it is to appear */
-  bool is_in_place;   /* it was put there */
+  bool committed;     /* TARGET_NEW: has its name */
 };
 
 /* Opens a path for writing; "-" is standard output.  A descriptor of its own
@@ -52,18 +52,18 @@ bool target_paths_are_same(const char *a, const char *b);
 /* Whether it is this file that is replaced or written to. */
 bool target_is(const struct target *target, struct file_identity it);
 
-/* Puts a TARGET_NEW, which has been written to its end, in its place.
+/* Gives a TARGET_NEW, which has been written to its end, its name.
  * Returns false, with errno set, where that cannot be done. */
-USE_RESULT bool target_place(struct target *target);
+USE_RESULT bool target_commit(struct target *target);
 
-/* Takes back what was put in its place where nothing was there before. */
-void target_withdraw(struct target *target);
+/* Removes the new file again where there was none before. */
+void target_roll_back(struct target *target);
 
 /* Replaces the bytes of a TARGET_IN_PLACE. */
 USE_RESULT bool target_replace(struct target *target, const char *bytes,
                                size_t count);
 
-/* Closes the target, and removes what has not been put in its place.
+/* Closes the target, and removes what has not been committed.
  * Returns false, with errno set, where closing finds that a write failed. */
 bool target_close(struct target *target);
 

@@ -56,13 +56,14 @@ const char *frame_path(const struct arguments *a, const char *pattern,
     struct conversion c = {.length = 1};
     if (*pattern == '%')
       c = read_conversion(pattern);
-    size_t room = FRAME_PATH_SIZE - at;
-    int length =
-        c.letter == 'd'   ? snprintf(path + at, room, c.zeros ? "%0*d" : "%*d",
-                                     c.width, frame)
-        : c.letter == 's' ? snprintf(path + at, room, "%s", a->view[frame].name)
-                          : snprintf(path + at, room, "%c", *pattern);
-    if (length < 0 || (size_t)length >= room)
+    size_t capacity = FRAME_PATH_SIZE - at;
+    int length = c.letter == 'd'
+                     ? snprintf(path + at, capacity, c.zeros ? "%0*d" : "%*d",
+                                c.width, frame)
+                 : c.letter == 's'
+                     ? snprintf(path + at, capacity, "%s", a->view[frame].name)
+                     : snprintf(path + at, capacity, "%c", *pattern);
+    if (length < 0 || (size_t)length >= capacity)
       return NULL;
     at += (size_t)length;
     pattern += c.length;

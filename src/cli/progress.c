@@ -92,15 +92,15 @@ static void draw_bar(double passed_s) {
     return;
   say_left(left, passed_s);
   int percent = (int)(now.share * 100);
-  int room = columns - (int)strlen(left) - 5 - 11 - 3;
+  int width = columns - (int)strlen(left) - 5 - 11 - 3;
   int length;
-  if (room >= 10) {
+  if (width >= 10) {
     char bar[COLUMNS_MAX];
-    int filled = (int)(now.share * room);
+    int filled = (int)(now.share * width);
     memset(bar, '#', (size_t)filled);
-    memset(bar + filled, '-', (size_t)(room - filled));
+    memset(bar + filled, '-', (size_t)(width - filled));
     length = snprintf(text, sizeof text, "\r%-11.11s[%.*s] %3d%%%s", now.stage,
-                      room, bar, percent, left);
+                      width, bar, percent, left);
   } else {
     length = snprintf(text, sizeof text, "\r%3d%%%s", percent, left);
   }
@@ -112,7 +112,7 @@ static void draw_bar(double passed_s) {
   now.columns = length - 1;
 }
 
-static void *update_until_end(void *unused) {
+static void *draw_repeatedly(void *unused) {
   (void)unused;
   pthread_mutex_lock(&now.lock);
   while (!now.ends) {
@@ -143,7 +143,7 @@ static void start_thread(void) {
   sigset_t all, before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
-  now.runs = pthread_create(&now.thread, NULL, update_until_end, NULL) == 0;
+  now.runs = pthread_create(&now.thread, NULL, draw_repeatedly, NULL) == 0;
   pthread_sigmask(SIG_SETMASK, &before, NULL);
 }
 

@@ -50,14 +50,14 @@ static bool is_standard_output(const char *path) {
 
 /* Whether --stats writes to standard error, as the drawing goes to standard
  * output. */
-static bool stats_stand_aside(const struct arguments *arguments) {
+static bool stats_use_stderr(const struct arguments *arguments) {
   return arguments->stats && arguments->stats_file == NULL &&
          is_standard_output(arguments->output);
 }
 
 /* The path of the stats; NULL: none, or standard error. */
 static const char *find_stats(const struct arguments *arguments) {
-  if (!arguments->stats || stats_stand_aside(arguments))
+  if (!arguments->stats || stats_use_stderr(arguments))
     return NULL;
   return arguments->stats_file != NULL ? arguments->stats_file : "-";
 }
@@ -65,17 +65,17 @@ static const char *find_stats(const struct arguments *arguments) {
 /* The paths of a drawing and of its stats. */
 struct output_paths {
   const char *drawing, *stats; /* NULL: no stats */
-  char room[2][FRAME_PATH_SIZE];
+  char path_buffer[2][FRAME_PATH_SIZE];
 };
 
 static void find_outputs(struct output_paths *outputs,
                          const struct arguments *arguments, int frame) {
   const char *stats = find_stats(arguments);
   outputs->drawing =
-      frame_path(arguments, arguments->output, frame, outputs->room[0]);
-  outputs->stats = stats != NULL
-                       ? frame_path(arguments, stats, frame, outputs->room[1])
-                       : NULL;
+      frame_path(arguments, arguments->output, frame, outputs->path_buffer[0]);
+  outputs->stats = stats != NULL ? frame_path(arguments, stats, frame,
+                                              outputs->path_buffer[1])
+                                 : NULL;
 }
 
 /* Checks that all outputs can be written and that none replaces a file that was
@@ -170,7 +170,7 @@ static recto_status write_outputs(const struct arguments *arguments,
   recto_status status = recto_drawing_write_with_stats(
       drawing, outputs.drawing, arguments->format, outputs.stats, options,
       error);
-  if (status == RECTO_OK && stats_stand_aside(arguments)) {
+  if (status == RECTO_OK && stats_use_stderr(arguments)) {
     progress_end();
     fputs(recto_drawing_stats(drawing), stderr);
   }

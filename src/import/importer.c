@@ -8,8 +8,8 @@
  * scene/import_form.h describes.
  *
  * The file is imported as it is, without any of Assimp's own improvements:
- * polygons stay polygons.  The tree of nodes is walked with a stack of our
- * own, and each node's meshes are moved to where the node's transformations
+ * polygons stay polygons.  The tree of nodes is traversed with an explicit
+ * stack, and each node's meshes are moved to where the node's transformations
  * put them. */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* closefrom */
@@ -45,13 +45,13 @@
 #endif
 
 /* From a node's own coordinates to the scene's: rows of a 3 x 4 matrix. */
-struct placement {
+struct transform {
   double row[3][4];
 };
 
 struct visit {
   const struct aiNode *node;
-  struct placement parent;
+  struct transform parent;
 };
 
 struct import {
@@ -86,20 +86,20 @@ static _Noreturn void exit_with(FILE *to, enum import_why why,
 
 /* ---- Meshes -------------------------------------------------------------- */
 
-static struct placement place_node(const struct placement *parent,
-                                   const struct aiMatrix4x4 *own) {
+static struct transform compose_transforms(const struct transform *parent,
+                                           const struct aiMatrix4x4 *own) {
   const double rows[3][4] = {{own->a1, own->a2, own->a3, own->a4},
                              {own->b1, own->b2, own->b3, own->b4},
                              {own->c1, own->c2, own->c3, own->c4}};
-  struct placement placed;
+  struct transform transform;
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 4; j++) {
       double sum = j == 3 ? parent->row[i][3] : 0;
       for (int k = 0; k < 3; k++)
         sum += parent->row[i][k] * rows[k][j];
-      placed.row[i][j] = sum;
+      transform.row[i][j] = sum;
     }
-  return placed;
+  return transform;
 }
 
 /* The diffuse colour of the mesh's material, if it has one. */
@@ -118,12 +118,12 @@ static void find_colour(const struct import *import, const struct aiMesh *mesh,
 }
 
 static void put_points(FILE *to, const struct aiMesh *mesh,
-                       const struct placement *placed) {
+                       const struct transform *transform) {
   for (unsigned i = 0; i < mesh->mNumVertices; i++) {
     const struct aiVector3D *v = &mesh->mVertices[i];
     double at[3];
     for (int k = 0; k < 3; k++) {
-      const double *row = placed->row[k];
+      const double *row = transform->row[k];
       at[k] = row[0] * v->x + row[1] * v->y + row[2] * v->z + row[3];
     }
     write_bytes(to, at, sizeof at);
@@ -134,7 +134,7 @@ static void put_points(FILE *to, const struct aiMesh *mesh,
  * has another name. */
 static void put_mesh(struct import *import, const struct aiNode *node,
                      const struct aiMesh *mesh,
-                     const struct placement *placed) {
+                     const struct transform *transform) {
   char name[2 * sizeof node->mName.data + 2];
   const char *first = node->mName.data, *second = mesh->mName.data;
   bool both = *first && *second && strcmp(first, second) != 0;
@@ -149,7 +149,7 @@ static void put_mesh(struct import *import, const struct aiNode *node,
     record.corners += mesh->mFaces[i].mNumIndices;
   write_bytes(import->to, &record, sizeof record);
   write_bytes(import->to, name, (size_t)record.name_length);
-  put_points(import->to, mesh, placed);
+  put_points(import->to, mesh, transform);
   for (unsigned i = 0; i < mesh->mNumFaces; i++) {
     uint32_t count = mesh->mFaces[i].mNumIndices;
     write_bytes(import->to, &count, sizeof count);
@@ -173,7 +173,7 @@ static void put_nodes(struct import *import) {
   while (import->stack.count > 0) {
     struct visit visit = import->stack.item[--import->stack.count];
     const struct aiNode *node = visit.node;
-    visit.parent = place_node(&visit.parent, &node->mTransformation);
+    visit.parent = compose_transforms(&visit.parent, &node->mTransformation);
     for (unsigned i = 0; i < node->mNumMeshes; i++)
       if (node->mMeshes[i] < import->from->mNumMeshes)
         put_mesh(import, node, import->from->mMeshes[node->mMeshes[i]],
