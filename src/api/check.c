@@ -73,7 +73,7 @@ static recto_status judge_file_drawing(const struct scene *scene,
   struct judge_camera seen = judge_input_camera(&input, &camera, o);
   struct judge_options options = judge_input_options(&input, &camera, o);
   options.samples = SAMPLES;
-  options.reach_mm = options.lateral_mm =
+  options.ink_distance_mm = options.lateral_mm =
       o->ink.pen_mm / 4 + ink_deviation_mm(o);
   status = find_shortest(&options.shortest_mm, scene, o, error);
   if (status == RECTO_OK &&

@@ -29,7 +29,7 @@ static void say_what(struct sentence *words,
                  plural_ending(faces));
   if (overflow->edges > 0) {
     sentence_add(words, ", as far as ");
-    say_length(words, overflow->reach_mm);
+    say_length(words, overflow->excess_mm);
     sentence_add(words, " beyond");
   }
 }
@@ -59,8 +59,8 @@ static void say_help(struct sentence *words,
   if (narrow && options->camera.fit != RECTO_FIT_PAGE &&
       options->camera.fit != RECTO_FIT_SPHERE)
     sentence_add(words, ", --landscape too");
-  if (overflow->reach_mm > 0 &&
-      overflow->reach_mm <= margin_mm + RECTO_FINEST_MM)
+  if (overflow->excess_mm > 0 &&
+      overflow->excess_mm <= margin_mm + RECTO_FINEST_MM)
     sentence_add(words, "; all is on the page itself, as --margin 0 shows");
 }
 
@@ -79,5 +79,5 @@ void clipped_report(const struct page_overflow *overflow,
                     struct report *report) {
   report_int(report, "clipped", "lines", (int64_t)overflow->edges);
   report_double(report, "clipped", "length_mm", overflow->mm);
-  report_double(report, "clipped", "farthest_mm", overflow->reach_mm);
+  report_double(report, "clipped", "farthest_mm", overflow->excess_mm);
 }

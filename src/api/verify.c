@@ -153,7 +153,7 @@ static recto_status judge_own_drawing(const struct verify *verify,
   struct judge_options options = judge_input_options(input, verify->camera, o);
   camera.depth_step = 1 / verify->sheet->z_scale;
   options.samples = (size_t)o->verify;
-  options.reach_mm += ink_deviation_mm(o);
+  options.ink_distance_mm += ink_deviation_mm(o);
   options.lateral_mm += ink_deviation_mm(o);
   return judge_drawing(verdict, drawing, &input->scene, &camera, &options)
              ? RECTO_OK

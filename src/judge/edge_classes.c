@@ -31,8 +31,8 @@ static struct judge_point2 farthest_image(const struct judge_facings *facings,
  * this position, mm. */
 static double thickness_at(const struct judge_facings *facings, double contact,
                            struct judge_point3 at) {
-  struct judge_point3 aside = judge_shift(facings->camera, at, 1, 0);
-  double unit = point3_length(point3_sub(aside, at)); /* a mm there */
+  struct judge_point3 beside = judge_shift(facings->camera, at, 1, 0);
+  double unit = point3_length(point3_sub(beside, at)); /* a mm there */
   return facings->options->ray_offset_mm + 2 * contact / unit;
 }
 

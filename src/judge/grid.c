@@ -38,28 +38,28 @@ static bool clip_to_row(const struct judge_segment *s, double low, double high,
   return true;
 }
 
-/* Visits the cells within reach of segment i: counts it in each of them while
+/* Visits the cells within radius of segment i: counts it in each of them while
  * `item` is NULL, else enters it.
  * fill  one a cell: the count, or the next free index
  * Returns the number of cells. */
 static size_t visit_cells(struct judge_grid *grid, uint32_t i, uint32_t *fill) {
   size_t visited = 0;
   const struct judge_segment *s = &grid->segment[i];
-  double reach = grid->reach_mm, cell = grid->cell_mm;
-  double low = fmin(s->a.y, s->b.y) - reach;
-  double high = fmax(s->a.y, s->b.y) + reach;
+  double radius = grid->radius_mm, cell = grid->cell_mm;
+  double low = fmin(s->a.y, s->b.y) - radius;
+  double high = fmax(s->a.y, s->b.y) + radius;
   double height = grid->rows * cell, width = grid->columns * cell;
   if (!(low <= height && high >= 0))
     return 0;
   uint32_t last = grid_cell_at(high, cell, grid->rows);
   for (uint32_t row = grid_cell_at(low, cell, grid->rows); row <= last; row++) {
     double x0, x1;
-    if (!clip_to_row(s, row * cell - reach, (row + 1) * cell + reach, &x0,
+    if (!clip_to_row(s, row * cell - radius, (row + 1) * cell + radius, &x0,
                      &x1) ||
-        x1 + reach < 0 || x0 - reach > width)
+        x1 + radius < 0 || x0 - radius > width)
       continue;
-    uint32_t end = grid_cell_at(x1 + reach, cell, grid->columns);
-    for (uint32_t column = grid_cell_at(x0 - reach, cell, grid->columns);
+    uint32_t end = grid_cell_at(x1 + radius, cell, grid->columns);
+    for (uint32_t column = grid_cell_at(x0 - radius, cell, grid->columns);
          column <= end; column++) {
       uint32_t *slot = &fill[row * grid->columns + column];
       if (grid->item != NULL)
@@ -93,9 +93,9 @@ static void set_cells(struct judge_grid *grid, double width_mm,
 bool judge_grid_init(struct judge_grid *grid,
                      const struct judge_segment *segment, uint32_t count,
                      double width_mm, double height_mm, double cell_mm,
-                     double reach_mm) {
-  *grid = (struct judge_grid){.segment = segment, .reach_mm = reach_mm};
-  set_cells(grid, width_mm, height_mm, fmax(cell_mm, reach_mm));
+                     double radius_mm) {
+  *grid = (struct judge_grid){.segment = segment, .radius_mm = radius_mm};
+  set_cells(grid, width_mm, height_mm, fmax(cell_mm, radius_mm));
   size_t cells = (size_t)grid->columns * grid->rows;
   grid->start = mem_calloc(cells + 1, sizeof *grid->start);
   uint32_t *fill = mem_calloc(cells + 1, sizeof *fill);
@@ -148,13 +148,13 @@ double judge_distance(const struct judge_segment *segment,
 /* The distance to the line through the segment rejects most points, without a
  * division; the rounding error of its square is far below the factor 1.0001. */
 bool judge_is_within(const struct judge_segment *segment,
-                     struct judge_point2 at, double reach) {
+                     struct judge_point2 at, double radius) {
   double dx = segment->b.x - segment->a.x, dy = segment->b.y - segment->a.y;
   double px = at.x - segment->a.x, py = at.y - segment->a.y;
   double area = dx * py - dy * px, t;
   double size = fabs(dx * py) + fabs(dy * px);
   double off = fabs(area) - 0x1p-50 * size;
-  if (off > 0 && off * off > 1.0001 * reach * reach * (dx * dx + dy * dy))
+  if (off > 0 && off * off > 1.0001 * radius * radius * (dx * dx + dy * dy))
     return false;
-  return judge_distance(segment, at, &t) <= reach;
+  return judge_distance(segment, at, &t) <= radius;
 }

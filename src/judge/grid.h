@@ -11,14 +11,14 @@ struct judge_segment {
 
 struct judge_grid {
   const struct judge_segment *segment; /* borrowed, not owned */
-  double cell_mm, reach_mm;
+  double cell_mm, radius_mm;
   uint32_t columns, rows;
   uint32_t *start, *item; /* the segments of cell c are item[start[c]] to
                              item[start[c + 1] - 1] */
 };
 
-/* Enters segments into all cells of a page that are within reach of them.
- * cell_mm  the side of a cell; raised to the reach where it is less, so that a
+/* Enters segments into all cells of a page that are within radius of them.
+ * cell_mm  the side of a cell; raised to the radius where it is less, so that a
  *          segment is in few cells beside it
  * What is outside the page is ignored.
  * Returns false when memory ran out. */
@@ -26,10 +26,10 @@ USE_RESULT bool judge_grid_init(struct judge_grid *grid,
                                 const struct judge_segment *segment,
                                 uint32_t count, double width_mm,
                                 double height_mm, double cell_mm,
-                                double reach_mm);
+                                double radius_mm);
 void judge_grid_fini(struct judge_grid *grid);
 
-/* The segments that may be within reach of a point; *count of them. */
+/* The segments that may be within radius of a point; *count of them. */
 const uint32_t *judge_grid_near(const struct judge_grid *grid,
                                 struct judge_point2 at, uint32_t *count);
 
@@ -38,8 +38,8 @@ const uint32_t *judge_grid_near(const struct judge_grid *grid,
 double judge_distance(const struct judge_segment *segment,
                       struct judge_point2 at, double *t);
 
-/* Whether that distance is at most `reach`. */
+/* Whether that distance is at most `radius`. */
 bool judge_is_within(const struct judge_segment *segment,
-                     struct judge_point2 at, double reach);
+                     struct judge_point2 at, double radius);
 
 #endif

@@ -33,7 +33,7 @@ struct judge_context {
 void judge_options_init(struct judge_options *options) {
   *options =
       (struct judge_options){.step_mm = 0.02,
-                             .reach_mm = 0.02,
+                             .ink_distance_mm = 0.02,
                              .lateral_mm = 0.0015,
                              .ray_offset_mm = TOLERANCE_JUDGE_RAY_OFFSET_MM,
                              .contact = -1,
@@ -172,8 +172,8 @@ static bool stroke_runs_along(const struct judge_context *context,
   bool along = length == 0;
   judge_distance(stroke, at, &t);
   for (int side = -1; !along && side <= 1; side += 2) {
-    double aside = fmin(fmax(t + side * 64 * lateral / length, 0), 1);
-    along = judge_is_within(edge, point_on(stroke, aside), 2 * lateral);
+    double nearby = fmin(fmax(t + side * 64 * lateral / length, 0), 1);
+    along = judge_is_within(edge, point_on(stroke, nearby), 2 * lateral);
   }
   return along;
 }
@@ -267,7 +267,8 @@ static bool has_ink(const void *user, struct judge_point2 at) {
   uint32_t count;
   const uint32_t *near = judge_grid_near(&context->by_ink, at, &count);
   for (uint32_t i = 0; i < count; i++) {
-    if (judge_is_within(&context->ink[near[i]], at, context->options.reach_mm))
+    if (judge_is_within(&context->ink[near[i]], at,
+                        context->options.ink_distance_mm))
       return true;
   }
   return false;
@@ -363,7 +364,7 @@ static bool visible_part(const struct judge_context *context, uint32_t edge,
   part->b = point_on(&context->image[edge], *t1);
   return length_of(part) > (context->options.shortest_mm > 0
                                 ? context->options.ray_offset_mm
-                                : context->options.reach_mm);
+                                : context->options.ink_distance_mm);
 }
 
 static void judge_all_edges(struct judge_context *context) {
@@ -459,7 +460,7 @@ static bool build_context(struct judge_context *context,
                          cell, context->options.lateral_mm) &&
          judge_grid_init(&context->by_ink, context->ink,
                          context->inks + context->drops, width, height, cell,
-                         context->options.reach_mm);
+                         context->options.ink_distance_mm);
 }
 
 bool judge_drawing(struct judge_verdict *verdict,

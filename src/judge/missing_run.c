@@ -9,7 +9,7 @@
  *   1 From the point both ways along its edge, as far as it is visible.
  *   2 Over the edge's end to the edge that is drawn in one stroke with it, as
  *     far as that is visible and without ink; and so on.
- * The walk stops as soon as the length is reached.
+ * The trace stops as soon as the length is reached.
  * Cost  at most MAX_SAMPLES samples each way, and at every end of an edge the
  *   edges that meet there. */
 #include "judge/missing_run.h"
@@ -34,8 +34,8 @@ struct fan {
   uint32_t count;
 };
 
-/* The state of a walk. */
-struct walk {
+/* The state of a trace. */
+struct run_trace {
   const struct judge_missing_run *run;
   double length;
   int steps;
@@ -134,7 +134,7 @@ static bool find_fan(const struct judge_missing_run *run, struct fan *fan,
  * mate  set to the other end if the pair has the fan's first end; else its edge
  *       is SCENE_NONE
  * Returns false where no pair is left. */
-static bool take_pair(struct fan *fan, struct edge_end_at_point *mate) {
+static bool remove_best_pair(struct fan *fan, struct edge_end_at_point *mate) {
   uint32_t a = 0, b = 0;
   double best = INFINITY;
   for (uint32_t i = 0; i + 1 < fan->count; i++)
@@ -166,7 +166,7 @@ static bool find_next_end(const struct judge_missing_run *run, uint32_t edge,
   if (!find_fan(run, &fan, edge, side) || fan.count == 0 ||
       fan.end[0].edge != edge)
     return false;
-  while (take_pair(&fan, next))
+  while (remove_best_pair(&fan, next))
     if (next->edge != SCENE_NONE)
       return true;
   return false;
@@ -174,58 +174,60 @@ static bool find_next_end(const struct judge_missing_run *run, uint32_t edge,
 
 /* ---- Along edges --------------------------------------------------------- */
 
-static bool is_done(const struct walk *walk) {
-  return walk->length >= walk->run->shortest_mm || walk->steps >= MAX_SAMPLES;
+static bool is_done(const struct run_trace *trace) {
+  return trace->length >= trace->run->shortest_mm ||
+         trace->steps >= MAX_SAMPLES;
 }
 
-/* Walks from t to an end of the edge; false where it stops before: the line
- * ends, or is long enough.
+/* Follows an edge from t to one of its ends; false where it stops before: the
+ * line ends, or is long enough.
  * bare  the line ends where there is ink */
-static bool walk_edge(struct walk *walk, uint32_t edge, double t, int side,
-                      bool bare) {
-  const struct judge_missing_run *run = walk->run;
+static bool trace_edge(struct run_trace *trace, uint32_t edge, double t,
+                       int side, bool bare) {
+  const struct judge_missing_run *run = trace->run;
   const struct judge_segment *s = image_of(run, edge);
   double part[2];
   if (!judge_clip_to_page(run->sampler->camera, s->a, s->b, &part[0], &part[1]))
     return false;
   double way = part[side] - t, mm = fabs(way) * image_length(s);
   double count = fmax(1, ceil(mm * SAMPLES_PER_SHORTEST / run->shortest_mm));
-  for (double i = 0; i < count && !is_done(walk); i++) {
+  for (double i = 0; i < count && !is_done(trace); i++) {
     double at = t + (i + 0.5) / count * way;
     struct judge_point2 sample = {s->a.x + at * (s->b.x - s->a.x),
                                   s->a.y + at * (s->b.y - s->a.y)};
     enum judge_visibility visibility;
-    walk->steps++;
+    trace->steps++;
     if ((bare && run->has_ink(run->user, sample)) ||
         !is_end_visible(run, edge, at, &visibility))
       return false;
-    walk->length += mm / count;
+    trace->length += mm / count;
   }
-  return !is_done(walk) && part[side] == side;
+  return !is_done(trace) && part[side] == side;
 }
 
-/* Walks from a point of an edge towards an end of it, and on over that. */
-static void walk_from(struct walk *walk, uint32_t start, double t, int side) {
+/* Follows the line from a point of an edge towards an end, and beyond it. */
+static void trace_from(struct run_trace *trace, uint32_t start, double t,
+                       int side) {
   struct edge_end_at_point next;
-  if (!walk_edge(walk, start, t, side, false))
+  if (!trace_edge(trace, start, t, side, false))
     return;
   uint32_t edge = start;
-  while (find_next_end(walk->run, edge, side, &next)) {
+  while (find_next_end(trace->run, edge, side, &next)) {
     edge = next.edge;
     side = !next.side;
-    walk->is_loop = edge == start;
-    if (walk->is_loop || !walk_edge(walk, edge, next.side, side, true))
+    trace->is_loop = edge == start;
+    if (trace->is_loop || !trace_edge(trace, edge, next.side, side, true))
       return;
   }
 }
 
 bool judge_is_long_run(const struct judge_missing_run *run, uint32_t edge,
                        double t) {
-  struct walk walk = {.run = run};
-  walk_from(&walk, edge, t, 1);
-  if (walk.is_loop)
-    (void)walk_edge(&walk, edge, t, 0, false);
+  struct run_trace trace = {.run = run};
+  trace_from(&trace, edge, t, 1);
+  if (trace.is_loop)
+    (void)trace_edge(&trace, edge, t, 0, false);
   else
-    walk_from(&walk, edge, t, 0);
-  return walk.length >= run->shortest_mm;
+    trace_from(&trace, edge, t, 0);
+  return trace.length >= run->shortest_mm;
 }

@@ -5,14 +5,14 @@
 #include "judge/point.h"
 
 struct judge_options {
-  double step_mm;       /* distance of samples */
-  size_t samples;       /* number of samples of strokes, and of edges, spread
+  double step_mm;         /* distance of samples */
+  size_t samples;         /* number of samples of strokes, and of edges, spread
                         evenly; 0: by step_mm, at least two on each piece */
-  double reach_mm;      /* ink this close to a visible point is enough */
-  double lateral_mm;    /* an edge this close to a drawn point explains it: a
+  double ink_distance_mm; /* ink this close to a visible point is enough */
+  double lateral_mm;      /* an edge this close to a drawn point explains it: a
                         little more than the rounding of coordinates in the
                         file */
-  double ray_offset_mm; /* see above: well above the page grid */
+  double ray_offset_mm;   /* see above: well above the page grid */
   double contact; /* the drawing's contact tolerance, scene units; negative:
                         for each face the rounding error of its coordinates */
   struct precision unstated;  /* of points whose precision is not stated */

@@ -21,7 +21,7 @@ static struct slab_ray ray_of(const struct judge_ray *ray) {
 
 static bool ray_meets_box(const struct slab_ray *slab_ray,
                           const struct judge_box *box) {
-  double t0 = 0, t1 = slab_ray->ray->reach;
+  double t0 = 0, t1 = slab_ray->ray->t_max;
   for (int k = 0; k < 3; k++) {
     if (slab_ray->parallel[k]) {
       if (slab_ray->from[k] < box->low[k] || slab_ray->from[k] > box->high[k])
@@ -51,12 +51,12 @@ static bool line_meets_triangle(const struct judge_ray *ray,
   return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
 }
 
-/* Whether the ray meets the triangle's plane within its reach. */
+/* Whether the ray meets the triangle's plane within its t_max. */
 static enum judge_visibility ray_meets_plane(const struct judge_ray *ray,
                                              const struct judge_triangle *t) {
   double at = point3_dot(t->normal, point3_sub(t->p[0], ray->from)) /
               point3_dot(t->normal, ray->towards);
-  if (!(at > 0 && at < ray->reach))
+  if (!(at > 0 && at < ray->t_max))
     return JUDGE_CLEAR;
   return at < ray->sure ? JUDGE_BLOCKED : JUDGE_UNSURE;
 }

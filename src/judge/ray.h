@@ -36,7 +36,7 @@ struct judge_end {
 struct judge_ray {
   const struct judge_camera *camera;
   struct judge_point3 from, towards;
-  double reach; /* the ray is from + t towards, 0 < t < reach */
+  double t_max; /* the ray is from + t towards, 0 < t < t_max */
   double sure;  /* for t above it the near plane may have clipped what is met */
   struct judge_margin margin;
   uint32_t own[2]; /* faces of the edge */

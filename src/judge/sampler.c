@@ -88,11 +88,11 @@ static enum judge_visibility cast_ray(const struct judge_sampler *sampler,
                           .end = {end[0], end[1]}};
   if (camera->perspective) {
     ray.towards = point3_sub(camera->eye, from);
-    ray.reach = 1 - near / judge_depth(camera, from);
+    ray.t_max = 1 - near / judge_depth(camera, from);
     ray.sure = 1 - sure / judge_depth(camera, from);
   } else {
     ray.towards = camera->back;
-    ray.reach = judge_ahead(camera, from) - near;
+    ray.t_max = judge_ahead(camera, from) - near;
     ray.sure = judge_ahead(camera, from) - sure;
   }
   return judge_cast_ray(sampler->all, &ray, blocker);

@@ -1,11 +1,11 @@
 /* bowtie.c - crossing sides, found by a sweep along x.
  *
- * Most polygons are convex, and one walk around shows it: they turn one way
- * only and go round once.  Of the others, the sides are taken in the order of
- * their left ends.  Those that the sweep has not yet left behind are active,
- * and each new side is tested against them.  Long sides that stay active make
- * this quadratic; the number of tests is bounded, since all that hangs on the
- * answer is a warning.
+ * Most polygons are convex, and one pass shows it: they turn one way only and
+ * go round once.  Of the others, the sides are taken in the order of their left
+ * ends.  Those that the sweep has not yet left behind are active, and each new
+ * side is tested against them.  Long sides that stay active make this
+ * quadratic; the number of tests is bounded, since all that hangs on the answer
+ * is a warning.
  */
 #include "scene/bowtie.h"
 

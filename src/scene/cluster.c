@@ -226,7 +226,8 @@ static void enter(struct slots *slots, const struct point_slots *of) {
 }
 
 /* Does a point share no slot with another, so that it has no neighbour? */
-static bool is_alone(const struct slots *slots, const struct point_slots *of) {
+static bool is_isolated(const struct slots *slots,
+                        const struct point_slots *of) {
   for (int i = 0; i < of->count; i++)
     if (slots->word[of->slot[i] / 32] >> of->slot[i] % 32 * 2 & 2)
       return false;
@@ -255,7 +256,7 @@ static bool visit_slots(struct slots *slots, const struct scene *scene,
         continue;
       else if (!marking)
         enter(slots, &of[i]);
-      else if (is_alone(slots, &of[i]))
+      else if (is_isolated(slots, &of[i]))
         member[from + i].halvings = CLUSTER_ALONE;
     if (!poll_at(from))
       return false;
@@ -266,8 +267,8 @@ static bool visit_slots(struct slots *slots, const struct scene *scene,
 /* Marks members that no other is near as CLUSTER_ALONE, which is most of them
  * in a scene of separate faces; it saves looking for clusters to join.  Returns
  * false when memory ran out. */
-static bool mark_alone(const struct scene *scene, double length,
-                       struct cluster_member *member, size_t count) {
+static bool find_isolated(const struct scene *scene, double length,
+                          struct cluster_member *member, size_t count) {
   struct slots slots = {.bits = 10};
   while (8 * count >> slots.bits)
     slots.bits++;
@@ -313,7 +314,7 @@ static size_t name_members(const struct clusters *clusters,
 size_t cluster_join(const struct scene *scene, double length,
                     struct cluster_member *member, size_t count) {
   struct clusters clusters = {.chain = NULL};
-  bool ok = mark_alone(scene, length, member, count);
+  bool ok = find_isolated(scene, length, member, count);
   size_t left = 0;
   for (size_t i = 0; i < count; i++)
     left += member[i].halvings != CLUSTER_ALONE;

@@ -88,7 +88,7 @@ static bool all_on_one_line(const struct scene *scene, const uint32_t *corner,
 }
 
 /* Whether something is left of the face where it goes there and back.
- * left  room for its corners */
+ * left  scratch for its corners */
 static bool has_inside(const struct scene *scene, const uint32_t *corner,
                        size_t count, uint32_t *left) {
   size_t first = 0, past = 0;
@@ -110,10 +110,10 @@ static bool has_inside(const struct scene *scene, const uint32_t *corner,
 }
 
 /* Tells the fault of a face, if it has one.  Returns whether it is kept.
- * room  for its corners */
+ * scratch  for its corners */
 static bool examine_face(const struct scene *scene, const uint32_t *corner,
                          size_t count, unsigned long line,
-                         struct diagnostics *diagnostics, uint32_t *room) {
+                         struct diagnostics *diagnostics, uint32_t *scratch) {
   if (!has_three_positions(scene, corner, count)) {
     diagnostics_fault(diagnostics, SCENE_FAULT_FEW_CORNERS, line,
                       "face with fewer than three distinct corners, skipped");
@@ -125,7 +125,7 @@ static bool examine_face(const struct scene *scene, const uint32_t *corner,
                       "skipped");
     return false;
   }
-  if (count > 3 && !has_inside(scene, corner, count, room)) {
+  if (count > 3 && !has_inside(scene, corner, count, scratch)) {
     diagnostics_fault(
         diagnostics, SCENE_FAULT_ZERO_AREA, line,
         "face without area, its boundary retraces itself, skipped");
@@ -153,14 +153,14 @@ static bool has_its_points(const struct scene *scene, const uint32_t *corner,
 /* ---- Corners at one position --------------------------------------------- */
 
 /* A corner on its way through the sort. */
-struct placed {
+struct face_corner {
   struct scene_point at;
   uint32_t *corner;
 };
 
-static int compare_placed(const void *a, const void *b, void *user) {
-  const struct scene_point *p = &((const struct placed *)a)->at;
-  const struct scene_point *q = &((const struct placed *)b)->at;
+static int compare_corner_positions(const void *a, const void *b, void *user) {
+  const struct scene_point *p = &((const struct face_corner *)a)->at;
+  const struct scene_point *q = &((const struct face_corner *)b)->at;
   (void)user;
   if (p->x != q->x)
     return p->x < q->x ? -1 : 1;
@@ -177,27 +177,28 @@ enum { FEW_CORNERS = 32 };
  * Returns false when memory ran out. */
 static bool unite_corners(const struct scene *scene, uint32_t *corner,
                           size_t count) {
-  struct placed few[FEW_CORNERS];
-  struct placed *placed =
-      count <= FEW_CORNERS ? few : mem_alloc(count, sizeof *placed);
-  if (placed == NULL)
+  struct face_corner few[FEW_CORNERS];
+  struct face_corner *sorted =
+      count <= FEW_CORNERS ? few : mem_alloc(count, sizeof *sorted);
+  if (sorted == NULL)
     return false;
   for (size_t i = 0; i < count; i++)
-    placed[i] = (struct placed){scene->point.item[corner[i]], &corner[i]};
-  bool ok = sort_stable(placed, count, sizeof *placed, compare_placed, NULL);
+    sorted[i] = (struct face_corner){scene->point.item[corner[i]], &corner[i]};
+  bool ok = sort_stable(sorted, count, sizeof *sorted, compare_corner_positions,
+                        NULL);
   for (size_t i = 1; ok && i < count; i++)
-    if (compare_placed(&placed[i - 1], &placed[i], NULL) == 0)
-      *placed[i].corner = *placed[i - 1].corner;
-  if (placed != few)
-    mem_free(placed);
+    if (compare_corner_positions(&sorted[i - 1], &sorted[i], NULL) == 0)
+      *sorted[i].corner = *sorted[i - 1].corner;
+  if (sorted != few)
+    mem_free(sorted);
   return ok;
 }
 
 /* ---- Adding -------------------------------------------------------------- */
 
 /* Whether `more` items fit beside `count`, and there is a group for them. */
-static recto_status check_room(struct scene *scene, size_t count, size_t more,
-                               recto_error *error) {
+static recto_status check_capacity(struct scene *scene, size_t count,
+                                   size_t more, recto_error *error) {
   if (more > SCENE_LIMIT - count)
     return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
                      "the scene has more than 2^31 corners");
@@ -230,7 +231,8 @@ recto_status scene_add_face(struct scene *scene, const uint32_t *corner,
                             recto_error *error) {
   if (!has_its_points(scene, corner, count, line, "face", diagnostics))
     return scene_skip_face(scene, error);
-  recto_status status = check_room(scene, scene->corner.count, count, error);
+  recto_status status =
+      check_capacity(scene, scene->corner.count, count, error);
   if (status != RECTO_OK)
     return status;
   /* One more, so that there is an address where there are no corners. */
@@ -268,7 +270,7 @@ recto_status scene_add_wire(struct scene *scene, const uint32_t *corner,
   if (!has_its_points(scene, corner, count, line, "polyline", diagnostics))
     return RECTO_OK;
   recto_status status =
-      check_room(scene, scene->wire_corner.count, count, error);
+      check_capacity(scene, scene->wire_corner.count, count, error);
   if (status != RECTO_OK)
     return status;
   if (!ARRAY_RESERVE(&scene->wire_corner, count + 1) ||

@@ -92,7 +92,7 @@ static recto_status add_form_points(struct form *f) {
     }
     scene->point.item[scene->point.count++] = point;
   }
-  unusable_place(&f->unusable, scene, first);
+  unusable_replace(&f->unusable, scene, first);
   return RECTO_OK;
 }
 

@@ -28,9 +28,9 @@ bool ply_push_corner(struct ply_parser *p, int64_t index, enum ply_kind kind) {
 /* ---- Binary -------------------------------------------------------------- */
 
 /* Takes a list, of which the count stands at `at`. */
-static enum ply_taken take_list(struct ply_parser *p,
-                                const struct ply_property *property,
-                                enum ply_kind kind) {
+static enum ply_result read_binary_list(struct ply_parser *p,
+                                        const struct ply_property *property,
+                                        enum ply_kind kind) {
   bool swap = ply_must_swap(p->header.format);
   size_t count_size = ply_type_size(property->count_type);
   size_t size = ply_type_size(property->type);
@@ -38,30 +38,30 @@ static enum ply_taken take_list(struct ply_parser *p,
     return PLY_CUT_SHORT;
   int64_t count = ply_load_whole(p->at, property->count_type, swap);
   p->at += count_size;
-  /* A count below zero is taken as one that no file can hold. */
+  /* A count below zero is result as one that no file can hold. */
   if ((uint64_t)count > (size_t)(p->end - p->at) / size)
     return PLY_CUT_SHORT;
   const char *at = p->at;
   p->at += (size_t)count * size;
   if (property->role != PLY_CORNERS)
-    return PLY_TAKEN;
+    return PLY_READ;
   for (; at < p->at; at += size)
     if (!push_face_corner(p, ply_load_whole(at, property->type, swap), kind))
       return PLY_NO_MEMORY;
-  return PLY_TAKEN;
+  return PLY_READ;
 }
 
-static enum ply_taken take_binary(struct ply_parser *p,
-                                  const struct ply_element *element) {
+static enum ply_result read_binary_element(struct ply_parser *p,
+                                           const struct ply_element *element) {
   bool swap = ply_must_swap(p->header.format);
   const struct ply_property *property =
       p->header.property.item + element->property;
   p->last++;
   for (size_t i = 0; i < element->property_count; i++, property++) {
     if (property->count_type != PLY_NO_TYPE) {
-      enum ply_taken taken = take_list(p, property, element->kind);
-      if (taken != PLY_TAKEN)
-        return taken;
+      enum ply_result result = read_binary_list(p, property, element->kind);
+      if (result != PLY_READ)
+        return result;
       continue;
     }
     size_t size = ply_type_size(property->type);
@@ -71,7 +71,7 @@ static enum ply_taken take_binary(struct ply_parser *p,
       p->value[property->role] = ply_load(p->at, property->type, swap);
     p->at += size;
   }
-  return PLY_TAKEN;
+  return PLY_READ;
 }
 
 /* ---- Text ---------------------------------------------------------------- */
@@ -139,9 +139,9 @@ static inline bool next_whole(struct ply_parser *p, int64_t *value) {
   return true;
 }
 
-static enum ply_taken take_text_list(struct ply_parser *p,
-                                     const struct ply_property *property,
-                                     enum ply_kind kind) {
+static enum ply_result read_text_list(struct ply_parser *p,
+                                      const struct ply_property *property,
+                                      enum ply_kind kind) {
   int64_t count, index;
   if (!next_whole(p, &count) || count < 0)
     return PLY_BROKEN;
@@ -156,42 +156,42 @@ static enum ply_taken take_text_list(struct ply_parser *p,
       return PLY_NO_MEMORY;
     }
   }
-  return PLY_TAKEN;
+  return PLY_READ;
 }
 
-static enum ply_taken take_values(struct ply_parser *p,
-                                  const struct ply_element *element) {
+static enum ply_result read_text_values(struct ply_parser *p,
+                                        const struct ply_element *element) {
   const struct ply_property *property =
       p->header.property.item + element->property;
-  enum ply_taken taken = PLY_TAKEN;
+  enum ply_result result = PLY_READ;
   bool sampled =
       element->kind == PLY_VERTEX &&
       precision_is_sampled(&p->sample, p->scene->point.count - p->first);
-  for (size_t i = 0; i < element->property_count && taken == PLY_TAKEN;
+  for (size_t i = 0; i < element->property_count && result == PLY_READ;
        i++, property++) {
     double value;
     skip_blanks(p);
     const char *start = p->at;
     if (property->count_type != PLY_NO_TYPE)
-      taken = take_text_list(p, property, element->kind);
+      result = read_text_list(p, property, element->kind);
     else if (!next_number(p, &value))
-      taken = PLY_BROKEN;
+      result = PLY_BROKEN;
     else if (property->role != PLY_OTHER)
       p->value[property->role] = value;
-    if (sampled && taken == PLY_TAKEN && property->role <= PLY_Z)
+    if (sampled && result == PLY_READ && property->role <= PLY_Z)
       precision_look(&p->sample, start, p->at, value);
   }
-  return taken;
+  return result;
 }
 
 /* The line that is broken where the file ends is one that was cut. */
-static enum ply_taken take_text(struct ply_parser *p,
-                                const struct ply_element *element) {
+static enum ply_result read_text_element(struct ply_parser *p,
+                                         const struct ply_element *element) {
   if (!find_value_line(p))
     return PLY_CUT_SHORT;
   p->last = p->line;
-  enum ply_taken taken = take_values(p, element);
-  if (taken == PLY_BROKEN && p->at == p->end)
+  enum ply_result result = read_text_values(p, element);
+  if (result == PLY_BROKEN && p->at == p->end)
     return PLY_CUT_SHORT;
   if (*p->at == p->header.newline && p->at < p->end) {
     p->at++;
@@ -199,7 +199,7 @@ static enum ply_taken take_text(struct ply_parser *p,
   } else {
     skip_line(p);
   }
-  return taken;
+  return result;
 }
 
 recto_status ply_check_text(struct ply_parser *p, const char *start) {
@@ -212,10 +212,10 @@ recto_status ply_check_text(struct ply_parser *p, const char *start) {
 
 /* ---- Either -------------------------------------------------------------- */
 
-enum ply_taken ply_take(struct ply_parser *p,
-                        const struct ply_element *element) {
+enum ply_result ply_read_element(struct ply_parser *p,
+                                 const struct ply_element *element) {
   p->corner.count = 0;
   p->has_missing = false;
-  return p->header.format == PLY_TEXT ? take_text(p, element)
-                                      : take_binary(p, element);
+  return p->header.format == PLY_TEXT ? read_text_element(p, element)
+                                      : read_binary_element(p, element);
 }

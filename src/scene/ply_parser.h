@@ -31,8 +31,8 @@ struct ply_parser {
   ARRAY(uint32_t) face_colour;   /* one a face of the file, or none at all */
 };
 
-enum ply_taken {
-  PLY_TAKEN,
+enum ply_result {
+  PLY_READ,
   PLY_BROKEN,    /* a line that makes no sense was passed over */
   PLY_CUT_SHORT, /* the file ends before the element does */
   PLY_NO_MEMORY
@@ -40,8 +40,8 @@ enum ply_taken {
 
 /* Takes the next element.  In a strip, SCENE_NONE also stands where one ends
  * and the next begins. */
-USE_RESULT enum ply_taken ply_take(struct ply_parser *p,
-                                   const struct ply_element *element);
+USE_RESULT enum ply_result ply_read_element(struct ply_parser *p,
+                                            const struct ply_element *element);
 
 /* Appends the point of an index to the corners; one that is out of range is
  * noted.  False when memory ran out. */

@@ -1,7 +1,7 @@
 /* positions.c - a table of points by position, open addressing, at most half
  * full.
  *
- * A point's place comes from the high bits of its hash; the low bits are kept
+ * A point's slot comes from the high bits of its hash; the low bits are kept
  * as a tag, which spares nearly every look at a point that is another one.
  */
 #include "scene/positions.h"
@@ -30,16 +30,16 @@ uint64_t positions_hash(const struct scene_point *point) {
   return hash * HASH_GOLDEN;
 }
 
-static size_t place_of(const struct positions *positions, uint64_t hash) {
+static size_t first_slot(const struct positions *positions, uint64_t hash) {
   return (size_t)(hash >> (64 - positions->bits));
 }
 
-static size_t next_place(const struct positions *positions, size_t place) {
-  return (place + 1) & (((size_t)1 << positions->bits) - 1);
+static size_t next_slot(const struct positions *positions, size_t slot) {
+  return (slot + 1) & (((size_t)1 << positions->bits) - 1);
 }
 
 void positions_prefetch(const struct positions *positions, uint64_t hash) {
-  __builtin_prefetch(&positions->slot[place_of(positions, hash)]);
+  __builtin_prefetch(&positions->slot[first_slot(positions, hash)]);
 }
 
 /* Enters all points anew; they are all different. */
@@ -47,11 +47,11 @@ static void enter_points(struct positions *positions,
                          const struct scene *scene) {
   for (size_t i = positions->first; i < scene->point.count; i++) {
     uint64_t hash = positions_hash(&scene->point.item[i]);
-    size_t place = place_of(positions, hash);
-    while (positions->slot[place].point)
-      place = next_place(positions, place);
-    positions->slot[place].tag = (uint32_t)hash;
-    positions->slot[place].point = (uint32_t)i + 1;
+    size_t slot = first_slot(positions, hash);
+    while (positions->slot[slot].point)
+      slot = next_slot(positions, slot);
+    positions->slot[slot].tag = (uint32_t)hash;
+    positions->slot[slot].point = (uint32_t)i + 1;
   }
 }
 
@@ -81,18 +81,18 @@ recto_status positions_reserve(struct positions *positions, struct scene *scene,
 uint32_t positions_find(struct positions *positions, struct scene *scene,
                         const struct scene_point *point, uint64_t hash) {
   uint32_t tag = (uint32_t)hash;
-  size_t place = place_of(positions, hash);
-  for (; positions->slot[place].point; place = next_place(positions, place)) {
-    if (positions->slot[place].tag != tag)
+  size_t slot = first_slot(positions, hash);
+  for (; positions->slot[slot].point; slot = next_slot(positions, slot)) {
+    if (positions->slot[slot].tag != tag)
       continue;
-    uint32_t index = positions->slot[place].point - 1;
+    uint32_t index = positions->slot[slot].point - 1;
     const struct scene_point *other = &scene->point.item[index];
     if (other->x == point->x && other->y == point->y && other->z == point->z)
       return index;
   }
   uint32_t index = (uint32_t)scene->point.count;
   scene->point.item[scene->point.count++] = *point;
-  positions->slot[place].tag = tag;
-  positions->slot[place].point = index + 1;
+  positions->slot[slot].tag = tag;
+  positions->slot[slot].point = index + 1;
   return index;
 }

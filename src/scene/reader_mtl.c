@@ -83,8 +83,8 @@ static recto_status begin_material(struct library *library, const char *name,
   return RECTO_OK;
 }
 
-static void take_colour(const struct library *library, const char *at,
-                        const char *end) {
+static void store_colour(const struct library *library, const char *at,
+                         const char *end) {
   uint32_t colour;
   if (library->material == SCENE_NONE) {
     warn_of_statement(library, "Kd of no material, skipped");
@@ -108,7 +108,7 @@ static recto_status read_mtl_statement(struct library *library, const char *at,
     return begin_material(library, rest, end);
   rest = follow_keyword(at, end, "Kd");
   if (rest != NULL)
-    take_colour(library, rest, end);
+    store_colour(library, rest, end);
   return RECTO_OK;
 }
 

@@ -87,7 +87,7 @@ static recto_status read_points_ahead(struct obj_parser *p) {
 
 /* Points that cannot be used still have a position: that of another point of
  * the file, so that the scene grows no larger by them. */
-static void place_bad_points(struct obj_parser *p) {
+static void replace_bad_points(struct obj_parser *p) {
   struct scene *scene = p->scene;
   size_t good = p->first, i = 0;
   for (; i < p->bad.count && p->bad.item[i] == good; i++)
@@ -421,7 +421,7 @@ static recto_status read_obj(struct scene *scene, const char *bytes,
     status = error_set(error, RECTO_ERROR_FORMAT, path, p.strange,
                        "no statement of an OBJ file");
   if (status == RECTO_OK)
-    place_bad_points(&p);
+    replace_bad_points(&p);
   if (status == RECTO_OK)
     status = scene_state_precision(scene, p.first,
                                    precision_conclude(&p.sample), error);

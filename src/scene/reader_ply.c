@@ -43,8 +43,8 @@ static recto_status take_element(struct ply_parser *p,
                                  const struct ply_element *element,
                                  size_t number, bool *good) {
   const char *start = p->at;
-  enum ply_taken taken = ply_take(p, element);
-  *good = taken == PLY_TAKEN;
+  enum ply_result taken = ply_read_element(p, element);
+  *good = taken == PLY_READ;
   if (*good)
     return RECTO_OK;
   if (taken == PLY_NO_MEMORY)
@@ -75,8 +75,8 @@ static size_t most_of(const struct ply_parser *p,
 /* ---- Vertices ------------------------------------------------------------ */
 
 /* Whether the vertex that was taken last has a position that can be used. */
-static bool place_vertex(struct ply_parser *p, bool ok,
-                         struct scene_point *point) {
+static bool add_vertex(struct ply_parser *p, bool ok,
+                       struct scene_point *point) {
   const double *value = p->value;
   bool finite = ok && isfinite(value[PLY_X]) && isfinite(value[PLY_Y]) &&
                 isfinite(value[PLY_Z]);
@@ -98,8 +98,8 @@ static recto_status read_vertex(struct ply_parser *p,
   if (status != RECTO_OK)
     return status;
   bool colour = p->scene->wants_colours && ply_has_colour(element);
-  bool placed = place_vertex(p, ok, &point);
-  if ((!placed &&
+  bool added = add_vertex(p, ok, &point);
+  if ((!added &&
        !ARRAY_PUSH(&p->unusable.point, (uint32_t)p->scene->point.count)) ||
       (colour &&
        !ARRAY_PUSH(&p->vertex_colour, ok ? ply_colour_of(p, element) : 0)) ||
@@ -142,7 +142,7 @@ static recto_status read_vertices(struct ply_parser *p,
       status = read_vertex(p, element, i);
   }
   p->points = p->scene->point.count - p->first;
-  unusable_place(&p->unusable, p->scene, p->first);
+  unusable_replace(&p->unusable, p->scene, p->first);
   if (status == RECTO_OK && p->points > 0)
     status = scene_state_precision(p->scene, p->first, precision_of(p, element),
                                    p->error);

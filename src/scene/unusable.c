@@ -17,8 +17,8 @@ bool unusable_has_any(const struct unusable *unusable, const uint32_t *corner,
   return false;
 }
 
-void unusable_place(const struct unusable *unusable, struct scene *scene,
-                    size_t first) {
+void unusable_replace(const struct unusable *unusable, struct scene *scene,
+                      size_t first) {
   size_t good = first;
   for (size_t i = 0; i < unusable->point.count; i++)
     if (unusable->point.item[i] == good)

@@ -17,7 +17,7 @@ bool unusable_has_any(const struct unusable *unusable, const uint32_t *corner,
 /* Gives them the position of another point of the file, so that the scene
  * grows no larger by them.
  * first  scene point of the file's first; the file's points are the last */
-void unusable_place(const struct unusable *unusable, struct scene *scene,
-                    size_t first);
+void unusable_replace(const struct unusable *unusable, struct scene *scene,
+                      size_t first);
 
 #endif

@@ -75,7 +75,7 @@ static recto_status check_page(const struct aim *aim) {
     return argument_error(aim, "the margin is no number");
   double margins = 2 * margin_of(o);
   if (!(margins < o->page.width_mm && margins < o->page.height_mm))
-    return argument_error(aim, "the margins leave no room on the page");
+    return argument_error(aim, "the margins leave no printable on the page");
   return RECTO_OK;
 }
 
@@ -209,7 +209,7 @@ static void subtract_vector(const double a[3], const double b[3], double c[3]) {
  * the scene is close to the view axis: off the axis it would be sheared. */
 static recto_status handle_far_eye(struct aim *aim) {
   struct camera *camera = aim->camera;
-  double to_eye[3], to_target[3], aside[3];
+  double to_eye[3], to_target[3], offset[3];
   subtract_vector(aim->eye, aim->centre, to_eye);
   aim->centre_d = vector_dot(camera->back, to_eye);
   aim->far = camera->perspective && aim->centre_d > 0 &&
@@ -217,11 +217,11 @@ static recto_status handle_far_eye(struct aim *aim) {
   if (!aim->far)
     return RECTO_OK;
   subtract_vector(aim->eye, aim->target, to_target);
-  subtract_vector(aim->centre, aim->target, aside);
+  subtract_vector(aim->centre, aim->target, offset);
   aim->target_d = vector_dot(camera->back, to_target);
   double limit = aim->centre_d / TOLERANCE_FAR_EYE;
-  if (!(fabs(vector_dot(camera->right, aside)) <= limit &&
-        fabs(vector_dot(camera->up, aside)) <= limit))
+  if (!(fabs(vector_dot(camera->right, offset)) <= limit &&
+        fabs(vector_dot(camera->up, offset)) <= limit))
     return error_set(aim->error, RECTO_ERROR_LIMIT, NULL, 0,
                      "the eye is too far from a scene that it does not look "
                      "at");
@@ -314,16 +314,16 @@ static void fit_page(struct aim *aim) {
   double size =
       camera->perspective ? camera->size / camera->d_max : camera->size;
   camera->s = INFINITY;
-  double least_room = INFINITY;
+  double least_printable = INFINITY;
   for (int k = 0; k < 2; k++) {
-    double room = camera->page_mm[k] - 2 * margin_of(aim->options);
+    double printable = camera->page_mm[k] - 2 * margin_of(aim->options);
     double extent = e.high[k] - e.low[k];
-    least_room = fmin(least_room, room);
+    least_printable = fmin(least_printable, printable);
     if (extent > size * TOLERANCE_EXTENT_SHARE)
-      camera->s = fmin(camera->s, room / extent);
+      camera->s = fmin(camera->s, printable / extent);
   }
   if (camera->s == INFINITY)
-    camera->s = least_room / (size > 0 ? size : 1);
+    camera->s = least_printable / (size > 0 ? size : 1);
   for (int k = 0; k < 2; k++)
     camera->middle_mm[k] =
         camera->page_mm[k] / 2 - camera->s * (e.low[k] / 2 + e.high[k] / 2);
@@ -334,10 +334,10 @@ static void fit_page(struct aim *aim) {
 static void centre_target(struct aim *aim) {
   struct camera *camera = aim->camera;
   struct view_point target = view_of_aim(aim, aim->target);
-  double aside[2] = {target.x, target.y};
+  double offset[2] = {target.x, target.y};
   for (int k = 0; k < 2; k++)
     camera->middle_mm[k] = camera->page_mm[k] / 2 -
-                           (camera->perspective ? 0 : camera->s * aside[k]);
+                           (camera->perspective ? 0 : camera->s * offset[k]);
 }
 
 /* Scales the drawing so that the sphere about the target which encloses the
@@ -346,14 +346,14 @@ static void centre_target(struct aim *aim) {
 static void fit_sphere(struct aim *aim) {
   struct camera *camera = aim->camera;
   double margin = margin_of(aim->options), radius = radius_of_scene(aim);
-  double room = fmin(camera->page_mm[0], camera->page_mm[1]) - 2 * margin;
+  double printable = fmin(camera->page_mm[0], camera->page_mm[1]) - 2 * margin;
   if (radius == 0)
     radius = camera->size > 0 ? camera->size : 1;
   if (camera->perspective) {
     double distance = view_of_aim(aim, aim->target).d;
     radius /= sqrt((distance - radius) * (distance + radius));
   }
-  camera->s = room / (2 * radius);
+  camera->s = printable / (2 * radius);
 }
 
 static void set_scale(struct aim *aim) {

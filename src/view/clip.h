@@ -33,8 +33,9 @@ static inline double clip_distance(const struct projection *projection,
   double depth = projection->perspective ? p.d : 1;
   double at =
       (axis ? p.y : p.x) * projection->units + projection->offset[axis] * depth;
-  double reach = (projection->half[axis] + 0.5) * depth;
-  return plane == CLIP_LEFT || plane == CLIP_BOTTOM ? reach + at : reach - at;
+  double half_extent = (projection->half[axis] + 0.5) * depth;
+  return plane == CLIP_LEFT || plane == CLIP_BOTTOM ? half_extent + at
+                                                    : half_extent - at;
 }
 
 /* The Cohen-Sutherland outcode: bit k is set where the point is outside plane

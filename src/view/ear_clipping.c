@@ -232,8 +232,8 @@ static bool is_ear(const struct ear_clipper *clipper, uint32_t b) {
 
 /* ---- Corners at one position --------------------------------------------- */
 
-static bool are_at_one_place(const struct ear_clipper *clipper, uint32_t a,
-                             uint32_t b) {
+static bool have_same_position(const struct ear_clipper *clipper, uint32_t a,
+                               uint32_t b) {
   return polygon_compare(clipper->polygon, a, b) == 0;
 }
 
@@ -292,15 +292,15 @@ static uint32_t remove_degenerate(struct ear_clipper *clipper, uint32_t b) {
   struct triangulation_corner *corner = clipper->corner;
   while (clipper->left > 2) {
     uint32_t a = corner[b].prev, c = corner[b].next;
-    if (are_at_one_place(clipper, b, c))
+    if (have_same_position(clipper, b, c))
       b = remove_duplicate(clipper, b);
-    else if (are_at_one_place(clipper, a, b))
+    else if (have_same_position(clipper, a, b))
       b = remove_duplicate(clipper, a);
-    else if (are_at_one_place(clipper, a, c))
+    else if (have_same_position(clipper, a, c))
       b = remove_spike(clipper, b);
-    else if (are_at_one_place(clipper, corner[a].prev, b))
+    else if (have_same_position(clipper, corner[a].prev, b))
       b = remove_spike(clipper, a);
-    else if (are_at_one_place(clipper, corner[c].next, b))
+    else if (have_same_position(clipper, corner[c].next, b))
       b = remove_spike(clipper, c);
     else
       break;

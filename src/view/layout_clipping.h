@@ -44,18 +44,18 @@ struct layout_triangle_sink {
   const struct geom_point *point;
   struct sheet_triangle *triangle; /* the next one */
   uint8_t *flags;
-  size_t room;
+  size_t remaining;
 };
 
 static inline struct layout_triangle_sink
 layout_sink_of(const struct layout *layout) {
   const struct sheet *sheet = layout->sheet;
-  size_t room = sheet->triangle.capacity - sheet->triangle.count;
-  size_t flags_room = layout->flags.capacity - layout->flags.count;
+  size_t capacity = sheet->triangle.capacity - sheet->triangle.count;
+  size_t flags_capacity = layout->flags.capacity - layout->flags.count;
   return (struct layout_triangle_sink){
       sheet->point.item, sheet->triangle.item + sheet->triangle.count,
       layout->flags.item + layout->flags.count,
-      room < flags_room ? room : flags_room};
+      capacity < flags_capacity ? capacity : flags_capacity};
 }
 
 static inline void layout_sink_close(struct layout *layout,
@@ -65,7 +65,7 @@ static inline void layout_sink_close(struct layout *layout,
   layout->flags.count = layout->sheet->triangle.count;
 }
 
-/* Adds a triangle of three sheet points; room must have been reserved.
+/* Adds a triangle of three sheet points; capacity must have been reserved.
  * Returns twice its signed area on the page, in the face's winding. */
 static inline int64_t layout_sink_triangle(struct layout_triangle_sink *sink,
                                            uint32_t face,
@@ -79,7 +79,7 @@ static inline int64_t layout_sink_triangle(struct layout_triangle_sink *sink,
                               {side[2 * flip], side[1], side[2 - 2 * flip]},
                               face};
   *sink->flags++ = flip ? SHEET_FLIPPED : area == 0 ? SHEET_FLAT : 0;
-  sink->room--;
+  sink->remaining--;
   return area;
 }
 
@@ -92,13 +92,13 @@ static inline int64_t layout_add_triangle(struct layout *layout, uint32_t face,
   return area;
 }
 
-/* Reserves room for more triangles. */
+/* Reserves capacity for more triangles. */
 static inline bool layout_reserve(struct layout *layout, size_t extra) {
   return ARRAY_RESERVE(&layout->sheet->triangle, extra) &&
          ARRAY_RESERVE(&layout->flags, extra);
 }
 
-/* Adds a triangle that needs no clipping; room must have been reserved.
+/* Adds a triangle that needs no clipping; capacity must have been reserved.
  * Returns the sign of its area on the page, in the face's winding. */
 static inline int layout_add_whole(struct layout *layout,
                                    const struct layout_triangle *triangle) {

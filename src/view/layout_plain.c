@@ -77,7 +77,7 @@ static inline uint32_t add_plain_faces(const struct layout *layout,
   const uint32_t first_edge = range != NULL ? range->first_edge : 0;
   struct layout_triangle_sink sink = *to; /* in registers */
   uint8_t *sides = layout->sides;
-  for (; face < end && sink.room > 0; face++) {
+  for (; face < end && sink.remaining > 0; face++) {
     uint32_t c = start[face], corner[3];
     if (start[face + 1] - c != 3 || !find_welded_corners(corner, own + c, weld))
       break;
@@ -132,7 +132,7 @@ static bool count_kept_faces(void *user, struct parallel_range faces) {
 }
 
 /* Makes `kept` of each range the number of all before it; returns the sum. */
-static uint32_t place_ranges(struct plain_range *range, size_t ranges) {
+static uint32_t assign_positions(struct plain_range *range, size_t ranges) {
   uint32_t sum = 0;
   for (size_t i = 0; i < ranges; i++) {
     uint32_t kept = range[i].kept;
@@ -185,7 +185,7 @@ bool layout_plain_all(struct layout *layout, bool *done) {
   bool ok =
       work.range != NULL &&
       parallel_ranges(workers, faces, PARALLEL_ITEMS, count_kept_faces, &work);
-  uint32_t kept = ok ? place_ranges(work.range, ranges) : 0;
+  uint32_t kept = ok ? assign_positions(work.range, ranges) : 0;
   ok = ok && parallel_ranges(workers, faces, PARALLEL_ITEMS,
                              make_plain_triangles, &work);
   for (size_t i = 0; work.range != NULL && i < ranges; i++)

@@ -64,15 +64,16 @@ static double share_inside(const struct camera *camera,
   return fmax(0, to - from);
 }
 
-static void record_reach(struct measure *measure, const struct page_point *at) {
+static void record_excess(struct measure *measure,
+                          const struct page_point *at) {
   const struct camera *camera = measure->camera;
   for (int k = 0; k < 2; k++) {
     double low = camera->margin_mm, high = camera->page_mm[k] - low;
-    double reach = fmax(low - at->mm[k], at->mm[k] - high);
-    if (reach < RECTO_FINEST_MM)
+    double excess = fmax(low - at->mm[k], at->mm[k] - high);
+    if (excess < RECTO_FINEST_MM)
       continue;
     measure->overflow->axis[k] = true;
-    measure->overflow->reach_mm = fmax(measure->overflow->reach_mm, reach);
+    measure->overflow->excess_mm = fmax(measure->overflow->excess_mm, excess);
   }
 }
 
@@ -96,8 +97,8 @@ static void measure_line(struct measure *measure, uint32_t from, uint32_t to) {
     return;
   measure->overflow->edges++;
   measure->overflow->mm += lost;
-  record_reach(measure, &a);
-  record_reach(measure, &b);
+  record_excess(measure, &a);
+  record_excess(measure, &b);
 }
 
 /* ---- Edges --------------------------------------------------------------- */

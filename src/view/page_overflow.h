@@ -7,10 +7,10 @@
 #include "view/camera.h"
 
 struct page_overflow {
-  uint64_t edges;  /* lines of which a part is outside the margins */
-  double mm;       /* total length outside, hidden parts included */
-  double reach_mm; /* the largest distance of any of them from the margins */
-  bool axis[2];    /* some leave at the left or right; at the top or bottom */
+  uint64_t edges;   /* lines of which a part is outside the margins */
+  double mm;        /* total length outside, hidden parts included */
+  double excess_mm; /* the largest distance of any of them from the margins */
+  bool axis[2];     /* some leave at the left or right; at the top or bottom */
 };
 
 /* Measures the edges and polylines of the requested classes as they would be

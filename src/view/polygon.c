@@ -10,7 +10,7 @@
 
 static void offset(const struct polygon *polygon, uint32_t c,
                    const double origin[3], double to[3]) {
-  polygon_place(polygon, c, to);
+  polygon_position(polygon, c, to);
   for (int k = 0; k < 3; k++)
     to[k] -= origin[k];
 }
@@ -29,7 +29,7 @@ static double round_to_single(double value) {
 
 double polygon_distance(const struct polygon *polygon, uint32_t c, uint32_t d) {
   double origin[3], to[3];
-  polygon_place(polygon, c, origin);
+  polygon_position(polygon, c, origin);
   offset(polygon, d, origin, to);
   return round_to_single(vector_dot(to, to));
 }
@@ -39,10 +39,10 @@ double polygon_distance(const struct polygon *polygon, uint32_t c, uint32_t d) {
 static void find_box(const struct polygon *polygon, double low[3],
                      double high[3]) {
   double at[3];
-  polygon_place(polygon, 0, low);
-  polygon_place(polygon, 0, high);
+  polygon_position(polygon, 0, low);
+  polygon_position(polygon, 0, high);
   for (uint32_t c = 1; c < polygon->count; c++) {
-    polygon_place(polygon, c, at);
+    polygon_position(polygon, c, at);
     for (int k = 0; k < 3; k++) {
       low[k] = min_number(low[k], at[k]);
       high[k] = max_number(high[k], at[k]);
@@ -53,7 +53,7 @@ static void find_box(const struct polygon *polygon, double low[3],
 struct polygon_areas polygon_measure(const struct polygon *polygon) {
   struct polygon_areas areas = {{0, 0, 0}, 0};
   double origin[3], a[3], b[3], more[3];
-  polygon_place(polygon, 0, origin);
+  polygon_position(polygon, 0, origin);
   offset(polygon, 1, origin, a);
   for (uint32_t c = 2; c < polygon->count; c++) {
     offset(polygon, c, origin, b);
@@ -72,7 +72,7 @@ struct polygon_areas polygon_measure(const struct polygon *polygon) {
 double polygon_off_plane(const struct polygon *polygon,
                          const struct polygon_areas *areas) {
   double length = vector_length(areas->value), origin[3], to[3], most = 0;
-  polygon_place(polygon, 0, origin);
+  polygon_position(polygon, 0, origin);
   for (uint32_t c = 1; polygon->count > 3 && c < polygon->count; c++) {
     offset(polygon, c, origin, to);
     most = max_number(most, fabs(vector_dot(areas->value, to)));
@@ -126,10 +126,10 @@ void polygon_flatten(const struct polygon *polygon,
   bool shows;
   int axis = choose_projection(polygon, areas, &shows);
   for (uint32_t c = 0; c < polygon->count; c++) {
-    double place[3], *to = image(at, stride, c);
-    polygon_place(polygon, c, place);
-    to[0] = place[(axis + 1) % 3];
-    to[1] = place[(axis + 2) % 3];
+    double position[3], *to = image(at, stride, c);
+    polygon_position(polygon, c, position);
+    to[0] = position[(axis + 1) % 3];
+    to[1] = position[(axis + 2) % 3];
   }
   bool flip =
       shows ? areas->value[axis] < 0 : is_clockwise(at, stride, polygon->count);

@@ -39,8 +39,8 @@ void polygon_flatten(const struct polygon *polygon,
                      const struct polygon_areas *areas, void *at,
                      size_t stride);
 
-static inline void polygon_place(const struct polygon *polygon, uint32_t c,
-                                 double to[3]) {
+static inline void polygon_position(const struct polygon *polygon, uint32_t c,
+                                    double to[3]) {
   const struct scene_point *p = &polygon->point[polygon->corner[c]];
   to[0] = p->x;
   to[1] = p->y;
@@ -51,8 +51,8 @@ static inline void polygon_place(const struct polygon *polygon, uint32_t c,
 static inline int polygon_compare(const struct polygon *polygon, uint32_t c,
                                   uint32_t d) {
   double a[3], b[3];
-  polygon_place(polygon, c, a);
-  polygon_place(polygon, d, b);
+  polygon_position(polygon, c, a);
+  polygon_position(polygon, d, b);
   for (int k = 0; k < 3; k++)
     if (a[k] != b[k])
       return a[k] < b[k] ? -1 : 1;

@@ -42,8 +42,8 @@ struct svg_reader {
 
 /* ---- Style --------------------------------------------------------------- */
 
-static void take_paint(const struct svg_tag *tag, const char *name,
-                       enum paint *paint) {
+static void apply_paint(const struct svg_tag *tag, const char *name,
+                        enum paint *paint) {
   struct svg_text value;
   if (svg_property(tag, name, &value) && !svg_is(value, "inherit"))
     *paint = svg_is(value, "none") || svg_is(value, "transparent") ? PAINT_NONE
@@ -70,7 +70,7 @@ static bool is_layer_of_hidden(struct svg_text label) {
 
 /* Interprets the classes of recto's own files, which take precedence over the
  * layer's label. */
-static void take_class(struct svg_text list, struct svg_style *style) {
+static void apply_class(struct svg_text list, struct svg_style *style) {
   struct svg_text word;
   while (svg_next_word(&list, &word)) {
     if (svg_is(word, "hidden"))
@@ -85,18 +85,18 @@ static void take_class(struct svg_text list, struct svg_style *style) {
 
 /* Applies an element's attributes to the inherited style.  Returns NULL, or a
  * description of the error. */
-static const char *take_style(const struct svg_tag *tag,
-                              struct svg_style *style) {
+static const char *apply_style(const struct svg_tag *tag,
+                               struct svg_style *style) {
   struct svg_text value;
   struct svg_matrix matrix;
-  take_paint(tag, "stroke", &style->stroke);
-  take_paint(tag, "fill", &style->fill);
+  apply_paint(tag, "stroke", &style->stroke);
+  apply_paint(tag, "fill", &style->fill);
   if (svg_property(tag, "stroke-dasharray", &value))
     style->dashed = !svg_is(value, "none") && value.at < value.end;
   if (svg_attribute(tag, "inkscape:label", &value) && is_layer_of_hidden(value))
     style->hidden = true;
   if (svg_attribute(tag, "class", &value))
-    take_class(value, style);
+    apply_class(value, style);
   if ((svg_property(tag, "display", &value) && svg_is(value, "none")) ||
       (svg_property(tag, "visibility", &value) && svg_is(value, "hidden")) ||
       is_definition(tag))
@@ -250,7 +250,7 @@ static const char *open_element(struct svg_reader *reader,
     return "something before the svg";
   const char *fault = is_root ? read_root(reader, tag, &style) : NULL;
   if (fault == NULL)
-    fault = take_style(tag, &style);
+    fault = apply_style(tag, &style);
   reader->sheet = reader->sheet || svg_is(tag->name, "style");
   if (fault != NULL)
     return fault;

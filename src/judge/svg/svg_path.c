@@ -69,8 +69,8 @@ void svg_pen_arc(struct svg_pen *pen, double rx, double ry, double angle_deg,
     square = 1;
   }
   /* The centre is on the perpendicular bisector of the chord. */
-  double aside = sqrt((1 - square) / square) * (large != sweep ? 1 : -1);
-  double cu = aside * v, cv = -aside * u;
+  double factor = sqrt((1 - square) / square) * (large != sweep ? 1 : -1);
+  double cu = factor * v, cv = -factor * u;
   struct judge_point2 offset = on_ellipse(&e, cu, cv);
   e.x = (from.x + to.x) / 2 + offset.x;
   e.y = (from.y + to.y) / 2 + offset.y;

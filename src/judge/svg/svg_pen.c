@@ -76,7 +76,7 @@ static bool is_same_point2(struct judge_point2 a, struct judge_point2 b) {
 }
 
 /* Whether a point is finite; if not, the drawing is an error. */
-static bool is_place(struct svg_pen *pen, struct judge_point2 at) {
+static bool is_finite_point(struct svg_pen *pen, struct judge_point2 at) {
   if (isfinite(at.x) && isfinite(at.y))
     return true;
   pen->fault = "coordinates that are too large";
@@ -86,7 +86,7 @@ static bool is_place(struct svg_pen *pen, struct judge_point2 at) {
 /* Adds a point to the current stroke. */
 static void draw_to(struct svg_pen *pen, struct judge_point2 to) {
   struct judge_point2 a = pen->last, b = to;
-  if (!is_place(pen, to))
+  if (!is_finite_point(pen, to))
     return;
   bool seen = cut(pen, &a, &b);
   if (seen && !(pen->joined && is_same_point2(a, pen->last)))
@@ -102,7 +102,7 @@ static void put_down(struct svg_pen *pen) {
   if (pen->down)
     return;
   pen->last = svg_apply(&pen->to_page, pen->here.x, pen->here.y);
-  pen->down = is_place(pen, pen->last);
+  pen->down = is_finite_point(pen, pen->last);
   pen->joined = false;
 }
 
@@ -228,7 +228,7 @@ void svg_pen_curve(struct svg_pen *pen, struct judge_point2 b,
   curve.p[3] = svg_apply(&pen->to_page, d.x, d.y);
   pen->here = d;
   for (int i = 0; i < 4 && pen->fault == NULL; i++)
-    (void)is_place(pen, curve.p[i]);
+    (void)is_finite_point(pen, curve.p[i]);
   if (pen->fault == NULL)
     draw_cubic(pen, curve);
 }
