@@ -73,8 +73,8 @@ static void the_last_pixel_may_reach_beyond_the_page(void **state) {
   struct subpixels subpixels;
   (void)state;
   assert_true(subpixels_init(&subpixels, 2, 5, 3));
-  assert_false(subpixels_take(&subpixels, 3, line));
-  assert_true(subpixels_take(&subpixels, 2, line));
+  assert_false(subpixels_add_line(&subpixels, 3, line));
+  assert_true(subpixels_add_line(&subpixels, 2, line));
   assert_int_equal(subpixels.pixel[1], 1);
   assert_int_equal(subpixels.pixel[2], 2);
   assert_int_equal(subpixels.covered, 10);

@@ -258,7 +258,7 @@ static void doubles_leave_only_piercing_pairs_to_exact_planes(void **state) {
   assert_true(trapezoid_cells_init(&cells, &sheet));
   assert_true(sweep_init(&sweep, &sheet, NULL, false));
   cells.keep = true;
-  sweep.cell = trapezoid_cells_take;
+  sweep.cell = trapezoid_cells_add;
   sweep.user = &cells;
   assert_int_equal(sweep_run(&sweep, &plain, 0, 1, NULL), RECTO_OK);
   assert_true(cells.filter_failures > 0 && cells.filter_failures < cells.count);
@@ -292,7 +292,7 @@ static void a_scene_beyond_the_limits_is_refused(void **state) {
     recto_status status;
     struct sweep sweep;
     assert_true(sweep_init(&sweep, &sheet, NULL, true));
-    sweep.cell = trapezoid_cells_take;
+    sweep.cell = trapezoid_cells_add;
     sweep.user = &cells;
     if (limit == 0)
       sweep.events_max = 5;

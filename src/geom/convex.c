@@ -54,9 +54,10 @@ bool geom_convex_triangle(struct geom_convex *piece,
 
 /* Builds the part of `piece` whose corners have sign `keep` or lie on the
  * line; `cut` is the line with that part on its left. */
-static bool take_part(const struct geom_convex *piece, const signed char *sign,
-                      int keep, const struct geom_line *cut,
-                      struct geom_convex *part, struct arena *arena) {
+static bool clip_to_side(const struct geom_convex *piece,
+                         const signed char *sign, int keep,
+                         const struct geom_line *cut, struct geom_convex *part,
+                         struct arena *arena) {
   uint32_t n = piece->count;
   if (!allocate_corners(part, n + 1, arena))
     return false;
@@ -104,9 +105,9 @@ bool geom_convex_split(const struct geom_convex *piece,
     *outside = left ? none : *piece;
   if (!left || !right)
     return true;
-  if (inside != NULL && !take_part(piece, sign, 1, line, inside, arena))
+  if (inside != NULL && !clip_to_side(piece, sign, 1, line, inside, arena))
     return false;
-  return outside == NULL || take_part(piece, sign, -1, back, outside, arena);
+  return outside == NULL || clip_to_side(piece, sign, -1, back, outside, arena);
 }
 
 bool geom_convex_subtract(const struct geom_convex *piece,

@@ -340,18 +340,18 @@ static bool holds(const struct geom_region *region,
                      lowest_ray(side, hole->count));
 }
 
-struct placed_loop {
+struct nested_loop {
   struct geom_region_loop loop;
   const struct geom_region *region;
   size_t outer; /* index of the outer loop it belongs to, or its own */
 };
 
-static const struct geom_region_side *first_side(const struct placed_loop *p) {
+static const struct geom_region_side *first_side(const struct nested_loop *p) {
   return p->region->side.item + p->loop.side;
 }
 
 static int compare_first(const void *a, const void *b, void *user) {
-  const struct placed_loop *p = a, *q = b;
+  const struct nested_loop *p = a, *q = b;
   int order =
       geom_corner_compare(&first_side(p)->corner, &first_side(q)->corner);
   (void)user;
@@ -361,46 +361,46 @@ static int compare_first(const void *a, const void *b, void *user) {
   return order;
 }
 
-static int compare_places(const void *a, const void *b, void *user) {
-  const struct placed_loop *p = a, *q = b;
+static int compare_nesting(const void *a, const void *b, void *user) {
+  const struct nested_loop *p = a, *q = b;
   (void)user;
   if (p->outer != q->outer)
     return p->outer < q->outer ? -1 : 1;
   return (int)p->loop.hole - (int)q->loop.hole;
 }
 
-static bool place_loops(struct geom_region *region) {
+static bool nest_loops(struct geom_region *region) {
   size_t n = region->loop.count;
-  struct placed_loop *placed;
+  struct nested_loop *nested;
   bool ok = false;
   if (n < 2)
     return true;
-  placed = mem_alloc(n, sizeof *placed);
-  if (placed == NULL)
+  nested = mem_alloc(n, sizeof *nested);
+  if (nested == NULL)
     return false;
   for (size_t i = 0; i < n; i++)
-    placed[i] = (struct placed_loop){region->loop.item[i], region, i};
-  if (!sort_stable(placed, n, sizeof *placed, compare_first, NULL))
+    nested[i] = (struct nested_loop){region->loop.item[i], region, i};
+  if (!sort_stable(nested, n, sizeof *nested, compare_first, NULL))
     goto end;
   for (size_t i = 0; i < n; i++) {
-    placed[i].outer = i;
-    if (!placed[i].loop.hole)
+    nested[i].outer = i;
+    if (!nested[i].loop.hole)
       continue;
     /* The innermost outer loop around it is the last that holds it. */
     for (size_t j = i; j-- > 0;)
-      if (!placed[j].loop.hole &&
-          holds(region, &placed[j].loop, &placed[i].loop)) {
-        placed[i].outer = j;
+      if (!nested[j].loop.hole &&
+          holds(region, &nested[j].loop, &nested[i].loop)) {
+        nested[i].outer = j;
         break;
       }
   }
-  if (!sort_stable(placed, n, sizeof *placed, compare_places, NULL))
+  if (!sort_stable(nested, n, sizeof *nested, compare_nesting, NULL))
     goto end;
   for (size_t i = 0; i < n; i++)
-    region->loop.item[i] = placed[i].loop;
+    region->loop.item[i] = nested[i].loop;
   ok = true;
 end:
-  mem_free(placed);
+  mem_free(nested);
   return ok;
 }
 
@@ -419,7 +419,7 @@ bool geom_region_unite(struct geom_region *region,
     if (!boundary.item[i].used &&
         !trace_region_loop(&boundary, &boundary.item[i], region))
       goto end;
-  ok = place_loops(region);
+  ok = nest_loops(region);
 end:
   ARRAY_FREE(&sides);
   ARRAY_FREE(&boundary);

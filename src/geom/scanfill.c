@@ -119,31 +119,32 @@ int scan_edge_compare_exact(const struct scan_edge *a,
 
 /* ---- Convex polygons ----------------------------------------------------- */
 
-static uint32_t corner_after(const struct scan_convex *walk, uint32_t corner) {
-  return corner + 1 == walk->count ? 0 : corner + 1;
+static uint32_t corner_after(const struct scan_convex *scan, uint32_t corner) {
+  return corner + 1 == scan->count ? 0 : corner + 1;
 }
 
-static uint32_t corner_before(const struct scan_convex *walk, uint32_t corner) {
-  return corner == 0 ? walk->count - 1 : corner - 1;
+static uint32_t corner_before(const struct scan_convex *scan, uint32_t corner) {
+  return corner == 0 ? scan->count - 1 : corner - 1;
 }
 
-/* Takes up the next edge of one chain that covers a line.  Counter-clockwise
+/* Starts the next edge of one chain that covers a line.  Counter-clockwise
  * corners lead down on the left and up on the right. */
-static bool take_edge(struct scan_convex *walk, const struct scan_grid *grid,
-                      const struct scan_point *point, bool left) {
-  uint32_t *at = left ? &walk->left_at : &walk->right_at;
-  struct scan_edge *edge = left ? &walk->left : &walk->right;
-  while (*at != walk->end) {
+static bool next_chain_edge(struct scan_convex *scan,
+                            const struct scan_grid *grid,
+                            const struct scan_point *point, bool left) {
+  uint32_t *at = left ? &scan->left_at : &scan->right_at;
+  struct scan_edge *edge = left ? &scan->left : &scan->right;
+  while (*at != scan->end) {
     uint32_t from = *at;
-    *at = left == grid->down ? corner_after(walk, from)
-                             : corner_before(walk, from);
+    *at = left == grid->down ? corner_after(scan, from)
+                             : corner_before(scan, from);
     if (scan_edge_init(edge, grid, &point[from], &point[*at]))
       return true;
   }
   return false;
 }
 
-bool scan_convex_start(struct scan_convex *walk, const struct scan_grid *grid,
+bool scan_convex_start(struct scan_convex *scan, const struct scan_grid *grid,
                        const struct scan_point *point, uint32_t count) {
   uint32_t low = 0, high = 0;
   for (uint32_t k = 1; k < count; k++) {
@@ -154,29 +155,29 @@ bool scan_convex_start(struct scan_convex *walk, const struct scan_grid *grid,
   }
   if (point[low].line == point[high].line)
     return false;
-  walk->count = count;
-  walk->left_at = walk->right_at = grid->down ? high : low;
-  walk->end = grid->down ? low : high;
-  walk->left_new = walk->right_new = true;
-  return take_edge(walk, grid, point, true) &&
-         take_edge(walk, grid, point, false);
+  scan->count = count;
+  scan->left_at = scan->right_at = grid->down ? high : low;
+  scan->end = grid->down ? low : high;
+  scan->left_new = scan->right_new = true;
+  return next_chain_edge(scan, grid, point, true) &&
+         next_chain_edge(scan, grid, point, false);
 }
 
-bool scan_convex_next(struct scan_convex *walk, const struct scan_grid *grid,
+bool scan_convex_next(struct scan_convex *scan, const struct scan_grid *grid,
                       const struct scan_point *point) {
-  walk->left_new = walk->left.dy == 0;
-  walk->right_new = walk->right.dy == 0;
-  if (walk->left_new) {
-    if (!take_edge(walk, grid, point, true))
+  scan->left_new = scan->left.dy == 0;
+  scan->right_new = scan->right.dy == 0;
+  if (scan->left_new) {
+    if (!next_chain_edge(scan, grid, point, true))
       return false;
   } else {
-    scan_edge_step(&walk->left, grid->down);
+    scan_edge_step(&scan->left, grid->down);
   }
-  if (!walk->right_new) {
-    scan_edge_step(&walk->right, grid->down);
+  if (!scan->right_new) {
+    scan_edge_step(&scan->right, grid->down);
     return true;
   }
-  return take_edge(walk, grid, point, false);
+  return next_chain_edge(scan, grid, point, false);
 }
 
 /* ---- Any polygons -------------------------------------------------------- */
@@ -203,7 +204,7 @@ bool scan_table_add(struct scan_table *table, const struct scan_point *p,
   return ARRAY_PUSH(&table->edge, edge);
 }
 
-/* Keys that order as (first line in walking order, x) up to rounding. */
+/* Keys that order as (first line in scan order, x) up to rounding. */
 static void make_keys(const struct scan_table *table, struct sort_key *key) {
   const struct scan_grid *grid = &table->grid;
   const struct scan_edge *edge = table->edge.item;

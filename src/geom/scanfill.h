@@ -42,7 +42,7 @@ struct scan_grid {
   int64_t den;
   int64_t x_first, x_step, y_first, y_step;
   int32_t columns, lines; /* numbered from 0, from the left and from below */
-  bool down;              /* lines are walked from the last to the first */
+  bool down;              /* lines are scanned from the last to the first */
 };
 
 /* A point of the plane, with what is used of it most. */
@@ -68,7 +68,7 @@ static inline double scan_plane_y(const struct scan_grid *grid, double y) {
 
 struct scan_edge {
   double x, dx;    /* where it is on its line, frame units; change to the next
-                      line in walking order */
+                      line in scan order */
   double x_error;  /* x is off by less */
   int32_t line;    /* the line it is at */
   int32_t dy;      /* lines left after this one */
@@ -161,13 +161,13 @@ static inline int scan_edge_compare(const struct scan_edge *a,
 
 /* ---- Convex polygons ----------------------------------------------------- */
 
-/* A convex polygon walked line by line: one edge on its left, one on its
+/* A convex polygon processed line by line: one edge on its left, one on its
  * right.  Where an edge ends the next corner's takes over; for a triangle
  * this is the split at the middle vertex into two with a horizontal side. */
 struct scan_convex {
   uint32_t count;
   uint32_t left_at, right_at; /* the corner where the edge on it ends */
-  uint32_t end;               /* the last corner in walking order */
+  uint32_t end;               /* the last corner in scan order */
   struct scan_edge left, right;
   bool left_new, right_new; /* the edge was taken up on this line */
 };
@@ -175,19 +175,19 @@ struct scan_convex {
 /* Starts at the polygon's first line.  Returns false where it covers none.
  * point  `count` >= 3 corners of a convex polygon, counter-clockwise; equal
  *        neighbours and straight corners are allowed */
-bool scan_convex_start(struct scan_convex *walk, const struct scan_grid *grid,
+bool scan_convex_start(struct scan_convex *scan, const struct scan_grid *grid,
                        const struct scan_point *point, uint32_t count);
 
 /* Is the polygon's last corner reached: is this surely its last line? */
-static inline bool scan_convex_ends(const struct scan_convex *walk) {
-  return (walk->left.dy == 0 && walk->left_at == walk->end) ||
-         (walk->right.dy == 0 && walk->right_at == walk->end);
+static inline bool scan_convex_ends(const struct scan_convex *scan) {
+  return (scan->left.dy == 0 && scan->left_at == scan->end) ||
+         (scan->right.dy == 0 && scan->right_at == scan->end);
 }
 
 /* Goes to the next line; false past the last.
  * point  the same corners as at the start; not looked at while both edges
  *        have lines left */
-bool scan_convex_next(struct scan_convex *walk, const struct scan_grid *grid,
+bool scan_convex_next(struct scan_convex *scan, const struct scan_grid *grid,
                       const struct scan_point *point);
 
 /* ---- Any polygons -------------------------------------------------------- */

@@ -18,15 +18,17 @@ enum {
 void occlusion_buffer_shape(struct occlusion_buffer *buffer, struct box2 page,
                             size_t triangles) {
   struct triangle_grid *cells = &buffer->cells;
-  size_t room = CELLS_PER_TRIANGLE * triangles;
-  room = room < CELLS_MIN ? CELLS_MIN : room > CELLS_MAX ? CELLS_MAX : room;
+  size_t capacity = CELLS_PER_TRIANGLE * triangles;
+  capacity = capacity < CELLS_MIN   ? CELLS_MIN
+             : capacity > CELLS_MAX ? CELLS_MAX
+                                    : capacity;
   *cells = (struct triangle_grid){.x0 = page.x0, .y0 = page.y0, .shift = -1};
   do {
     cells->shift++;
     cells->columns = (int)(((int64_t)page.x1 - page.x0) >> cells->shift) + 1;
     cells->rows = (int)(((int64_t)page.y1 - page.y0) >> cells->shift) + 1;
   } while (cells->columns > UINT16_MAX || cells->rows > UINT16_MAX ||
-           triangle_grid_cell_count(cells) > room);
+           triangle_grid_cell_count(cells) > capacity);
 }
 
 bool occlusion_buffer_init(struct occlusion_buffer *buffer) {

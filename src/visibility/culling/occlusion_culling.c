@@ -94,15 +94,15 @@ static double make_candidates(const struct culling_work *work,
                               struct candidate *candidate) {
   const struct sheet *sheet = work->sheet;
   const struct triangle_grid *cells = &work->culling->buffer.cells;
-  const int32_t reach = (int32_t)work->culling->reach;
+  const int32_t xy_margin = (int32_t)work->culling->xy_margin;
   double covered = 0;
   for (size_t t = 0; t < sheet->triangle.count; t++) {
     (void)poll_at(t);
     struct geom_triangle corners = sheet_corners(sheet, t);
     struct box2 box = box2_of_triangle(sheet, (uint32_t)t);
     struct cell_range r = triangle_grid_cells(
-        cells, (struct box2){box.x0 - reach, box.y0 - reach, box.x1 + reach,
-                             box.y1 + reach});
+        cells, (struct box2){box.x0 - xy_margin, box.y0 - xy_margin,
+                             box.x1 + xy_margin, box.y1 + xy_margin});
     double margin = work->culling->margin;
     if (work->fragments && !(sheet->triangle_flags[t] & SHEET_FLAT))
       margin += thickness_of(&work->contact, &corners);
@@ -149,8 +149,8 @@ static bool columns_in_row(const struct occlusion_culling *culling,
                            int *x1) {
   const struct triangle_grid *cells = &culling->buffer.cells;
   int64_t side = INT64_C(1) << cells->shift;
-  double low = (double)(cells->y0 + y * side - culling->reach),
-         high = (double)(cells->y0 + (y + 1) * side + culling->reach),
+  double low = (double)(cells->y0 + y * side - culling->xy_margin),
+         high = (double)(cells->y0 + (y + 1) * side + culling->xy_margin),
          least = INFINITY, most = -INFINITY;
   for (int k = 0; k < 3; k++) {
     struct geom_point p = corners->p[k], q = corners->p[geom_next_corner(k)];
@@ -171,11 +171,11 @@ static bool columns_in_row(const struct occlusion_culling *culling,
   if (!(least <= most))
     return false;
   *x0 = triangle_grid_cell(
-      (int32_t)fmax(floor(least) - (double)culling->reach, INT32_MIN),
+      (int32_t)fmax(floor(least) - (double)culling->xy_margin, INT32_MIN),
       cells->x0, cells->shift, cells->columns);
   *x1 = triangle_grid_cell(
-      (int32_t)fmin(ceil(most) + (double)culling->reach, INT32_MAX), cells->x0,
-      cells->shift, cells->columns);
+      (int32_t)fmin(ceil(most) + (double)culling->xy_margin, INT32_MAX),
+      cells->x0, cells->shift, cells->columns);
   return true;
 }
 
@@ -329,14 +329,15 @@ static bool list_candidates(struct culling_work *work) {
 
 /* By how much what lies on a triangle, within the contact length and rounding,
  * may be off the triangle: on the page, and in depth. */
-static void measure_reach(struct occlusion_culling *culling,
-                          const struct sheet *sheet,
-                          const struct occlusion_bound *contact) {
+static void find_xy_margin(struct occlusion_culling *culling,
+                           const struct sheet *sheet,
+                           const struct occlusion_bound *contact) {
   const struct camera *camera = &sheet->camera;
   double length = camera->contact_most * sheet->units_per_view /
                   (camera->perspective ? camera->d_min : 1);
-  double reach = ceil(length + contact_grid_units(sheet)) + 2;
-  culling->reach = reach < SHEET_XY_MAX ? (int64_t)reach : SHEET_XY_MAX;
+  double xy_margin = ceil(length + contact_grid_units(sheet)) + 2;
+  culling->xy_margin =
+      xy_margin < SHEET_XY_MAX ? (int64_t)xy_margin : SHEET_XY_MAX;
   culling->margin = 2 * contact->level + 4;
 }
 
@@ -352,7 +353,7 @@ bool occlusion_culling_init(struct occlusion_culling *culling,
       occlusion_culling_complexity(sheet, box_area(page)) < COMPLEXITY_MIN)
     return true;
   occlusion_buffer_shape(&culling->buffer, page, sheet->triangle.count);
-  measure_reach(culling, sheet, &work.contact);
+  find_xy_margin(culling, sheet, &work.contact);
   bool ok = list_candidates(&work);
   if (ok && work.candidate != NULL) {
     culling->culled = mem_calloc(sheet->triangle.count, 1);

@@ -17,8 +17,8 @@
  *     the tolerance, and so is not behind T.
  *   - T's edges are hidden there, and so are its intersections with other
  *     triangles.  These lie on T but for its contact length, a level of T's
- *     tolerance in depth, and for rounding, which are in `margin` and `reach`
- *     with room to spare.
+ *     tolerance in depth, and for rounding: `margin` and `xy_margin` exceed
+ *     their sum.
  *   - For fragments, let V be a triangle that is visible there and touches T,
  *     so that V's fragments may be T's.  Where O does not hide V, V is no
  *     farther behind O than O's tolerance.  T's tolerance as a depth is in the
@@ -40,8 +40,8 @@ struct occlusion_culling {
                       not worth while, and nothing is culled */
   size_t count;    /* of culled triangles */
   struct occlusion_buffer buffer;
-  int64_t reach; /* by how much edges may stray on the page */
-  double margin; /* the same in depth */
+  int64_t xy_margin; /* by how much edges may stray on the page */
+  double margin;     /* the same in depth */
 };
 
 /* Culls the triangles of the sheet, or, if that would not be worth while or

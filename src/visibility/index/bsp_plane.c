@@ -176,7 +176,7 @@ static size_t index_of_sample(int i, size_t count, size_t parts) {
   return from + (hash >> 16) % (past - from);
 }
 
-static void take_sample(struct sample *sample, const struct sheet *sheet,
+static void draw_sample(struct sample *sample, const struct sheet *sheet,
                         const uint32_t *triangle, size_t count, bool planes) {
   sample->sheet = sheet;
   sample->count = count < SAMPLE ? (int)count : SAMPLE;
@@ -301,7 +301,7 @@ bool bsp_plane_choose(struct bsp_plane *splitter, const struct sheet *sheet,
   struct plane_choice choice = {splitter, PAIRS_LEFT_MAX, false};
   struct sample sample;
   double thickness = 0;
-  take_sample(&sample, sheet, triangle, count, planes);
+  draw_sample(&sample, sheet, triangle, count, planes);
   if (planes)
     thickness = thickness_limit(&sample);
   for (int c = 0; c < CANDIDATES && choice.pairs_left > PAIRS_LEFT_GOOD; c++) {

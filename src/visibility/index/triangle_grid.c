@@ -61,11 +61,11 @@ static void shape(struct triangle_grid *grid, const struct sheet *sheet,
 void triangle_grid_shape(struct triangle_grid *grid, const struct sheet *sheet,
                          unsigned spread, unsigned most) {
   struct box2 all = box_of_sheet(sheet);
-  uint64_t room = (uint64_t)most * sheet->triangle.count + 16;
+  uint64_t capacity = (uint64_t)most * sheet->triangle.count + 16;
   int shift = 0;
   while (shift < MAX_SHIFT && (cells_across(all.x0, all.x1, shift) *
                                        cells_across(all.y0, all.y1, shift) >
-                                   room ||
+                                   capacity ||
                                !is_spread(sheet, shift, spread)))
     shift++;
   shape(grid, sheet, all, shift);

@@ -15,7 +15,7 @@
 enum { BSP_LIST_MIN = 256 };
 
 /* What the tests use of a triangle, computed once per list. */
-struct pair_summary {
+struct swept_triangle {
   struct box2 box;
   int64_t low, high; /* depths of the farthest and the nearest corner */
   int x0, y0;        /* the cell of the box's lower left corner */
@@ -25,8 +25,9 @@ struct pair_summary {
   struct plane_filter plane;
 };
 
-static void summarise(const struct pair_sweep *sweep, uint32_t triangle,
-                      uint64_t right_copy, struct pair_summary *s) {
+static void make_swept_triangle(const struct pair_sweep *sweep,
+                                uint32_t triangle, uint64_t right_copy,
+                                struct swept_triangle *s) {
   const struct sheet *sheet = sweep->sheet;
   const struct triangle_grid *grid = sweep->grid;
   const uint32_t *p = sheet->triangle.item[triangle].point;
@@ -59,8 +60,8 @@ static bool is_pair_selected(const struct pair_sweep *sweep, int x, int y) {
  * first of them, mostly the one with the lower left corner of the boxes'
  * intersection.  Is that the current cell? */
 static bool is_cell_of_pair(const struct pair_sweep *sweep,
-                            const struct pair_summary *f,
-                            const struct pair_summary *g) {
+                            const struct swept_triangle *f,
+                            const struct swept_triangle *g) {
   const struct triangle_grid *grid = sweep->grid;
   int x0 = f->x0 > g->x0 ? f->x0 : g->x0, y0 = f->y0 > g->y0 ? f->y0 : g->y0;
   if (x0 == sweep->x && y0 == sweep->y)
@@ -160,8 +161,9 @@ static bool are_neighbours(const struct sheet *sheet, uint32_t f, uint32_t g) {
 }
 
 /* May f straddle the plane of g or end on it? */
-static bool may_pierce(const struct sheet *sheet, const struct pair_summary *f,
-                       struct pair_summary *g) {
+static bool may_pierce(const struct sheet *sheet,
+                       const struct swept_triangle *f,
+                       struct swept_triangle *g) {
   if (!g->has_plane)
     g->plane = plane_filter_of(sheet, g->triangle);
   g->has_plane = true;
@@ -188,8 +190,8 @@ static bool is_outside_triangle(const struct sheet *sheet, uint32_t f,
 }
 
 /* Visits a pair whose depths overlap, unless a test rejects it. */
-static bool visit_pair(const struct pair_sweep *sweep, struct pair_summary *f,
-                       struct pair_summary *g) {
+static bool visit_pair(const struct pair_sweep *sweep, struct swept_triangle *f,
+                       struct swept_triangle *g) {
   if (box2_disjoint(f->box, g->box) || (f->right_copy & g->right_copy) != 0 ||
       !is_cell_of_pair(sweep, f, g) ||
       are_neighbours(sweep->sheet, f->triangle, g->triangle) ||
@@ -204,29 +206,29 @@ static bool visit_pair(const struct pair_sweep *sweep, struct pair_summary *f,
 
 /* Starts a list, with room for n triangles. */
 static bool start_list(struct pair_sweep *sweep, size_t n) {
-  sweep->summary.count = 0;
-  return ARRAY_RESERVE(&sweep->summary, n) && ARRAY_RESERVE(&sweep->key, 2 * n);
+  sweep->swept.count = 0;
+  return ARRAY_RESERVE(&sweep->swept, n) && ARRAY_RESERVE(&sweep->key, 2 * n);
 }
 
 static void add_to_list(struct pair_sweep *sweep, uint32_t triangle,
                         uint64_t right_copy) {
-  size_t i = sweep->summary.count++;
-  summarise(sweep, triangle, right_copy, &sweep->summary.item[i]);
+  size_t i = sweep->swept.count++;
+  make_swept_triangle(sweep, triangle, right_copy, &sweep->swept.item[i]);
   sweep->key.item[i] =
-      (struct sort_key){(uint64_t)sweep->summary.item[i].low, (uint32_t)i};
+      (struct sort_key){(uint64_t)sweep->swept.item[i].low, (uint32_t)i};
 }
 
 /* Tests the pairs of the list. */
 static bool sweep_list(struct pair_sweep *sweep) {
-  struct pair_summary *summary = sweep->summary.item;
+  struct swept_triangle *swept = sweep->swept.item;
   struct sort_key *key = sweep->key.item;
-  size_t n = sweep->summary.count;
+  size_t n = sweep->swept.count;
   sort_keys(key, key + n, n);
   for (size_t i = 0; i < n; i++) {
-    struct pair_summary *f = &summary[key[i].value];
+    struct swept_triangle *f = &swept[key[i].value];
     size_t j = i + 1;
     for (; j < n && key[j].key <= (uint64_t)f->high; j++)
-      if (!visit_pair(sweep, f, &summary[key[j].value]))
+      if (!visit_pair(sweep, f, &swept[key[j].value]))
         return false;
     sweep->met += j - i - 1;
     if (!progress_step(sweep->progress, j - i))
@@ -283,7 +285,7 @@ bool pair_sweep_cells(struct pair_sweep *sweep, size_t begin, size_t end) {
 }
 
 void pair_sweep_fini(struct pair_sweep *sweep) {
-  ARRAY_FREE(&sweep->summary);
+  ARRAY_FREE(&sweep->swept);
   ARRAY_FREE(&sweep->key);
   bsp_fini(&sweep->bsp);
 }

@@ -18,7 +18,7 @@ struct pair_sweep {
   struct progress *progress; /* counts the work */
   uint64_t met; /* the number of pairs of one list whose depths overlap */
   int x, y;     /* the current cell */
-  ARRAY(struct pair_summary) summary;
+  ARRAY(struct swept_triangle) swept;
   ARRAY(struct sort_key) key; /* twice as many: sorted by depth, and scratch */
   struct bsp bsp;
 };

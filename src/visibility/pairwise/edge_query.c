@@ -99,11 +99,11 @@ static bool test_bsp(struct edge_query *query, struct cell_query *at) {
   const struct triangle_grid *grid = &query->lists->grid;
   struct bsp_query shape = {.kind = BSP_SEGMENT,
                             .p = {query->end[0], query->end[1]}};
-  struct bsp_traversal walk =
+  struct bsp_traversal traversal =
       bsp_traversal_from(triangle_grid_bsp(grid, at->cell));
   const uint64_t *key = query->lists->key + grid->start[at->cell];
   const struct bsp_node *node;
-  while ((node = bsp_next(grid->bsp, &walk, &shape)) != NULL) {
+  while ((node = bsp_next(grid->bsp, &traversal, &shape)) != NULL) {
     const struct bsp_member *member = grid->bsp->member.item + node->from;
     for (uint32_t i = 0; i < node->count; i++) {
       if (!kdop8_overlaps(key[member[i].list_index], at->kdop_query))

@@ -150,9 +150,9 @@ static void sort_list(struct tile_candidates *list, size_t from, size_t to,
     sum += here;
   }
   for (size_t i = 0; i < n; i++) {
-    uint32_t place = start[kdop8_nearest(scratch[i].key)]++;
-    key[place] = scratch[i].key;
-    item[place] = scratch[i].value;
+    uint32_t slot = start[kdop8_nearest(scratch[i].key)]++;
+    key[slot] = scratch[i].key;
+    item[slot] = scratch[i].value;
   }
 }
 

@@ -43,12 +43,12 @@ static uint64_t bucket_mask(int low, int high) {
 static bool is_steep(const struct sheet *sheet,
                      const struct occlusion_bound *all, uint32_t triangle,
                      const struct geom_triangle *corners) {
-  const double room = (double)(INT64_C(1) << (TILE_BUCKET_SHIFT - 1));
+  const double thickness_max = (double)(INT64_C(1) << (TILE_BUCKET_SHIFT - 1));
   double nz, bound = occlusion_bound_of(all, corners, &nz);
-  if (bound < room * nz)
+  if (bound < thickness_max * nz)
     return false;
   struct plane_filter plane = plane_filter_of(sheet, triangle);
-  return !(plane_filter_thickness(&plane) < room);
+  return !(plane_filter_thickness(&plane) < thickness_max);
 }
 
 /* What is read for every triangle, as a copy, so that the compiler knows that

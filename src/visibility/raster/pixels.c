@@ -172,7 +172,8 @@ recto_status pixels_line(struct pixels *pixels, int32_t line,
   int32_t done = raster->grid.lines - line;
   struct pixel_row row = {raster->seen + raster_row(raster, line),
                           pixels->grid.columns};
-  bool whole = subpixels->k == 1 || subpixels_take(subpixels, line, row.seen);
+  bool whole =
+      subpixels->k == 1 || subpixels_add_line(subpixels, line, row.seen);
   if (subpixels->k > 1) {
     line /= subpixels->k;
     row.seen = subpixels->pixel;

@@ -67,7 +67,7 @@ static double within(double value, double most) {
  * most 2^32 (a page of 2 m) and quotients below 2^17: a quotient that is not an
  * integer is at least 2^-32 away from one and its rounding is below 2^-36, so
  * the first line is found exactly. */
-static void find_places(struct raster *raster) {
+static void find_pixels_of_points(struct raster *raster) {
   const struct scan_grid *grid = &raster->grid;
   const struct geom_point *at = raster->sheet->point.item;
   double first = (double)(grid->y_first + grid->y_step / 2);
@@ -112,7 +112,7 @@ recto_status raster_init(struct raster *raster, const struct sheet *sheet,
     raster_fini(raster);
     return error_memory(error);
   }
-  find_places(raster);
+  find_pixels_of_points(raster);
   return RECTO_OK;
 }
 
@@ -125,11 +125,11 @@ void raster_fini(struct raster *raster) {
 }
 
 void raster_make_ring(struct raster *raster, int32_t lines) {
-  uint32_t place = 0;
-  while (place < (uint32_t)lines - 1)
-    place = 2 * place + 1;
-  if (place < (uint32_t)raster->kept)
-    raster->line_mask = place;
+  uint32_t mask = 0;
+  while (mask < (uint32_t)lines - 1)
+    mask = 2 * mask + 1;
+  if (mask < (uint32_t)raster->kept)
+    raster->line_mask = mask;
 }
 
 void raster_clear_line(struct raster *raster, int32_t line) {

@@ -54,25 +54,24 @@ void span_fill_settle(struct raster *raster, uint32_t facet, int32_t line,
 enum { LINES = 32 }; /* processed at a time */
 
 /* An edge that is followed from the top down. */
-struct falling {
+struct descending_edge {
   struct scan_edge edge;
   double x; /* on the current line */
 };
 
-static void find_columns_exactly(struct falling *falling,
+static void find_columns_exactly(struct descending_edge *side,
                                  const struct scan_grid *grid, int32_t line,
                                  int32_t count, bool on, int32_t *column) {
-  for (int32_t i = 0; i < count; i++, falling->x += falling->edge.dx)
-    column[i] =
-        scan_edge_column_at(&falling->edge, grid, line - i, falling->x, on);
+  for (int32_t i = 0; i < count; i++, side->x += side->edge.dx)
+    column[i] = scan_edge_column_at(&side->edge, grid, line - i, side->x, on);
 }
 
 /* scan_edge_column_at for `count` lines from `line` down, without branches
  * where doubles decide for all of them; moves the edge past them. */
-static inline void find_columns(struct falling *falling,
+static inline void find_columns(struct descending_edge *side,
                                 const struct scan_grid *grid, int32_t line,
                                 int32_t count, bool on, int32_t *column) {
-  double x = falling->x, dx = falling->edge.dx, x_error = falling->edge.x_error;
+  double x = side->x, dx = side->edge.dx, x_error = side->edge.x_error;
   double end = x + dx * count, most = grid->columns;
   bool inside = (x >= 0) & (end >= 0) & (x <= most) & (end <= most);
   bool close = !inside;
@@ -83,17 +82,18 @@ static inline void find_columns(struct falling *falling,
     column[i] = near + (past > 0);
   }
   if (close)
-    find_columns_exactly(falling, grid, line, count, on, column);
+    find_columns_exactly(side, grid, line, count, on, column);
   else
-    falling->x = x;
+    side->x = x;
 }
 
 /* Fills `count` lines from `line` down between two edges, and moves both past
  * them.  Returns how many pixels they cover. */
 static int64_t fill_half(struct raster *raster, uint32_t triangle,
                          const struct span_fill_plane *plane,
-                         struct falling *left, struct falling *right,
-                         int32_t line, int32_t count) {
+                         struct descending_edge *left,
+                         struct descending_edge *right, int32_t line,
+                         int32_t count) {
   const struct scan_grid *grid = &raster->grid;
   int64_t covered = 0;
   while (count > 0) {
@@ -114,12 +114,13 @@ static int64_t fill_half(struct raster *raster, uint32_t triangle,
   return covered;
 }
 
-static bool start_falling(struct falling *falling, const struct scan_grid *grid,
-                          const struct scan_point *from,
-                          const struct scan_point *to) {
-  if (!scan_edge_init(&falling->edge, grid, from, to))
+static bool descending_edge_init(struct descending_edge *side,
+                                 const struct scan_grid *grid,
+                                 const struct scan_point *from,
+                                 const struct scan_point *to) {
+  if (!scan_edge_init(&side->edge, grid, from, to))
     return false;
-  falling->x = falling->edge.x;
+  side->x = side->edge.x;
   return true;
 }
 
@@ -131,7 +132,7 @@ bool span_fill_triangle(struct raster *raster, uint32_t triangle,
                                   raster_point(raster, corner[1]),
                                   raster_point(raster, corner[2])};
   struct span_fill_plane plane;
-  struct falling longest, side;
+  struct descending_edge longest, side;
   /* The highest corner, then counter-clockwise. */
   int top =
       p[0].y > p[1].y ? (p[0].y > p[2].y ? 0 : 2) : (p[1].y > p[2].y ? 1 : 2);
@@ -146,14 +147,14 @@ bool span_fill_triangle(struct raster *raster, uint32_t triangle,
   init_plane(&plane, raster, triangle);
   if (plane.steep)
     return false;
-  if (!start_falling(&longest, grid, high, low))
+  if (!descending_edge_init(&longest, grid, high, low))
     return true;
-  if (start_falling(&side, grid, high, middle))
+  if (descending_edge_init(&side, grid, high, middle))
     *covered += left ? fill_half(raster, triangle, &plane, &side, &longest,
                                  high->line - 1, high->line - middle->line)
                      : fill_half(raster, triangle, &plane, &longest, &side,
                                  high->line - 1, high->line - middle->line);
-  if (start_falling(&side, grid, middle, low))
+  if (descending_edge_init(&side, grid, middle, low))
     *covered += left ? fill_half(raster, triangle, &plane, &side, &longest,
                                  middle->line - 1, middle->line - low->line)
                      : fill_half(raster, triangle, &plane, &longest, &side,

@@ -81,8 +81,8 @@ static void resolve_line(struct subpixels *subpixels) {
   }
 }
 
-bool subpixels_take(struct subpixels *subpixels, int32_t fine_line,
-                    const uint32_t *seen) {
+bool subpixels_add_line(struct subpixels *subpixels, int32_t fine_line,
+                        const uint32_t *seen) {
   size_t columns = (size_t)subpixels->fine_columns;
   int32_t at = fine_line % subpixels->k;
   memcpy(subpixels->seen + (size_t)at * columns, seen, columns * sizeof *seen);

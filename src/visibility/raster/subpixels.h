@@ -47,7 +47,7 @@ void subpixels_fini(struct subpixels *subpixels);
 
 /* Adds a line of sub-pixels; they come from the top.  Returns whether it
  * completed a line of pixels, which is then in `pixel`. */
-bool subpixels_take(struct subpixels *subpixels, int32_t fine_line,
-                    const uint32_t *seen);
+bool subpixels_add_line(struct subpixels *subpixels, int32_t fine_line,
+                        const uint32_t *seen);
 
 #endif

@@ -12,7 +12,7 @@ struct facet_joining {
   uint32_t first, past;
   struct sort_key *diagonal, *scratch; /* keyed by the two points; value:
                                           3 * (triangle - first) + side */
-  size_t diagonals, room;
+  size_t diagonals, capacity;
   uint32_t corner[FACET_CORNERS_MAX], side[FACET_CORNERS_MAX];
   uint32_t count;
 };
@@ -24,13 +24,13 @@ static uint32_t next_of(uint32_t k, uint32_t count) {
 static bool list_diagonals(struct facet_joining *joining) {
   const struct sheet *sheet = joining->sheet;
   size_t most = 3 * (size_t)(joining->past - joining->first);
-  if (most > joining->room) {
+  if (most > joining->capacity) {
     struct sort_key *grown =
         mem_resize(joining->diagonal, 2 * most, sizeof *grown);
     if (grown == NULL)
       return false;
     joining->diagonal = grown;
-    joining->room = most;
+    joining->capacity = most;
   }
   joining->diagonals = 0;
   for (uint32_t t = joining->first; t < joining->past; t++) {
@@ -41,7 +41,7 @@ static bool list_diagonals(struct facet_joining *joining) {
             sort_pair_key(triangle->point[k], triangle->point[next_of(k, 3)]),
             3 * (t - joining->first) + k};
   }
-  sort_keys(joining->diagonal, joining->diagonal + joining->room,
+  sort_keys(joining->diagonal, joining->diagonal + joining->capacity,
             joining->diagonals);
   return true;
 }

@@ -163,8 +163,9 @@ static void draw_pixel(struct subdivision *s,
 /* ---- The front ----------------------------------------------------------- */
 
 /* Is facet a visible rather than `other` wherever both cover the block? */
-static bool wins_everywhere(const struct subdivision *s, const struct box2 *b,
-                            uint32_t a, uint32_t other) {
+static bool is_nearer_in_block(const struct subdivision *s,
+                               const struct box2 *b, uint32_t a,
+                               uint32_t other) {
   int32_t k = s->frame->subpixels;
   const int32_t column[2] = {b->x0 * k, b->x1 * k - 1};
   const int32_t line[2] = {b->y0 * k, b->y1 * k - 1};
@@ -176,11 +177,12 @@ static bool wins_everywhere(const struct subdivision *s, const struct box2 *b,
 }
 
 /* Makes a surrounder the front if it is nearer than it throughout the block. */
-static void update_winning_front(void *user, const struct box2 *b,
-                                 uint32_t facet, struct warnock_front *front) {
+static void update_block_front(void *user, const struct box2 *b, uint32_t facet,
+                               struct warnock_front *front) {
   const struct subdivision *s = user;
   int32_t k = s->frame->subpixels;
-  if (front->facet != SHEET_NONE && !wins_everywhere(s, b, facet, front->facet))
+  if (front->facet != SHEET_NONE &&
+      !is_nearer_in_block(s, b, facet, front->facet))
     return;
   front->facet = facet;
   front->depth.low = INFINITY;
@@ -192,9 +194,10 @@ static void update_winning_front(void *user, const struct box2 *b,
   }
 }
 
-static bool front_wins(void *user, const struct box2 *b,
-                       const struct warnock_front *front, uint32_t facet) {
-  return wins_everywhere(user, b, front->facet, facet);
+static bool block_front_hides(void *user, const struct box2 *b,
+                              const struct warnock_front *front,
+                              uint32_t facet) {
+  return is_nearer_in_block(user, b, front->facet, facet);
 }
 
 /* ---- Division ------------------------------------------------------------ */
@@ -311,8 +314,8 @@ recto_status warnock_frame_draw(struct warnock_frame *frame,
                           .progress = progress_of(request, "subdividing"),
                           .windows = {.sheet = sheet,
                                       .facets = facets,
-                                      .update_front = update_winning_front,
-                                      .hides = front_wins,
+                                      .update_front = update_block_front,
+                                      .hides = block_front_hides,
                                       .user = &s}};
   struct scan_grid fine =
       raster_grid(sheet, frame->raster.grid.lines * frame->subpixels);

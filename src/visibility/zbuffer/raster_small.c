@@ -29,9 +29,9 @@
 #include "visibility/raster/span_fill.h"
 
 enum {
-  ROWS = 32,      /* lines covered at most */
-  BATCH = 8,      /* lines computed at once */
-  REACH_BITS = 22 /* 4 mm: how far apart corners may be in x and y */
+  ROWS = 32,       /* lines covered at most */
+  BATCH = 8,       /* lines computed at once */
+  EXTENT_BITS = 22 /* 4 mm: how far apart corners may be in x and y */
 };
 
 /* A triangle from its highest corner. */
@@ -68,7 +68,7 @@ static bool make_small(struct small *small, const struct raster *raster,
                        last_of[4] = {2, 0, 1, 1};
   const struct scan_grid *grid = &raster->grid;
   const struct geom_point *at = raster->sheet->point.item;
-  const uint64_t reach = UINT64_C(1) << REACH_BITS;
+  const uint64_t bound = UINT64_C(1) << EXTENT_BITS;
   int32_t y0 = at[corner[0]].y, y1 = at[corner[1]].y, y2 = at[corner[2]].y;
   int top = (y1 > y0) | (y2 > (y1 > y0 ? y1 : y0)) << 1;
   /* Counter-clockwise from the highest corner is down the left side. */
@@ -92,9 +92,9 @@ static bool make_small(struct small *small, const struct raster *raster,
       (double)(at[h].y * grid->den - grid->y_first) / (double)grid->y_step;
   small->z = (double)at[h].z;
   return small->high - small->low <= ROWS &&
-         (((uint64_t)small->ux + reach) | ((uint64_t)small->uy + reach) |
-          ((uint64_t)small->vx + reach) | ((uint64_t)small->vy + reach)) >>
-                 (REACH_BITS + 1) ==
+         (((uint64_t)small->ux + bound) | ((uint64_t)small->uy + bound) |
+          ((uint64_t)small->vx + bound) | ((uint64_t)small->vy + bound)) >>
+                 (EXTENT_BITS + 1) ==
              0;
 }
 

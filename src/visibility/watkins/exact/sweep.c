@@ -10,11 +10,12 @@
 
 /* ---- One event ----------------------------------------------------------- */
 
-/* Takes the next event and lists the edges that start there in `starting`.
+/* Removes the next event from the queue, and lists the edges that start there
+ * in `starting`.
  * more  gets whether there was one
  * Returns false when memory ran out. */
-static bool take_event(struct sweep *sweep, struct sweep_event *event,
-                       bool *more) {
+static bool pop_event(struct sweep *sweep, struct sweep_event *event,
+                      bool *more) {
   bool at_end = sweep->ends_passed < sweep->ends;
   uint64_t key = at_end ? sweep->end[sweep->ends_passed].key : 0;
   sweep->starting.count = 0;
@@ -43,7 +44,8 @@ static bool take_event(struct sweep *sweep, struct sweep_event *event,
 }
 
 /* Appends the event's height, unless it is that of the event before. */
-static bool reach_height(struct sweep *sweep, const struct sweep_event *event) {
+static bool advance_to_height(struct sweep *sweep,
+                              const struct sweep_event *event) {
   struct ratio height = {event->y, event->den};
   size_t count = sweep->height.count;
   return (count > 0 &&
@@ -232,7 +234,7 @@ static bool process_event(struct sweep *sweep, const struct sweep_event *event,
                           struct progress *progress) {
   size_t low, high, past;
   uint32_t height;
-  if (!reach_height(sweep, event))
+  if (!advance_to_height(sweep, event))
     return false;
   find_edges_through(sweep, event, &low, &high);
   for (size_t i = low > 0 ? low - 1 : low; i < high; i++)
@@ -281,7 +283,7 @@ recto_status sweep_run(struct sweep *sweep,
   for (;;) {
     struct sweep_event event;
     bool more;
-    if (!take_event(sweep, &event, &more))
+    if (!pop_event(sweep, &event, &more))
       return error_memory(error);
     if (!more)
       return RECTO_OK;

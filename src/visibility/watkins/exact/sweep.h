@@ -97,11 +97,11 @@ struct sweep {
 /* Is it an edge to be drawn that belongs to a face?  Other lines bound no
  * interval, and may cross each other far more often than faces' edges do:
  * intersections of n faces in the order of n^4 points. */
-bool sweep_takes_line(const struct sheet *sheet, size_t edge);
+bool sweep_includes_line(const struct sheet *sheet, size_t edge);
 
 /* Collects the edges.
  * kept   one a triangle: does it take part?  NULL: all do.  Flat ones never do.
- * drawn  include the edges to be drawn for which sweep_takes_line is true
+ * drawn  include the edges to be drawn for which sweep_includes_line is true
  * Returns false when memory ran out; call sweep_fini in either case. */
 USE_RESULT bool sweep_init(struct sweep *sweep, const struct sheet *sheet,
                            const uint8_t *kept, bool drawn);

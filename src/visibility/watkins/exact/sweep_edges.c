@@ -10,7 +10,7 @@ struct sweep_gathering {
   size_t count;
 };
 
-bool sweep_takes_line(const struct sheet *sheet, size_t e) {
+bool sweep_includes_line(const struct sheet *sheet, size_t e) {
   const struct sheet_edge *edge = &sheet->edge.item[e];
   return edge->triangle[0] != SHEET_NONE &&
          edge->edge_class != RECTO_EDGE_INTERSECTION &&
@@ -34,7 +34,7 @@ static void list_keys(struct sweep_gathering *g, const struct sheet *sheet,
                             3 * t + (uint32_t)k};
   }
   for (uint32_t e = 0; drawn && e < sheet->edge.count; e++)
-    if (sweep_takes_line(sheet, e))
+    if (sweep_includes_line(sheet, e))
       g->key[g->count++] =
           (struct sort_key){sort_pair_key(sheet->edge.item[e].point[0],
                                           sheet->edge.item[e].point[1]),

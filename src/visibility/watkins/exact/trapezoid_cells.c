@@ -168,8 +168,8 @@ static bool store_parts(struct trapezoid_cells *cells,
   return true;
 }
 
-bool trapezoid_cells_take(void *user, const struct sweep *sweep,
-                          const struct sweep_cell *cell) {
+bool trapezoid_cells_add(void *user, const struct sweep *sweep,
+                         const struct sweep_cell *cell) {
   struct trapezoid_cells *cells = user;
   cells->count++;
   if (cells->too_many)

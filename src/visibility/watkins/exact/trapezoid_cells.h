@@ -45,10 +45,10 @@ USE_RESULT bool trapezoid_cells_init(struct trapezoid_cells *cells,
                                      const struct sheet *sheet);
 void trapezoid_cells_fini(struct trapezoid_cells *cells);
 
-/* Receives a trapezoid (`cell` of struct sweep).
+/* Adds a trapezoid (`cell` of struct sweep).
  * user  a struct trapezoid_cells */
-bool trapezoid_cells_take(void *user, const struct sweep *sweep,
-                          const struct sweep_cell *cell);
+bool trapezoid_cells_add(void *user, const struct sweep *sweep,
+                         const struct sweep_cell *cell);
 
 /* A triangle with ties in more trapezoids, where others intersect or touch it,
  * is deferred to pairwise_fallback.h. */

@@ -80,9 +80,9 @@ static bool add_edge_triangle(void *user, const struct sweep *sweep,
          ARRAY_PUSH(&pairs->pair, pair);
 }
 
-static bool take_cell(void *user, const struct sweep *sweep,
-                      const struct sweep_cell *cell) {
-  return trapezoid_cells_take(&((struct exact *)user)->cells, sweep, cell);
+static bool add_cell(void *user, const struct sweep *sweep,
+                     const struct sweep_cell *cell) {
+  return trapezoid_cells_add(&((struct exact *)user)->cells, sweep, cell);
 }
 
 /* ---- Strokes ------------------------------------------------------------- */
@@ -142,7 +142,7 @@ static recto_status store_edges(struct exact *exact, const struct sheet *sheet,
       i++;
     if (!sheet_edge_is_drawn(sheet, e))
       continue;
-    if (!sweep_takes_line(sheet, e))
+    if (!sweep_includes_line(sheet, e))
       ok = store_line(exact, sheet, request, e, map);
     else
       ok = progress_step(&progress, i - first) &&
@@ -192,7 +192,7 @@ solve_fragments_watkins(struct exact *exact, const struct sheet *sheet,
     status = error_memory(error);
   fragments.progress = &progress;
   fragments.report = report;
-  sweep.cell = take_cell;
+  sweep.cell = add_cell;
   sweep.user = exact;
   cells->keep = true;
   cells->count = cells->filter_failures = 0;
@@ -226,7 +226,7 @@ static recto_status sweep_all(struct exact *exact, const struct sheet *sheet,
   recto_status status = RECTO_OK;
   if (!sweep_init(&sweep, sheet, kept, request->edges))
     status = error_memory(error);
-  sweep.cell = request->fragments ? take_cell : NULL;
+  sweep.cell = request->fragments ? add_cell : NULL;
   sweep.pair = request->edges ? add_edge_triangle : NULL;
   sweep.user = exact;
   if (status == RECTO_OK)
