@@ -22,7 +22,8 @@
  * Stability  Enumerators keep their values.  Options are initialised by
  *          recto_options_init.  Structs that are handed over grow at their end
  *          or in their reserved fields; macros pass the size that the caller
- *          was compiled with (doc/decisions/0032 in the sources).
+ *          was compiled with (doc/decisions/0032 in the sources); a size of 0
+ *          is taken as a pointer that is NULL.
  */
 #ifndef RECTO_H
 #define RECTO_H
@@ -288,7 +289,7 @@ typedef struct recto_camera_options {
   double eye[3], target[3];          /* scene units */
   bool has_target;                   /* false: the middle of the scene */
   double up[3];                      /* 0,0,0: what the format means */
-  double fov_deg;                    /* vertical; 0: orthographic */
+  double fov_deg;                    /* vertical, to 179; 0: orthographic */
   recto_fit fit;
   double scale;         /* with RECTO_FIT_SCALE */
   double near_distance; /* scene units; 0: as near as anything drawn, but at

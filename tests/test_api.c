@@ -188,6 +188,31 @@ static void numbers_that_make_no_sense_are_refused(void **state) {
   recto_scene_destroy(scene);
 }
 
+static void errors_say_what_a_number_must_be(void **state) {
+  (void)state;
+  recto_options options[4];
+  static const char *const text[4] = {
+      "the contact length must be finite",
+      "the scale must be above 0 and finite",
+      "the pitch of scan lines must be finite, at least 0.01",
+      "the resolution must be from 0 to 1048576"};
+  recto_scene *scene = make_cube();
+  for (int i = 0; i < 4; i++)
+    recto_options_init(&options[i]);
+  options[0].solver.contact = INFINITY;
+  options[1].camera.scale = 0;
+  options[2].solver.pitch_mm = 1e-3;
+  options[3].solver.resolution = -1;
+  for (int i = 0; i < 4; i++) {
+    recto_drawing *drawing;
+    recto_error error;
+    assert_int_equal(recto_scene_render(scene, &options[i], &drawing, &error),
+                     RECTO_ERROR_ARGUMENT);
+    assert_string_equal(error.text, text[i]);
+  }
+  recto_scene_destroy(scene);
+}
+
 static void lists_that_make_no_sense_are_refused(void **state) {
   static const recto_pen_use use[] = {
       {.lines = RECTO_LINES_HIDDEN, .edge_class = 0, .group = NULL, .pen = 0},
@@ -926,6 +951,7 @@ int main(void) {
       cmocka_unit_test(the_version_is_three_numbers),
       cmocka_unit_test(no_options_are_the_defaults),
       cmocka_unit_test(numbers_that_make_no_sense_are_refused),
+      cmocka_unit_test(errors_say_what_a_number_must_be),
       cmocka_unit_test(lists_that_make_no_sense_are_refused),
       cmocka_unit_test(reserved_fields_of_lists_are_unsupported),
       cmocka_unit_test(an_eye_on_its_target_is_refused),

@@ -20,6 +20,9 @@ struct things {
 };
 
 static int make_things(void **state) {
+  recto_options options;
+  recto_options_init(&options);
+  options.results = RECTO_RESULTS_ALL; /* an edge and a fragment are there */
   static const double point[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   static struct things things;
   recto_error error;
@@ -30,7 +33,7 @@ static int make_things(void **state) {
   assert_int_equal(recto_scene_add_face(things.scene, corner, 3, &error),
                    RECTO_OK);
   assert_int_equal(
-      recto_scene_render(things.scene, NULL, &things.drawing, &error),
+      recto_scene_render(things.scene, &options, &things.drawing, &error),
       RECTO_OK);
   *state = &things;
   return 0;
@@ -51,7 +54,7 @@ static int drop_things(void **state) {
     if ((call) != RECTO_ERROR_ARGUMENT)                                        \
       fail_msg("%s is not refused", #call);                                    \
     assert_int_equal(record.code, RECTO_ERROR_ARGUMENT);                       \
-    assert_non_null(strstr(record.text, " is NULL"));                          \
+    assert_non_null(strstr(record.text, "NULL was given for the "));           \
     error = NULL;                                                              \
     if ((call) != RECTO_ERROR_ARGUMENT)                                        \
       fail_msg("%s is not refused without a record", #call);                   \
@@ -108,6 +111,32 @@ static void calls_without_one_do_nothing(void **state) {
   assert_null(stroke.points);
 }
 
+/* A size of 0 is no struct: nothing is written, and nothing is there. */
+static void no_struct_has_the_size_0(void **state) {
+  struct things *things = *state;
+  recto_drawing *drawing = things->drawing;
+  recto_verdict verdict = {.drawn_mm = 1};
+  recto_layer layer = {.pen = 77};
+  recto_stroke stroke = {.count = 77};
+  recto_edge edge = {.number = 77};
+  recto_fragment fragment = {.face = 77};
+  recto_options options = {.verify = 77};
+  recto_options_init_sized(&options, 0);
+  recto_options_init_sized(&options, sizeof options.size - 1);
+  assert_int_equal(options.verify, 77);
+  assert_false(recto_drawing_layer_sized(drawing, 0, &layer, 0));
+  assert_int_equal(layer.pen, 77);
+  assert_false(recto_drawing_stroke_sized(drawing, 0, &stroke, 0));
+  assert_int_equal(stroke.count, 77);
+  assert_false(recto_drawing_edge_sized(drawing, 0, &edge, 0));
+  assert_int_equal(edge.number, 77);
+  assert_false(recto_drawing_fragment_sized(drawing, 0, &fragment, 0));
+  assert_int_equal(fragment.face, 77);
+  REFUSED(recto_scene_check_sized(things->scene, "o.svg", NULL, &verdict, 0,
+                                  error));
+  assert_true(verdict.drawn_mm == 1);
+}
+
 static void there_is_nothing_past_the_last_stroke(void **state) {
   struct things *things = *state;
   size_t count = recto_drawing_stroke_count(things->drawing);
@@ -134,6 +163,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(calls_with_a_status_refuse_it),
       cmocka_unit_test(calls_without_one_do_nothing),
+      cmocka_unit_test(no_struct_has_the_size_0),
       cmocka_unit_test(there_is_nothing_past_the_last_stroke),
       cmocka_unit_test(what_may_be_null_may_be),
   };

@@ -92,9 +92,8 @@ recto_status recto_scene_check_sized(const recto_scene *scene, const char *path,
   struct judge_verdict found;
   recto_options checked;
   struct poll poll;
-  if (verdict == NULL)
-    return error_null(error, "the place for the verdict");
-  sized_give(verdict, size, &own, sizeof own);
+  if (!sized_give(verdict, size, &own, sizeof own))
+    return error_null(error, "the verdict");
   if (scene == NULL || path == NULL)
     return error_null(error, scene == NULL ? "the scene" : "the path");
   recto_status status = options_take(&checked, options, error);
@@ -116,10 +115,10 @@ recto_status recto_scene_check_sized(const recto_scene *scene, const char *path,
                                   &found, error);
     preparation_fini(&prepared);
   }
-  if (status == RECTO_OK)
+  if (status == RECTO_OK) {
     fill_verdict(&own, &found);
-  if (status == RECTO_OK)
-    sized_give(verdict, size, &own, sizeof own);
+    (void)sized_give(verdict, size, &own, sizeof own);
+  }
   judge_drawing_fini(&drawing);
   poll_close(&poll);
   return status;

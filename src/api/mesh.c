@@ -142,7 +142,7 @@ recto_status recto_scene_add_mesh_sized(recto_scene *scene,
     return error_null(error, scene == NULL ? "the scene" : "the mesh");
   if (size < offsetof(recto_mesh, face_offsets))
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
-                     "a mesh is larger than %zu bytes", size);
+                     "a mesh of %zu bytes is none of recto_mesh", size);
   recto_status status = sized_take(&own, sizeof own, mesh, size, error);
   if (status == RECTO_OK)
     status = complete_mesh(&own, error);

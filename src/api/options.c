@@ -2,6 +2,7 @@
 #include <float.h>
 #include <limits.h>
 #include <stddef.h>
+#include <stdio.h>
 
 #include "api/handle.h"
 #include "api/sized.h"
@@ -32,10 +33,9 @@ static const recto_options defaults = {
 };
 
 void recto_options_init_sized(recto_options *options, size_t size) {
-  if (options == NULL || size < sizeof options->size)
-    return;
-  sized_give(options, size, &defaults, sizeof defaults);
-  options->size = size;
+  if (size >= sizeof options->size &&
+      sized_give(options, size, &defaults, sizeof defaults))
+    options->size = size;
 }
 
 /* A number of the options and where it may lie. */
@@ -47,11 +47,22 @@ struct option_range {
 
 static recto_status check_ranges(const struct option_range *range, size_t count,
                                  recto_error *error) {
-  for (size_t i = 0; i < count; i++)
-    if (!(range[i].value >= range[i].least && range[i].value <= range[i].most))
-      return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
-                       "%s is out of range: %g to %g", range[i].name,
-                       range[i].least, range[i].most);
+  for (size_t i = 0; i < count; i++) {
+    double least = range[i].least, most = range[i].most;
+    char words[80];
+    if (range[i].value >= least && range[i].value <= most)
+      continue;
+    if (most < DBL_MAX)
+      snprintf(words, sizeof words, "from %.10g to %.10g", least, most);
+    else
+      snprintf(words, sizeof words,
+               least == -DBL_MAX  ? "finite"
+               : least == DBL_MIN ? "above 0 and finite"
+                                  : "finite, at least %g",
+               least);
+    return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0, "%s must be %s",
+                     range[i].name, words);
+  }
   return RECTO_OK;
 }
 
@@ -63,7 +74,7 @@ static bool is_class(recto_edge_class edge_class) {
 static recto_status refuse_option(const char *what, size_t index,
                                   recto_error *error) {
   return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
-                   "%s %zu is out of range", what, index);
+                   "%s %zu has a field that is out of range", what, index);
 }
 
 /* Whether all reserved fields of a struct are 0. */
@@ -117,7 +128,7 @@ static recto_status check_options(const recto_options *o, recto_error *error) {
       {"the method", o->solver.method, 0, RECTO_METHOD_COUNT - 1},
       {"the number of threads", o->solver.threads, 0, 1024},
       {"the contact length", o->solver.contact, -huge, huge},
-      {"the pitch", o->solver.pitch_mm,
+      {"the pitch of scan lines", o->solver.pitch_mm,
        o->solver.pitch_mm == 0 ? 0 : RECTO_FINEST_MM, huge},
       {"the resolution", o->solver.resolution, 0, 1 << 20},
       {"the kind of camera", o->camera.kind, 0, RECTO_CAMERA_EYE},
@@ -133,7 +144,7 @@ static recto_status check_options(const recto_options *o, recto_error *error) {
       {"the up direction", o->camera.up[1], -huge, huge},
       {"the up direction", o->camera.up[2], -huge, huge},
       {"the field of view", o->camera.fov_deg, 0, 179},
-      {"the way to fit", o->camera.fit, 0, RECTO_FIT_SPHERE},
+      {"the fit", o->camera.fit, 0, RECTO_FIT_SPHERE},
       {"the scale", o->camera.scale, small, huge},
       {"the near distance", o->camera.near_distance, 0, huge},
       {"the section", o->camera.section, -huge, huge},
@@ -142,10 +153,11 @@ static recto_status check_options(const recto_options *o, recto_error *error) {
       {"the margin", o->page.margin_mm, -huge, huge},
       {"the mask of edges", o->ink.edges, 0, RECTO_EDGES_ALL},
       {"the crease angle", o->mesh.crease_deg, 0, 180},
-      {"the way with hidden lines", o->ink.hidden, 0, RECTO_HIDDEN_LAYER},
-      {"the number of layers that hide", o->ink.hidden_by_max, 0, INT_MAX},
+      {"the kind of hidden lines", o->ink.hidden, 0, RECTO_HIDDEN_LAYER},
+      {"the number of faces that hide a line", o->ink.hidden_by_max, 0,
+       INT_MAX},
       {"the kind of fill", o->ink.fill, 0, RECTO_FILL_HATCH},
-      {"the seam", o->ink.seam_mm, 0, 10},
+      {"the width of seams", o->ink.seam_mm, 0, 10},
       {"the hatch pitch", o->ink.hatch_pitch_mm, RECTO_FINEST_MM, huge},
       {"the hatch angle", o->ink.hatch_angle_deg, -huge, huge},
       {"the light", o->ink.light[0], -huge, huge},
@@ -154,14 +166,14 @@ static recto_status check_options(const recto_options *o, recto_error *error) {
       {"the pen width", o->ink.pen_mm, RECTO_FINEST_MM, 100},
       {"the number of pens", o->ink.pens, 1, 1000},
       {"the order", o->ink.order, 0, RECTO_ORDER_AUTO},
-      {"the simplification", o->ink.simplify_mm, 0, huge},
-      {"the shortest stroke", o->ink.min_stroke_mm, -huge, huge},
+      {"the simplification length", o->ink.simplify_mm, 0, huge},
+      {"the length of the shortest stroke", o->ink.min_stroke_mm, -huge, huge},
       {"the precision", o->output.precision, 0, 9},
       {"the resolution of PNG", o->output.dpi, 0, 10000},
       {"the pen speed", o->output.velocity_cm_s, 0, 127},
       {"the speed with the pen up", o->output.velocity_up_cm_s, 0, 1000},
-      {"the way to divide", o->solver.divide, 0, RECTO_DIVIDE_BOX},
-      {"the number of points to verify", o->verify, 0, 10000000},
+      {"the division of windows", o->solver.divide, 0, RECTO_DIVIDE_BOX},
+      {"the number of samples to verify", o->verify, 0, 10000000},
       {"the number of sub-pixels", o->solver.subpixels, 0, 16},
       {"the number of depth bits", o->solver.depth_bits, 0, 32},
       {"the output's unit", o->output.unit_mm, 0, 100},

@@ -419,7 +419,7 @@ recto_status recto_scene_render(const recto_scene *scene,
                                 recto_drawing **drawing, recto_error *error) {
   recto_options own;
   if (drawing == NULL)
-    return error_null(error, "the place for the drawing");
+    return error_null(error, "the drawing");
   *drawing = NULL;
   if (scene == NULL)
     return error_null(error, "the scene");

@@ -49,8 +49,6 @@ bool recto_drawing_layer_sized(const recto_drawing *drawing, size_t index,
                                recto_layer *layer, size_t size) {
   recto_layer own = {.label = ""};
   bool is_there = index < recto_drawing_layer_count(drawing);
-  if (layer == NULL)
-    return false;
   if (is_there) {
     const struct drawing_layer *from = &drawing->drawing.layer.item[index];
     own = (recto_layer){.pen = from->pen,
@@ -58,8 +56,7 @@ bool recto_drawing_layer_sized(const recto_drawing *drawing, size_t index,
                         .colour = from->colour,
                         .width_mm = from->width_mm};
   }
-  sized_give(layer, size, &own, sizeof own);
-  return is_there;
+  return sized_give(layer, size, &own, sizeof own) && is_there;
 }
 
 size_t recto_drawing_group_count(const recto_drawing *drawing) {
@@ -84,8 +81,6 @@ bool recto_drawing_stroke_sized(const recto_drawing *drawing, size_t index,
   recto_stroke own = {
       .face = RECTO_NONE, .edge = RECTO_NONE, .group = RECTO_NONE};
   bool is_there = index < recto_drawing_stroke_count(drawing);
-  if (stroke == NULL)
-    return false;
   if (is_there) {
     const struct drawing_stroke *from = &drawing->drawing.stroke.item[index];
     /* A drawing's point is exactly a pair of doubles. */
@@ -103,8 +98,7 @@ bool recto_drawing_stroke_sized(const recto_drawing *drawing, size_t index,
         .group = from->group,
     };
   }
-  sized_give(stroke, size, &own, sizeof own);
-  return is_there;
+  return sized_give(stroke, size, &own, sizeof own) && is_there;
 }
 
 /* ---- The projection ------------------------------------------------------ */

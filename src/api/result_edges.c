@@ -235,8 +235,6 @@ bool recto_drawing_edge_sized(const recto_drawing *drawing, size_t index,
                     .group = RECTO_NONE,
                     .number = RECTO_NONE};
   bool is_there = index < recto_drawing_edge_count(drawing);
-  if (edge == NULL)
-    return false;
   if (is_there) {
     const struct result_edge *from = &drawing->edge.item[index];
     own =
@@ -248,6 +246,5 @@ bool recto_drawing_edge_sized(const recto_drawing *drawing, size_t index,
                      .intervals = ARRAY_AT(&drawing->interval, from->interval),
                      .interval_count = from->count};
   }
-  sized_give(edge, size, &own, sizeof own);
-  return is_there;
+  return sized_give(edge, size, &own, sizeof own) && is_there;
 }

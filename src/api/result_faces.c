@@ -134,12 +134,9 @@ bool recto_drawing_fragment_sized(const recto_drawing *drawing, size_t index,
                                   recto_fragment *fragment, size_t size) {
   recto_fragment own = {.face = RECTO_NONE, .group = RECTO_NONE};
   bool is_there = index < recto_drawing_fragment_count(drawing);
-  if (fragment == NULL)
-    return false;
   if (is_there)
     own = drawing->fragment.item[index];
-  sized_give(fragment, size, &own, sizeof own);
-  return is_there;
+  return sized_give(fragment, size, &own, sizeof own) && is_there;
 }
 
 const recto_loop *recto_drawing_loops(const recto_drawing *drawing,

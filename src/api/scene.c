@@ -10,7 +10,7 @@
 
 recto_status recto_scene_create(recto_scene **scene, recto_error *error) {
   if (scene == NULL)
-    return error_null(error, "the place for the scene");
+    return error_null(error, "the scene");
   *scene = mem_calloc(1, sizeof **scene);
   if (*scene == NULL)
     return error_memory(error);
@@ -173,7 +173,7 @@ static recto_status check_corners(const recto_scene *scene,
     return error_null(error, scene == NULL ? "the scene" : "the corners");
   if (count < least)
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
-                     "too few corners: %zu, not %zu", count, least);
+                     "%zu corners are fewer than %zu", count, least);
   for (size_t i = 0; i < count; i++)
     if (corner[i] >= scene->scene.point.count)
       return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,

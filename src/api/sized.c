@@ -20,8 +20,11 @@ recto_status sized_take(void *to, size_t to_size, const void *from,
   return RECTO_OK;
 }
 
-void sized_give(void *to, size_t to_size, const void *from, size_t from_size) {
+bool sized_give(void *to, size_t to_size, const void *from, size_t from_size) {
+  if (to == NULL || to_size == 0)
+    return false;
   size_t both = from_size < to_size ? from_size : to_size;
   memcpy(to, from, both);
   memset((unsigned char *)to + both, 0, to_size - both);
+  return true;
 }

@@ -18,8 +18,8 @@ USE_RESULT recto_status sized_take(void *to, size_t to_size, const void *from,
 /* Sets the error of a newer caller. */
 recto_status sized_reject(recto_error *error);
 
-/* Copies the library's struct to the caller's, of which the rest becomes
- * zero. */
-void sized_give(void *to, size_t to_size, const void *from, size_t from_size);
+/* Copies the library's struct to the caller's, of which the rest becomes zero.
+ * Returns false where there is none: `to` is NULL, or its size is 0. */
+bool sized_give(void *to, size_t to_size, const void *from, size_t from_size);
 
 #endif
