@@ -8,6 +8,8 @@
 
 #include <cmocka.h>
 
+#include "ink/lines/segment_graph.h"
+#include "ink/pens.h"
 #include "tests/ink_fixture.h"
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/random.h"
@@ -307,6 +309,64 @@ static void add_hay(struct ink_fixture *k, struct random *random, int count) {
   }
 }
 
+/* The graph of the drawing's lines without overlaps.
+ * apart  isolated segments are set apart meanwhile */
+static struct segment_graph make_graph(struct ink_fixture *k, bool apart) {
+  struct segment_graph graph;
+  struct node_rows rows = {0};
+  struct pens pens;
+  segment_graph_init(&graph);
+  k->map.edge_state = k->state.item;
+  k->map.edge_count = k->state.count;
+  assert_int_equal(pens_init(&pens, &k->scene, &k->options, NULL), RECTO_OK);
+  assert_int_equal(segment_graph_collect(&graph, &k->sheet, &k->map, &pens,
+                                         &k->options, NULL),
+                   RECTO_OK);
+  assert_int_equal(segment_graph_unite(&graph, &rows, NULL), RECTO_OK);
+  if (apart)
+    assert_int_equal(
+        segment_graph_set_isolated_apart(&graph, &rows, UNIT, NULL), RECTO_OK);
+  else
+    graph.crowded = mem_calloc(graph.node.count, sizeof *graph.crowded);
+  assert_int_equal(segment_graph_drop_collinear(&graph, &rows, NULL), RECTO_OK);
+  assert_int_equal(
+      segment_graph_drop_output_overlaps(&graph, &rows, UNIT, NULL), RECTO_OK);
+  assert_true(apart || graph.isolated.count == 0);
+  assert_int_equal(segment_graph_rejoin(&graph, NULL), RECTO_OK);
+  k->map.edge_state = NULL;
+  pens_fini(&pens);
+  node_rows_fini(&rows);
+  return graph;
+}
+
+/* Whatever the share of those that overlap others: what is left is the same. */
+static void isolated_segments_overlap_nothing(void **state) {
+  (void)state;
+  struct random random = {61};
+  for (int round = 0; round < 300; round++) {
+    struct ink_fixture k;
+    int side = round % 2 ? BIG / 400 : 30 * UNIT;
+    start(&k);
+    add_hay(&k, &random, 10);
+    for (int i = 0; i < 120; i++) {
+      int at[4];
+      for (int c = 0; c < 4; c++)
+        at[c] = random_int(&random, -side, side);
+      ink_fixture_line_at(&k, at[0], at[1], at[2], at[3], CREASE);
+    }
+    struct segment_graph one = make_graph(&k, false),
+                         two = make_graph(&k, true);
+    assert_int_equal(one.segment.count, two.segment.count);
+    assert_int_equal(one.doubled, two.doubled);
+    assert_memory_equal(one.segment.item, two.segment.item,
+                        one.segment.count * sizeof *one.segment.item);
+    assert_memory_equal(one.approximate, two.approximate, one.node.count);
+    segment_graph_fini(&one);
+    segment_graph_fini(&two);
+    ink_fixture_end(&k);
+  }
+}
+
 static void
 no_two_sides_of_random_drawings_share_more_than_a_unit(void **state) {
   (void)state;
@@ -437,6 +497,7 @@ int main(void) {
       cmocka_unit_test(what_is_beyond_a_near_line_goes_on_from_it),
       cmocka_unit_test(outlines_near_each_other_are_one_closed_one),
       cmocka_unit_test(with_ids_the_lower_rank_stays),
+      cmocka_unit_test(isolated_segments_overlap_nothing),
       cmocka_unit_test(no_two_sides_of_random_drawings_share_more_than_a_unit),
       cmocka_unit_test(no_ink_is_lost_by_more_than_two_units),
       cmocka_unit_test(thousands_of_near_rings_take_bounded_time),

@@ -32,16 +32,20 @@ static recto_status make_graph(struct ink *ink, struct segment_graph *graph,
                                recto_error *error) {
   struct drawing_counts *counts = &ink->drawing->counts;
   struct node_rows rows = {0};
+  double step = ink->options->output.unit_mm * SHEET_UNITS_PER_MM;
   recto_status status = segment_graph_collect(graph, ink->sheet, ink->map,
                                               ink->pens, ink->options, error);
   counts->segments = graph->segment.count;
   if (status == RECTO_OK)
     status = segment_graph_unite(graph, &rows, error);
   if (status == RECTO_OK)
+    status = segment_graph_set_isolated_apart(graph, &rows, step, error);
+  if (status == RECTO_OK)
     status = segment_graph_drop_collinear(graph, &rows, error);
   if (status == RECTO_OK)
-    status = segment_graph_drop_output_overlaps(
-        graph, &rows, ink->options->output.unit_mm * SHEET_UNITS_PER_MM, error);
+    status = segment_graph_drop_output_overlaps(graph, &rows, step, error);
+  if (status == RECTO_OK)
+    status = segment_graph_rejoin(graph, error);
   node_rows_fini(&rows);
   counts->without_length = graph->dots;
   counts->drawn_twice = graph->doubled;

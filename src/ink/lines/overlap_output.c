@@ -312,9 +312,12 @@ static bool resolve_members(struct output_overlaps *r) {
 
 /* ---- 4 Rebuild ----------------------------------------------------------- */
 
+/* Adds a segment between the nodes that its own were merged into.
+ * rows  to search around it, where it is not what it was before; else NULL */
 static bool add_snapped_segment(struct segment_graph *graph,
                                 const struct vertex_snapping *snapping,
-                                struct graph_segment s, size_t *count) {
+                                const struct node_rows *rows,
+                                struct graph_segment s) {
   uint32_t a = snapping->root[s.node[0]], b = snapping->root[s.node[1]];
   /* Moving an end turns the whole line a little. */
   if (a != s.node[0])
@@ -325,27 +328,47 @@ static bool add_snapped_segment(struct segment_graph *graph,
     return true;
   s.node[0] = a < b ? a : b;
   s.node[1] = a < b ? b : a;
-  if (*count < graph->segment.count) {
-    graph->segment.item[(*count)++] = s;
-    return true;
-  }
-  (*count)++;
-  return ARRAY_PUSH(&graph->segment, s);
+  uint32_t last = (uint32_t)graph->segment.count;
+  if (!ARRAY_PUSH(&graph->segment, s))
+    return false;
+  if (rows != NULL)
+    segment_graph_crowd(graph, rows, snapping->output_step, last);
+  return true;
 }
 
-static bool rebuild(struct output_overlaps *r) {
+static bool has_moved(const struct vertex_snapping *snapping,
+                      const struct graph_segment *s) {
+  return snapping->root[s->node[0]] != s->node[0] ||
+         snapping->root[s->node[1]] != s->node[1];
+}
+
+/* Adds the segments again that are left of those in `segment`, the pieces, and
+ * the isolated ones that have moved or have something near them now. */
+static bool rebuild(struct output_overlaps *r, const struct node_rows *rows) {
   struct segment_graph *graph = r->snapping.graph;
-  size_t old = graph->segment.count, count = 0;
-  for (size_t i = 0; i < old; i++)
-    if (!poll_at(i) || (!r->snapping.gone[i] &&
-                        !add_snapped_segment(graph, &r->snapping,
-                                             graph->segment.item[i], &count)))
+  const struct vertex_snapping *snapping = &r->snapping;
+  struct graph_segments *isolated = &graph->isolated;
+  size_t old = graph->segment.count, kept = 0;
+  graph->segment.count = 0;
+  for (size_t i = 0; i < old; i++) {
+    const struct graph_segment *s = &graph->segment.item[i];
+    if (!poll_at(i) ||
+        (!snapping->gone[i] &&
+         !add_snapped_segment(graph, snapping,
+                              has_moved(snapping, s) ? rows : NULL, *s)))
       return false;
+  }
   for (size_t i = 0; i < r->piece.count; i++)
-    if (!add_snapped_segment(graph, &r->snapping, r->piece.item[i], &count))
+    if (!add_snapped_segment(graph, snapping, rows, r->piece.item[i]))
       return false;
-  graph->segment.count = count;
-  return segment_graph_sort_segments(graph);
+  for (size_t i = 0; i < isolated->count; i++)
+    if (!has_moved(snapping, &isolated->item[i]))
+      isolated->item[kept++] = isolated->item[i];
+    else if (!add_snapped_segment(graph, snapping, rows, isolated->item[i]))
+      return false;
+  isolated->count = kept;
+  return segment_graph_recall_isolated(graph) &&
+         segment_graph_sort_segments(graph);
 }
 
 /* One round; sets *changed if another round may find more. */
@@ -359,7 +382,7 @@ static bool drop_once(struct segment_graph *graph, const struct node_rows *rows,
     ok = resolve_members(&r);
   *changed = r.cut > 0 || r.snapping.gone_count > 0;
   if (ok && *changed)
-    ok = rebuild(&r);
+    ok = rebuild(&r, rows);
   graph->doubled += r.cut + r.snapping.gone_count;
   vertex_snapping_fini(&r.snapping);
   ARRAY_FREE(&r.pair);

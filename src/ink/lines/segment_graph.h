@@ -5,10 +5,14 @@
  *                                       (segments.c)
  *   segment_graph_unite                 nodes at one position are merged
  *                                       (nodes.c)
+ *   segment_graph_set_isolated_apart    segments without any other node near
+ *                                       them take no part in what follows
+ *                                       (isolated.c)
  *   segment_graph_drop_collinear        collinear overlaps are drawn once
  *                                       (overlap_collinear.c)
  *   segment_graph_drop_output_overlaps  overlaps at the output's precision are
  *                                       drawn once (overlap_output.c)
+ *   segment_graph_rejoin                all segments are together again
  * Invariants, from segment_graph_unite on
  *   Two nodes differ in x or in y by more than the tolerance; they are numbered
  *   by position, row by row.
@@ -18,6 +22,8 @@
  *   segments is kept. */
 #ifndef INK_LINES_SEGMENT_GRAPH_H
 #define INK_LINES_SEGMENT_GRAPH_H
+
+#include <stdatomic.h>
 
 #include "base/memory.h"
 #include "visibility/map.h"
@@ -38,11 +44,19 @@ struct graph_segment {
                          equal style keys are preferred */
 };
 
+struct graph_segments {
+  struct graph_segment *item;
+  size_t count, capacity;
+};
+
 struct pens;
 
 struct segment_graph {
   ARRAY(struct ink_point) node;
-  ARRAY(struct graph_segment) segment;
+  struct graph_segments segment;
+  /* Those that were set apart: sorted, not in `segment`. */
+  struct graph_segments isolated;
+  atomic_uchar *crowded; /* one a node: near another segment; NULL: unknown */
   /* The ends at node n: end[end_start[n] .. end_start[n + 1]), ascending;
    * end e is node[e & 1] of segment e >> 1. */
   uint32_t *end_start, *end;
@@ -88,6 +102,30 @@ USE_RESULT recto_status segment_graph_collect(struct segment_graph *graph,
 USE_RESULT recto_status segment_graph_unite(struct segment_graph *graph,
                                             struct node_rows *rows,
                                             recto_error *error);
+
+/* Moves to `isolated` the segments that can overlap no other one: they have no
+ * node near them but their own, and no other segment has one of these near it
+ * or the same ends.
+ * output_step  as of segment_graph_drop_output_overlaps
+ * Errors  RECTO_ERROR_MEMORY
+ * Cost    near linear; the search runs in parallel */
+USE_RESULT recto_status segment_graph_set_isolated_apart(
+    struct segment_graph *graph, const struct node_rows *rows,
+    double output_step, recto_error *error);
+
+/* Marks the nodes near a segment as crowded, except its own; returns whether
+ * there are any. */
+bool segment_graph_crowd(struct segment_graph *graph,
+                         const struct node_rows *rows, int32_t near,
+                         uint32_t segment);
+
+/* Moves isolated segments that have a crowded node back to `segment`, which is
+ * then no longer sorted.  Returns false when memory ran out. */
+USE_RESULT bool segment_graph_recall_isolated(struct segment_graph *graph);
+
+/* Moves all isolated segments back, and indexes the ends. */
+USE_RESULT recto_status segment_graph_rejoin(struct segment_graph *graph,
+                                             recto_error *error);
 
 /* Of collinear segments that overlap, keeps one along the overlap: visible
  * before hidden, then the lower class bit, then the lower edge.  The rest of

@@ -28,6 +28,8 @@ void segment_graph_init(struct segment_graph *graph) {
 void segment_graph_fini(struct segment_graph *graph) {
   ARRAY_FREE(&graph->node);
   ARRAY_FREE(&graph->segment);
+  ARRAY_FREE(&graph->isolated);
+  mem_free(graph->crowded);
   mem_free(graph->end_start);
   mem_free(graph->end);
   mem_free(graph->approximate);
