@@ -29,21 +29,21 @@ check_sources() {
               "cli import", name, " ")
         for (i in name)
           layer[name[i]] = i - 1
-        place("visibility", 1, "predicate")
-        place("visibility", 2, "index")
-        place("visibility", 3, "culling intersection fragments")
-        place("visibility", 4, "pairwise scan")
-        place("visibility", 5, "raster")
-        place("visibility", 6, "brute newell scanline_zbuffer tiles warnock " \
+        set_floor("visibility", 1, "predicate")
+        set_floor("visibility", 2, "index")
+        set_floor("visibility", 3, "culling intersection fragments")
+        set_floor("visibility", 4, "pairwise scan")
+        set_floor("visibility", 5, "raster")
+        set_floor("visibility", 6, "brute newell scanline_zbuffer tiles warnock " \
               "watkins zbuffer")
-        place("ink", 1, "lines")
-        place("ink", 2, "fill order")
-        place("ink", 3, "hatch")
+        set_floor("ink", 1, "lines")
+        set_floor("ink", 2, "fill order")
+        set_floor("ink", 3, "hatch")
       }
-      function place(of, level, rooms, i, room, count) {
-        count = split(rooms, room, " ")
+      function set_floor(of, level, folders, i, name, count) {
+        count = split(folders, name, " ")
         for (i = 1; i <= count; i++)
-          floor[of "/" room[i]] = level
+          floor[of "/" name[i]] = level
       }
       # "src/view/sheet.c" -> "view", "backends/writer.c" -> "backends"
       function folder(path) {
@@ -53,10 +53,17 @@ check_sources() {
       }
       # "src/visibility/watkins/pitch/watkins.c" -> "visibility/watkins"; "" for
       # what lies in the layer itself.
-      function room(path, part, count) {
+      function subfolder(path, part, count) {
         sub(/^src\//, "", path)
         count = split(path, part, "/")
         return count > 2 ? part[1] "/" part[2] : ""
+      }
+      # Whether two files lie in different folders of one subfolder, as those of
+      # watkins/pitch and watkins/exact do.
+      function is_beside(path, other, part, others) {
+        sub(/^src\//, "", path)
+        return split(path, part, "/") > 3 && split(other, others, "/") > 3 &&
+               part[2] == others[2] && part[3] != others[3]
       }
       function noun(path) {
         sub(/.*\//, "", path)
@@ -87,8 +94,8 @@ check_sources() {
         included = ""
         if (index($0, "/* " noun(file) substr(file, length(file) - 1) " - ") != 1)
           wrong("does not open with its job")
-        if ((from == "visibility" || from == "ink") && room(file) != "" &&
-            !(room(file) in floor))
+        if ((from == "visibility" || from == "ink") && subfolder(file) != "" &&
+            !(subfolder(file) in floor))
           wrong("its folder has no floor")
       }
       /^ *# *include *"/ {
@@ -115,10 +122,12 @@ check_sources() {
         else if (member(included) != "" && member(included) != member(file))
           wrong("readers and writers do not know each other")
         else if (from == to && (from == "visibility" || from == "ink") &&
-                 goes_up(room(file), room(included)))
+                 goes_up(subfolder(file), subfolder(included)))
           wrong("a folder that is not below")
+        else if (from == to && is_beside(file, included))
+          wrong("a folder beside it")
         else if (from != to && (to == "visibility" || to == "ink") &&
-                 room(included) != "")
+                 subfolder(included) != "")
           wrong("a folder that is the own affair of its layer")
       }')
 }
@@ -297,6 +306,7 @@ src/base/memory.c|#include "geom/ratio.h"
 src/scene/scene.c|#include "view/sheet.h"
 src/visibility/map.c|  #  include "ink/ink.h"
 src/visibility/newell/newell.c|#include "visibility/watkins/pitch/watkins.h"
+src/visibility/watkins/pitch/watkins.c|#include "visibility/watkins/exact/sweep.h"
 src/visibility/brute/brute.c|#include "visibility/newell/newell_order.h"
 src/visibility/zbuffer/zbuffer.c|#include "visibility/scanline_zbuffer/scanline_zbuffer.h"
 src/visibility/intersection/intersection.c|#include "visibility/newell/newell_order.h"

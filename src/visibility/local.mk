@@ -66,7 +66,8 @@ librecto_core_la_SOURCES += \
   %D%/watkins/exact/sweep_edges.c \
   %D%/watkins/exact/sweep_events.c \
   %D%/watkins/exact/trapezoid_cells.c %D%/watkins/exact/trapezoid_cells.h \
-  %D%/watkins/exact/watkins_exact.c %D%/watkins/exact/watkins_exact.h \
+  %D%/watkins/watkins_solver.c %D%/watkins/watkins_solver.h \
+  %D%/watkins/exact/watkins_exact.c \
   %D%/watkins/pitch/watkins.c %D%/watkins/pitch/watkins.h \
   %D%/watkins/pitch/watkins_edge_table.c \
   %D%/watkins/pitch/watkins_interval.c \

@@ -8,7 +8,7 @@
  * Fragments  see trapezoid_cells.c: trapezoids, each with the triangle visible
  *            in it, are united by fragments.h.
  */
-#include "visibility/watkins/exact/watkins_exact.h"
+#include "visibility/watkins/watkins_solver.h"
 
 #include <string.h>
 

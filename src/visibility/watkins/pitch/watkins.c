@@ -1,23 +1,21 @@
-/* watkins.c - Watkins' scan-line method at a pitch, and its solver.
+/* watkins.c - Watkins' scan-line method at a pitch.
  *
- * At a pitch
- *   Phases   The facets' edges are sorted into S by their first line.  Line by
- *            line from the top they become active (A) and divide the line into
- *            sample intervals; in each the visible facet is decided
- *            (watkins_interval.c).  Visible facets make spans, and spans of
- *            neighbouring lines between the same edges make trapezoids
- *            (trapezoids.h).  The ends of intervals make intervals: an edge
- *            that is drawn on one line and on the next is drawn in between.
- *   Strokes  A line represents half a pitch up and down, and an edge that ends
- *            between two lines is drawn to its end.  Nearly horizontal edges,
- *            wires and intersections of faces are sampled on the lines above
- *            and below (edge_sampling.h).
- *   Cost     Linear in the sum of the edges' lines and in the intervals; memory
- *            linear in the scene and the visible spans.
- * Without a pitch: watkins_exact.c.
+ * Phases   The facets' edges are sorted into S by their first line.  Line by
+ *          line from the top they become active (A) and divide the line into
+ *          sample intervals; in each the visible facet is decided
+ *          (watkins_interval.c).  Visible facets make spans, and spans of
+ *          neighbouring lines between the same edges make trapezoids
+ *          (trapezoids.h).  The ends of intervals make intervals: an edge
+ *          that is drawn on one line and on the next is drawn in between.
+ * Strokes  A line represents half a pitch up and down, and an edge that ends
+ *          between two lines is drawn to its end.  Nearly horizontal edges,
+ *          wires and intersections of faces are sampled on the lines above
+ *          and below (edge_sampling.h).
+ * Cost     Linear in the sum of the edges' lines and in the intervals; memory
+ *          linear in the scene and the visible spans.
  *
- * Source  [Watkins1970]; [Romney1969] for coherence; [Archuleta1972] for
- *         intervals; [Rogers1985] ch. 4.
+ * Source   [Watkins1970]; [Romney1969] for coherence; [Archuleta1972] for
+ *          intervals; [Rogers1985] ch. 4.
  */
 #include "visibility/watkins/pitch/watkins.h"
 
@@ -25,7 +23,7 @@
 #include <string.h>
 
 #include "base/sort.h"
-#include "visibility/watkins/exact/watkins_exact.h"
+#include "visibility/watkins/watkins_solver.h"
 
 #define OPEN_NONE (-1)
 
@@ -304,14 +302,17 @@ static recto_status run_scan(struct scan *scan, const struct sheet *sheet,
   return RECTO_OK;
 }
 
-static recto_status scan_lines(const struct sheet *sheet,
-                               const struct solver_request *request,
-                               struct map *map, struct report *report,
-                               recto_error *error) {
+recto_status watkins_solve_at_pitch(struct sheet *sheet,
+                                    const struct solver_request *request,
+                                    struct map *map, struct report *report,
+                                    recto_error *error) {
   struct scan scan;
   struct facets facets = {0};
   struct scan_grid grid;
-  recto_status status = watkins_grid(&grid, sheet, request->pitch_mm, error);
+  recto_status status =
+      edge_sampling_find_intersections(sheet, request, report, error);
+  if (status == RECTO_OK)
+    status = watkins_grid(&grid, sheet, request->pitch_mm, error);
   if (status != RECTO_OK)
     return status;
   memset(&scan, 0, sizeof scan);
@@ -329,19 +330,3 @@ static recto_status scan_lines(const struct sheet *sheet,
   facets_fini(&facets);
   return status;
 }
-
-static recto_status solve_watkins(struct sheet *sheet,
-                                  const struct solver_request *request,
-                                  struct map *map, struct report *report,
-                                  recto_error *error) {
-  recto_status status;
-  if (request->pitch_mm == 0)
-    return watkins_solve_exactly(sheet, request, map, report, error);
-  status = edge_sampling_find_intersections(sheet, request, report, error);
-  if (status == RECTO_OK)
-    status = scan_lines(sheet, request, map, report, error);
-  return status;
-}
-
-const struct solver solver_watkins = {RECTO_METHOD_WATKINS, "watkins",
-                                      solve_watkins};
