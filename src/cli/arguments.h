@@ -55,9 +55,9 @@ enum option_kind {
   OPTION_INT,     /* an int in [least, most] */
   OPTION_VECTOR,  /* a double[3]; not 0,0,0 where `least` is above 0 */
   OPTION_WORD,    /* an enumerator, by its index in `words`, or by `word` */
-  OPTION_LIST,    /* NAME=VALUE,..., each taken by `take_item`, or `words`, if
+  OPTION_LIST,    /* NAME=VALUE,..., each parsed by `parse_item`, or `words`, if
                      any, for an empty list; repeated, it adds to the list */
-  OPTION_TAKE,    /* parsed by `take` */
+  OPTION_PARSED,  /* parsed by `parse` */
   OPTION_ABSENT   /* known, but not available in this build */
 };
 
@@ -109,9 +109,9 @@ struct option_entry {
   double least, most;
   const char *words; /* that its value may be, also for completion */
   word_fn *word;     /* more such words */
-  bool (*take)(struct arguments *arguments, const char *text);
-  recto_status (*take_item)(struct arguments *arguments, const char *name,
-                            const char *value);
+  bool (*parse)(struct arguments *arguments, const char *text);
+  recto_status (*parse_item)(struct arguments *arguments, const char *name,
+                             const char *value);
   /* The conditions under which the option has an effect: all of them. */
   enum option_use use[OPTION_USES];
 };

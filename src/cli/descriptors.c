@@ -8,7 +8,7 @@
 
 /* Each descriptor is opened in the wrong mode (standard input for writing, the
  * others for reading), so that its use fails. */
-static bool reserve(int number) {
+static bool reserve_descriptor(int number) {
   if (fcntl(number, F_GETFD) != -1 || errno != EBADF)
     return true;
   int opened = open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY);
@@ -17,6 +17,6 @@ static bool reserve(int number) {
 }
 
 bool descriptors_reserve(void) {
-  return reserve(STDIN_FILENO) && reserve(STDOUT_FILENO) &&
-         reserve(STDERR_FILENO);
+  return reserve_descriptor(STDIN_FILENO) &&
+         reserve_descriptor(STDOUT_FILENO) && reserve_descriptor(STDERR_FILENO);
 }

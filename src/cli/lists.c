@@ -116,8 +116,8 @@ static bool refuse_item(const struct option_entry *entry, const char *item,
   return false;
 }
 
-bool lists_take(struct arguments *arguments, const struct option_entry *entry,
-                char *list, char message[MESSAGE_SIZE]) {
+bool lists_parse(struct arguments *arguments, const struct option_entry *entry,
+                 char *list, char message[MESSAGE_SIZE]) {
   if (entry->words != NULL && strcmp(list, entry->words) == 0) {
     arguments->options.ink.weight_count = 0;
     return true;
@@ -138,7 +138,7 @@ bool lists_take(struct arguments *arguments, const struct option_entry *entry,
                entry->name, name, other, name, value);
       return false;
     }
-    recto_status status = entry->take_item(arguments, name, value);
+    recto_status status = entry->parse_item(arguments, name, value);
     if (status == RECTO_ERROR_MEMORY) {
       snprintf(message, MESSAGE_SIZE, "out of memory");
       return false;

@@ -8,8 +8,8 @@
 /* Takes the items NAME=VALUE of an option's list; a name has one value in it.
  * list     is cut into names and values, to which the arguments refer
  * message  set to the error where false is returned */
-bool lists_take(struct arguments *arguments, const struct option_entry *entry,
-                char *list, char message[MESSAGE_SIZE]);
+bool lists_parse(struct arguments *arguments, const struct option_entry *entry,
+                 char *list, char message[MESSAGE_SIZE]);
 
 /* Each takes an item.  Returns RECTO_ERROR_ARGUMENT where it is not valid. */
 recto_status lists_add_pen_use(struct arguments *arguments, const char *name,

@@ -54,7 +54,7 @@ static size_t read_character(const unsigned char *text, uint32_t *code) {
 
 /* Control characters, also those from 0x80 on; separators of lines; and what
  * turns the direction of the text around it. */
-static bool is_obeyed(uint32_t code) {
+static bool is_control(uint32_t code) {
   return code < 0x20 || (code >= 0x7f && code < 0xa0) ||
          (code >= 0x2028 && code <= 0x202e) ||
          (code >= 0x2066 && code <= 0x2069);
@@ -68,12 +68,12 @@ static void put_escaped(struct message_line *line, unsigned char byte) {
   add_bytes(line, escape, (size_t)length);
 }
 
-static void put_visibly(struct message_line *line, const char *text) {
+static void put_escaped_text(struct message_line *line, const char *text) {
   while (*text != '\0') {
     const unsigned char *at = (const unsigned char *)text;
     uint32_t code;
     size_t length = read_character(at, &code);
-    if (length > 0 && !is_obeyed(code)) {
+    if (length > 0 && !is_control(code)) {
       add_bytes(line, text, length);
     } else {
       length = length > 0 ? length : 1;
@@ -88,7 +88,7 @@ void message_print(const char *file, unsigned long line, const char *text) {
   struct message_line whole = {.length = 0};
   char number[32];
   add_bytes(&whole, "recto: ", 7);
-  put_visibly(&whole, file);
+  put_escaped_text(&whole, file);
   if (file[0] != '\0')
     add_bytes(&whole, ":", 1);
   if (line != 0)
@@ -96,7 +96,7 @@ void message_print(const char *file, unsigned long line, const char *text) {
               (size_t)snprintf(number, sizeof number, "%lu:", line));
   if (file[0] != '\0' || line != 0)
     add_bytes(&whole, " ", 1);
-  put_visibly(&whole, text);
+  put_escaped_text(&whole, text);
   add_bytes(&whole, "\n", 1);
   progress_hide();
   flush_line(&whole);

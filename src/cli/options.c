@@ -35,7 +35,7 @@ const char *name_edge_class(size_t index) {
 
 /* ---- Options with their own syntax --------------------------------------- */
 
-static bool take_view(struct arguments *arguments, const char *text) {
+static bool parse_view(struct arguments *arguments, const char *text) {
   struct named_view view;
   for (size_t i = 0; (view.name = recto_view_name(i, &view.azimuth_deg,
                                                   &view.elevation_deg)) != NULL;
@@ -51,29 +51,29 @@ static bool take_view(struct arguments *arguments, const char *text) {
   return false;
 }
 
-static bool take_fit(struct arguments *arguments, const char *text) {
+static bool parse_fit(struct arguments *arguments, const char *text) {
   (void)text;
   arguments->options.camera.fit = RECTO_FIT_PAGE;
   return true;
 }
 
-static bool take_no_fit(struct arguments *arguments, const char *text) {
+static bool parse_no_fit(struct arguments *arguments, const char *text) {
   (void)text;
   arguments->options.camera.fit = RECTO_FIT_NONE;
   return true;
 }
 
-static bool take_scale(struct arguments *arguments, const char *text) {
+static bool parse_scale(struct arguments *arguments, const char *text) {
   arguments->options.camera.fit = RECTO_FIT_SCALE;
   return value_scale(text, &arguments->options.camera.scale);
 }
 
-static bool take_page(struct arguments *arguments, const char *text) {
+static bool parse_page(struct arguments *arguments, const char *text) {
   return value_page(text, &arguments->options.page.width_mm,
                     &arguments->options.page.height_mm);
 }
 
-static bool take_depth_bits(struct arguments *arguments, const char *text) {
+static bool parse_depth_bits(struct arguments *arguments, const char *text) {
   static const struct {
     const char *word;
     int bits; /* 0: float64 */
@@ -87,7 +87,7 @@ static bool take_depth_bits(struct arguments *arguments, const char *text) {
 }
 
 /* 0: no pitch at all, which also is the default. */
-static bool take_pitch(struct arguments *arguments, const char *text) {
+static bool parse_pitch(struct arguments *arguments, const char *text) {
   double mm = 0;
   if (strcmp(text, "exact") != 0 &&
       !(value_length(text, &mm) && mm >= RECTO_FINEST_MM))
@@ -96,12 +96,12 @@ static bool take_pitch(struct arguments *arguments, const char *text) {
   return true;
 }
 
-static bool take_edges(struct arguments *arguments, const char *text) {
+static bool parse_edges(struct arguments *arguments, const char *text) {
   return value_edges(text, &arguments->options.ink.edges);
 }
 
 /* HOW, HOW,N or N, which is dashed,N. */
-static bool take_hidden(struct arguments *arguments, const char *text) {
+static bool parse_hidden(struct arguments *arguments, const char *text) {
   static const char *const word[] = {"none", "dashed", "layer"};
   size_t length = strcspn(text, ",");
   const char *number = text[length] == ',' ? text + length + 1 : NULL;
@@ -121,17 +121,17 @@ static bool take_hidden(struct arguments *arguments, const char *text) {
   return true;
 }
 
-static bool take_path(struct arguments *arguments, const char *text) {
+static bool parse_path(struct arguments *arguments, const char *text) {
   arguments->options.output.polyline = strcmp(text, "polyline") == 0;
   return arguments->options.output.polyline || strcmp(text, "path") == 0;
 }
 
-static bool take_tolerance(struct arguments *arguments, const char *text) {
+static bool parse_tolerance(struct arguments *arguments, const char *text) {
   return value_tolerance(text, &arguments->tolerance_mm,
                          &arguments->tolerance_share);
 }
 
-static bool take_verify(struct arguments *arguments, const char *text) {
+static bool parse_verify(struct arguments *arguments, const char *text) {
   const int usual = 4000;
   arguments->options.verify = usual;
   return text == NULL || (value_int(text, &arguments->options.verify) &&
@@ -165,10 +165,10 @@ const struct option_entry option_table[] = {
     {OPTION_NUMBER, "weld", 0, "LENGTH", "a number, 0 or more",
      "corners no farther apart are one, in model units",
      .offset = AT(options.mesh.weld), .least = 0, .most = DBL_MAX},
-    {OPTION_TAKE, "pitch", 0, "LENGTH",
+    {OPTION_PARSED, "pitch", 0, "LENGTH",
      "a length of at least 0.01 mm, or exact",
-     "watkins: between its scan lines, or exact (default)", .take = take_pitch,
-     .words = "exact", .use = {USED_BY_WATKINS}},
+     "watkins: between its scan lines, or exact (default)",
+     .parse = parse_pitch, .words = "exact", .use = {USED_BY_WATKINS}},
     {OPTION_INT, "resolution", 0, "N", "a number from 1 to 65536",
      "lines of pixels: z-buffers, warnock if asked",
      .offset = AT(options.solver.resolution), .least = 1, .most = 65536,
@@ -177,9 +177,9 @@ const struct option_entry option_table[] = {
      "warnock: cut windows in four (default) box",
      .offset = AT(options.solver.divide), .words = "four box",
      .use = {USED_BY_WARNOCK}},
-    {OPTION_TAKE, "depth-bits", 0, "B", "16, 24, 32 or 64",
+    {OPTION_PARSED, "depth-bits", 0, "B", "16, 24, 32 or 64",
      "z-buffers: 16 24 32, or 64 for doubles (default)",
-     .take = take_depth_bits, .words = "16 24 32 64",
+     .parse = parse_depth_bits, .words = "16 24 32 64",
      .use = {USED_BY_ZBUFFERS}},
     {OPTION_INT, "subpixels", 0, "K", "a number from 1 to 16",
      "in pixels: average K x K in each (1)",
@@ -190,10 +190,10 @@ const struct option_entry option_table[] = {
      .offset = AT(options.solver.remove_backs), .use = {USED_BY_PIXELS}},
 
     HEADING("Camera"),
-    {OPTION_TAKE, "view", 0, "NAME",
+    {OPTION_PARSED, "view", 0, "NAME",
      "iso, front, back, left, right, top, bottom, dimetric or trimetric",
      "iso (default) front back left right top bottom", .given = AT(view_given),
-     .take = take_view, .word = name_view},
+     .parse = parse_view, .word = name_view},
     {OPTION_INT, "turntable", 0, "N", "a number from 1 to 100000",
      "N drawings all around, to files such as a%03d.svg",
      .offset = AT(turntable), .least = 1, .most = 100000,
@@ -220,12 +220,12 @@ const struct option_entry option_table[] = {
      .least = DBL_TRUE_MIN, .most = 179, .use = {USED_BY_FOV}},
     {OPTION_FLAG, "ortho", 0, NULL, NULL,
      "no perspective (default with --view)", .offset = AT(ortho)},
-    {OPTION_TAKE, "fit", 0, NULL, NULL,
-     "fill the page inside the margins (default)", .take = take_fit},
-    {OPTION_TAKE, "no-fit", 0, NULL, NULL,
-     "--fov spans the height inside the margins", .take = take_no_fit},
-    {OPTION_TAKE, "scale", 0, "A:B", "a scale such as 1:2",
-     "A mm of page for B model units", .take = take_scale,
+    {OPTION_PARSED, "fit", 0, NULL, NULL,
+     "fill the page inside the margins (default)", .parse = parse_fit},
+    {OPTION_PARSED, "no-fit", 0, NULL, NULL,
+     "--fov spans the height inside the margins", .parse = parse_no_fit},
+    {OPTION_PARSED, "scale", 0, "A:B", "a scale such as 1:2",
+     "A mm of page for B model units", .parse = parse_scale,
      .use = {USED_BY_SCALE}},
     {OPTION_NUMBER, "near", 0, "D", "a distance above 0",
      "draw nothing nearer than this, in model units",
@@ -238,10 +238,10 @@ const struct option_entry option_table[] = {
      .most = DBL_MAX},
 
     HEADING("Page (lengths take mm, cm, in, pt; mm where nothing is said)"),
-    {OPTION_TAKE, "page", 'p', "SIZE",
+    {OPTION_PARSED, "page", 'p', "SIZE",
      "A0 to A6, letter, legal or a size such as 200x100mm",
-     "A0 to A6, letter, legal, WxH (A4)", .take = take_page, .word = name_page,
-     .use = {USED_BY_DRAWING}},
+     "A0 to A6, letter, legal, WxH (A4)", .parse = parse_page,
+     .word = name_page, .use = {USED_BY_DRAWING}},
     {OPTION_FLAG, "landscape", 0, NULL, NULL, "the page's long side lies",
      .offset = AT(landscape), .use = {USED_BY_DRAWING}},
     {OPTION_LENGTH, "margin", 0, "LENGTH", "a length, 0 or more",
@@ -249,18 +249,18 @@ const struct option_entry option_table[] = {
      .offset = AT(options.page.margin_mm), .least = 0, .most = DBL_MAX},
 
     HEADING("Ink"),
-    {OPTION_TAKE, "edges", 'e', "LIST",
+    {OPTION_PARSED, "edges", 'e', "LIST",
      "all, none, or a list of silhouette, border, crease, group, "
      "intersection, wire and smooth",
-     "classes to draw (see below)", .take = take_edges, .words = "all none",
+     "classes to draw (see below)", .parse = parse_edges, .words = "all none",
      .word = name_edge_class},
     {OPTION_NUMBER, "crease", 0, "DEG", "an angle from 0 to 180",
      "faces that meet at more make a crease (30)",
      .offset = AT(options.mesh.crease_deg), .least = 0, .most = 180,
      .use = {USED_BY_CREASE}},
-    {OPTION_TAKE, "hidden", 0, "HOW[,N]",
+    {OPTION_PARSED, "hidden", 0, "HOW[,N]",
      "none, dashed or layer, with ,N or not, or N above 0",
-     "none (default) dashed layer; N: behind N at most", .take = take_hidden,
+     "none (default) dashed layer; N: behind N at most", .parse = parse_hidden,
      .words = "none dashed layer", .use = {USED_BY_LINES}},
     {OPTION_WORD, "fill", 0, "HOW", "none, paint, shade or hatch",
      "faces: none (default) paint shade hatch", .offset = AT(options.ink.fill),
@@ -292,20 +292,20 @@ const struct option_entry option_table[] = {
     {OPTION_LIST, "pen-for", 0, "LIST",
      "names and their pens, 1 to 1000, such as crease=2",
      "silhouette=2,hidden=3,hatch=4,GROUP=5: their pens",
-     .take_item = lists_add_pen_use, .use = {USED_BY_STROKES}},
+     .parse_item = lists_add_pen_use, .use = {USED_BY_STROKES}},
     {OPTION_LIST, "pen-width", 0, "LIST",
      "pens and their widths, 0.01 to 100 mm, such as 2=0.5mm",
-     "2=0.5mm,3=0.7: widths of pens (--pen)", .take_item = lists_set_width,
+     "2=0.5mm,3=0.7: widths of pens (--pen)", .parse_item = lists_set_width,
      .use = {USED_BY_STROKES_AND_CHECK}},
     {OPTION_LIST, "pen-colour", 0, "LIST",
      "pens and their colours, such as 2=#c00 or 2=#cc0000",
-     "2=#c00,3=00ff00: colours of pens (black)", .take_item = lists_set_colour,
+     "2=#c00,3=00ff00: colours of pens (black)", .parse_item = lists_set_colour,
      .use = {USED_BY_STROKES, USED_BY_SCREENS}},
     {OPTION_LIST, "weights", 0, "LIST",
      "classes and their weights, 0.01 to 100, such as crease=2, or none",
      "widths of classes in pens (silhouette=2,border=2)",
      .given = AT(options.ink.has_weights), .words = "none",
-     .take_item = lists_set_weight, .use = {USED_BY_LINES, USED_BY_SCREENS}},
+     .parse_item = lists_set_weight, .use = {USED_BY_LINES, USED_BY_SCREENS}},
     {OPTION_WORD, "order", 0, "HOW", "none or near",
      "near (default for HPGL): short ways with the pen up",
      .offset = AT(options.ink.order), .words = "none near",
@@ -327,8 +327,8 @@ const struct option_entry option_table[] = {
      "SVG: decimals of a millimetre (3)",
      .offset = AT(options.output.precision), .least = 0, .most = 9,
      .use = {USED_BY_SVG}},
-    {OPTION_TAKE, "path", 0, "HOW", "path or polyline",
-     "SVG: path (default) or polyline elements", .take = take_path,
+    {OPTION_PARSED, "path", 0, "HOW", "path or polyline",
+     "SVG: path (default) or polyline elements", .parse = parse_path,
      .words = "path polyline", .use = {USED_BY_SVG}},
     {OPTION_TEXT, "device", 0, "NAME", "a plotter",
      "HPGL: generic (default) drum hp7475a hp7550a dxy",
@@ -357,14 +357,15 @@ const struct option_entry option_table[] = {
     {OPTION_TEXT, "stats", 0, "[=FILE]", "a file",
      "counts, times and choices as JSON", .offset = AT(stats_file),
      .given = AT(stats)},
-    {OPTION_TAKE, "verify", 0, "[=N]", "a number from 1 to 10000000",
+    {OPTION_PARSED, "verify", 0, "[=N]", "a number from 1 to 10000000",
      "ask a ray caster about N points, 4000; fail if wrong",
-     .take = take_verify},
+     .parse = parse_verify},
     {OPTION_TEXT, "check", 0, "FILE", "a file",
      "judge this SVG drawing of the model", .offset = AT(check_file)},
-    {OPTION_TAKE, "tolerance", 0, "LENGTH", "a length or a share such as 0.5%",
-     "--check: so much false, or missing, is right (0)", .take = take_tolerance,
-     .use = {USED_BY_CHECK}},
+    {OPTION_PARSED, "tolerance", 0, "LENGTH",
+     "a length or a share such as 0.5%",
+     "--check: so much false, or missing, is right (0)",
+     .parse = parse_tolerance, .use = {USED_BY_CHECK}},
     {OPTION_INT, "threads", 0, "N", "a number from 1 to 1024",
      "at most so many threads (all there are)",
      .offset = AT(options.solver.threads), .least = 1, .most = 1024,

@@ -102,8 +102,8 @@ static bool store_value(struct arguments *arguments,
       return false;
     *(unsigned *)to = (unsigned)integer; /* as an enumeration is */
     return true;
-  case OPTION_TAKE:
-    return entry->take(arguments, text);
+  case OPTION_PARSED:
+    return entry->parse(arguments, text);
   case OPTION_LIST:
   case OPTION_HEADING:
   case OPTION_ABSENT:
@@ -112,21 +112,21 @@ static bool store_value(struct arguments *arguments,
   return false;
 }
 
-static void say_absent(const struct option_entry *entry,
-                       char message[MESSAGE_SIZE]) {
+static void explain_absent(const struct option_entry *entry,
+                           char message[MESSAGE_SIZE]) {
   snprintf(message, MESSAGE_SIZE, "--%s is not available in this build",
            entry->name);
 }
 
-static bool take_option(struct arguments *arguments,
-                        const struct option_entry *entry, char *text,
-                        char message[MESSAGE_SIZE]) {
+static bool parse_option(struct arguments *arguments,
+                         const struct option_entry *entry, char *text,
+                         char message[MESSAGE_SIZE]) {
   if (entry->kind == OPTION_ABSENT) {
-    say_absent(entry, message);
+    explain_absent(entry, message);
     return false;
   }
   if (entry->kind == OPTION_LIST) {
-    if (!lists_take(arguments, entry, text, message))
+    if (!lists_parse(arguments, entry, text, message))
       return false;
   } else if (!store_value(arguments, entry, text)) {
     snprintf(message, MESSAGE_SIZE, "--%s: expected %s, not \"%.60s\"",
@@ -144,7 +144,7 @@ static void explain_getopt_error(int code, char **argv,
                                  char message[MESSAGE_SIZE]) {
   const struct option_entry *entry = find_entry(optopt);
   if (entry != NULL && entry->kind == OPTION_ABSENT)
-    say_absent(entry, message);
+    explain_absent(entry, message);
   else if (code == ':')
     snprintf(message, MESSAGE_SIZE, "--%s: expected %s", entry->name,
              entry->expected != NULL ? entry->expected : "a value");
@@ -254,7 +254,7 @@ bool arguments_parse(struct arguments *arguments, int argc, char **argv,
       explain_getopt_error(code, argv, message);
       return false;
     }
-    if (!take_option(arguments, find_entry(code), optarg, message))
+    if (!parse_option(arguments, find_entry(code), optarg, message))
       return false;
   }
   arguments->model = argv + optind;

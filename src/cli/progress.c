@@ -70,7 +70,7 @@ static int count_columns(void) {
 
 /* The time left, from what the work had taken when the share was last heard of;
  * "" where that says little yet, or is over. */
-static void say_left(char text[24], double passed_s) {
+static void format_time_left(char text[24], double passed_s) {
   const double least_share = 0.03, most_s = 360000;
   text[0] = '\0';
   if (now.share < least_share)
@@ -90,7 +90,7 @@ static void draw_bar(double passed_s) {
   int columns = count_columns();
   if (columns < LEAST_COLUMNS || tcgetpgrp(STDERR_FILENO) != getpgrp())
     return;
-  say_left(left, passed_s);
+  format_time_left(left, passed_s);
   int percent = (int)(now.share * 100);
   int width = columns - (int)strlen(left) - 5 - 11 - 3;
   int length;

@@ -131,8 +131,8 @@ static recto_status print_verdict(const recto_verdict *v, recto_error *error) {
 }
 
 /* Whether a length of false or missing lines is within the tolerance. */
-static bool is_tolerable(const struct arguments *arguments, double part_mm,
-                         double whole_mm) {
+static bool is_within_tolerance(const struct arguments *arguments,
+                                double part_mm, double whole_mm) {
   return part_mm <=
          fmax(arguments->tolerance_mm, arguments->tolerance_share * whole_mm);
 }
@@ -151,8 +151,9 @@ static recto_status check_drawing(const struct arguments *arguments,
   progress_end();
   if (status != RECTO_OK)
     return status;
-  *is_right = is_tolerable(arguments, verdict.false_mm, verdict.drawn_mm) &&
-              is_tolerable(arguments, verdict.missing_mm, verdict.visible_mm);
+  *is_right =
+      is_within_tolerance(arguments, verdict.false_mm, verdict.drawn_mm) &&
+      is_within_tolerance(arguments, verdict.missing_mm, verdict.visible_mm);
   return print_verdict(&verdict, error);
 }
 

@@ -16,13 +16,14 @@ enum { CAUGHT = sizeof caught / sizeof caught[0] };
 
 static volatile sig_atomic_t arrived; /* the first; 0: none */
 
-static void note(int number) {
+static void record_signal(int number) {
   if (arrived == 0)
     arrived = number;
 }
 
 void signals_catch(void) {
-  struct sigaction action = {.sa_handler = note, .sa_flags = (int)SA_RESETHAND};
+  struct sigaction action = {.sa_handler = record_signal,
+                             .sa_flags = (int)SA_RESETHAND};
   struct sigaction before;
   sigemptyset(&action.sa_mask);
   for (int i = 0; i < CAUGHT; i++)
