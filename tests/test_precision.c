@@ -349,7 +349,7 @@ static void a_failed_read_leaves_the_ranges(void **state) {
   scene_snapshot(&reading.scene, &mark);
   add_file(&reading, &reader_obj, "v 1.234567 0 0\nv 2 0 0\n");
   assert_int_equal(reading.scene.precision.count, 2);
-  scene_return(&reading.scene, &mark);
+  scene_restore(&reading.scene, &mark);
   assert_int_equal(reading.scene.precision.count, 1);
   add_file(&reading, &reader_obj, "v 1 0 0\nv 2 0 0\n");
   assert_precision(scene_point_precision(&reading.scene, 3, unstated), 0, 0);

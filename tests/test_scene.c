@@ -448,14 +448,14 @@ static void a_snapshot_restores_the_scene(void **state) {
     POLYGON(r, {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}});
     assert_int_equal(scene_add_wire(&r->scene, line, 2, 1, NULL, NULL),
                      RECTO_OK);
-    scene_return(&r->scene, &mark);
+    scene_restore(&r->scene, &mark);
     assert_null(reading_fault(&r->scene));
     assert_int_equal(r->scene.point.count, 3);
     assert_int_equal(scene_face_count(&r->scene), 1);
     assert_int_equal(scene_wire_count(&r->scene), 0);
     assert_int_equal(r->scene.group.count, 1);
     assert_int_equal(r->scene.current_group, 0);
-    scene_return(&r->scene, &empty);
+    scene_restore(&r->scene, &empty);
     reading_init(&fresh);
     assert_true(reading_same(&r->scene, &fresh.scene));
     reading_fini(&fresh);

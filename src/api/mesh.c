@@ -155,7 +155,7 @@ recto_status recto_scene_add_mesh_sized(recto_scene *scene,
   if (status == RECTO_OK)
     status = add_faces(&scene->scene, &own, before.points, &diagnostics, error);
   if (status != RECTO_OK) {
-    scene_return(&scene->scene, &before);
+    scene_restore(&scene->scene, &before);
     return status;
   }
   scene->scene.current_group = before.current_group;

@@ -28,7 +28,7 @@
 extern char **environ;
 
 enum {
-  CLEAR = 10, /* descriptors from here on conflict with no other */
+  LOWEST_DESCRIPTOR = 10, /* descriptors from here on conflict with no other */
   TICK_MS = 100
 };
 
@@ -47,10 +47,10 @@ static double now(void) {
 }
 
 /* Moves a descriptor of ours out of the way of those that a child has. */
-static int move_clear(int descriptor) {
-  if (descriptor < 0 || descriptor >= CLEAR)
+static int move_descriptor(int descriptor) {
+  if (descriptor < 0 || descriptor >= LOWEST_DESCRIPTOR)
     return descriptor;
-  int moved = fcntl(descriptor, F_DUPFD_CLOEXEC, CLEAR);
+  int moved = fcntl(descriptor, F_DUPFD_CLOEXEC, LOWEST_DESCRIPTOR);
   int error = errno;
   close(descriptor);
   errno = error;
@@ -59,10 +59,11 @@ static int move_clear(int descriptor) {
 
 int child_input_of(const char *bytes, size_t count) {
 #ifdef MFD_CLOEXEC
-  int descriptor = move_clear(memfd_create("recto", MFD_CLOEXEC));
+  int descriptor = move_descriptor(memfd_create("recto", MFD_CLOEXEC));
 #else
   FILE *file = tmpfile();
-  int descriptor = file ? fcntl(fileno(file), F_DUPFD_CLOEXEC, (int)CLEAR) : -1;
+  int descriptor =
+      file ? fcntl(fileno(file), F_DUPFD_CLOEXEC, (int)LOWEST_DESCRIPTOR) : -1;
   if (file)
     fclose(file);
 #endif
@@ -143,9 +144,9 @@ static int start_child(struct child_run *run) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0)
     return errno;
-  run->output = move_clear(ends[0]);
+  run->output = move_descriptor(ends[0]);
   int error = run->output < 0 ? errno : 0;
-  int output = move_clear(ends[1]);
+  int output = move_descriptor(ends[1]);
   if (error == 0 && output < 0)
     error = errno;
   if (error == 0)
@@ -160,7 +161,7 @@ static int start_child(struct child_run *run) {
 /* ---- Listening ----------------------------------------------------------- */
 
 /* Whether the child may continue; else the result has the reason. */
-static bool may_go_on(struct child_run *run) {
+static bool may_continue(struct child_run *run) {
   if (!poll_share(0, "import"))
     run->result->end = CHILD_CANCELLED;
   else if (now() > run->deadline)
@@ -172,12 +173,12 @@ static bool may_go_on(struct child_run *run) {
 
 /* Takes what the child has written; false at its end, or where it may not go
  * on. */
-static bool listen_once(struct child_run *run) {
+static bool read_output(struct child_run *run) {
   enum { CHUNK = 1 << 16 };
   struct child_result *result = run->result;
   struct pollfd wait = {.fd = run->output, .events = POLLIN};
   int ready = poll(&wait, 1, TICK_MS);
-  if (!may_go_on(run))
+  if (!may_continue(run))
     return false;
   if (ready <= 0)
     return ready == 0 || errno == EINTR;
@@ -219,7 +220,7 @@ static void await(struct child_run *run) {
   pid_t found;
   while ((found = waitpid(run->process, &status, WNOHANG)) == 0 ||
          (found < 0 && errno == EINTR)) {
-    if (!may_go_on(run)) {
+    if (!may_continue(run)) {
       end_child(run);
       return;
     }
@@ -243,7 +244,7 @@ void child_run(const struct child *child, struct child_result *result) {
     result->end = CHILD_NOT_STARTED;
     return;
   }
-  while (listen_once(&run))
+  while (read_output(&run))
     continue;
   close(run.output);
   if (result->end == CHILD_EXITED)

@@ -12,7 +12,7 @@ enum {
   DIGIT_COUNT = 1 << DIGIT_BITS,
   PASS_COUNT = (64 + DIGIT_BITS - 1) / DIGIT_BITS,
   FEW = 64, /* below, insertion beats clearing the histograms */
-  DEALT_ITEMS = 16 * POLL_ITEMS /* between two polls */
+  DISTRIBUTED_ITEMS = 16 * POLL_ITEMS /* between two polls */
 };
 
 static void insert_keys(struct sort_key *item, size_t count) {
@@ -31,8 +31,8 @@ static size_t digit(uint64_t key, int pass) {
 
 /* Deals the items to their places by one digit; `start` holds how many items
  * have each digit. */
-static void deal(const struct sort_key *from, struct sort_key *to, size_t count,
-                 int pass, size_t start[DIGIT_COUNT]) {
+static void distribute(const struct sort_key *from, struct sort_key *to,
+                       size_t count, int pass, size_t start[DIGIT_COUNT]) {
   size_t sum = 0;
   for (int i = 0; i < DIGIT_COUNT; i++) {
     size_t here = start[i];
@@ -40,7 +40,7 @@ static void deal(const struct sort_key *from, struct sort_key *to, size_t count,
     sum += here;
   }
   for (size_t i = 0; i < count; i++) {
-    if ((i + 1) % DEALT_ITEMS == 0)
+    if ((i + 1) % DISTRIBUTED_ITEMS == 0)
       (void)poll_now();
     to[start[digit(from[i].key, pass)]++] = from[i];
   }
@@ -65,7 +65,7 @@ void sort_keys(struct sort_key *item, struct sort_key *scratch, size_t count) {
     size_t start[DIGIT_COUNT] = {0};
     for (size_t i = 0; i < count; i++)
       start[digit(from[i].key, pass)]++;
-    deal(from, to, count, pass, start);
+    distribute(from, to, count, pass, start);
     struct sort_key *swap = from;
     from = to;
     to = swap;

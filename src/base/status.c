@@ -56,7 +56,7 @@ static void replace_control_characters(char *text) {
 }
 
 /* A cut may have gone through a UTF-8 character: drops its first part. */
-static void drop_broken_tail(char *text, size_t length) {
+static void drop_partial_character(char *text, size_t length) {
   size_t back = 0;
   while (back < 3 && back < length &&
          ((unsigned char)text[length - 1 - back] & 0xc0) == 0x80)
@@ -79,7 +79,7 @@ recto_status error_set(recto_error *error, recto_status code, const char *file,
   if (length < 0)
     error->text[0] = '\0';
   else if ((size_t)length >= sizeof error->text)
-    drop_broken_tail(error->text, sizeof error->text - 1);
+    drop_partial_character(error->text, sizeof error->text - 1);
   replace_control_characters(error->text);
   return code;
 }

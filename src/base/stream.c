@@ -62,7 +62,7 @@ static void write_physically(struct stream *stream, const char *bytes,
   }
 }
 
-static void empty_buffer(struct stream *stream) {
+static void flush_buffer(struct stream *stream) {
   write_physically(stream, stream->buffer.item, stream->buffer.count);
   stream->buffer.count = 0;
 }
@@ -117,7 +117,7 @@ bool stream_replaces(const struct stream *stream, struct file_identity it) {
 /* ---- Writing ------------------------------------------------------------- */
 
 /* Whether the buffer may be emptied before the end. */
-static bool is_written_on_the_way(const struct stream *stream) {
+static bool may_flush_early(const struct stream *stream) {
   return !stream->is_memory && stream->target.kind == TARGET_NEW;
 }
 
@@ -125,9 +125,9 @@ static void put_bytes(void *user, const void *bytes, size_t count) {
   struct stream *stream = user;
   if (stream->status != RECTO_OK || count == 0)
     return;
-  if (is_written_on_the_way(stream)) {
+  if (may_flush_early(stream)) {
     if (count > stream->buffer.capacity - stream->buffer.count)
-      empty_buffer(stream);
+      flush_buffer(stream);
     if (count > stream->buffer.capacity) {
       write_physically(stream, bytes, count);
       return;
@@ -200,13 +200,13 @@ void stream_discard(struct stream *stream) {
 static void complete_file(struct stream *stream) {
   if (stream->gzip != NULL && stream->status == RECTO_OK)
     gzip_end(stream->gzip);
-  if (is_written_on_the_way(stream))
-    empty_buffer(stream);
+  if (may_flush_early(stream))
+    flush_buffer(stream);
 }
 
-static void exact_over(struct stream *stream) {
+static void flush_descriptor(struct stream *stream) {
   if (!stream->is_memory && stream->target.kind == TARGET_DESCRIPTOR)
-    empty_buffer(stream);
+    flush_buffer(stream);
 }
 
 static void commit_target(struct stream *stream) {
@@ -291,7 +291,7 @@ recto_status stream_finish_all(struct stream *const *stream, size_t count,
   for (size_t i = count; i-- > 0 && status == RECTO_OK;) {
     if (stream[i] == NULL)
       continue;
-    exact_over(stream[i]);
+    flush_descriptor(stream[i]);
     status = first_fault(stream, count, error);
   }
   if (status == RECTO_OK)

@@ -81,8 +81,8 @@ static char *folder_of(const char *path) {
   return folder;
 }
 
-static recto_status cannot(const struct target *target, const char *what,
-                           recto_error *error) {
+static recto_status io_error(const struct target *target, const char *what,
+                             recto_error *error) {
   return error_set(error, RECTO_ERROR_IO, target->name, 0, "cannot %s: %s",
                    what, strerror(errno));
 }
@@ -165,7 +165,7 @@ static recto_status create_file(struct target *target, recto_error *error) {
   if (made)
     return RECTO_OK;
   return errno == ENOMEM ? error_memory(error)
-                         : cannot(target, "create", error);
+                         : io_error(target, "create", error);
 }
 
 static void remove_temporary(struct target *target) {
@@ -178,7 +178,7 @@ static void remove_temporary(struct target *target) {
 /* ---- What belongs to a file ---------------------------------------------- */
 
 /* Attributes that only the system may set are its own affair. */
-static bool is_users(const char *attribute) {
+static bool is_user_attribute(const char *attribute) {
   return strncmp(attribute, "user.", 5) == 0 ||
          strcmp(attribute, "system.posix_acl_access") == 0;
 }
@@ -189,7 +189,7 @@ static bool copy_attribute(int from, int to, const char *name) {
   ssize_t size = value != NULL ? fgetxattr(from, name, value, MOST) : -1;
   bool ok = size >= 0 && fsetxattr(to, name, value, (size_t)size, 0) == 0;
   mem_free(value);
-  return ok || !is_users(name);
+  return ok || !is_user_attribute(name);
 }
 
 /* Access lists are such attributes. */
@@ -207,7 +207,7 @@ static bool copy_attributes(int from, int to) {
 }
 
 /* Gives the new file what belongs to the old one; false where it cannot. */
-static bool inherit(struct target *target) {
+static bool inherit_attributes(struct target *target) {
   struct stat made;
   int to = target->descriptor;
   const struct stat *old = &target->old;
@@ -231,7 +231,7 @@ static recto_status open_in_place(struct target *target, recto_error *error) {
       S_ISREG(target->old.st_mode) ? TARGET_IN_PLACE : TARGET_DESCRIPTOR;
   target->descriptor =
       path_above_standard(open(target->path, O_WRONLY | O_CLOEXEC | O_NOCTTY));
-  return target->descriptor >= 0 ? RECTO_OK : cannot(target, "open", error);
+  return target->descriptor >= 0 ? RECTO_OK : io_error(target, "open", error);
 }
 
 static recto_status open_descriptor(struct target *target, int descriptor,
@@ -240,7 +240,7 @@ static recto_status open_descriptor(struct target *target, int descriptor,
   mem_free(target->path);
   target->path = NULL;
   target->descriptor = fcntl(descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
-  return target->descriptor >= 0 ? RECTO_OK : cannot(target, "write", error);
+  return target->descriptor >= 0 ? RECTO_OK : io_error(target, "write", error);
 }
 
 static recto_status replace(struct target *target, recto_error *error) {
@@ -248,7 +248,7 @@ static recto_status replace(struct target *target, recto_error *error) {
   if (target->old.st_nlink > 1)
     return open_in_place(target, error);
   recto_status status = create_file(target, &why);
-  if (status == RECTO_OK && inherit(target))
+  if (status == RECTO_OK && inherit_attributes(target))
     return RECTO_OK;
   if (status == RECTO_OK) {
     close(target->descriptor);
@@ -264,11 +264,11 @@ static recto_status replace(struct target *target, recto_error *error) {
 static recto_status query_target(struct target *target, recto_error *error) {
   target->existed = stat(target->path, &target->old) == 0;
   if (!target->existed && errno != ENOENT)
-    return cannot(target, "create", error);
+    return io_error(target, "create", error);
   if (target->existed && S_ISDIR(target->old.st_mode))
     return error_set(error, RECTO_ERROR_IO, target->name, 0, "is a directory");
   if (target->existed && access(target->path, W_OK) != 0)
-    return cannot(target, "write", error);
+    return io_error(target, "write", error);
   return RECTO_OK;
 }
 

@@ -321,9 +321,9 @@ static struct region_ray lowest_ray(const struct geom_region_side *side,
 }
 
 /* The outer loop does not begin after the hole. */
-static bool holds(const struct geom_region *region,
-                  const struct geom_region_loop *outer,
-                  const struct geom_region_loop *hole) {
+static bool contains_hole(const struct geom_region *region,
+                          const struct geom_region_loop *outer,
+                          const struct geom_region_loop *hole) {
   const struct geom_region_side *side = region->side.item + hole->side,
                                 *round = region->side.item + outer->side;
   for (uint32_t k = 0; k < hole->count; k++) {
@@ -389,7 +389,7 @@ static bool nest_loops(struct geom_region *region) {
     /* The innermost outer loop around it is the last that holds it. */
     for (size_t j = i; j-- > 0;)
       if (!nested[j].loop.hole &&
-          holds(region, &nested[j].loop, &nested[i].loop)) {
+          contains_hole(region, &nested[j].loop, &nested[i].loop)) {
         nested[i].outer = j;
         break;
       }

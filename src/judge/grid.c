@@ -38,7 +38,7 @@ static bool clip_to_row(const struct judge_segment *s, double low, double high,
   return true;
 }
 
-/* Visits the cells within radius of segment i: counts it in each of them while
+/* Visits the cells near segment i (within the radius): counts it in each while
  * `item` is NULL, else enters it.
  * fill  one a cell: the count, or the next free index
  * Returns the number of cells. */

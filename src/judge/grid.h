@@ -17,7 +17,7 @@ struct judge_grid {
                              item[start[c + 1] - 1] */
 };
 
-/* Enters segments into all cells of a page that are within radius of them.
+/* Enters segments into all cells of a page that are within the radius of them.
  * cell_mm  the side of a cell; raised to the radius where it is less, so that a
  *          segment is in few cells beside it
  * What is outside the page is ignored.
@@ -29,7 +29,7 @@ USE_RESULT bool judge_grid_init(struct judge_grid *grid,
                                 double radius_mm);
 void judge_grid_fini(struct judge_grid *grid);
 
-/* The segments that may be within radius of a point; *count of them. */
+/* The segments that may be within the radius of a point; *count of them. */
 const uint32_t *judge_grid_near(const struct judge_grid *grid,
                                 struct judge_point2 at, uint32_t *count);
 

@@ -51,7 +51,7 @@ static bool line_meets_triangle(const struct judge_ray *ray,
   return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
 }
 
-/* Whether the ray meets the triangle's plane within its t_max. */
+/* Whether the ray meets the triangle's plane before t_max. */
 static enum judge_visibility ray_meets_plane(const struct judge_ray *ray,
                                              const struct judge_triangle *t) {
   double at = point3_dot(t->normal, point3_sub(t->p[0], ray->from)) /

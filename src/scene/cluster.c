@@ -76,7 +76,7 @@ struct cluster_choice {
 };
 
 /* Looks through a chain for a cluster to join that begins nearer. */
-static void look_through(const struct clusters *clusters, int32_t first,
+static void search_chain(const struct clusters *clusters, int32_t first,
                          const double at[3], int halvings,
                          struct cluster_choice *choice) {
   int passed = 0;
@@ -96,7 +96,7 @@ static void look_through(const struct clusters *clusters, int32_t first,
 }
 
 /* Looks through the cells of one grid that begin within the radius. */
-static void look_around(const struct clusters *clusters, int level,
+static void search_grid(const struct clusters *clusters, int level,
                         const double at[3], int halvings,
                         struct cluster_choice *choice) {
   double side = clusters->side[level];
@@ -112,7 +112,7 @@ static void look_around(const struct clusters *clusters, int level,
     for (int j = 0; j < count[1]; j++)
       for (int k = 0; k < count[2]; k++) {
         const double cell[3] = {bound[0][i], bound[1][j], bound[2][k]};
-        look_through(clusters, *chain_of(clusters, level, cell), at, halvings,
+        search_chain(clusters, *chain_of(clusters, level, cell), at, halvings,
                      choice);
       }
 }
@@ -163,7 +163,7 @@ static bool join_cluster(struct clusters *clusters, const struct scene *scene,
   struct cluster_choice choice = {NONE, 0};
   for (int level = 0; level < CLUSTER_LEVELS; level++)
     if (clusters->levels >> level & 1)
-      look_around(clusters, level, at, halvings, &choice);
+      search_grid(clusters, level, at, halvings, &choice);
   if (choice.cluster == NONE) {
     member[number].stands = (uint32_t)clusters->cluster.count;
     return begin_cluster(clusters, at, number, halvings);
@@ -217,7 +217,7 @@ static struct point_slots find_slots(const struct scene_point *p, double length,
 }
 
 /* Enters a point into its slots. */
-static void enter(struct slots *slots, const struct point_slots *of) {
+static void insert_point(struct slots *slots, const struct point_slots *of) {
   for (int i = 0; i < of->count; i++) {
     uint64_t *word = &slots->word[of->slot[i] / 32];
     uint64_t first = UINT64_C(1) << of->slot[i] % 32 * 2;
@@ -255,7 +255,7 @@ static bool visit_slots(struct slots *slots, const struct scene *scene,
       if (member[from + i].halvings == CLUSTER_ALONE)
         continue;
       else if (!marking)
-        enter(slots, &of[i]);
+        insert_point(slots, &of[i]);
       else if (is_isolated(slots, &of[i]))
         member[from + i].halvings = CLUSTER_ALONE;
     if (!poll_at(from))

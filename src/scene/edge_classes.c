@@ -187,8 +187,8 @@ static bool find_normal_directions(void *user, struct parallel_range range) {
  * them, and their product. */
 static const double filter_error = 0x1p-14;
 
-static inline bool bends(const struct crease_work *work,
-                         const struct topology_edge *edge) {
+static inline bool exceeds_crease_angle(const struct crease_work *work,
+                                        const struct topology_edge *edge) {
   struct crease_direction a = work->direction[edge->first];
   struct crease_direction b = work->direction[edge->second];
   int dot = a.x * b.x + a.y * b.y + a.z * b.z;
@@ -210,7 +210,7 @@ static bool find_masks(void *user, struct parallel_range range) {
   for (size_t e = range.begin; e < range.end; e++) {
     const struct topology_edge *edge = &work->topology->edge.item[e];
     unsigned mask = plain_class_mask(edge, work->scene);
-    if (edge->uses == 2 && bends(work, edge))
+    if (edge->uses == 2 && exceeds_crease_angle(work, edge))
       mask |= RECTO_EDGE_CREASE;
     work->class_masks[e] = (uint8_t)(mask ? mask : RECTO_EDGE_SMOOTH);
   }

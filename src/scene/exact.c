@@ -79,8 +79,8 @@ static int expansion_sign(const struct exact_expansion *number) {
 }
 
 /* Multiplied out, ax ay cancels. */
-static int turn_widely(double ax, double ay, double bx, double by, double cx,
-                       double cy) {
+static int turn_exactly(double ax, double ay, double bx, double by, double cx,
+                        double cy) {
   struct exact_expansion sum = {{0}};
   add_exact_product(&sum, bx, cy, false);
   add_exact_product(&sum, bx, ay, true);
@@ -94,8 +94,8 @@ static int turn_widely(double ax, double ay, double bx, double by, double cx,
 /* What is known of the sign without wide numbers. */
 enum { UNKNOWN = 2 };
 
-static inline int turn_quickly(double ax, double ay, double bx, double by,
-                               double cx, double cy) {
+static inline int turn_filtered(double ax, double ay, double bx, double by,
+                                double cx, double cy) {
   double left = (bx - ax) * (cy - ay);
   double right = (by - ay) * (cx - ax);
   double determinant = left - right;
@@ -114,8 +114,8 @@ static inline int turn_quickly(double ax, double ay, double bx, double by,
 }
 
 int exact_turn(const double a[2], const double b[2], const double c[2]) {
-  int sign = turn_quickly(a[0], a[1], b[0], b[1], c[0], c[1]);
-  return sign == UNKNOWN ? turn_widely(a[0], a[1], b[0], b[1], c[0], c[1])
+  int sign = turn_filtered(a[0], a[1], b[0], b[1], c[0], c[1]);
+  return sign == UNKNOWN ? turn_exactly(a[0], a[1], b[0], b[1], c[0], c[1])
                          : sign;
 }
 
@@ -123,16 +123,16 @@ int exact_turn(const double a[2], const double b[2], const double c[2]) {
  * three views along the axes; one view that is sure to say no is enough. */
 bool exact_on_one_line(const struct scene_point *a, const struct scene_point *b,
                        const struct scene_point *c) {
-  int xy = turn_quickly(a->x, a->y, b->x, b->y, c->x, c->y);
+  int xy = turn_filtered(a->x, a->y, b->x, b->y, c->x, c->y);
   if (xy == 1 || xy == -1)
     return false;
-  int yz = turn_quickly(a->y, a->z, b->y, b->z, c->y, c->z);
+  int yz = turn_filtered(a->y, a->z, b->y, b->z, c->y, c->z);
   if (yz == 1 || yz == -1)
     return false;
-  int zx = turn_quickly(a->z, a->x, b->z, b->x, c->z, c->x);
+  int zx = turn_filtered(a->z, a->x, b->z, b->x, c->z, c->x);
   if (zx == 1 || zx == -1)
     return false;
-  return (xy == 0 || turn_widely(a->x, a->y, b->x, b->y, c->x, c->y) == 0) &&
-         (yz == 0 || turn_widely(a->y, a->z, b->y, b->z, c->y, c->z) == 0) &&
-         (zx == 0 || turn_widely(a->z, a->x, b->z, b->x, c->z, c->x) == 0);
+  return (xy == 0 || turn_exactly(a->x, a->y, b->x, b->y, c->x, c->y) == 0) &&
+         (yz == 0 || turn_exactly(a->y, a->z, b->y, b->z, c->y, c->z) == 0) &&
+         (zx == 0 || turn_exactly(a->z, a->x, b->z, b->x, c->z, c->x) == 0);
 }

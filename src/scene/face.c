@@ -89,8 +89,8 @@ static bool all_on_one_line(const struct scene *scene, const uint32_t *corner,
 
 /* Whether something is left of the face where it goes there and back.
  * left  scratch for its corners */
-static bool has_inside(const struct scene *scene, const uint32_t *corner,
-                       size_t count, uint32_t *left) {
+static bool has_interior(const struct scene *scene, const uint32_t *corner,
+                         size_t count, uint32_t *left) {
   size_t first = 0, past = 0;
   for (size_t i = 0; i < count; i++) {
     if (past > 1 && same_position(scene, left[past - 2], corner[i]))
@@ -125,7 +125,7 @@ static bool examine_face(const struct scene *scene, const uint32_t *corner,
                       "skipped");
     return false;
   }
-  if (count > 3 && !has_inside(scene, corner, count, scratch)) {
+  if (count > 3 && !has_interior(scene, corner, count, scratch)) {
     diagnostics_fault(
         diagnostics, SCENE_FAULT_ZERO_AREA, line,
         "face without area, its boundary retraces itself, skipped");

@@ -31,7 +31,7 @@ static void sample_point(struct obj_parser *p,
     const char *start = at;
     while (*at > ' ')
       at++;
-    precision_look(&p->sample, start, at++, xyz[k]);
+    precision_add_literal(&p->sample, start, at++, xyz[k]);
   }
 }
 

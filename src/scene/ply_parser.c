@@ -38,7 +38,7 @@ static enum ply_result read_binary_list(struct ply_parser *p,
     return PLY_CUT_SHORT;
   int64_t count = ply_load_whole(p->at, property->count_type, swap);
   p->at += count_size;
-  /* A count below zero is result as one that no file can hold. */
+  /* A count below zero is taken as one that no file can hold. */
   if ((uint64_t)count > (size_t)(p->end - p->at) / size)
     return PLY_CUT_SHORT;
   const char *at = p->at;
@@ -179,7 +179,7 @@ static enum ply_result read_text_values(struct ply_parser *p,
     else if (property->role != PLY_OTHER)
       p->value[property->role] = value;
     if (sampled && result == PLY_READ && property->role <= PLY_Z)
-      precision_look(&p->sample, start, p->at, value);
+      precision_add_literal(&p->sample, start, p->at, value);
   }
   return result;
 }

@@ -117,8 +117,8 @@ static bool is_single(const struct literal *literal, double value) {
   return 2 * off * (double)literal->mantissa <= size * rounding_up;
 }
 
-void precision_look(struct precision_sample *sample, const char *text,
-                    const char *end, double value) {
+void precision_add_literal(struct precision_sample *sample, const char *text,
+                           const char *end, double value) {
   struct literal literal = read_literal(text, end);
   if (!literal.decimal || literal.digits == 0)
     return;
@@ -153,7 +153,7 @@ static int finest_place(const struct precision_sample *sample) {
   return slot;
 }
 
-struct precision precision_conclude(const struct precision_sample *sample) {
+struct precision precision_estimate(const struct precision_sample *sample) {
   struct precision precision = {0, 0};
   if (ONE_IN * sample->long_ones <= sample->decimals)
     return precision;

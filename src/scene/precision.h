@@ -76,10 +76,10 @@ static inline bool precision_is_sampled(struct precision_sample *sample,
 /* Looks at one literal.
  * text   [+-]digits[.digits][e[+-]digits], up to `end`
  * value  the double nearest to it */
-void precision_look(struct precision_sample *sample, const char *text,
-                    const char *end, double value);
+void precision_add_literal(struct precision_sample *sample, const char *text,
+                           const char *end, double value);
 
 /* What the literals say about the file's precision; see precision.c. */
-struct precision precision_conclude(const struct precision_sample *sample);
+struct precision precision_estimate(const struct precision_sample *sample);
 
 #endif

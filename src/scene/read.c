@@ -105,7 +105,7 @@ static recto_status read_input(struct scene *scene, const struct reader *reader,
   if (status == RECTO_OK && scene->precision.count == before.precisions)
     status = scene_leave_precision(scene, before.points, error);
   if (status != RECTO_OK) {
-    scene_return(scene, &before);
+    scene_restore(scene, &before);
     return status;
   }
   if (first)

@@ -58,7 +58,7 @@ static recto_status read_point(struct obj_parser *p) {
       return status == RECTO_OK ? add_obj_point(p, xyz, false) : status;
     }
     if (sampled && isfinite(xyz[k]))
-      precision_look(&p->sample, p->at, stop, xyz[k]);
+      precision_add_literal(&p->sample, p->at, stop, xyz[k]);
     p->at = stop;
   }
   bool finite = isfinite(xyz[0]) && isfinite(xyz[1]) && isfinite(xyz[2]);
@@ -424,7 +424,7 @@ static recto_status read_obj(struct scene *scene, const char *bytes,
     replace_bad_points(&p);
   if (status == RECTO_OK)
     status = scene_state_precision(scene, p.first,
-                                   precision_conclude(&p.sample), error);
+                                   precision_estimate(&p.sample), error);
   /* The colour of a group that was there before is not taken back, so nothing
    * that may fail comes after this. */
   if (status == RECTO_OK && scene->wants_colours)

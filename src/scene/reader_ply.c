@@ -112,7 +112,7 @@ static recto_status read_vertex(struct ply_parser *p,
 static struct precision precision_of(const struct ply_parser *p,
                                      const struct ply_element *element) {
   if (p->header.format == PLY_TEXT)
-    return precision_conclude(&p->sample);
+    return precision_estimate(&p->sample);
   struct precision precision = {0, 0};
   for (size_t i = 0; i < element->property_count; i++) {
     const struct ply_property *property =

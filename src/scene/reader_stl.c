@@ -218,7 +218,7 @@ static recto_status read_coordinates(struct parser *p,
     } else if (!isfinite(xyz[k]) && *fault == SCENE_FAULT_COUNT) {
       *fault = SCENE_FAULT_NOT_FINITE;
     } else if (sampled) {
-      precision_look(&p->sample, word.start, end, xyz[k]);
+      precision_add_literal(&p->sample, word.start, end, xyz[k]);
     }
   }
   *point = (struct scene_point){xyz[0] + 0.0, xyz[1] + 0.0, xyz[2] + 0.0};
@@ -372,7 +372,7 @@ static recto_status read_stl(struct scene *scene, const char *bytes,
   size_t first = scene->point.count;
   recto_status status = read_text(&p);
   if (status == RECTO_OK)
-    status = scene_state_precision(scene, first, precision_conclude(&p.sample),
+    status = scene_state_precision(scene, first, precision_estimate(&p.sample),
                                    error);
   positions_fini(&p.positions);
   ARRAY_FREE(&p.corner);

@@ -127,30 +127,30 @@ recto_status scene_use_group(struct scene *scene, const char *name,
 
 /* ---- Going back ---------------------------------------------------------- */
 
-void scene_snapshot(const struct scene *scene, struct scene_snapshot *mark) {
-  mark->points = scene->point.count;
-  mark->faces = scene->face_group.count;
-  mark->skipped = scene->face_skipped.count;
-  mark->corners = scene->corner.count;
-  mark->wires = scene->wire_group.count;
-  mark->wire_corners = scene->wire_corner.count;
-  mark->precisions = scene->precision.count;
-  mark->groups = scene->group.count;
-  mark->current_group = scene->current_group;
+void scene_snapshot(const struct scene *scene, struct scene_snapshot *before) {
+  before->points = scene->point.count;
+  before->faces = scene->face_group.count;
+  before->skipped = scene->face_skipped.count;
+  before->corners = scene->corner.count;
+  before->wires = scene->wire_group.count;
+  before->wire_corners = scene->wire_corner.count;
+  before->precisions = scene->precision.count;
+  before->groups = scene->group.count;
+  before->current_group = scene->current_group;
 }
 
-void scene_return(struct scene *scene, const struct scene_snapshot *mark) {
-  scene->point.count = mark->points;
-  scene->face_group.count = mark->faces;
-  scene->face_skipped.count = mark->skipped;
-  scene->face_start.count = mark->faces ? mark->faces + 1 : 0;
-  scene->corner.count = mark->corners;
-  scene->wire_group.count = mark->wires;
-  scene->wire_start.count = mark->wires ? mark->wires + 1 : 0;
-  scene->wire_corner.count = mark->wire_corners;
-  scene->precision.count = mark->precisions;
-  drop_groups(scene, mark->groups);
-  scene->current_group = mark->current_group;
+void scene_restore(struct scene *scene, const struct scene_snapshot *before) {
+  scene->point.count = before->points;
+  scene->face_group.count = before->faces;
+  scene->face_skipped.count = before->skipped;
+  scene->face_start.count = before->faces ? before->faces + 1 : 0;
+  scene->corner.count = before->corners;
+  scene->wire_group.count = before->wires;
+  scene->wire_start.count = before->wires ? before->wires + 1 : 0;
+  scene->wire_corner.count = before->wire_corners;
+  scene->precision.count = before->precisions;
+  drop_groups(scene, before->groups);
+  scene->current_group = before->current_group;
   if (scene->group_slot != NULL)
     fill_slots(scene);
 }

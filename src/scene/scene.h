@@ -238,9 +238,9 @@ struct scene_snapshot {
 };
 
 /* Records the sizes of the scene's arrays. */
-void scene_snapshot(const struct scene *scene, struct scene_snapshot *mark);
+void scene_snapshot(const struct scene *scene, struct scene_snapshot *before);
 
 /* Removes everything that was added since. */
-void scene_return(struct scene *scene, const struct scene_snapshot *mark);
+void scene_restore(struct scene *scene, const struct scene_snapshot *before);
 
 #endif

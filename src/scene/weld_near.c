@@ -322,8 +322,8 @@ static recto_status map_wires(struct scene *to, const struct scene *from,
   return status;
 }
 
-/* Makes the welded scene borrow all of the scene but faces and polylines. */
-static void borrow(struct welded *welded, const struct scene *scene) {
+/* Makes the welded scene share all arrays but those of faces and polylines. */
+static void share_arrays(struct welded *welded, const struct scene *scene) {
   struct scene *own = &welded->scene;
   *own = *scene;
   memset(&own->corner, 0, sizeof own->corner);
@@ -341,7 +341,7 @@ static recto_status rewrite(struct welded *welded, const struct scene *scene,
                     ? scene->corner.count
                     : scene->wire_corner.count;
   uint32_t *corner = mem_alloc(most, sizeof *corner);
-  borrow(welded, scene);
+  share_arrays(welded, scene);
   recto_status status =
       corner != NULL ? map_faces(&welded->scene, scene, map, corner, error)
                      : error_memory(error);

@@ -109,8 +109,8 @@ static int compare_diagonals(const struct ear_clipper *clipper, uint32_t b,
   return order != 0 ? order : (b > d) - (b < d);
 }
 
-static bool goes_before(const struct ear_clipper *clipper, uint32_t b,
-                        uint32_t d) {
+static bool precedes_in_queue(const struct ear_clipper *clipper, uint32_t b,
+                              uint32_t d) {
   const struct triangulation_corner *corner = clipper->corner;
   return corner[b].priority != corner[d].priority
              ? corner[b].priority < corner[d].priority
@@ -127,16 +127,16 @@ static void set_slot(struct ear_clipper *clipper, uint32_t slot, uint32_t b) {
 /* Restores the heap order by sifting b up or down from an empty slot. */
 static void sift(struct ear_clipper *clipper, uint32_t slot, uint32_t b) {
   const uint32_t *queue = clipper->triangulation->queue.item;
-  while (slot > 1 && goes_before(clipper, b, queue[slot / 2 - 1])) {
+  while (slot > 1 && precedes_in_queue(clipper, b, queue[slot / 2 - 1])) {
     set_slot(clipper, slot, queue[slot / 2 - 1]);
     slot /= 2;
   }
   while (2 * slot <= clipper->queued) {
     uint32_t child = 2 * slot;
     if (child < clipper->queued &&
-        goes_before(clipper, queue[child], queue[child - 1]))
+        precedes_in_queue(clipper, queue[child], queue[child - 1]))
       child++;
-    if (!goes_before(clipper, queue[child - 1], b))
+    if (!precedes_in_queue(clipper, queue[child - 1], b))
       break;
     set_slot(clipper, slot, queue[child - 1]);
     slot = child;
@@ -210,7 +210,7 @@ struct ear {
 
 /* Whether p is not convex, in the closed triangle a, b, c, and at none of its
  * corners. */
-static bool blocks(const void *user, uint32_t p) {
+static bool is_reflex_in_ear(const void *user, uint32_t p) {
   const struct ear *ear = user;
   const struct triangulation_corner *corner = ear->corner;
   const double *at = corner[p].at, *a = corner[ear->a].at,
@@ -226,8 +226,9 @@ static bool is_ear(const struct ear_clipper *clipper, uint32_t b) {
   struct ear ear = {corner, corner[b].prev, b, corner[b].next};
   const double *triangle[3] = {corner[ear.a].at, corner[b].at,
                                corner[ear.c].at};
-  return corner[b].turn > 0 && !reflex_tree_query(&clipper->triangulation->tree,
-                                                  triangle, blocks, &ear);
+  return corner[b].turn > 0 &&
+         !reflex_tree_query(&clipper->triangulation->tree, triangle,
+                            is_reflex_in_ear, &ear);
 }
 
 /* ---- Corners at one position --------------------------------------------- */
@@ -340,7 +341,7 @@ static uint32_t choose_without_ear(struct ear_clipper *clipper,
   uint32_t best = start, c = start;
   do {
     corner[c].priority = priority_by_turn(corner[c].turn);
-    if (goes_before(clipper, c, best))
+    if (precedes_in_queue(clipper, c, best))
       best = c;
     c = corner[c].next;
   } while (c != start);

@@ -53,7 +53,7 @@ static bool has_area(const struct projection *projection,
   return false;
 }
 
-static void order(uint32_t *a, uint32_t *b) {
+static void sort_pair(uint32_t *a, uint32_t *b) {
   uint32_t low = *a < *b ? *a : *b;
   *b = *a < *b ? *b : *a;
   *a = low;
@@ -72,9 +72,9 @@ static void grow_by_triangle(struct depth_range *range,
   uint32_t own[3];
   for (int k = 0; k < 3; k++)
     own[k] = layout_weld(layout, point[k]);
-  order(&own[0], &own[1]);
-  order(&own[1], &own[2]);
-  order(&own[0], &own[1]);
+  sort_pair(&own[0], &own[1]);
+  sort_pair(&own[1], &own[2]);
+  sort_pair(&own[0], &own[1]);
   for (int k = 0; k < 3; k++)
     corner[k] = layout_view(layout, own[k]);
   if (!clip_triangle(projection, corner, forward, &polygon) ||
@@ -147,7 +147,7 @@ static bool grow_by_segment(struct depth_range *range,
                             const struct layout *layout, uint32_t from,
                             uint32_t to, bool force) {
   uint32_t own[2] = {layout_weld(layout, from), layout_weld(layout, to)};
-  order(&own[0], &own[1]);
+  sort_pair(&own[0], &own[1]);
   struct view_point end[2] = {layout_view(layout, own[0]),
                               layout_view(layout, own[1])};
   bool moved[2];

@@ -27,7 +27,7 @@ static void add_stroke_point(struct svg_pen *pen, struct judge_point2 at) {
 }
 
 /* Begins a stroke. */
-static void put_first(struct svg_pen *pen, struct judge_point2 at) {
+static void begin_svg_stroke(struct svg_pen *pen, struct judge_point2 at) {
   struct judge_stroke stroke = {(uint32_t)pen->drawing->point.count, 0,
                                 pen->role};
   if (pen->out_of_memory)
@@ -90,7 +90,7 @@ static void draw_to(struct svg_pen *pen, struct judge_point2 to) {
     return;
   bool seen = cut(pen, &a, &b);
   if (seen && !(pen->joined && is_same_point2(a, pen->last)))
-    put_first(pen, a);
+    begin_svg_stroke(pen, a);
   if (seen)
     add_stroke_point(pen, b);
   pen->joined = seen && is_same_point2(b, to);
@@ -98,7 +98,7 @@ static void draw_to(struct svg_pen *pen, struct judge_point2 to) {
 }
 
 /* Starts at the current position, unless a line ended there. */
-static void put_down(struct svg_pen *pen) {
+static void lower_pen(struct svg_pen *pen) {
   if (pen->down)
     return;
   pen->last = svg_apply(&pen->to_page, pen->here.x, pen->here.y);
@@ -112,7 +112,7 @@ void svg_pen_move(struct svg_pen *pen, double x, double y) {
 }
 
 void svg_pen_line(struct svg_pen *pen, double x, double y) {
-  put_down(pen);
+  lower_pen(pen);
   pen->here = (struct judge_point2){x, y};
   if (pen->fault == NULL)
     draw_to(pen, svg_apply(&pen->to_page, x, y));
@@ -131,8 +131,8 @@ struct cubic {
 };
 
 /* The length of the second difference of three control points. */
-static double bend(struct judge_point2 a, struct judge_point2 b,
-                   struct judge_point2 c) {
+static double second_difference(struct judge_point2 a, struct judge_point2 b,
+                                struct judge_point2 c) {
   return hypot(a.x - 2 * b.x + c.x, a.y - 2 * b.y + c.y);
 }
 
@@ -140,8 +140,8 @@ static double bend(struct judge_point2 a, struct judge_point2 b,
  * parameter range is off by at most max |curve''| / (8 n^2), and |curve''| is
  * at most 6 times the larger second difference of the control points. */
 static double pieces_of(const struct cubic *c) {
-  double bent =
-      fmax(bend(c->p[0], c->p[1], c->p[2]), bend(c->p[1], c->p[2], c->p[3]));
+  double bent = fmax(second_difference(c->p[0], c->p[1], c->p[2]),
+                     second_difference(c->p[1], c->p[2], c->p[3]));
   return ceil(sqrt(bent * 6 / (8 * TOLERANCE_CURVE_MM)));
 }
 
@@ -221,7 +221,7 @@ static void draw_cubic(struct svg_pen *pen, struct cubic curve) {
 void svg_pen_curve(struct svg_pen *pen, struct judge_point2 b,
                    struct judge_point2 c, struct judge_point2 d) {
   struct cubic curve = {.halved = 0};
-  put_down(pen);
+  lower_pen(pen);
   curve.p[0] = svg_apply(&pen->to_page, pen->here.x, pen->here.y);
   curve.p[1] = svg_apply(&pen->to_page, b.x, b.y);
   curve.p[2] = svg_apply(&pen->to_page, c.x, c.y);

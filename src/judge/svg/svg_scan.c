@@ -54,7 +54,7 @@ void svg_skip_spaces(struct svg_text *text) {
 
 /* Passes over a comment, a declaration or the like that begins at `file`;
  * false where it does not end. */
-static bool pass_other(struct svg_text *file) {
+static bool skip_markup(struct svg_text *file) {
   static const char *const around[][2] = {
       {"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}};
   for (size_t i = 0; i < sizeof around / sizeof around[0]; i++) {
@@ -126,7 +126,7 @@ bool svg_next_tag(struct svg_text *file, struct svg_tag *tag, bool *broken) {
     bool other = open + 1 < file->end && (open[1] == '!' || open[1] == '?');
     if (!other)
       break;
-    *broken = !pass_other(file);
+    *broken = !skip_markup(file);
     if (*broken)
       return false;
   }

@@ -99,13 +99,13 @@ edge_functions_at(const struct geom_triangle *corners, int64_t x, int64_t y,
   return functions;
 }
 
-static void step(uint64_t at[3], const uint64_t by[3]) {
+static void step_edge_functions(uint64_t at[3], const uint64_t by[3]) {
   for (int k = 0; k < 3; k++)
     at[k] += by[k];
 }
 
 /* Which of the three values are not positive, as bits. */
-static int outside(const uint64_t at[3]) {
+static int outside_mask(const uint64_t at[3]) {
   return (int)((at[0] - 1) >> 63 | (at[1] - 1) >> 63 << 1 |
                (at[2] - 1) >> 63 << 2);
 }
@@ -171,7 +171,7 @@ static bool surrounds_beyond(const struct neighbour *neighbour,
                              const struct box2 *window, int shift) {
   struct edge_functions functions =
       edge_functions_at(&neighbour->corners, window->x0, window->y0, shift);
-  return (outside(functions.at) & ~(1 << neighbour->side)) == 0;
+  return (outside_mask(functions.at) & ~(1 << neighbour->side)) == 0;
 }
 
 /* The triangle that raises bounds, and those beyond its sides. */
@@ -252,11 +252,12 @@ static void raise_block(struct raising *raising, struct cell_range r, int bx,
   struct edge_functions row =
       edge_functions_at(&raising->corners, x, y, cells->shift);
   bool raised = false;
-  for (int cy = r.y0; cy <= r.y1; cy++, y += side, step(row.at, row.up)) {
+  for (int cy = r.y0; cy <= r.y1;
+       cy++, y += side, step_edge_functions(row.at, row.up)) {
     int32_t *bound = buffer->bound + (size_t)cy * (size_t)cells->columns;
     uint64_t at[3] = {row.at[0], row.at[1], row.at[2]};
-    for (int cx = r.x0; cx <= r.x1; cx++, step(at, row.right)) {
-      int out = outside(at);
+    for (int cx = r.x0; cx <= r.x1; cx++, step_edge_functions(at, row.right)) {
+      int out = outside_mask(at);
       if ((out & (out - 1)) != 0)
         continue;
       struct box2 window = {(int32_t)(cells->x0 + cx * side), (int32_t)y,

@@ -217,7 +217,7 @@ static bool is_triangle_hidden(struct culling_work *work,
 }
 
 /* Returns false when the caller cancelled. */
-static bool cull(struct culling_work *work) {
+static bool cull_triangles(struct culling_work *work) {
   struct occlusion_culling *culling = work->culling;
   for (size_t i = 0; i < work->sheet->triangle.count; i++) {
     if (!poll_at(i))
@@ -260,7 +260,7 @@ static void add_thickness(struct culling_work *work,
 }
 
 /* Lowers the bounds by the contact tolerances of the triangles that are not
- * culled.  Those that test_again brings back do not count: they are hidden, so
+ * culled.  Those that retest_culled restores do not count: they are hidden, so
  * that no fragment is in contact with theirs.  Returns false when memory ran
  * out. */
 static bool lower_bounds(struct culling_work *work) {
@@ -291,7 +291,7 @@ static bool lower_bounds(struct culling_work *work) {
 
 /* Tests the culled triangles again, with a new number of tests.  Returns false
  * when the caller cancelled. */
-static bool test_again(struct culling_work *work) {
+static bool retest_culled(struct culling_work *work) {
   struct occlusion_culling *culling = work->culling;
   work->tests = TESTS * (int64_t)work->sheet->triangle.count;
   for (size_t i = 0; i < work->sheet->triangle.count; i++) {
@@ -359,9 +359,9 @@ bool occlusion_culling_init(struct occlusion_culling *culling,
     culling->culled = mem_calloc(sheet->triangle.count, 1);
     ok = culling->culled != NULL && occlusion_buffer_init(&culling->buffer);
     work.tests = TESTS * (int64_t)sheet->triangle.count;
-    ok = ok && cull(&work);
+    ok = ok && cull_triangles(&work);
     if (fragments && culling->count > 0)
-      ok = ok && lower_bounds(&work) && test_again(&work);
+      ok = ok && lower_bounds(&work) && retest_culled(&work);
     if (4 * culling->count < sheet->triangle.count)
       occlusion_culling_fini(culling);
   }

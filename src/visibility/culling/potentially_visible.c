@@ -126,7 +126,8 @@ static bool add_contour(struct potentially_visible *part,
 }
 
 /* Is a triangle culled of those from t on that are of t's face? */
-static bool is_torn(const struct numbering *numbering, uint32_t t) {
+static bool is_face_culled_partly(const struct numbering *numbering,
+                                  uint32_t t) {
   const struct sheet *whole = numbering->whole;
   for (uint32_t n = t;
        n < whole->triangle.count &&
@@ -151,7 +152,7 @@ static bool list_contours(struct potentially_visible *part,
                      whole->contour.item[i].point[1]);
   for (uint32_t t = 0; ok && t < whole->triangle.count; t++) {
     if (t == 0 || triangle[t].face != triangle[t - 1].face)
-      torn = is_torn(numbering, t);
+      torn = is_face_culled_partly(numbering, t);
     ok = poll_at(t);
     for (int k = 0; ok && k < 3 && !is_triangle_culled(numbering, t); k++) {
       uint32_t side = triangle[t].side[k];
@@ -254,8 +255,8 @@ static bool append_intersections(const struct potentially_visible *part,
 
 /* The whole sheet's number of an edge of the part.
  * past  what the intersections' numbers are greater by */
-static uint32_t edge_in_whole(const struct potentially_visible *part,
-                              uint32_t edge, uint32_t past) {
+static uint32_t whole_edge_number(const struct potentially_visible *part,
+                                  uint32_t edge, uint32_t past) {
   return edge < part->edges ? part->edge[edge] : edge + past;
 }
 
@@ -269,18 +270,18 @@ bool potentially_visible_restore(struct potentially_visible *part,
     if (state == NULL)
       return false;
     for (uint32_t e = 0; e < map->edge_count; e++)
-      state[edge_in_whole(part, e, past)] = map->edge_state[e];
+      state[whole_edge_number(part, e, past)] = map->edge_state[e];
     mem_free(map->edge_state);
     map->edge_state = state;
     map->edge_count = whole->edge.count;
   }
   for (size_t i = 0; i < map->mixed.count; i++)
     map->mixed.item[i].edge =
-        edge_in_whole(part, map->mixed.item[i].edge, past);
+        whole_edge_number(part, map->mixed.item[i].edge, past);
   for (size_t i = 0; i < map->corner.count; i++) {
     struct map_corner *corner = &map->corner.item[i];
     if (corner->side == MAP_SIDE_EDGE || corner->side == MAP_SIDE_OCCLUDER)
-      corner->id = edge_in_whole(part, corner->id, past);
+      corner->id = whole_edge_number(part, corner->id, past);
   }
   return true;
 }

@@ -45,7 +45,7 @@ struct face_work {
 
 /* Finds the triangles of the face that have area; the triangles of a face are
  * consecutive in the sheet. */
-static bool find_own(struct face_work *work, uint32_t triangle) {
+static bool find_own_triangles(struct face_work *work, uint32_t triangle) {
   const struct sheet *sheet = work->fragments->sheet;
   uint32_t first = triangle;
   work->own.count = 0;
@@ -274,7 +274,7 @@ static bool index_sides(struct face_work *work) {
     struct face_outline outline;
     n = count_pieces(&piece[i], f->piece.count - i);
     work->face = piece[i].face;
-    ok = poll_at(polls++) && find_own(work, piece[i].triangle);
+    ok = poll_at(polls++) && find_own_triangles(work, piece[i].triangle);
     if (ok && find_outline(work, &piece[i], n, &outline))
       ok = ARRAY_PUSH(&work->outline, outline);
     else

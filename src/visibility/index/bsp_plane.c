@@ -281,8 +281,9 @@ struct plane_choice {
 };
 
 /* Takes a splitter if it is valid and better than the best so far. */
-static void consider(struct plane_choice *choice, const struct sample *sample,
-                     const struct bsp_plane *splitter) {
+static void consider_splitter(struct plane_choice *choice,
+                              const struct sample *sample,
+                              const struct bsp_plane *splitter) {
   double left;
   if (splitter->is_plane
           ? !(plane_filter_thickness(&splitter->plane) <= splitter->thickness)
@@ -310,13 +311,13 @@ bool bsp_plane_choose(struct bsp_plane *splitter, const struct sheet *sheet,
     struct bsp_plane candidate;
     for (int k = 0; k < 3; k++) {
       candidate = line_along(sample.corners[i].p, k, shared_vertex);
-      consider(&choice, &sample, &candidate);
+      consider_splitter(&choice, &sample, &candidate);
     }
     if (planes) {
       candidate = plane_through_corners(
           sheet, sample.triangle[i], shared_vertex,
           choose_shared_vertex(&sample, i, shared_vertex), thickness);
-      consider(&choice, &sample, &candidate);
+      consider_splitter(&choice, &sample, &candidate);
     }
   }
   return choice.found;

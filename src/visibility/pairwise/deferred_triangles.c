@@ -127,8 +127,8 @@ bool deferred_triangles_sort(
 
 /* Returns false only if segment pq has no point inside triangle f: a
  * conservative test. */
-static bool may_enter(const struct geom_point f[3], struct geom_point p,
-                      struct geom_point q) {
+static bool may_intersect_segment(const struct geom_point f[3],
+                                  struct geom_point p, struct geom_point q) {
   int64_t a = geom_orient2d(p, q, f[0]), b = geom_orient2d(p, q, f[1]),
           c = geom_orient2d(p, q, f[2]);
   if ((a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0))
@@ -159,7 +159,7 @@ static bool is_crossed(const struct deferred_triangles *deferred_triangles) {
         struct geom_point p = sheet->point.item[point[0]],
                           q = sheet->point.item[point[1]];
         if ((p.z >= subtraction->low || q.z >= subtraction->low) &&
-            may_enter(subtraction->plane.p, p, q))
+            may_intersect_segment(subtraction->plane.p, p, q))
           return true;
       }
     }

@@ -78,7 +78,7 @@ bool edge_intervals_open_map(struct map *map, size_t edge_count) {
   return true;
 }
 
-static int compare_from(const void *a, const void *b, void *user) {
+static int compare_interval_starts(const void *a, const void *b, void *user) {
   const struct occluded_interval *p = a, *q = b;
   (void)user;
   return ratio_compare(p->from, q->from);
@@ -102,7 +102,7 @@ static bool unite_intervals(const struct edge_intervals *intervals, int side,
   if (united->count == 0)
     return true;
   if (!sort_stable(united->item, united->count, sizeof *united->item,
-                   compare_from, NULL))
+                   compare_interval_starts, NULL))
     return false;
   for (size_t i = 1; i < united->count; i++) {
     struct occluded_interval *p = &united->item[last];

@@ -96,13 +96,13 @@ int occluder_side(const struct occluder *occluder, struct geom_point p) {
 }
 
 /* Intersects the interval with [t, 1]. */
-static void raise_from(struct occluded_interval *interval, struct ratio t) {
+static void clip_before(struct occluded_interval *interval, struct ratio t) {
   if (ratio_compare(interval->from, t) < 0)
     interval->from = t;
 }
 
 /* Intersects the interval with [0, t]. */
-static void lower_to(struct occluded_interval *interval, struct ratio t) {
+static void clip_after(struct occluded_interval *interval, struct ratio t) {
   if (ratio_compare(t, interval->to) < 0)
     interval->to = t;
 }
@@ -152,9 +152,9 @@ static bool clip_to_outline(const struct geom_point corner[3],
   }
   for (int k = 0; k < 3; k++) {
     if (s[k] < 0)
-      raise_from(interval, ratio_of(-s[k], t[k] - s[k]));
+      clip_before(interval, ratio_of(-s[k], t[k] - s[k]));
     else if (t[k] < 0)
-      lower_to(interval, ratio_of(s[k], s[k] - t[k]));
+      clip_after(interval, ratio_of(s[k], s[k] - t[k]));
   }
   return ratio_compare(interval->from, interval->to) < 0;
 }
@@ -202,9 +202,9 @@ static bool clip_to_depth(const struct occluder *occluder, struct geom_point p,
     return true;
   counts->crossings++;
   if (gp >= 0)
-    raise_from(interval, (struct ratio){gp, gp - gq});
+    clip_before(interval, (struct ratio){gp, gp - gq});
   else
-    lower_to(interval, (struct ratio){-gp, gq - gp});
+    clip_after(interval, (struct ratio){-gp, gq - gp});
   return ratio_compare(interval->from, interval->to) < 0;
 }
 

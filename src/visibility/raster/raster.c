@@ -59,7 +59,7 @@ static bool allocate_frame(struct raster *raster) {
          (raster->level != NULL || raster->depth != NULL);
 }
 
-static double within(double value, double most) {
+static double clamp_to_frame(double value, double most) {
   return value < 0 ? 0 : value > most ? most : value;
 }
 
@@ -74,8 +74,8 @@ static void find_pixels_of_points(struct raster *raster) {
   for (size_t i = 0; i < raster->sheet->point.count; i++) {
     double x = (double)at[i].x * (double)grid->den - (double)grid->x_first;
     double y = (double)at[i].y * (double)grid->den - first;
-    double column = within(x / (double)grid->x_step, grid->columns - 1);
-    double line = within(y / (double)grid->y_step, grid->lines);
+    double column = clamp_to_frame(x / (double)grid->x_step, grid->columns - 1);
+    double line = clamp_to_frame(y / (double)grid->y_step, grid->lines);
     int32_t below = (int32_t)line;
     raster->pixel_of[i] =
         (struct raster_pixel){below + (below < line), (int32_t)column};

@@ -32,9 +32,9 @@ bool span_fill_is_nearer(const struct raster *raster, uint32_t facet,
   return order > 0 || (order == 0 && facet < there);
 }
 
-void span_fill_settle(struct raster *raster, uint32_t facet, int32_t line,
-                      int32_t first, int32_t past, double z,
-                      double per_column) {
+void span_fill_compare_exactly(struct raster *raster, uint32_t facet,
+                               int32_t line, int32_t first, int32_t past,
+                               double z, double per_column) {
   size_t row = raster_row(raster, line);
   for (int32_t c = first; c < past; c++, z += per_column) {
     double *depth = &raster->depth[row + (size_t)c];

@@ -101,7 +101,7 @@ static inline void span_fill_put_lanes(const struct span_fill_stamp *stamp,
  * z      at the first pixel's centre
  * count  nothing is drawn where it is not above 0
  * close  not 0 afterwards where doubles did not decide: call
- * span_fill_settle */
+ * span_fill_compare_exactly */
 static inline void span_fill_put(const struct span_fill_stamp *stamp,
                                  double *depth, uint32_t *seen, double z,
                                  double count, span_fill_mask *close) {
@@ -116,8 +116,9 @@ static inline void span_fill_put(const struct span_fill_stamp *stamp,
 
 /* The second pass over a span: compares exactly in the pixels where doubles did
  * not decide. */
-void span_fill_settle(struct raster *raster, uint32_t facet, int32_t line,
-                      int32_t first, int32_t past, double z, double per_column);
+void span_fill_compare_exactly(struct raster *raster, uint32_t facet,
+                               int32_t line, int32_t first, int32_t past,
+                               double z, double per_column);
 
 /* Both passes over the columns [first, past) of a line. */
 static inline void span_fill_span(struct raster *raster, uint32_t facet,
@@ -129,7 +130,7 @@ static inline void span_fill_span(struct raster *raster, uint32_t facet,
   span_fill_put(&stamp, raster->depth + at, raster->seen + at, z, past - first,
                 &close);
   if ((close[0] | close[1]) != 0)
-    span_fill_settle(raster, facet, line, first, past, z, per_column);
+    span_fill_compare_exactly(raster, facet, line, first, past, z, per_column);
 }
 
 /* ---- Triangles ----------------------------------------------------------- */

@@ -18,7 +18,7 @@ recto_status subpixels_lines(const struct solver_request *request, int *lines,
 }
 
 /* The facet that most sub-pixels see, of equals the one of lower index. */
-static uint32_t find_most(const uint32_t *seen, uint32_t all) {
+static uint32_t find_most_frequent(const uint32_t *seen, uint32_t all) {
   uint32_t best = 0, most = 0;
   for (uint32_t i = 0; i < all; i++) {
     uint32_t same = 0;
@@ -39,7 +39,7 @@ uint32_t subpixels_resolve(const uint32_t *seen, uint32_t all,
   *covered = 0;
   for (uint32_t i = 0; i < all; i++)
     *covered += seen[i] != 0;
-  return 2 * *covered >= all ? find_most(seen, all) : 0;
+  return 2 * *covered >= all ? find_most_frequent(seen, all) : 0;
 }
 
 bool subpixels_init(struct subpixels *subpixels, int k, int32_t fine_columns,

@@ -188,9 +188,9 @@ struct sample_lines {
 
 /* Does the sample at frame x of the upper or lower line show no facet in front
  * of depth z? */
-static bool sees_depth(const struct edge_sampling *sampling,
-                       const struct sample_lines *lines, bool upper, double x,
-                       double z) {
+static bool is_depth_visible(const struct edge_sampling *sampling,
+                             const struct sample_lines *lines, bool upper,
+                             double x, double z) {
   const void *line = upper ? lines->upper : lines->lower;
   uint32_t facet;
   if (line == NULL)
@@ -245,14 +245,15 @@ static bool is_cell_visible(const struct edge_sampling *sampling,
   double near = sampling->reach_x > 0 ? floor(x) + 0.5 : x;
   double far = x < near ? near - 1 : near + 1;
   if (sampling->reach_x == 0 && edge->between)
-    return sees_depth(sampling, lines, upper, near, z) &&
+    return is_depth_visible(sampling, lines, upper, near, z) &&
            !is_occluded_by(sampling, edge, lines, upper, t);
-  if (sees_depth(sampling, lines, upper, near, z))
+  if (is_depth_visible(sampling, lines, upper, near, z))
     return true;
-  if (sees_depth(sampling, lines, !upper, near, z))
+  if (is_depth_visible(sampling, lines, !upper, near, z))
     return true;
-  return sampling->reach_x > 0 && (sees_depth(sampling, lines, upper, far, z) ||
-                                   sees_depth(sampling, lines, !upper, far, z));
+  return sampling->reach_x > 0 &&
+         (is_depth_visible(sampling, lines, upper, far, z) ||
+          is_depth_visible(sampling, lines, !upper, far, z));
 }
 
 static bool close_sampled_run(struct edge_sampling *sampling,

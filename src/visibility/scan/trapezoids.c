@@ -73,7 +73,7 @@ static void make_ascend(double *value, size_t count) {
 }
 
 /* Decides the upper or the lower x of all borders of the line. */
-static void settle_borders(struct trapezoids *trapezoids, bool upper) {
+static void compute_borders(struct trapezoids *trapezoids, bool upper) {
   struct span_side **side = trapezoids->side.item;
   size_t count = trapezoids->side.count / 2;
   double *value = trapezoids->border.item;
@@ -134,8 +134,8 @@ static bool end_line(struct trapezoids *trapezoids) {
     return true;
   if (!list_borders(trapezoids))
     return false;
-  settle_borders(trapezoids, true);
-  settle_borders(trapezoids, false);
+  compute_borders(trapezoids, true);
+  compute_borders(trapezoids, false);
   for (size_t i = 0; i < trapezoids->row.count; i++)
     if (!join_span(trapezoids, &trapezoids->row.item[i]))
       return false;

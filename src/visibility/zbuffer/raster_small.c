@@ -208,8 +208,9 @@ static void settle_rows(struct raster *raster, uint32_t triangle,
   for (int32_t i = 0; i < lines; i++) {
     const struct rows *r = &rows[i / BATCH];
     int32_t k = i % BATCH, first = r->first[k];
-    span_fill_settle(raster, triangle, high - 1 - i, first,
-                     first + (int32_t)r->count[k], r->z[k], per_column);
+    span_fill_compare_exactly(raster, triangle, high - 1 - i, first,
+                              first + (int32_t)r->count[k], r->z[k],
+                              per_column);
   }
 }
 

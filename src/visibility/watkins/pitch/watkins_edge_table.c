@@ -272,7 +272,7 @@ static uint32_t choose_edge(const struct watkins *watkins, size_t first,
 }
 
 /* Where the edges at the same x as active[first] end. */
-static size_t find_past(const struct scan_table *table, size_t first) {
+static size_t find_group_end(const struct scan_table *table, size_t first) {
   const struct scan_edge *edge = table->edge.item;
   size_t past = first + 1;
   while (past < table->active_count &&
@@ -327,7 +327,7 @@ bool watkins_next(struct watkins *watkins, bool *more) {
   watkins->record[parity].count = 0;
   watkins->order[parity].count = 0;
   for (size_t i = 0, past; i < table->active_count; i = past) {
-    past = find_past(table, i);
+    past = find_group_end(table, i);
     if (!process_end(watkins, i, past, seen, &seen))
       return false;
   }

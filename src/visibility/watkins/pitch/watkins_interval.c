@@ -244,8 +244,8 @@ static double lines_order_holds(const struct watkins *watkins, uint32_t left,
 
 static int parity_of(int32_t line) { return line & 1; }
 
-static bool ends_here(const struct watkins *watkins, uint32_t left,
-                      uint32_t right) {
+static bool is_last_line(const struct watkins *watkins, uint32_t left,
+                         uint32_t right) {
   const struct scan_edge *edge = watkins->table.edge.item;
   return edge[left].dy == 0 || edge[right].dy == 0;
 }
@@ -257,7 +257,7 @@ static bool store_record(struct watkins *watkins, uint32_t left, uint32_t right,
   watkins_list *order = &watkins->order[here];
   struct watkins_record record = {until, left, right, (uint32_t)order->count,
                                   (uint32_t)watkins->in.count};
-  if (ends_here(watkins, left, right))
+  if (is_last_line(watkins, left, right))
     return true;
   watkins->edge.item[left].record = (uint32_t)watkins->record[here].count;
   if (!ARRAY_RESERVE(order, watkins->in.count))
@@ -298,7 +298,7 @@ static bool decide_by_depth(struct watkins *watkins, uint32_t left,
   if (!ARRAY_RESERVE(&watkins->depth, watkins->in.count) ||
       !split_interval(watkins, left, right, &nearest))
     return false;
-  if (nearest == WATKINS_NONE || ends_here(watkins, left, right))
+  if (nearest == WATKINS_NONE || is_last_line(watkins, left, right))
     return true;
   kept = lines_order_holds(watkins, left, right, nearest);
   return !(kept >= 1) || store_record(watkins, left, right,
