@@ -95,5 +95,6 @@ recto_status error_memory(recto_error *error) {
 }
 
 recto_status error_null(recto_error *error, const char *name) {
-  return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0, "NULL was given for %s", name);
+  return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                   "NULL was given for %s", name);
 }
