@@ -158,6 +158,36 @@ static void a_diagonal_that_faces_share_may_be_a_line(void **state) {
   }
 }
 
+/* Two rhombuses cross in a diagonal of both, and the section plane cuts one of
+ * them so close to an end of the diagonal, before it or behind, that a side a
+ * few units long is left there, or none.  The line stays whole. */
+static void a_clipped_face_has_its_whole_line(void **state) {
+  static const double across[] = {-40, 0, 0, 0, -30, 0, 40, 0, 0, 0, 30, 0},
+                      towards[] = {0, 0, -40, 0, -30, 0, 0, 0, 40, 0, 30, 0};
+  const double degree = acos(-1) / 180, rise = 30 * degree;
+  (void)state;
+  for (int step = -120; step <= 120; step++) {
+    struct sheet_fixture fixture;
+    struct lines lines;
+    double off = copysign(pow(10, abs(step) / 12.0 - 12), step);
+    sheet_fixture_start(&fixture);
+    build_polygon(&fixture.scene, across, 4);
+    build_polygon(&fixture.scene, towards, 4);
+    fixture.options.camera.elevation_deg = 30;
+    fixture.options.camera.azimuth_deg = 0.1;
+    fixture.options.camera.fit = RECTO_FIT_SCALE;
+    fixture.options.camera.scale = 1;
+    /* So far the upper end of the diagonal is behind the nearest corner. */
+    fixture.options.camera.has_section = true;
+    fixture.options.camera.section =
+        40 * cos(rise) * cos(0.1 * degree) - 30 * sin(rise) + off;
+    solve(&fixture, &lines);
+    assert_int_equal(lines.count, 2);
+    assert_true(fabs(length_of(&lines) / SHEET_UNITS_PER_MM - 60 * cos(rise)) <
+                1e-4 + 4 * fmax(off, 0));
+  }
+}
+
 /* The ridge of a roof runs up within a wall that is seen edge-on, or is so many
  * units of the grid thick on the page; the wall is 1 mm high, so that a line of
  * 1 mm on the page is in it. */
@@ -241,6 +271,7 @@ int main(void) {
       cmocka_unit_test(what_meets_beside_an_edge_has_its_line_there),
       cmocka_unit_test(a_line_along_a_diagonal_is_whole),
       cmocka_unit_test(a_diagonal_that_faces_share_may_be_a_line),
+      cmocka_unit_test(a_clipped_face_has_its_whole_line),
       cmocka_unit_test(a_wall_seen_edge_on_has_its_whole_line),
       cmocka_unit_test(a_face_makes_no_line_with_itself),
       cmocka_unit_test(the_longer_part_of_a_line_says_where_it_is),

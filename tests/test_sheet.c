@@ -98,6 +98,32 @@ static void clipped_scenes_keep_every_invariant(void **state) {
   assert_true(near > 1000 && page > 1000); /* they were clipped indeed */
 }
 
+/* The section plane cuts off so little of a pyramid's apex that its edges end
+ * in one place of the grid: that is one point, as the apex was. */
+static void edges_of_a_point_that_are_cut_in_one_place_share_it(void **state) {
+  static const double base[] = {-20, -20, 0, 20, -20, 0, 20, 20, 0, -20, 20, 0};
+  (void)state;
+  for (int cut = 0; cut < 2; cut++) {
+    struct sheet_fixture fixture;
+    sheet_fixture_start(&fixture);
+    uint32_t apex = build_point(&fixture.scene, 1, 2, 30), corner[4];
+    for (int k = 0; k < 4; k++)
+      corner[k] = build_point(&fixture.scene, base[3 * k], base[3 * k + 1], 0);
+    for (int k = 0; k < 4; k++)
+      build_triangle(&fixture.scene, apex, corner[k], corner[(k + 1) % 4]);
+    fixture.options.camera.azimuth_deg = 0;
+    fixture.options.camera.elevation_deg = 0;
+    fixture.options.camera.has_section = cut > 0;
+    fixture.options.camera.section = 1e-9;
+    sheet_fixture_out(&fixture, true);
+    assert_int_equal(fixture.sheet.point.count, 5);
+    assert_int_equal(fixture.sheet.triangle.count, 4);
+    assert_int_equal(fixture.sheet.clipped_near, 4 * cut);
+    sheet_fixture_check(&fixture);
+    sheet_fixture_fini(&fixture);
+  }
+}
+
 static void an_eye_in_a_degenerate_position_is_handled(void **state) {
   (void)state;
   for (int place = SCENES_EYE_INSIDE; place <= SCENES_EYE_ON_LINE; place++)
@@ -805,6 +831,7 @@ int main(void) {
       cmocka_unit_test(the_scenes_keep_every_invariant),
       cmocka_unit_test(random_scenes_keep_every_invariant),
       cmocka_unit_test(clipped_scenes_keep_every_invariant),
+      cmocka_unit_test(edges_of_a_point_that_are_cut_in_one_place_share_it),
       cmocka_unit_test(an_eye_in_a_degenerate_position_is_handled),
       cmocka_unit_test(points_are_snapped_to_the_nearest_grid_unit),
       cmocka_unit_test(depth_fills_its_range),

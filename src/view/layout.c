@@ -13,6 +13,8 @@ static void free_layout(struct layout *layout) {
   mem_free(layout->edge_cut);
   ARRAY_FREE(&layout->cut);
   ARRAY_FREE(&layout->flags);
+  ARRAY_FREE(&layout->cut_ends.list);
+  mem_free(layout->cut_ends.slot);
   ARRAY_FREE(&layout->diagonal);
   ARRAY_FREE(&layout->fold);
   ARRAY_FREE(&layout->corner);

@@ -68,34 +68,84 @@ static uint32_t edge_of(const struct layout *layout,
   return side == CLIP_CUT ? SHEET_NONE : layout_side_id(layout, triangle, side);
 }
 
-/* Adds a clipped triangle as a fan.  Where rounding to the grid turned a
+/* What clipping left of a triangle, while ears are cut off it. */
+struct clipped_ring {
+  uint32_t point[CLIP_CORNERS_MAX]; /* of the sheet */
+  uint32_t side[CLIP_CORNERS_MAX];  /* that starts there, as of edge_of */
+  int count;
+};
+
+/* The corner that is cut off by the shortest diagonal on the page, the first of
+ * equal ones.  So a side that is a few grid units long shares its triangle with
+ * a short diagonal, and the long sides' triangles are no slivers, whose planes
+ * would be decided by rounding. */
+static int find_ear(const struct layout *layout,
+                    const struct clipped_ring *ring) {
+  const struct geom_point *at = layout->sheet->point.item;
+  int n = ring->count, ear = 1;
+  int64_t least = INT64_MAX;
+  for (int i = 0; n > 3 && i < n; i++) {
+    struct geom_point a = at[ring->point[(i + n - 1) % n]],
+                      b = at[ring->point[(i + 1) % n]];
+    int64_t x = (int64_t)b.x - a.x, y = (int64_t)b.y - a.y;
+    if (x * x + y * y < least) {
+      least = x * x + y * y;
+      ear = i;
+    }
+  }
+  return ear;
+}
+
+/* Adds the triangle of a corner and its neighbours, and removes the corner.
+ * corner  gets the triangle's
+ * Returns its area on the page. */
+static int64_t cut_ear(struct layout *layout, uint32_t face, int ear,
+                       struct clipped_ring *ring, uint32_t corner[3]) {
+  int n = ring->count, before = (ear + n - 1) % n, after = (ear + 1) % n;
+  const uint32_t side[3] = {ring->side[before], ring->side[ear],
+                            n > 3 ? SHEET_NONE : ring->side[after]};
+  corner[0] = ring->point[before];
+  corner[1] = ring->point[ear];
+  corner[2] = ring->point[after];
+  ring->side[before] = SHEET_NONE;
+  ring->count--;
+  for (int i = ear; i < ring->count; i++) {
+    ring->point[i] = ring->point[i + 1];
+    ring->side[i] = ring->side[i + 1];
+  }
+  return layout_add_triangle(layout, face, corner, side);
+}
+
+/* Adds a clipped triangle in triangles.  Where rounding to the grid turned a
  * sliver of it over or made it flat, that triangle's sides are contours.
  * sign  set to the sign of the whole area on the page, in the face's winding */
-static recto_status add_clipped_fan(struct layout *layout,
-                                    const struct layout_triangle *triangle,
-                                    const struct clip_polygon *polygon,
-                                    const uint32_t *point, int *sign) {
-  int64_t area[CLIP_CORNERS_MAX] = {0};
+static recto_status add_clipped_ears(struct layout *layout,
+                                     const struct layout_triangle *triangle,
+                                     const struct clip_polygon *polygon,
+                                     const uint32_t *point, int *sign) {
+  struct clipped_ring ring = {.count = polygon->count};
+  uint32_t corner[CLIP_CORNERS_MAX][3];
+  int64_t area[CLIP_CORNERS_MAX];
   int128 whole = 0;
+  int ears = polygon->count - 2;
   if (!layout_reserve(layout, CLIP_CORNERS_MAX))
     return error_memory(layout->error);
-  for (int i = 1; i + 1 < polygon->count; i++) {
-    bool last = i + 2 == polygon->count;
-    const uint32_t corner[3] = {point[0], point[i], point[i + 1]};
-    const uint32_t side[3] = {
-        i == 1 ? edge_of(layout, triangle, polygon, 0) : SHEET_NONE,
-        edge_of(layout, triangle, polygon, i),
-        last ? edge_of(layout, triangle, polygon, i + 1) : SHEET_NONE};
-    area[i] = layout_add_triangle(layout, triangle->face, corner, side);
+  for (int i = 0; i < ring.count; i++) {
+    ring.point[i] = point[i];
+    ring.side[i] = edge_of(layout, triangle, polygon, i);
+  }
+  for (int i = 0; i < ears; i++) {
+    area[i] = cut_ear(layout, triangle->face, find_ear(layout, &ring), &ring,
+                      corner[i]);
     whole += area[i];
   }
   *sign = geom_sign128(whole);
   recto_status status = RECTO_OK;
-  for (int i = 1; status == RECTO_OK && i + 1 < polygon->count; i++) {
-    const uint32_t corner[4] = {point[0], point[i], point[i + 1], point[0]};
+  for (int i = 0; status == RECTO_OK && i < ears; i++) {
     bool odd = area[i] == 0 || geom_sign64(area[i]) != *sign;
     for (int k = 0; odd && status == RECTO_OK && k < 3; k++)
-      status = layout_contour(layout, corner[k], corner[k + 1]);
+      status =
+          layout_contour(layout, corner[i][k], corner[i][geom_next_corner(k)]);
   }
   return status;
 }
@@ -116,17 +166,24 @@ static bool is_all_on_border(const struct layout *layout, const uint32_t *point,
   return false;
 }
 
-/* Leaves out corners that came to the point of the next one. */
+/* Leaves out corners that came to the point of the next one, or the one after
+ * that: then the corner between them is the end of a spike. */
 static void drop_repeats(struct clip_polygon *polygon, uint32_t *point) {
-  uint32_t first = point[0];
-  int kept = 0;
-  for (int i = 0; i < polygon->count; i++) {
-    if (point[i] == (i + 1 < polygon->count ? point[i + 1] : first))
-      continue;
-    point[kept] = point[i];
-    polygon->corner[kept++] = polygon->corner[i];
+  for (int i = 0; i < polygon->count && polygon->count >= 3;) {
+    int n = polygon->count, drop = 0;
+    if (point[i] == point[(i + 1) % n])
+      drop = 1;
+    else if (point[i] == point[(i + 2) % n])
+      drop = 2;
+    for (int k = 0; k < drop; k++, n--) {
+      for (int j = i % n; j + 1 < n; j++) {
+        point[j] = point[j + 1];
+        polygon->corner[j] = polygon->corner[j + 1];
+      }
+    }
+    polygon->count = n;
+    i = drop > 0 ? 0 : i + 1;
   }
-  polygon->count = kept;
 }
 
 /* The orientation of a triangle on the page, in its own winding, before
@@ -167,7 +224,7 @@ static recto_status add_polygon(struct layout *layout,
     return RECTO_OK;
   int sign = 0;
   recto_status status =
-      add_clipped_fan(layout, triangle, polygon, point, &sign);
+      add_clipped_ears(layout, triangle, polygon, point, &sign);
   /* Where a strip is left so thin that rounding made it flat, as at the near
    * plane, the triangle still lies on its side of the edge. */
   if (sign == 0)

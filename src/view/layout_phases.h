@@ -28,6 +28,20 @@ struct layout_cut {
   uint32_t point[2]; /* sheet points; SHEET_NONE both: nothing is left */
 };
 
+/* Where clipping cut an edge of a scene point that is outside. */
+struct layout_cut_end {
+  uint32_t outside; /* the scene point */
+  uint32_t point;   /* the sheet point */
+  uint32_t hash;    /* of the scene point and the position */
+};
+
+/* A hash table of these by linear probing. */
+struct layout_cut_ends {
+  ARRAY(struct layout_cut_end) list;
+  uint32_t *slot; /* indices into the list; SHEET_NONE: free */
+  size_t slots;   /* a power of two */
+};
+
 /* On which sides of an edge or a diagonal its faces lie, seen from its lower to
  * its upper point.  The bits above count the faces, up to three. */
 enum {
@@ -87,6 +101,7 @@ struct layout {
   uint32_t *edge_cut;  /* topology edge -> cut; SHEET_NONE: not yet clipped;
                           NULL until the first is */
   ARRAY(struct layout_cut) cut;
+  struct layout_cut_ends cut_ends;
   ARRAY(uint8_t) flags; /* one a triangle; passed to the sheet at the end */
   struct triangulation triangulation;
   ARRAY(struct layout_diagonal) diagonal; /* of the current face */

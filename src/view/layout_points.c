@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "base/hash.h"
 #include "base/poll.h"
 #include "view/used.h"
 
@@ -82,6 +83,56 @@ recto_status layout_new_point(struct layout *layout, struct view_point at,
   return RECTO_OK;
 }
 
+/* Doubles the table's slots.  Returns false when memory ran out. */
+static bool grow_cut_ends(struct layout_cut_ends *ends) {
+  size_t slots = ends->slots > 0 ? 2 * ends->slots : 64;
+  uint32_t *slot = mem_alloc(slots, sizeof *slot);
+  if (slot == NULL)
+    return false;
+  memset(slot, 0xff, slots * sizeof *slot);
+  for (size_t i = 0; i < ends->list.count; i++) {
+    size_t k = ends->list.item[i].hash & (slots - 1);
+    while (slot[k] != SHEET_NONE)
+      k = (k + 1) & (slots - 1);
+    slot[k] = (uint32_t)i;
+  }
+  mem_free(ends->slot);
+  ends->slot = slot;
+  ends->slots = slots;
+  return true;
+}
+
+/* The sheet point where clipping cuts an edge of a scene point that is outside.
+ * Edges of that point which are cut in the same place share it, as they share
+ * the scene point: else a triangle between two of them would be degenerate, and
+ * a diagonal that two faces have in common would be two lines. */
+static recto_status find_cut_end(struct layout *layout, uint32_t outside,
+                                 struct view_point at, uint32_t *point) {
+  struct layout_cut_ends *ends = &layout->cut_ends;
+  struct geom_point place = project_point(&layout->projection, at);
+  struct layout_cut_end end = {outside, SHEET_NONE, 0};
+  uint64_t hash = hash_add(hash_add(0, outside), (uint64_t)place.z);
+  hash = hash_add(hash_add(hash, (uint32_t)place.x), (uint32_t)place.y);
+  end.hash = (uint32_t)((hash * HASH_GOLDEN) >> 32);
+  if (2 * ends->list.count >= ends->slots && !grow_cut_ends(ends))
+    return error_memory(layout->error);
+  size_t k = end.hash & (ends->slots - 1);
+  for (; ends->slot[k] != SHEET_NONE; k = (k + 1) & (ends->slots - 1)) {
+    const struct layout_cut_end *known = &ends->list.item[ends->slot[k]];
+    *point = known->point;
+    if (known->outside == outside &&
+        geom_compare_points(layout->sheet->point.item[known->point], place) ==
+            0)
+      return RECTO_OK;
+  }
+  recto_status status = layout_new_point(layout, at, &end.point);
+  if (status != RECTO_OK)
+    return status;
+  *point = end.point;
+  ends->slot[k] = (uint32_t)ends->list.count;
+  return ARRAY_PUSH(&ends->list, end) ? RECTO_OK : error_memory(layout->error);
+}
+
 recto_status layout_segment(struct layout *layout, uint32_t from, uint32_t to,
                             struct layout_cut *cut) {
   const uint32_t source[2] = {from, to};
@@ -98,7 +149,7 @@ recto_status layout_segment(struct layout *layout, uint32_t from, uint32_t to,
   for (int k = 0; k < 2; k++) {
     recto_status status = RECTO_OK;
     if (moved[k])
-      status = layout_new_point(layout, end[k], &cut->point[k]);
+      status = find_cut_end(layout, source[k], end[k], &cut->point[k]);
     else
       cut->point[k] = layout->point_map[source[k]];
     if (status != RECTO_OK)
