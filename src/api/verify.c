@@ -52,20 +52,17 @@ static bool take_drawn(struct judge_drawing *to,
 #define FINE_UNIT_MM 0.01
 #define COLLAPSED_UNITS 4
 
-/* Collects the lines that were not drawn because they are too short: with ids
+/* Collects the lines that are not drawn because they are too short: with ids
  * too, the length of a line before it is split by source decides.  Hidden lines
- * are drawn as well, since lines end where these begin. */
-static recto_status take_dropped(struct judge_drawing *to,
-                                 const struct verify *verify,
-                                 recto_error *error) {
+ * are drawn as well, since lines end where these begin.
+ * unit_mm    of the output at which they are drawn
+ * collapsed  by so much the output may have shortened them, mm */
+static recto_status take_short(struct judge_drawing *to,
+                               const struct verify *verify, double unit_mm,
+                               double collapsed, recto_error *error) {
   recto_options all = *verify->options;
-  double shortest = all.ink.min_stroke_mm, collapsed = 0;
-  if (all.output.unit_mm > FINE_UNIT_MM) {
-    collapsed = COLLAPSED_UNITS * all.output.unit_mm;
-    all.output.unit_mm = FINE_UNIT_MM;
-  }
-  if (shortest == 0 && collapsed == 0)
-    return RECTO_OK;
+  double shortest = all.ink.min_stroke_mm;
+  all.output.unit_mm = unit_mm;
   all.ink.min_stroke_mm = 0;
   all.ink.ids = false;
   all.ink.fill = RECTO_FILL_NONE;
@@ -84,6 +81,22 @@ static recto_status take_dropped(struct judge_drawing *to,
       status = error_memory(error);
   }
   drawing_fini(&drawing);
+  return status;
+}
+
+/* Collects the lines that were not drawn because they are too short.  Where the
+ * output's unit is large they may have been long before: rounding makes near
+ * lines one, and divides a line of which a part is near another. */
+static recto_status take_dropped(struct judge_drawing *to,
+                                 const struct verify *verify,
+                                 recto_error *error) {
+  double unit = verify->options->output.unit_mm;
+  recto_status status = RECTO_OK;
+  if (unit > FINE_UNIT_MM)
+    status =
+        take_short(to, verify, FINE_UNIT_MM, COLLAPSED_UNITS * unit, error);
+  if (status == RECTO_OK && verify->options->ink.min_stroke_mm != 0)
+    status = take_short(to, verify, unit, 0, error);
   return status;
 }
 
