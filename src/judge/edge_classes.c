@@ -4,28 +4,10 @@
 
 #include "base/poll.h"
 #include "judge/camera.h"
+#include "judge/page_outline.h"
 #include "judge/triangulation.h"
 
 /* ---- Facings ------------------------------------------------------------- */
-
-/* The corner of a face whose image is farthest from a point of the page. */
-static struct judge_point2 farthest_image(const struct judge_facings *facings,
-                                          uint32_t start, uint32_t count,
-                                          struct judge_point2 from) {
-  struct judge_point2 best = from;
-  double most = 0;
-  for (uint32_t c = start; c < start + count; c++) {
-    struct judge_point2 at = judge_project(
-        facings->camera,
-        judge_point3_at(facings->scene, facings->scene->corner.item[c]));
-    double away = hypot(at.x - from.x, at.y - from.y);
-    if (away > most) {
-      most = away;
-      best = at;
-    }
-  }
-  return best;
-}
 
 /* How far on the page the contact tolerance and rounding may move a point of
  * this position, mm. */
@@ -36,45 +18,81 @@ static double thickness_at(const struct judge_facings *facings, double contact,
   return facings->options->ray_offset_mm + 2 * contact / unit;
 }
 
-/* Whether the images of all corners of a face are on one line, within that
- * distance. */
-static bool is_thin(const struct judge_facings *facings, uint32_t face,
-                    double contact) {
-  const struct scene *scene = facings->scene;
+/* The point whose image is farthest from one on the page. */
+static struct judge_point2 farthest_image(const struct judge_camera *camera,
+                                          const struct judge_point3 *point,
+                                          size_t count,
+                                          struct judge_point2 from) {
+  struct judge_point2 best = from;
+  double most = 0;
+  for (size_t i = 0; i < count; i++) {
+    struct judge_point2 at = judge_project(camera, point[i]);
+    double away = hypot(at.x - from.x, at.y - from.y);
+    if (away > most) {
+      most = away;
+      best = at;
+    }
+  }
+  return best;
+}
+
+/* Whether the images of points in front of the eye are on one line, within what
+ * contact and rounding may move them. */
+static bool are_in_line(const struct judge_facings *facings,
+                        const struct judge_point3 *point, size_t count,
+                        double contact) {
   const struct judge_camera *camera = facings->camera;
-  uint32_t start = scene->face_start.item[face];
-  uint32_t count = scene->face_start.item[face + 1] - start;
-  for (uint32_t c = start; c < start + count; c++)
-    if (!(judge_ahead(camera, judge_point3_at(scene, scene->corner.item[c])) >
-          judge_near(camera)))
-      return false;
-  struct judge_point2 first =
-      judge_project(camera, judge_point3_at(scene, scene->corner.item[start]));
-  struct judge_point2 a = farthest_image(facings, start, count, first);
-  struct judge_point2 b = farthest_image(facings, start, count, a);
+  struct judge_point2 a =
+      farthest_image(camera, point, count, judge_project(camera, point[0]));
+  struct judge_point2 b = farthest_image(camera, point, count, a);
   double length = hypot(b.x - a.x, b.y - a.y);
-  for (uint32_t c = start; c < start + count; c++) {
-    struct judge_point3 position =
-        judge_point3_at(scene, scene->corner.item[c]);
-    struct judge_point2 p = judge_project(camera, position);
+  for (size_t i = 0; i < count; i++) {
+    struct judge_point2 p = judge_project(camera, point[i]);
     double off = fabs((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x));
-    if (off > length * thickness_at(facings, contact, position))
+    if (off > length * thickness_at(facings, contact, point[i]))
       return false;
   }
   return true;
 }
 
+/* Whether what is drawn of a triangle is so thick that contact and rounding
+ * cannot turn its image over. */
+static bool is_thick(const struct judge_facings *facings,
+                     const struct judge_triangle *t, double contact) {
+  struct judge_outline outline = judge_outline_on_page(facings->camera, t);
+  return outline.count < 3 ||
+         !are_in_line(facings, outline.p, outline.count, contact);
+}
+
+/* Whether all of a face is drawn: its corners are in front of the near plane
+ * and within the margins. */
+static bool is_inside_page(const struct judge_camera *camera,
+                           const struct judge_point3 *corner, size_t count) {
+  double low = camera->margin_mm;
+  for (size_t i = 0; i < count; i++) {
+    struct judge_point2 at = judge_project(camera, corner[i]);
+    if (!(judge_ahead(camera, corner[i]) > judge_near(camera) && at.x >= low &&
+          at.x <= camera->width_mm - low && at.y >= low &&
+          at.y <= camera->height_mm - low))
+      return false;
+  }
+  return true;
+}
+
+/* A face that is clipped counts as thin until one of its triangles does not. */
 static struct judge_facing facing_of(const struct judge_facings *facings,
-                                     uint32_t face, double contact) {
+                                     uint32_t face,
+                                     const struct judge_point3 *corner,
+                                     size_t count, double contact) {
   struct judge_point3 sum = judge_area(facings->scene, face);
   struct judge_facing facing = {.flat = !(point3_length(sum) > 0)};
   if (!facing.flat)
     facing.normal = point3_unit(sum);
-  const uint32_t *start = facings->scene->face_start.item + face;
   facing.open =
-      start[1] - start[0] > JUDGE_TRIANGULATION_MAX &&
+      count > JUDGE_TRIANGULATION_MAX &&
       judge_is_warped(facings->scene, face, facings->options->contact);
-  facing.thin = is_thin(facings, face, contact);
+  facing.clipped = !is_inside_page(facings->camera, corner, count);
+  facing.thin = facing.clipped || are_in_line(facings, corner, count, contact);
   return facing;
 }
 
@@ -89,29 +107,11 @@ static double slope(const struct judge_facings *facings,
   return point3_dot(normal, view);
 }
 
-/* Whether a triangle's image is so thick that rounding cannot turn it over. */
-static bool is_thick(const struct judge_facings *facings,
-                     const struct judge_triangle *t) {
-  struct judge_point2 p[3];
-  double longest = 0;
-  for (int k = 0; k < 3; k++) {
-    if (!(judge_ahead(facings->camera, t->p[k]) > judge_near(facings->camera)))
-      return true;
-    p[k] = judge_project(facings->camera, t->p[k]);
-  }
-  for (int k = 0; k < 3; k++)
-    longest = fmax(longest,
-                   hypot(p[(k + 1) % 3].x - p[k].x, p[(k + 1) % 3].y - p[k].y));
-  return fabs((p[1].x - p[0].x) * (p[2].y - p[0].y) -
-              (p[1].y - p[0].y) * (p[2].x - p[0].x)) >
-         longest * facings->options->ray_offset_mm;
-}
-
 double judge_fan_slope(const struct judge_facings *facings,
                        const struct judge_side_triangle *side_triangle,
                        struct judge_point3 at) {
   bool sure = !facings->facing[side_triangle->face].thin &&
-              is_thick(facings, &side_triangle->triangle);
+              is_thick(facings, &side_triangle->triangle, 0);
   return sure ? slope(facings, side_triangle->triangle.normal, at) : 0;
 }
 
@@ -157,6 +157,33 @@ unsigned judge_class_mask_of_pair(const struct judge_facings *facings,
   return class_mask;
 }
 
+/* Sets the facings.  Returns false when memory ran out. */
+static bool set_facings(struct judge_facings *facings, const double *contact) {
+  const struct scene *scene = facings->scene;
+  uint32_t faces = scene_face_count(scene);
+  ARRAY(struct judge_point3) corner = {0};
+  bool ok = true;
+  for (uint32_t i = 0; ok && i < faces && poll_at(i); i++) {
+    corner.count = 0;
+    for (uint32_t c = scene->face_start.item[i];
+         ok && c < scene->face_start.item[i + 1]; c++)
+      ok = ARRAY_PUSH(&corner, judge_point3_at(scene, scene->corner.item[c]));
+    if (ok)
+      facings->facing[i] =
+          facing_of(facings, i, corner.item, corner.count, contact[i]);
+  }
+  ARRAY_FREE(&corner);
+  for (size_t t = 0; ok && t < facings->all->triangle.count && poll_at(t);
+       t++) {
+    const struct judge_triangle *triangle = &facings->all->triangle.item[t];
+    struct judge_facing *facing = &facings->facing[triangle->face];
+    if (facing->clipped && facing->thin &&
+        is_thick(facings, triangle, contact[triangle->face]))
+      facing->thin = false;
+  }
+  return ok;
+}
+
 bool judge_facings_init(struct judge_facings *facings,
                         const struct judge_triangles *all,
                         const struct judge_camera *camera,
@@ -173,10 +200,9 @@ bool judge_facings_init(struct judge_facings *facings,
     const struct judge_triangle *triangle = &facings->all->triangle.item[t];
     contact[triangle->face] = fmax(contact[triangle->face], triangle->contact);
   }
-  for (uint32_t i = 0; i < faces && poll_at(i); i++)
-    facings->facing[i] = facing_of(facings, i, contact[i]);
+  bool ok = set_facings(facings, contact);
   mem_free(contact);
-  return true;
+  return ok;
 }
 
 void judge_facings_fini(struct judge_facings *facings) {

@@ -21,8 +21,9 @@ struct judge_side {
 struct judge_facing {
   struct judge_point3 normal; /* unit */
   bool flat;                  /* the face has no area */
-  bool thin; /* its image is no thicker than contact: rounding may decide which
-                side of it is seen */
+  bool clipped;               /* a part of it is not drawn */
+  bool thin; /* what is drawn of it is no thicker than contact: rounding may
+                decide which side of it is seen */
   bool open; /* it is not planar, and its triangulation is unknown */
 };
 

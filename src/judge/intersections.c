@@ -7,6 +7,7 @@
 #include "base/poll.h"
 #include "base/sort.h"
 #include "judge/camera.h"
+#include "judge/page_outline.h"
 #include "judge/sampler.h"
 
 enum { FEW_CORNERS = 32 };
@@ -24,53 +25,6 @@ struct intersection_finder {
 
 /* ---- On the page --------------------------------------------------------- */
 
-/* A triangle clipped by five planes has at most eight corners. */
-struct triangle_outline {
-  struct judge_point3 p[8];
-  unsigned count;
-};
-
-/* Clips a convex polygon by one plane (Sutherland-Hodgman).
- * where  signed distance of each corner, negative outside */
-static struct triangle_outline
-clip_by_plane(const struct triangle_outline *from, const double where[8]) {
-  struct triangle_outline kept = {.count = 0};
-  for (unsigned i = 0; i < from->count; i++) {
-    unsigned k = i + 1 == from->count ? 0 : i + 1;
-    if (where[i] >= 0)
-      kept.p[kept.count++] = from->p[i];
-    if ((where[i] >= 0) != (where[k] >= 0))
-      kept.p[kept.count++] =
-          point3_along(from->p[i], where[i] / (where[i] - where[k]),
-                       point3_sub(from->p[k], from->p[i]));
-  }
-  return kept;
-}
-
-/* Clips a triangle to the page's margins and the near plane.  The homogeneous
- * coordinates, depth times page coordinates, are linear in space, so each
- * border is a plane. */
-static struct triangle_outline clip_to_page(const struct judge_camera *camera,
-                                            const struct judge_triangle *t) {
-  struct triangle_outline outline = {{t->p[0], t->p[1], t->p[2]}, 3};
-  double low = camera->margin_mm;
-  double right = camera->width_mm - low, top = camera->height_mm - low;
-  for (int side = 0; side < 5; side++) {
-    double where[8];
-    for (unsigned i = 0; i < outline.count; i++) {
-      double depth = judge_depth(camera, outline.p[i]);
-      struct judge_point2 at = judge_project(camera, outline.p[i]);
-      const double inside[5] = {judge_ahead(camera, outline.p[i]) -
-                                    judge_near(camera),
-                                (at.x - low) * depth, (right - at.x) * depth,
-                                (at.y - low) * depth, (top - at.y) * depth};
-      where[i] = inside[side];
-    }
-    outline = clip_by_plane(&outline, where);
-  }
-  return outline;
-}
-
 /* How far the clipped triangle extends from a plane to either side. */
 struct overshoot {
   double before, behind;
@@ -79,7 +33,7 @@ struct overshoot {
 static struct overshoot overshoot_of(const struct judge_camera *camera,
                                      const struct judge_triangle *t,
                                      const struct judge_triangle *plane) {
-  struct triangle_outline outline = clip_to_page(camera, t);
+  struct judge_outline outline = judge_outline_on_page(camera, t);
   struct overshoot most = {0, 0};
   for (unsigned i = 0; i < outline.count; i++) {
     double away =
@@ -112,18 +66,24 @@ struct triangle_cut {
   unsigned count;
 };
 
+/* Of a triangle that ends on the plane along a side, from either side of the
+ * plane, that is the cut. */
 static struct triangle_cut cut_by_plane(const struct judge_triangle *t,
                                         const struct judge_triangle *plane) {
   struct triangle_cut cut = {.count = 0};
   double away[3];
-  for (int k = 0; k < 3; k++)
+  bool before = false;
+  for (int k = 0; k < 3; k++) {
     away[k] = point3_dot(plane->normal, point3_sub(t->p[k], plane->p[0]));
+    before |= away[k] > 0;
+  }
   for (int k = 0; k < 3; k++) {
     int l = (k + 1) % 3;
-    if ((away[k] > 0) == (away[l] > 0) || cut.count == 2)
-      continue;
-    cut.end[cut.count++] = point3_along(t->p[k], away[k] / (away[k] - away[l]),
-                                        point3_sub(t->p[l], t->p[k]));
+    bool crosses = before ? (away[k] > 0) != (away[l] > 0)
+                          : (away[k] < 0) != (away[l] < 0);
+    if (crosses && cut.count < 2)
+      cut.end[cut.count++] = point3_along(
+          t->p[k], away[k] / (away[k] - away[l]), point3_sub(t->p[l], t->p[k]));
   }
   return cut;
 }
@@ -294,6 +254,24 @@ static struct judge_point3 direction_from(const struct judge_triangle *t,
   return point3_unit(sum);
 }
 
+/* Whether clipping leaves a triangle a corner beside a side, but nearer to it
+ * than that distance.  The drawing's triangles of what is left may then all be
+ * in contact with what touches the side. */
+static bool is_cut_beside(const struct judge_camera *camera,
+                          const struct judge_triangle *t,
+                          const struct judge_point3 corner[2], double least) {
+  struct judge_outline outline = judge_outline_on_page(camera, t);
+  struct judge_point3 side = point3_sub(corner[1], corner[0]);
+  double length = point3_length(side);
+  for (unsigned i = 0; i < outline.count; i++) {
+    double twice =
+        point3_length(point3_cross(side, point3_sub(outline.p[i], corner[0])));
+    if (twice > 0x1p-40 * length * length && twice < least * length)
+      return true;
+  }
+  return false;
+}
+
 /* Whether two triangles with a common side surely diverge from it: each extends
  * from the other's plane by far more than contact and rounding, or they extend
  * to opposite sides. */
@@ -306,6 +284,9 @@ static bool do_diverge(const struct intersection_finder *finder,
       fmax(judge_rounding_at(camera, finder->ray_offset_mm, corner[0]),
            judge_rounding_at(camera, finder->ray_offset_mm, corner[1]));
   double least = 10 * fmax(fmax(s->contact, t->contact), rounding);
+  if (is_cut_beside(camera, s, corner, least) ||
+      is_cut_beside(camera, t, corner, least))
+    return false;
   return point3_dot(direction_from(s, corner), direction_from(t, corner)) < 0 ||
          (most_overshoot(camera, s, t) > least &&
           most_overshoot(camera, t, s) > least);

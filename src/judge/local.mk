@@ -12,6 +12,7 @@ librecto_core_la_SOURCES += \
   %D%/judge.c %D%/judge.h \
   %D%/missing_run.c %D%/missing_run.h \
   %D%/options.h \
+  %D%/page_outline.c %D%/page_outline.h \
   %D%/point.h \
   %D%/ray.c %D%/ray.h \
   %D%/sampler.c %D%/sampler.h \
