@@ -141,8 +141,9 @@ static void assert_complement(const struct map *map, const char *name) {
   for (uint32_t e = 0; e < map->edge_count; e++) {
     struct ratio at = ratio_of(0, 1);
     uint32_t v = 0, d = 0;
-    bool has_deep =
-        deep < map->over_limit.item + map->over_limit.count && deep->edge == e;
+    bool has_deep = map->over_limit.count > 0 &&
+                    deep < map->over_limit.item + map->over_limit.count &&
+                    deep->edge == e;
     bool has_mixed = map->edge_state[e] == MAP_MIXED;
     uint32_t deeps = has_deep ? deep->count : 0;
     uint32_t visibles = has_mixed ? mixed->count : 0;
@@ -151,13 +152,13 @@ static void assert_complement(const struct map *map, const char *name) {
     while (v < visibles || d < deeps) {
       const struct map_interval *next = NULL;
       const struct map_interval *see =
-          map->interval.item + (has_mixed ? mixed->interval : 0) + v;
+          v < visibles ? &map->interval.item[mixed->interval + v] : NULL;
       const struct map_interval *not_see =
-          map->over_limit_interval.item + (has_deep ? deep->interval : 0) + d;
-      if (v < visibles && ratio_compare(see->t0, at) == 0) {
+          d < deeps ? &map->over_limit_interval.item[deep->interval + d] : NULL;
+      if (see != NULL && ratio_compare(see->t0, at) == 0) {
         next = see;
         v++;
-      } else if (d < deeps && ratio_compare(not_see->t0, at) == 0) {
+      } else if (not_see != NULL && ratio_compare(not_see->t0, at) == 0) {
         next = not_see;
         d++;
       } else {

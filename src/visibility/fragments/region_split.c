@@ -41,6 +41,8 @@ static bool sort_occluders(struct occluder_subtraction *subtraction) {
   if (!ARRAY_RESERVE(&subtraction->key, 2 * n) ||
       !ARRAY_RESERVE(&subtraction->list, n))
     return false;
+  if (n == 0)
+    return true;
   for (size_t i = 0; i < n; i++) {
     uint64_t bits; /* ordered as the areas are, which are not negative */
     double area =
