@@ -194,7 +194,7 @@ static void assert_survives(const struct reader *reader,
                             unsigned count[2]) {
   struct reading r;
   reading_init(&r);
-  r.scene.wants_colours = seed % 2 != 0;
+  r.scene.needs_colours = seed % 2 != 0;
   recto_status status = reading_bytes(&r, reader, file->bytes, file->count);
   if (status == RECTO_OK) {
     const char *fault = reading_fault(&r.scene);

@@ -18,7 +18,7 @@
 
 #include <cmocka.h>
 
-#include "scene/import_form.h"
+#include "scene/import_format.h"
 #include "tests/polled.h"
 #include "tests/reading.h"
 #include "tests/scenes/random.h"
@@ -377,8 +377,8 @@ static void read_form(struct reading *r, const char *bytes, size_t count) {
   assert_non_null(block);
   memcpy(block, bytes, count);
   reading_init(r);
-  r->status = import_form_read(&r->scene, block, count, "file", "off", 7,
-                               &r->diagnostics, &r->error);
+  r->status = import_format_read(&r->scene, block, count, "file", "off", 7,
+                                 &r->diagnostics, &r->error);
   free(block);
 }
 

@@ -30,7 +30,7 @@ static const char *write_text(void **state, const char *name,
 /* Reads a model of that text as a drawing in colour would. */
 static void read_model(struct reading *r, void **state, const char *text) {
   reading_init(r);
-  r->scene.wants_colours = true;
+  r->scene.needs_colours = true;
   r->status = scene_read(&r->scene, write_text(state, "m.obj", text), NULL,
                          &r->diagnostics, &r->error);
   assert_int_equal(r->status, RECTO_OK);
@@ -239,7 +239,7 @@ static void read_library(struct reading *r, struct heard *heard, void **state,
   temporary_file(state, "a.mtl", bytes, count);
   *heard = (struct heard){.count = 0};
   reading_init(r);
-  r->scene.wants_colours = true;
+  r->scene.needs_colours = true;
   r->diagnostics.warning = hear;
   r->diagnostics.user = heard;
   const char *path =
@@ -370,7 +370,7 @@ static void running_out_of_memory_leaves_groups_as_they_were(void **state) {
     struct reading r;
     reading_init(&r);
     assert_int_equal(scene_use_group(&r.scene, "m", 1, NULL), RECTO_OK);
-    r.scene.wants_colours = true;
+    r.scene.needs_colours = true;
     memory_faults_begin(&faults);
     recto_status status = scene_read(&r.scene, path, NULL, NULL, &r.error);
     memory_faults_end(&faults, status);

@@ -303,7 +303,7 @@ static void strips_become_triangles(void **state) {
 
 static void read_coloured(struct reading *r, const char *text) {
   reading_init(r);
-  r->scene.wants_colours = true;
+  r->scene.needs_colours = true;
   (void)reading_bytes(r, &reader_ply, text, strlen(text));
   assert_read(r);
 }
@@ -590,7 +590,7 @@ static void running_out_of_memory_is_an_error(void **state) {
   struct memory_faults faults = {.least = 10};
   while (memory_faults_go_on(&faults)) {
     reading_init(&r);
-    r.scene.wants_colours = true;
+    r.scene.needs_colours = true;
     memory_faults_begin(&faults);
     recto_status status = reading_bytes(&r, &reader_ply, faces_in_colour,
                                         sizeof faces_in_colour - 1);

@@ -92,7 +92,7 @@ static recto_status read_model(recto_scene *scene, const void *bytes,
     return error_memory(error);
   struct diagnostics diagnostics = {
       .file = path, .warning = own.warning, .user = own.user};
-  scene->scene.wants_colours = own.ink.fill == RECTO_FILL_PAINT;
+  scene->scene.needs_colours = own.ink.fill == RECTO_FILL_PAINT;
   scene_forget_preparation(scene);
   double cpu = clock_cpu(), wall = clock_wall();
   struct poll poll;

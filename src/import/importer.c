@@ -5,7 +5,7 @@
  *   recto-import SECONDS MB FORMAT [PATH]
  *
  * Without a path it reads standard input.  It writes to descriptor 3 what
- * scene/import_form.h describes.
+ * scene/import_format.h describes.
  *
  * The file is imported as it is, without any of Assimp's own improvements:
  * polygons stay polygons.  The tree of nodes is traversed with an explicit
@@ -30,7 +30,7 @@
 
 #include "base/child.h"
 #include "base/input.h"
-#include "scene/import_form.h"
+#include "scene/import_format.h"
 
 /* The sanitizers reserve more addresses than any limit allows. */
 #if defined __SANITIZE_ADDRESS__

@@ -94,7 +94,7 @@ struct ear_ring {
   uint32_t count; /* of entries */
 };
 
-static int compare_ranks(const void *a, const void *b, void *user) {
+static int compare_sorted_corners(const void *a, const void *b, void *user) {
   const struct judge_sorted_corner *s = a, *t = b;
   (void)user;
   if (s->at != t->at)
@@ -127,7 +127,7 @@ static bool make_ring(struct judge_ears *ears,
   bool ok = true;
   for (int k = 0; ok && k < 2 && n > LINEAR_SEARCH_MAX; k++)
     ok = sort_stable(ears->by[k].item, n, sizeof *ears->by[k].item,
-                     compare_ranks, NULL);
+                     compare_sorted_corners, NULL);
   return ok;
 }
 

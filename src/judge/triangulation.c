@@ -201,8 +201,8 @@ static bool is_rule_ear(const struct triangulation_work *work, uint32_t i) {
 
 /* The order of cutting: 0 spikes, 1 candidate ears; if there are none of these
  * (any), 2 straight, 3 convex, 4 reflex corners. */
-static int cutting_rank(const struct triangulation_work *work, uint32_t i,
-                        bool any) {
+static int cutting_priority(const struct triangulation_work *work, uint32_t i,
+                            bool any) {
   int turn = work->c[i].turn;
   if (is_spike_corner(work, i))
     return 0;
@@ -233,16 +233,16 @@ static bool is_shorter(const struct triangulation_work *work, uint32_t i,
 
 /* The first corner in the order of cutting.
  * from  any corner that is left
- * rank  set to its rank */
+ * priority  set to its priority */
 static uint32_t choose_next_cut(const struct triangulation_work *work,
-                                uint32_t from, bool any, int *rank) {
+                                uint32_t from, bool any, int *priority) {
   uint32_t best = from;
-  *rank = cutting_rank(work, from, any);
+  *priority = cutting_priority(work, from, any);
   for (uint32_t i = work->c[from].next; i != from; i = work->c[i].next) {
-    int here = cutting_rank(work, i, any);
-    if (here < *rank || (here == *rank && is_shorter(work, i, best))) {
+    int here = cutting_priority(work, i, any);
+    if (here < *priority || (here == *priority && is_shorter(work, i, best))) {
       best = i;
-      *rank = here;
+      *priority = here;
     }
   }
   return best;
@@ -277,14 +277,14 @@ static uint32_t cut_off(struct triangulation_work *work, uint32_t i) {
 static void cut_all(struct triangulation_work *work, uint32_t from) {
   update_all_corners(work, from);
   while (work->left > 3) {
-    int rank;
-    uint32_t i = choose_next_cut(work, from, false, &rank);
-    if (rank == 1 && !is_rule_ear(work, i)) {
+    int priority;
+    uint32_t i = choose_next_cut(work, from, false, &priority);
+    if (priority == 1 && !is_rule_ear(work, i)) {
       work->c[i].refused = true;
-    } else if (rank <= 1) {
+    } else if (priority <= 1) {
       from = cut_off(work, i);
     } else {
-      from = cut_off(work, choose_next_cut(work, from, true, &rank));
+      from = cut_off(work, choose_next_cut(work, from, true, &priority));
       if (work->left > 3)
         update_all_corners(work, from);
     }

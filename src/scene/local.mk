@@ -7,7 +7,7 @@ librecto_core_la_SOURCES += \
   %D%/edge_classes.c \
   %D%/exact.c %D%/exact.h \
   %D%/face.c \
-  %D%/import_form.c %D%/import_form.h \
+  %D%/import_format.c %D%/import_format.h \
   %D%/limit.h \
   %D%/material.c %D%/material.h \
   %D%/name.c %D%/name.h \

@@ -3,7 +3,7 @@
  * Assimp reads some fifty formats, and broken files make it crash, loop or take
  * all memory; a library may not end its host.  So a program of ours, the
  * importer (src/import), reads the file under limits of time and memory and
- * hands over what import_form.h describes.
+ * hands over what import_format.h describes.
  *
  * Robustness  A file that keeps its extension is opened by the importer itself,
  * since formats such as glTF have their data in other files beside it; any
@@ -24,7 +24,7 @@
 
 #include "base/child.h"
 #include "base/input.h"
-#include "scene/import_form.h"
+#include "scene/import_format.h"
 
 /* Where it is installed; configure's prefix says so. */
 #ifndef RECTO_IMPORT_PATH
@@ -175,9 +175,11 @@ static recto_status read_import(struct scene *scene, const char *bytes,
   recto_status status = run_importer(&import, bytes, count, &result);
   if (status == RECTO_OK) {
     bool ended = result.end == CHILD_EXITED || result.end == CHILD_SIGNALLED;
-    if (ended && import_form_is_whole(result.output.item, result.output.count))
-      status = import_form_read(scene, result.output.item, result.output.count,
-                                path, format, import.mb, diagnostics, error);
+    if (ended &&
+        import_format_is_whole(result.output.item, result.output.count))
+      status =
+          import_format_read(scene, result.output.item, result.output.count,
+                             path, format, import.mb, diagnostics, error);
     else
       status = check_child_end(&import, &result);
   }

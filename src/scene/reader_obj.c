@@ -135,7 +135,7 @@ static recto_status read_name(struct obj_parser *p, enum name_kind kind,
 static recto_status read_mtllib(struct obj_parser *p, size_t keyword) {
   struct material_name name;
   recto_status status = read_rest(p, &name, keyword);
-  if (status != RECTO_OK || name.length == 0 || !p->scene->wants_colours)
+  if (status != RECTO_OK || name.length == 0 || !p->scene->needs_colours)
     return status;
   return materials_add_library(&p->materials, name, p->error);
 }
@@ -158,7 +158,7 @@ static recto_status use_named_group(struct obj_parser *p) {
   p->renamed = false;
   recto_status status =
       scene_use_group(p->scene, p->group.item, p->group.count, p->error);
-  if (status == RECTO_OK && p->scene->wants_colours)
+  if (status == RECTO_OK && p->scene->needs_colours)
     status = materials_add_use(&p->materials, p->scene->current_group,
                                p->name[NAME_MATERIAL], p->error);
   return status;
@@ -427,7 +427,7 @@ static recto_status read_obj(struct scene *scene, const char *bytes,
                                    precision_estimate(&p.sample), error);
   /* The colour of a group that was there before is not taken back, so nothing
    * that may fail comes after this. */
-  if (status == RECTO_OK && scene->wants_colours)
+  if (status == RECTO_OK && scene->needs_colours)
     status = materials_colour(&p.materials, scene, path, diagnostics, error);
   materials_fini(&p.materials);
   ARRAY_FREE(&p.bad);

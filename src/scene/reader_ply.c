@@ -97,7 +97,7 @@ static recto_status read_vertex(struct ply_parser *p,
   recto_status status = take_element(p, element, number, &ok);
   if (status != RECTO_OK)
     return status;
-  bool colour = p->scene->wants_colours && ply_has_colour(element);
+  bool colour = p->scene->needs_colours && ply_has_colour(element);
   bool added = add_vertex(p, ok, &point);
   if ((!added &&
        !ARRAY_PUSH(&p->unusable.point, (uint32_t)p->scene->point.count)) ||
@@ -177,7 +177,7 @@ static recto_status add_ply_face(struct ply_parser *p,
   uint32_t before = scene_face_count(p->scene);
   recto_status status = scene_add_face(p->scene, corner, count, p->last,
                                        p->diagnostics, p->error);
-  if (status != RECTO_OK || !p->scene->wants_colours ||
+  if (status != RECTO_OK || !p->scene->needs_colours ||
       scene_face_count(p->scene) == before)
     return status;
   uint32_t colour = PLY_NO_COLOUR;

@@ -53,7 +53,7 @@ struct scene {
   uint32_t *group_slot;            /* finds groups by name: see scene.c */
   size_t group_slot_count;
   double up[3];       /* what the format means by up */
-  bool wants_colours; /* readers look for colours of groups in other files */
+  bool needs_colours; /* readers look for colours of groups in other files */
   ARRAY(struct file_identity) file; /* what it was read from */
 };
 

@@ -1,4 +1,4 @@
-/* import_form.h - the form in which the importer, a process of its own, hands
+/* import_format.h - the form in which the importer, a process of its own, hands
  * a model to the library.
  *
  * IMPORT_MAGIC, then records, numbers as this machine has them:
@@ -9,8 +9,8 @@
  *   IMPORT_FAILED  the record, and as its name what is wrong
  *   IMPORT_DONE    the record; it is the last
  */
-#ifndef SCENE_IMPORT_FORM_H
-#define SCENE_IMPORT_FORM_H
+#ifndef SCENE_IMPORT_FORMAT_H
+#define SCENE_IMPORT_FORMAT_H
 
 #include "scene/scene.h"
 
@@ -37,13 +37,14 @@ struct import_record {
  * Returns RECTO_OK where IMPORT_DONE was reached
  * Errors  RECTO_ERROR_FORMAT, RECTO_ERROR_UNSUPPORTED, RECTO_ERROR_LIMIT,
  *         RECTO_ERROR_MEMORY */
-USE_RESULT recto_status import_form_read(struct scene *scene, const char *bytes,
-                                         size_t count, const char *path,
-                                         const char *format, long mb,
-                                         struct diagnostics *diagnostics,
-                                         recto_error *error);
+USE_RESULT recto_status import_format_read(struct scene *scene,
+                                           const char *bytes, size_t count,
+                                           const char *path, const char *format,
+                                           long mb,
+                                           struct diagnostics *diagnostics,
+                                           recto_error *error);
 
 /* Whether the bytes end as those of an importer that came to its end do. */
-bool import_form_is_whole(const char *bytes, size_t count);
+bool import_format_is_whole(const char *bytes, size_t count);
 
 #endif

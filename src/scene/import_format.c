@@ -1,9 +1,9 @@
-/* import_form.c - what the importer hands over becomes part of the scene.
+/* import_format.c - what the importer hands over becomes part of the scene.
  *
  * Robustness  A broken model may make the importer write anything: all counts
  * are compared with the bytes that there are, points must be finite and
  * indices in range. */
-#include "scene/import_form.h"
+#include "scene/import_format.h"
 
 #include <math.h>
 #include <string.h>
@@ -11,7 +11,7 @@
 #include "scene/limit.h"
 #include "scene/unusable.h"
 
-struct form {
+struct import_parser {
   struct scene *scene;
   const char *at, *end;
   const char *path, *format;
@@ -24,13 +24,14 @@ struct form {
   recto_error *error;
 };
 
-static recto_status form_fault(const struct form *f) {
+static recto_status import_fault(const struct import_parser *f) {
   return error_set(f->error, RECTO_ERROR_FORMAT, f->path, 0,
                    "malformed output of the importer");
 }
 
 /* The next `count` items of that size; NULL where there are fewer. */
-static const char *take_items(struct form *f, uint64_t count, size_t size) {
+static const char *next_items(struct import_parser *f, uint64_t count,
+                              size_t size) {
   const char *start = f->at;
   if (count > (size_t)(f->end - f->at) / size)
     return NULL;
@@ -45,23 +46,23 @@ static uint32_t load(const char *array, size_t i) {
 }
 
 /* Finds the parts of the next record; false where they are not all there. */
-static bool next_record(struct form *f) {
+static bool next_record(struct import_parser *f) {
   struct import_record *r = &f->record;
-  const char *start = take_items(f, 1, sizeof *r);
+  const char *start = next_items(f, 1, sizeof *r);
   if (start == NULL)
     return false;
   memcpy(r, start, sizeof *r);
   if (r->kind != IMPORT_MESH)
     r->points = r->elements = r->corners = 0;
-  return (f->name = take_items(f, r->name_length, 1)) != NULL &&
-         (f->point = take_items(f, r->points, 3 * sizeof(double))) != NULL &&
-         (f->count = take_items(f, r->elements, sizeof(uint32_t))) != NULL &&
-         (f->index = take_items(f, r->corners, sizeof(uint32_t))) != NULL;
+  return (f->name = next_items(f, r->name_length, 1)) != NULL &&
+         (f->point = next_items(f, r->points, 3 * sizeof(double))) != NULL &&
+         (f->count = next_items(f, r->elements, sizeof(uint32_t))) != NULL &&
+         (f->index = next_items(f, r->corners, sizeof(uint32_t))) != NULL;
 }
 
 /* ---- Meshes -------------------------------------------------------------- */
 
-static recto_status use_form_group(struct form *f) {
+static recto_status use_import_group(struct import_parser *f) {
   recto_status status = scene_use_group(
       f->scene, f->name, (size_t)f->record.name_length, f->error);
   if (status == RECTO_OK && f->record.has_colour) {
@@ -72,7 +73,7 @@ static recto_status use_form_group(struct form *f) {
   return status;
 }
 
-static recto_status add_form_points(struct form *f) {
+static recto_status add_import_points(struct import_parser *f) {
   struct scene *scene = f->scene;
   size_t count = (size_t)f->record.points, first = scene->point.count;
   if (count > SCENE_LIMIT - first)
@@ -97,8 +98,8 @@ static recto_status add_form_points(struct form *f) {
 }
 
 /* Adds the element whose corners are the `count` indices from `start` on. */
-static recto_status add_element(struct form *f, size_t first, uint64_t start,
-                                uint32_t count) {
+static recto_status add_element(struct import_parser *f, size_t first,
+                                uint64_t start, uint32_t count) {
   f->corner.count = 0;
   if (!ARRAY_RESERVE(&f->corner, count))
     return error_memory(f->error);
@@ -120,16 +121,16 @@ static recto_status add_element(struct form *f, size_t first, uint64_t start,
 }
 
 /* Elements of a single corner are nothing to us. */
-static recto_status add_mesh(struct form *f) {
+static recto_status add_mesh(struct import_parser *f) {
   size_t first = f->scene->point.count;
-  recto_status status = use_form_group(f);
+  recto_status status = use_import_group(f);
   if (status == RECTO_OK)
-    status = add_form_points(f);
+    status = add_import_points(f);
   uint64_t start = 0;
   for (size_t i = 0; i < f->record.elements && status == RECTO_OK; i++) {
     uint32_t count = load(f->count, i);
     if (count > f->record.corners - start)
-      return form_fault(f);
+      return import_fault(f);
     if (count >= 2)
       status = add_element(f, first, start, count);
     start += count;
@@ -139,7 +140,7 @@ static recto_status add_mesh(struct form *f) {
 
 /* ---- Records ------------------------------------------------------------- */
 
-static recto_status importer_error(const struct form *f) {
+static recto_status importer_error(const struct import_parser *f) {
   const struct import_record *r = &f->record;
   if (r->why == IMPORT_UNKNOWN_FORMAT)
     return error_set(f->error, RECTO_ERROR_UNSUPPORTED, f->path, 0,
@@ -151,28 +152,28 @@ static recto_status importer_error(const struct form *f) {
                    r->name_length < 200 ? (int)r->name_length : 200, f->name);
 }
 
-recto_status import_form_read(struct scene *scene, const char *bytes,
-                              size_t count, const char *path,
-                              const char *format, long mb,
-                              struct diagnostics *diagnostics,
-                              recto_error *error) {
-  struct form f = {.scene = scene,
-                   .at = bytes,
-                   .end = bytes + count,
-                   .path = path,
-                   .format = format,
-                   .mb = mb,
-                   .diagnostics = diagnostics,
-                   .error = error};
-  const char *magic = take_items(&f, sizeof IMPORT_MAGIC - 1, 1);
+recto_status import_format_read(struct scene *scene, const char *bytes,
+                                size_t count, const char *path,
+                                const char *format, long mb,
+                                struct diagnostics *diagnostics,
+                                recto_error *error) {
+  struct import_parser f = {.scene = scene,
+                            .at = bytes,
+                            .end = bytes + count,
+                            .path = path,
+                            .format = format,
+                            .mb = mb,
+                            .diagnostics = diagnostics,
+                            .error = error};
+  const char *magic = next_items(&f, sizeof IMPORT_MAGIC - 1, 1);
   recto_status status = RECTO_OK;
   bool ok = false;
   if (magic == NULL ||
       memcmp(magic, IMPORT_MAGIC, sizeof IMPORT_MAGIC - 1) != 0)
-    status = form_fault(&f);
+    status = import_fault(&f);
   while (status == RECTO_OK && !ok) {
     if (!next_record(&f))
-      status = form_fault(&f);
+      status = import_fault(&f);
     else if (f.record.kind == IMPORT_MESH)
       status = add_mesh(&f);
     else if (f.record.kind == IMPORT_FAILED)
@@ -180,14 +181,14 @@ recto_status import_form_read(struct scene *scene, const char *bytes,
     else if (f.record.kind == IMPORT_DONE)
       ok = true;
     else
-      status = form_fault(&f);
+      status = import_fault(&f);
   }
   ARRAY_FREE(&f.corner);
   ARRAY_FREE(&f.unusable.point);
   return status;
 }
 
-bool import_form_is_whole(const char *bytes, size_t count) {
+bool import_format_is_whole(const char *bytes, size_t count) {
   struct import_record last;
   if (count < sizeof last)
     return false;
