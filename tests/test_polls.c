@@ -85,6 +85,10 @@ static void all_edges(recto_options *o) {
   o->ink.hidden = RECTO_HIDDEN_LAYER;
   o->output.format = "hpgl"; /* in short order */
 }
+static void one_source(recto_options *o) {
+  all_edges(o);
+  o->ink.ids = true;
+}
 static void lines(recto_options *o) { (void)o; }
 static void welded(recto_options *o) { o->mesh.weld = 1e-9; }
 static void clipped(recto_options *o) {
@@ -125,14 +129,15 @@ static void a_stage_polls_in_each_of_its_loops(void **state) {
     const char *stage;
     int least;
   } job[] = {
-      {lines, "topology", 39},       {lines, "sheet", 78},
-      {lines, "solve", 37},          {welded, "topology", 39},
-      {clipped, "sheet", 138},       {all_edges, "ink", 703},
-      {painted, "faces", 142},       {painted, "ink", 49},
-      {hatched, "ink", 59},          {shaded_by_pen, "ink", 248},
-      {results, "verify", 34},       {verified, "verify", 1234},
-      {newell, "solve", 38},         {watkins, "piercing", 71},
+      {lines, "topology", 41},       {lines, "sheet", 92},
+      {lines, "solve", 38},          {welded, "topology", 41},
+      {clipped, "sheet", 138},       {all_edges, "ink", 738},
+      {painted, "faces", 252},       {painted, "ink", 53},
+      {hatched, "ink", 64},          {shaded_by_pen, "ink", 253},
+      {results, "verify", 39},       {verified, "verify", 1258},
+      {newell, "solve", 38},         {watkins, "piercing", 329},
       {warnock, "subdividing", 364}, {zbuffer, "visibility", 28},
+      {one_source, "ink", 2978},
   };
   recto_scene *scene = make_hills(224);
   for (size_t i = 0; i < sizeof job / sizeof job[0]; i++) {
@@ -197,8 +202,9 @@ static recto_status render(struct input *input, recto_error *error) {
 static void a_render_is_cancelled_at_any_poll(void **state) {
   (void)state;
   void (*const set[])(recto_options *) = {
-      lines,   welded, clipped, all_edges, painted, hatched, shaded_by_pen,
-      results, newell, watkins, warnock,   zbuffer, verified};
+      lines,   welded,  clipped,       all_edges, one_source,
+      painted, hatched, shaded_by_pen, results,   newell,
+      watkins, warnock, zbuffer,       verified};
   struct input input = {.scene = make_hills(40)};
   for (size_t i = 0; i < sizeof set / sizeof set[0]; i++) {
     init(&input.options, &input.listener);

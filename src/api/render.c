@@ -399,10 +399,13 @@ static recto_status render_stages_and_report(struct render *render,
                (int64_t)mem_peak_bytes());
   }
   map_fini(&render->map);
+  (void)poll_now();
   sheet_fini(&render->sheet);
   drop_topology(render);
+  (void)poll_now();
   preparation_fini(&render->own);
-  return status;
+  return status == RECTO_OK && poll_is_cancelled() ? error_cancelled(error)
+                                                   : status;
 }
 
 /* Keeps the identities of the scene's files, which the drawing must not

@@ -2,6 +2,7 @@
 #include "api/stats.h"
 
 #include "backends/device.h"
+#include "base/poll.h"
 
 /* The last one has no name. */
 struct count {
@@ -80,7 +81,7 @@ static void add_layers(struct report *report, const struct drawing *drawing) {
   double *length = pen + count;
   for (size_t i = 0; i < count; i++)
     pen[i] = drawing->layer.item[i].pen;
-  for (size_t i = 0; i < drawing->stroke.count; i++) {
+  for (size_t i = 0; i < drawing->stroke.count && poll_at(i); i++) {
     const struct drawing_stroke *stroke = &drawing->stroke.item[i];
     length[stroke->layer] += drawing_stroke_mm(drawing, stroke);
   }

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "base/poll.h"
+
 void drawing_init(struct drawing *drawing) { *drawing = (struct drawing){0}; }
 
 void drawing_fini(struct drawing *drawing) {
@@ -45,7 +47,7 @@ double drawing_stroke_mm(const struct drawing *drawing,
 
 double drawing_length_mm(const struct drawing *drawing) {
   double length = 0;
-  for (size_t i = 0; i < drawing->stroke.count; i++)
+  for (size_t i = 0; i < drawing->stroke.count && poll_at(i); i++)
     length += drawing_stroke_mm(drawing, &drawing->stroke.item[i]);
   return length;
 }
@@ -56,6 +58,7 @@ double drawing_travel_mm(const struct drawing *drawing) {
   for (size_t layer = 0; layer < drawing->layer.count; layer++)
     for (size_t i = 0; i < drawing->stroke.count; i++) {
       const struct drawing_stroke *stroke = &drawing->stroke.item[i];
+      (void)poll_at(i);
       if (stroke->layer != layer || stroke->count == 0)
         continue;
       const struct drawing_point *point = drawing->point.item + stroke->point;

@@ -154,7 +154,7 @@ static bool mark_short(struct ink *ink, const struct ink_paths *paths,
   bool ok = path_is_short != NULL;
   for (size_t i = 0; ok && i < paths->path.count; i++) {
     const struct ink_path *path = &paths->path.item[i];
-    ok = take_points(ink, paths, path, &line);
+    ok = poll_at(i) && take_points(ink, paths, path, &line);
     if (ok && is_too_short(ink, path, &line)) {
       path_is_short[i] = 1;
       ink->drawing->counts.too_short++;

@@ -143,6 +143,8 @@ static int compare_judge_sides(const void *a, const void *b, void *user) {
 
 static bool list_scene_sides(const struct scene *scene,
                              struct side_list *sides) {
+  if (!ARRAY_RESERVE(&sides->side, scene->corner.count))
+    return false;
   for (uint32_t i = 0; i < scene_face_count(scene); i++) {
     uint32_t start = scene->face_start.item[i];
     uint32_t count = scene->face_start.item[i + 1] - start;

@@ -484,6 +484,7 @@ bool judge_drawing(struct judge_verdict *verdict,
   mem_free(context.image);
   mem_free(context.ink);
   judge_edges_fini(&context.edges);
+  ok = ok && poll_now();
   judge_triangles_fini(&context.all);
   return ok;
 }

@@ -312,7 +312,7 @@ bool judge_triangles_init(struct judge_triangles *all,
                              .scene = scene,
                              .given = given != NULL ? given : scene->point.item,
                              .contact = contact};
-  bool ok = true;
+  bool ok = ARRAY_RESERVE(&all->triangle, scene->corner.count);
   for (uint32_t i = 0; ok && i < scene_face_count(scene); i++)
     ok = poll_at(i) && add_face_triangles(&adder, i);
   ok = ok && sort_stable(all->side_triangle.item, all->side_triangle.count,

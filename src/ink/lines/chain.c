@@ -169,12 +169,15 @@ static bool sort_paths(struct ink_paths *paths) {
   if (ok) {
     for (size_t i = 0; i < count; i++) {
       const struct ink_path *path = &paths->path.item[i];
+      (void)poll_at(i);
       key[i].key = (uint64_t)path->hidden << 32 | path->edge;
       key[i].value = (uint32_t)i;
     }
     sort_keys(key, scratch, count);
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count; i++) {
+      (void)poll_at(i);
       sorted[i] = paths->path.item[key[i].value];
+    }
     mem_free(paths->path.item);
     paths->path.item = sorted;
     paths->path.capacity = count;

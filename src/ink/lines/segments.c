@@ -215,9 +215,11 @@ recto_status segment_graph_drop_segments(struct segment_graph *graph,
                                          const uint8_t *drop,
                                          recto_error *error) {
   size_t kept = 0;
-  for (size_t i = 0; i < graph->segment.count; i++)
+  for (size_t i = 0; i < graph->segment.count; i++) {
+    (void)poll_at(i);
     if (!drop[i])
       graph->segment.item[kept++] = graph->segment.item[i];
+  }
   graph->segment.count = kept;
   return segment_graph_index_ends(graph, error);
 }

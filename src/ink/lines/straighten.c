@@ -16,6 +16,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/poll.h"
 #include "base/tolerance.h"
 
 struct vector {
@@ -147,6 +148,7 @@ void paths_straighten(struct ink_paths *paths, double output_step) {
   double wide = fmax(output_step / 2, TOLERANCE_COLLINEAR_UNITS);
   for (size_t i = 0; i < paths->path.count; i++) {
     struct ink_path *path = &paths->path.item[i];
+    (void)poll_at(i + 1); /* there are calls for one path */
     struct ink_point *from = point + path->point;
     uint8_t *approximate =
         paths->approximate != NULL ? paths->approximate + path->point : NULL;

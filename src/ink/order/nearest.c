@@ -51,6 +51,8 @@ static void select_middle(struct nearest *t, uint32_t low, uint32_t high,
   while (high - low > 1) {
     double pivot = item_coordinate(t, low + (high - low) / 2, axis);
     uint32_t less = low, equal = low, greater = high;
+    if (high - low > POLL_ITEMS)
+      (void)poll_now();
     while (equal < greater) {
       double c = item_coordinate(t, equal, axis);
       if (c < pivot)
@@ -126,11 +128,15 @@ bool nearest_init(struct nearest *t, const struct drawing_point *point,
   t->box = mem_alloc((size_t)2 << t->levels, sizeof *t->box);
   if (t->item == NULL || t->place == NULL || t->box == NULL)
     return false;
-  for (uint32_t i = 0; i < count; i++)
+  for (uint32_t i = 0; i < count; i++) {
+    (void)poll_at(i);
     t->item[i] = (struct nearest_item){point[i], i, false};
+  }
   build(t);
-  for (uint32_t i = 0; i < count; i++)
+  for (uint32_t i = 0; i < count; i++) {
+    (void)poll_at(i);
     t->place[t->item[i].point] = i;
+  }
   return true;
 }
 

@@ -55,6 +55,8 @@ static bool add_entries(struct order_work *o) {
   for (uint32_t i = 0; i < o->count; i++) {
     const struct drawing_stroke *stroke = &o->stroke[i];
     uint32_t step = stroke->count - 1;
+    if (!poll_at(i))
+      return false;
     if (stroke->closed)
       step = (stroke->count + LOOP_ENTRIES_MAX - 1) / LOOP_ENTRIES_MAX;
     o->first_entry[i] = (uint32_t)o->entry.count;
@@ -136,7 +138,7 @@ static void choose_loop_starts(struct order_work *o) {
    * there is a second round. */
   enum { ROUNDS = 2 };
   for (int round = 0; round < ROUNDS; round++)
-    for (uint32_t k = 0; k < o->count; k++)
+    for (uint32_t k = 0; k < o->count && poll_at(k); k++)
       if (o->stroke[o->tour.stroke[k]].closed)
         choose_loop_start(o, k);
 }
@@ -167,6 +169,7 @@ static bool apply(struct order_work *o) {
     return false;
   for (uint32_t k = 0; k < o->count; k++) {
     uint32_t s = o->tour.stroke[k];
+    (void)poll_at(k); /* the copy is whole in any case */
     sorted[k] = o->stroke[s];
     struct drawing_point *point = o->drawing->point.item + sorted[k].point;
     if (sorted[k].closed)
@@ -185,6 +188,7 @@ static double given_travel(const struct order_work *o) {
   double travel = 0;
   for (uint32_t i = 0; i < o->count; i++) {
     uint32_t last = o->stroke[i].closed ? 0 : o->stroke[i].count - 1;
+    (void)poll_at(i);
     travel += stroke_distance(pen, stroke_corner(o, i, 0));
     pen = stroke_corner(o, i, last);
   }
@@ -255,6 +259,7 @@ size_t stroke_order_pen_lifts(const struct drawing *drawing) {
     const struct drawing_stroke *stroke = &drawing->stroke.item[i];
     struct drawing_point from = drawing->point.item[stroke->point];
     struct drawing_point pen = from;
+    (void)poll_at(i);
     bool same = i > 0 && stroke[-1].layer == stroke->layer;
     if (same)
       pen = pen_after(drawing, stroke - 1);

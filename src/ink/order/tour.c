@@ -49,6 +49,7 @@ double tour_travel(const struct tour *tour) {
   double travel = 0;
   for (uint32_t i = 0; i < tour->count; i++) {
     uint32_t stroke = tour->stroke[i], reversed = tour->reversed[stroke];
+    (void)poll_at(i);
     travel += stroke_distance(pen, tour->end[2 * stroke + reversed]);
     pen = tour->end[2 * stroke + !reversed];
   }
@@ -321,6 +322,7 @@ static bool find_neighbours(struct cyclic_tour *r) {
 static void close_tour(struct cyclic_tour *r, const struct tour *tour) {
   for (uint32_t i = 0; i < r->count; i++) {
     uint32_t stop = i < tour->count ? tour->stroke[i] : tour->count;
+    (void)poll_at(i);
     set_stop(r, stop, i);
     r->reversed[stop] = stop < tour->count && tour->reversed[stop];
     enqueue(r, stop);
@@ -333,6 +335,7 @@ static void open_tour(struct cyclic_tour *r, struct tour *tour) {
   uint32_t depot = tour->count, stop = depot;
   r->back = r->reversed[depot];
   for (uint32_t i = 0; i < tour->count; i++) {
+    (void)poll_at(i);
     stop = after(r, stop);
     tour->stroke[i] = stop;
     tour->reversed[stop] = entry_end(r, stop) & 1;

@@ -133,6 +133,8 @@ static bool make_lists(struct line_index *index, const side_keys *keys) {
   if (index->start == NULL || index->item == NULL || index->number == NULL)
     return false;
   for (size_t i = 0; i < keys->count; i++) {
+    if (!poll_at(i))
+      return false;
     index->start[(keys->item[i].key >> 32) + 1]++;
     index->item[i] = keys->item[i].value;
     index->number[i] = (uint32_t)keys->item[i].key;
