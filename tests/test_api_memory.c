@@ -343,6 +343,21 @@ static void a_wrong_mesh_is_refused_with_its_face_and_adds_nothing(void **s) {
   assert_same(draw(scene), draw_obj(cube_obj));
 }
 
+static void
+a_mesh_beyond_the_limits_is_refused_before_it_is_read(void **state) {
+  (void)state;
+  recto_mesh mesh = cube_mesh(), other = cube_mesh();
+  recto_scene *scene = box_scene(NULL);
+  mesh.point_count = SIZE_MAX;
+  assert_int_equal(recto_scene_add_mesh(scene, &mesh, NULL), RECTO_ERROR_LIMIT);
+  other.corner_count = SIZE_MAX;
+  other.face_count = SIZE_MAX / 3;
+  other.face_size = 3;
+  assert_int_equal(recto_scene_add_mesh(scene, &other, NULL),
+                   RECTO_ERROR_LIMIT);
+  recto_scene_destroy(scene);
+}
+
 static void a_caller_of_another_version_may_add_a_mesh(void **state) {
   (void)state;
   struct later {
@@ -493,6 +508,7 @@ int main(void) {
       cmocka_unit_test(faces_of_several_sizes_are_given_by_offsets),
       cmocka_unit_test(a_second_mesh_has_indices_of_its_own),
       cmocka_unit_test(a_wrong_mesh_is_refused_with_its_face_and_adds_nothing),
+      cmocka_unit_test(a_mesh_beyond_the_limits_is_refused_before_it_is_read),
       cmocka_unit_test(a_caller_of_another_version_may_add_a_mesh),
       cmocka_unit_test(skipped_faces_are_counted_where_faces_have_numbers),
       cmocka_unit_test(a_written_drawing_has_the_bytes_of_its_file),

@@ -61,8 +61,10 @@ static recto_status add_mesh_points(struct scene *scene, const recto_mesh *mesh,
                                     recto_error *error) {
   size_t first = scene->point.count;
   bool is_single = mesh->points == NULL;
-  if (mesh->point_count > SCENE_LIMIT - first)
-    return error_set(error, RECTO_ERROR_LIMIT, NULL, 0, "too many points");
+  if (mesh->point_count > SCENE_LIMIT - first ||
+      mesh->corner_count > SCENE_LIMIT - scene->corner.count)
+    return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
+                     "the scene has more than 2^31 points or corners");
   if (!ARRAY_RESERVE(&scene->point, mesh->point_count))
     return error_memory(error);
   for (size_t i = 0; i < mesh->point_count; i++) {

@@ -143,7 +143,8 @@ recto_status recto_scene_add_point(recto_scene *scene, const double xyz[3],
                      "a point is not finite");
   scene_forget_preparation(scene);
   if (scene->scene.point.count >= SCENE_LIMIT)
-    return error_set(error, RECTO_ERROR_LIMIT, NULL, 0, "too many points");
+    return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
+                     "the scene has more than 2^31 points");
   recto_status status =
       scene_leave_precision(&scene->scene, scene->scene.point.count, error);
   if (status != RECTO_OK)
