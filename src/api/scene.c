@@ -174,7 +174,7 @@ static recto_status check_corners(const recto_scene *scene,
     return error_null(error, scene == NULL ? "the scene" : "the corners");
   if (count < least)
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
-                     "%zu corners are fewer than %zu", count, least);
+                     "too few corners: %zu of at least %zu", count, least);
   for (size_t i = 0; i < count; i++)
     if (corner[i] >= scene->scene.point.count)
       return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
