@@ -78,6 +78,41 @@ else
     "no pip and wheel"
 fi
 
+# ---- Types ----------------------------------------------------------------
+
+cat >"$scratch/user.py" <<'PYTHON'
+import recto
+
+drawing = recto.Scene([[0, 0, 0]], [[0, 0, 0]]).render(view="iso", results="edges")
+width: float = drawing.strokes[0].width
+text: str = drawing.svg()
+recto.draw("a.obj", "a.svg", azimuth=30, hidden="dashed")
+recto.draw("a.obj", "a.svg", azimut=30)
+recto.draw("a.obj", 3)
+drawing.strokes[0].nothing
+PYTHON
+check_types() {
+  "$python" -m mypy --enable-incomplete-feature=Unpack --cache-dir="$scratch/mypy" \
+    "$@" >"$scratch/log" 2>&1
+}
+package_is_typed() {
+  check_types "$scratch/source/recto" || { say "$(tail -n 5 "$scratch/log")" && false; }
+}
+faults_of_users() {
+  ! MYPYPATH=$scratch/source check_types --strict --follow-imports=silent \
+    "$scratch/user.py" && grep -o '^[^ ]*user.py:[0-9]*' "$scratch/log" |
+    sed 's/.*://' | tr '\n' ' ' >"$scratch/lines"
+  test "$(cat "$scratch/lines")" = "7 8 9 " ||
+    { say "$(tail -n 5 "$scratch/log")" && false; }
+}
+if "$python" -c 'import mypy' 2>/dev/null; then
+  claim "mypy finds no fault in the package" package_is_typed
+  claim "and finds a wrong option, a wrong type and a wrong name in programs" \
+    faults_of_users
+else
+  skip "mypy finds no fault in the package" "no mypy"
+fi
+
 # ---- Documentation and examples -------------------------------------------
 
 cp "$srcdir"/examples/models/*.obj "$scratch"

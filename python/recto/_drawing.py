@@ -66,8 +66,8 @@ class Stroke(np.ndarray):
             self.__dict__.update(other.__dict__)
 
     def __reduce__(self) -> Any:
-        make, arguments, state = super().__reduce__()[:3]
-        return make, arguments, (state, self.__dict__)
+        made: Any = super().__reduce__()
+        return made[0], made[1], (made[2], self.__dict__)
 
     def __setstate__(self, state: Any) -> None:
         super().__setstate__(state[0])

@@ -117,7 +117,11 @@ def path_of(path: Any) -> bytes:
 
 def text_to(text: str | None) -> Any:
     """What a `const char *` argument takes; NULL for None."""
-    return ffi.NULL if text is None else _whole(text.encode("utf-8"))
+    if text is None:
+        return ffi.NULL
+    if not isinstance(text, str):
+        raise TypeError(f"a str is expected, not {type(text).__name__}")
+    return _whole(text.encode("utf-8", "surrogateescape"))
 
 
 def index_of(number: int) -> int | None:

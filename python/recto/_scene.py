@@ -28,7 +28,7 @@ def _corners(faces: Any) -> tuple[np.ndarray, np.ndarray | None, int]:
         if len(faces) > 0 and (sizes != sizes[0]).any():
             offsets = np.zeros(len(faces) + 1, np.uint32)
             np.cumsum(sizes, out=offsets[1:])
-            faces = np.concatenate([np.asarray(face) for face in faces])
+            faces = np.concatenate([np.asarray(face) for face in faces if len(face)])
     corners = np.asarray(faces)
     if corners.size == 0:
         return np.empty(0, np.uint32), None, 3
@@ -191,6 +191,8 @@ class Scene:
         rows = np.ascontiguousarray(points, np.float64)
         if rows.ndim != 2 or rows.shape[1] != 3:
             raise ValueError(f"points: shape {rows.shape} is not (n, 3)")
+        if len(rows) < 2 or not np.isfinite(rows).all():
+            raise ValueError("points: a polyline has at least two, all finite")
         call = Call()
         index = ffi.new("uint32_t[]", len(rows))
         at = ffi.from_buffer("double[]", rows)

@@ -409,6 +409,8 @@ def test_polyline():
     drawing = scene.render()
     wires = [s for s in drawing.strokes if s.edge_class == "wire"]
     assert wires and drawing.groups[wires[0].group] == "path"
+    for wrong in ([[0, 0, 0]], np.empty((0, 3)), [[0, 0, 0], [0, np.nan, 0]], [1, 2]):
+        raised(ValueError, scene.add_polyline, wrong)
 
 
 def test_notebook():
@@ -467,9 +469,16 @@ def test_values():
     raised(ValueError, cube().render, device="generic\0x")
     raised(ValueError, cube().add_group, "a\0b")
     raised(ValueError, recto.Scene, VERTICES, FACES, ["a\0b"] * 6)
+    raised(TypeError, recto.Scene, VERTICES, FACES, [1] * 6)
+    few = raised(recto.ArgumentError, recto.Scene, VERTICES, [[0, 1, 2], []])
+    assert "face 1" in str(few)
     raised(ValueError, recto.Scene.read, "cut.ply\0")
     raised(ValueError, cube().render().write, "a.svg\0.txt")
     raised(ValueError, cube().render().to_bytes, "svg\0x")
+    latin = recto.Scene.from_bytes(b"g gr\xfcn\n" + OBJ.encode(), "obj")
+    name = latin.render().groups[-1]  # not UTF-8, and may be given again
+    assert latin.render(pen_for={name: 2}).layers[-1].pen == 2
+    latin.add_group(name)
     assert "Scene.read" in str(raised(TypeError, recto.Scene, "cut.ply"))
     drawing = cube().render(results=(w for w in ("edges", "faces")))
     assert drawing.edges and drawing.fragments and drawing.svg()

@@ -1,0 +1,6 @@
+"""The extension module that cffi makes of recto.h."""
+
+from typing import Any
+
+ffi: Any
+lib: Any
