@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "tests/scenes/pipeline.h"
+#include "tests/scenes/random.h"
 
 static void fill_needles(struct scene *scene, recto_options *options,
                          enum scenes_needles kind, unsigned n) {
@@ -48,6 +49,45 @@ static void pairs_grow_as_the_corners_do(void **state) {
     if (pairs > 500 * (int64_t)n)
       fail_msg("kind %d: %ld pairs", kind, (long)pairs);
   }
+}
+
+/* The triangles of one polygon are not tested with each other, but with what
+ * pierces it, all of which is found. */
+static void a_polygon_is_not_tested_with_itself(void **state) {
+  (void)state;
+  enum { CORNERS = 4000 };
+  struct scene scene;
+  recto_options options;
+  struct pipeline pipeline;
+  struct random random = {3};
+  double *xyz = calloc(CORNERS, 3 * sizeof *xyz);
+  assert_non_null(xyz);
+  for (int i = 0; i < CORNERS; i++)
+    for (int k = 0; k < 2; k++)
+      xyz[3 * i + k] = random_unit(&random);
+  recto_options_init(&options);
+  scene_init(&scene);
+  build_polygon(&scene, xyz, CORNERS);
+  free(xyz);
+  for (int i = 1; i < 9; i++)
+    build_parallelogram(&scene, vector_of(0.1 * i, 0.1, -0.5),
+                        vector_of(0.01, 0.8, 0), vector_of(0, 0, 1));
+  options.ink.edges = RECTO_EDGE_INTERSECTION;
+  options.solver.threads = 1;
+  int64_t segments[2];
+  for (int k = 0; k < 2; k++) {
+    pipeline_run(&pipeline, &scene, &options,
+                 k == 0 ? &solver_tiles : &solver_brute);
+    assert_int_equal(pipeline.status, RECTO_OK);
+    segments[k] = report_get(pipeline.report, "intersections", "segments", 0);
+    assert_in_range(
+        report_get(pipeline.report, "intersections", "pairs_tested", 0),
+        segments[k], 100 * CORNERS);
+    pipeline_fini(&pipeline);
+  }
+  assert_true(segments[0] > CORNERS / 8);
+  assert_int_equal(segments[0], segments[1]);
+  scene_fini(&scene);
 }
 
 /* The scenes are large enough for their lists to be split by a BSP. */
@@ -136,6 +176,7 @@ static void a_soup_of_10000_is_the_same_by_tiles_and_warnock(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(pairs_grow_as_the_corners_do),
+      cmocka_unit_test(a_polygon_is_not_tested_with_itself),
       cmocka_unit_test(solvers_agree_on_long_lists),
       cmocka_unit_test(a_bellows_of_1300_is_the_same_by_all),
       cmocka_unit_test(triangles_100000_on_one_vertex_finish),

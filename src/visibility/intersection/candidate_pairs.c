@@ -14,6 +14,9 @@
 /* The shortest list for which a BSP is worth while. */
 enum { BSP_LIST_MIN = 256 };
 
+/* The shortest list of which the most frequent face is looked for. */
+enum { FACE_LIST_MIN = 64 };
+
 /* What the tests use of a triangle, computed once per list. */
 struct swept_triangle {
   struct box2 box;
@@ -218,20 +221,56 @@ static void add_to_list(struct pair_sweep *sweep, uint32_t triangle,
       (struct sort_key){(uint64_t)sweep->swept.item[i].low, (uint32_t)i};
 }
 
-/* Tests the pairs of the list. */
+static uint32_t face_at(const struct pair_sweep *sweep, size_t i) {
+  const struct swept_triangle *f = &sweep->swept.item[sweep->key.item[i].value];
+  return sweep->sheet->triangle.item[f->triangle].face;
+}
+
+/* The only face that may have more than half of the list's triangles, by the
+ * majority vote of Boyer and Moore. */
+static uint32_t majority_face(const struct pair_sweep *sweep) {
+  uint32_t face = SHEET_NONE;
+  size_t lead = 0;
+  for (size_t i = 0; i < sweep->swept.count; i++) {
+    if (lead == 0)
+      face = face_at(sweep, i);
+    lead = face_at(sweep, i) == face ? lead + 1 : lead - 1;
+  }
+  return face;
+}
+
+/* Lists the keys whose triangles are not of that face. */
+static bool list_others(struct pair_sweep *sweep, uint32_t face) {
+  sweep->other.count = 0;
+  for (size_t i = 0; i < sweep->swept.count; i++)
+    if (face_at(sweep, i) != face &&
+        !ARRAY_PUSH(&sweep->other, sweep->key.item[i]))
+      return false;
+  return true;
+}
+
+/* Tests the pairs of the list, but not those of the face that has most of it:
+ * a polygon of many corners has very many. */
 static bool sweep_list(struct pair_sweep *sweep) {
   struct swept_triangle *swept = sweep->swept.item;
   struct sort_key *key = sweep->key.item;
-  size_t n = sweep->swept.count;
+  size_t n = sweep->swept.count, others = 0;
   sort_keys(key, key + n, n);
+  uint32_t face = n < FACE_LIST_MIN ? SHEET_NONE : majority_face(sweep);
+  if (face != SHEET_NONE && !list_others(sweep, face))
+    return false;
   for (size_t i = 0; i < n; i++) {
     struct swept_triangle *f = &swept[key[i].value];
-    size_t j = i + 1;
-    for (; j < n && key[j].key <= (uint64_t)f->high; j++)
-      if (!visit_pair(sweep, f, &swept[key[j].value]))
+    bool is_of_face = face != SHEET_NONE && face_at(sweep, i) == face;
+    const struct sort_key *g = is_of_face ? sweep->other.item : key;
+    size_t end = is_of_face ? sweep->other.count : n;
+    size_t first = is_of_face ? others : i + 1, j = first;
+    others += !is_of_face;
+    for (; j < end && g[j].key <= (uint64_t)f->high; j++)
+      if (!visit_pair(sweep, f, &swept[g[j].value]))
         return false;
-    sweep->met += j - i - 1;
-    if (!progress_step(sweep->progress, j - i))
+    sweep->met += j - first;
+    if (!progress_step(sweep->progress, j - first + 1))
       return false;
   }
   return true;
@@ -287,5 +326,6 @@ bool pair_sweep_cells(struct pair_sweep *sweep, size_t begin, size_t end) {
 void pair_sweep_fini(struct pair_sweep *sweep) {
   ARRAY_FREE(&sweep->swept);
   ARRAY_FREE(&sweep->key);
+  ARRAY_FREE(&sweep->other);
   bsp_fini(&sweep->bsp);
 }
