@@ -120,6 +120,12 @@ bool segment_graph_recall_isolated(struct segment_graph *graph) {
   return ok;
 }
 
+static bool is_after(const struct graph_segment *a,
+                     const struct graph_segment *b) {
+  return a->node[0] > b->node[0] ||
+         (a->node[0] == b->node[0] && a->node[1] > b->node[1]);
+}
+
 /* Merges the two sorted arrays. */
 recto_status segment_graph_rejoin(struct segment_graph *graph,
                                   recto_error *error) {
@@ -130,12 +136,8 @@ recto_status segment_graph_rejoin(struct segment_graph *graph,
   a.count += k;
   /* From the end, so that what is still to be moved is not overwritten. */
   while (k > 0) {
-    const struct graph_segment *last = &a.item[i - 1], *other = &b.item[k - 1];
-    bool later =
-        i > 0 &&
-        (last->node[0] > other->node[0] ||
-         (last->node[0] == other->node[0] && last->node[1] > other->node[1]));
-    a.item[i + k - 1] = later ? *last : *other;
+    bool later = i > 0 && is_after(&a.item[i - 1], &b.item[k - 1]);
+    a.item[i + k - 1] = later ? a.item[i - 1] : b.item[k - 1];
     i -= later;
     k -= !later;
   }
