@@ -17,16 +17,17 @@ enum {
 
 typedef ARRAY(uint32_t) triangle_list;
 
+/* The box of all points, those of wires too: triangles use nearly all. */
 static struct box2 box_of_sheet(const struct sheet *sheet) {
   struct box2 all = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
-  for (size_t t = 0; t < sheet->triangle.count; t++) {
-    struct box2 box = box2_of_triangle(sheet, (uint32_t)t);
-    all.x0 = box2_min(all.x0, box.x0);
-    all.y0 = box2_min(all.y0, box.y0);
-    all.x1 = box2_max(all.x1, box.x1);
-    all.y1 = box2_max(all.y1, box.y1);
+  for (size_t i = 0; i < sheet->point.count; i++) {
+    struct geom_point p = sheet->point.item[i];
+    all.x0 = box2_min(all.x0, p.x);
+    all.y0 = box2_min(all.y0, p.y);
+    all.x1 = box2_max(all.x1, p.x);
+    all.y1 = box2_max(all.y1, p.y);
   }
-  return sheet->triangle.count > 0 ? all : (struct box2){0, 0, 0, 0};
+  return sheet->point.count > 0 ? all : (struct box2){0, 0, 0, 0};
 }
 
 /* Do the boxes meet at most `spread` cells of 2^shift units on average?

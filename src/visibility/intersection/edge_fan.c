@@ -59,13 +59,17 @@ const struct incidence *incidences_find(const struct incidences *incidences,
 
 bool incidences_init(struct incidences *incidences, const struct sheet *sheet,
                      const uint8_t *marked) {
-  for (uint32_t t = 0; t < sheet->triangle.count; t++)
+  for (uint32_t t = 0; t < sheet->triangle.count; t++) {
+    const uint32_t *p = sheet->triangle.item[t].point;
+    if (marked[p[0]] + marked[p[1]] + marked[p[2]] < 2)
+      continue;
     for (int k = 0; k < 3; k++) {
       struct incidence incidence = {surface_edge_of(sheet, t, k), t};
       if (marked[incidence.edge.i] && marked[incidence.edge.j] &&
           !ARRAY_PUSH(&incidences->list, incidence))
         return false;
     }
+  }
   return sort_stable(incidences->list.item, incidences->list.count,
                      sizeof *incidences->list.item, compare_incidences, NULL);
 }

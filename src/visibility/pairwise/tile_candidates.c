@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "base/parallel.h"
 #include "base/poll.h"
 #include "base/sort.h"
 
@@ -11,6 +12,9 @@
  *   the lists are this long, on average over their entries, and
  *   two triangles together are in this many tiles, on average. */
 enum { LONG_LIST = 32, TILES_OF_TWO = 5 };
+
+/* Cells that a thread takes at once: a list has some ten triangles. */
+enum { CELLS_IN_RANGE = 1024 };
 
 /* If the sheet has more triangles, none is prepared as an occluder, to bound
  * the memory. */
@@ -156,26 +160,38 @@ static void sort_list(struct tile_candidates *list, size_t from, size_t to,
   }
 }
 
-static bool add_keys(struct tile_candidates *list, const struct sheet *sheet) {
-  const struct triangle_grid *grid = &list->grid;
+/* The lists of a range of cells. */
+struct key_work {
+  struct tile_candidates *list;
+  const struct sheet *sheet;
+};
+
+static bool add_keys_of_range(void *user, struct parallel_range range) {
+  const struct key_work *work = user;
+  const struct triangle_grid *grid = &work->list->grid;
+  size_t columns = (size_t)grid->columns;
   struct sort_key scratch[TRIANGLE_GRID_SPLIT];
-  size_t cell = 0;
-  list->key =
-      mem_alloc(grid->start[triangle_grid_cell_count(grid)], sizeof *list->key);
-  if (list->key == NULL)
-    return false;
-  for (int y = 0; y < grid->rows; y++)
-    for (int x = 0; x < grid->columns; x++, cell++) {
-      if (!poll_at(cell))
-        return false;
-      if (grid->start[cell] < grid->start[cell + 1]) {
-        size_t from = grid->start[cell], to = grid->start[cell + 1];
-        compute_keys(list, sheet, x, y, from, to);
-        if (to - from < TRIANGLE_GRID_SPLIT)
-          sort_list(list, from, to, scratch);
-      }
-    }
+  for (size_t cell = range.begin; cell < range.end; cell++) {
+    size_t from = grid->start[cell], to = grid->start[cell + 1];
+    if (!poll_at(cell))
+      return false;
+    if (from == to)
+      continue;
+    compute_keys(work->list, work->sheet, (int)(cell % columns),
+                 (int)(cell / columns), from, to);
+    if (to - from < TRIANGLE_GRID_SPLIT)
+      sort_list(work->list, from, to, scratch);
+  }
   return true;
+}
+
+static bool add_keys(struct tile_candidates *list, const struct sheet *sheet) {
+  size_t cells = triangle_grid_cell_count(&list->grid);
+  struct key_work work = {list, sheet};
+  list->key = mem_alloc(list->grid.start[cells], sizeof *list->key);
+  return list->key != NULL &&
+         parallel_ranges(parallel_workers(cells, CELLS_IN_RANGE), cells,
+                         CELLS_IN_RANGE, add_keys_of_range, &work);
 }
 
 bool tile_candidates_fill(struct tile_candidates *list,

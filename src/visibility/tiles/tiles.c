@@ -163,31 +163,51 @@ static enum map_state state_of_edge(struct tiles_work *work,
              : state;
 }
 
-/* Phase 2 for the edges from number `from` on; lists the deferred ones.
- * Returns false when memory ran out. */
-static bool classify_edges(struct tiles_work *work, size_t from,
-                           struct map *map) {
-  const struct sheet *sheet = work->sheet;
-  if (!edge_intervals_open_map(map, sheet->edge.count))
-    return false;
-  for (size_t e = from; e < sheet->edge.count; e++) {
+/* What the ranges of phase 2 have in common. */
+struct classification_work {
+  struct tiles_work *tiles;
+  struct map *map;
+  size_t from; /* the first edge */
+};
+
+static bool classify_edge_range(void *user, struct parallel_range range) {
+  const struct classification_work *work = user;
+  const struct sheet *sheet = work->tiles->sheet;
+  for (size_t e = work->from + range.begin; e < work->from + range.end; e++) {
     const struct sheet_edge *edge = &sheet->edge.item[e];
     struct geom_segment s = sheet_ends(sheet, edge->point);
     bool wire = edge->triangle[0] == SHEET_NONE ||
                 edge->edge_class == RECTO_EDGE_INTERSECTION;
     if (!poll_at(e))
       return false;
-    if (!sheet_edge_is_drawn(sheet, e))
-      continue;
-    map->edge_state[e] =
-        from > 0 && occlusion_culling_hides(work->culling, s.p, s.q)
-            ? MAP_HIDDEN
-            : (uint8_t)state_of_edge(work, s.p, s.q, wire);
+    if (sheet_edge_is_drawn(sheet, e))
+      work->map->edge_state[e] =
+          work->from > 0 &&
+                  occlusion_culling_hides(work->tiles->culling, s.p, s.q)
+              ? MAP_HIDDEN
+              : (uint8_t)state_of_edge(work->tiles, s.p, s.q, wire);
+  }
+  return true;
+}
+
+/* Phase 2 for the edges from number `from` on; lists the deferred ones.
+ * Returns false when memory ran out. */
+static bool classify_edges(struct tiles_work *work, size_t from,
+                           struct map *map) {
+  const struct sheet *sheet = work->sheet;
+  size_t count = sheet->edge.count - from;
+  struct classification_work classification = {work, map, from};
+  if (!edge_intervals_open_map(map, sheet->edge.count) ||
+      !parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
+                       PARALLEL_ITEMS, classify_edge_range, &classification))
+    return false;
+  for (size_t e = from; e < sheet->edge.count; e++) {
     if (map->edge_state[e] != MAP_MIXED)
       continue;
     if (!ARRAY_PUSH(&work->edge, (uint32_t)e))
       return false;
-    (void)state_along(work, s.p, s.q, wire, true);
+    struct geom_segment s = sheet_ends(sheet, sheet->edge.item[e].point);
+    (void)state_along(work, s.p, s.q, false, true);
   }
   return true;
 }
@@ -214,20 +234,28 @@ static void request_face_tiles(struct tiles_work *work, uint32_t t) {
            (size_t)(r.x1 - r.x0) + 1);
 }
 
+static bool classify_face_range(void *user, struct parallel_range range) {
+  struct tiles_work *work = user;
+  for (size_t t = range.begin; t < range.end; t++) {
+    bool flat = work->sheet->triangle_flags[t] & SHEET_FLAT;
+    if (!poll_at(t))
+      return false;
+    work->face_state[t] =
+        flat ? MAP_HIDDEN : (uint8_t)state_of_face(work, (uint32_t)t);
+  }
+  return true;
+}
+
 /* Phase 2 for the faces; lists the deferred ones.  Returns false when memory
  * ran out. */
 static bool classify_faces(struct tiles_work *work) {
   size_t n = work->sheet->triangle.count;
   work->face_state = mem_alloc(n, 1);
-  if (work->face_state == NULL)
+  if (work->face_state == NULL ||
+      !parallel_ranges(parallel_workers(n, PARALLEL_ITEMS), n, PARALLEL_ITEMS,
+                       classify_face_range, work))
     return false;
   for (size_t t = 0; t < n; t++) {
-    work->face_state[t] = MAP_HIDDEN;
-    if (!poll_at(t))
-      return false;
-    if (work->sheet->triangle_flags[t] & SHEET_FLAT)
-      continue;
-    work->face_state[t] = (uint8_t)state_of_face(work, (uint32_t)t);
     if (work->face_state[t] != MAP_MIXED)
       continue;
     if (!ARRAY_PUSH(&work->face, (uint32_t)t))
