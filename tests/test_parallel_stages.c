@@ -188,6 +188,17 @@ static struct output draw(const char *bytes, size_t count,
   return output;
 }
 
+static void assert_drawn_alike(const char *name, const char *text,
+                               size_t length, const struct kind *kind) {
+  struct output one = draw(text, length, kind, 1),
+                two = draw(text, length, kind, 2);
+  assert_true(one.count > 10000);
+  if (one.count != two.count || memcmp(one.bytes, two.bytes, one.count) != 0)
+    fail_msg("%s, %s: two threads draw differently", name, kind->name);
+  free(one.bytes);
+  free(two.bytes);
+}
+
 static void threads_change_no_byte(void **state) {
   (void)state;
   if (parallel_processors() < 2)
@@ -202,16 +213,86 @@ static void threads_change_no_byte(void **state) {
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
       if (strchr(models[m].kinds, kinds[k].letter) == NULL)
         continue;
-      struct output one = draw(text, length, &kinds[k], 1),
-                    two = draw(text, length, &kinds[k], 2);
-      assert_true(one.count > 10000);
-      if (one.count != two.count ||
-          memcmp(one.bytes, two.bytes, one.count) != 0)
-        fail_msg("%s, %s: two threads draw differently", models[m].name,
-                 kinds[k].name);
-      free(one.bytes);
-      free(two.bytes);
+      assert_drawn_alike(models[m].name, text, length, &kinds[k]);
     }
+    free(text);
+  }
+}
+
+/* ---- What is wrong with a file ------------------------------------------- */
+
+/* Few faults between long runs of plain statements, of which `worst`, a
+ * statement or NULL, ends the reading.  The decimals of the points show their
+ * precision. */
+static void write_faulty(FILE *to, const char *worst) {
+  int side = 400, faces = 2 * side * side;
+  for (int i = 0; i <= side * (side + 2); i++) {
+    if (i == 60007)
+      fprintf(to, "v 0 nan 0\nv 1 2\n# two points that cannot be used\n");
+    fprintf(to, "v %.5f %.5f %.4f\n", (i % (side + 1)) / 400.0,
+            (i / (side + 1)) / 400.0, 0.1 * (i % 7));
+  }
+  fprintf(to, "g first\n");
+  for (int f = 0; f < faces; f++) {
+    if (f % 80000 == 70007)
+      fprintf(to, "f 1 2\nf 1 2 %d\ng part%d\n", 1 << 29, f);
+    if (f % 80000 == 60000)
+      fprintf(to, "f 3 5 9 \\\n 7\n");
+    if (f == 290000 && worst != NULL)
+      fputs(worst, to);
+    write_face(to, f, side);
+  }
+}
+
+static void note_warning(void *user, const char *file, unsigned long line,
+                         const char *text) {
+  FILE *to = user;
+  fprintf(to, "%s %lu %s\n", file, line, text);
+}
+
+/* All that reading says: the warnings and the error. */
+static char *read_faulty(const char *bytes, size_t count, int threads) {
+  char *said;
+  size_t length;
+  FILE *to = open_memstream(&said, &length);
+  recto_options options;
+  recto_scene *scene;
+  recto_error error = {.code = RECTO_OK};
+  assert_non_null(to);
+  recto_options_init(&options);
+  options.solver.threads = threads;
+  options.warning = note_warning;
+  options.user = to;
+  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+  recto_status status = recto_scene_read_memory(scene, bytes, count, "obj",
+                                                NULL, &options, &error);
+  assert_int_equal(status, error.code);
+  fprintf(to, "%d %lu %s\n", (int)error.code, error.line, error.text);
+  recto_scene_destroy(scene);
+  fclose(to);
+  return said;
+}
+
+static void threads_change_no_message(void **state) {
+  static const char *const worst[] = {NULL, "f 1 2 3\001\n", "v 1 2 x\001\n"};
+  (void)state;
+  if (parallel_processors() < 2)
+    skip();
+  for (size_t w = 0; w < sizeof worst / sizeof *worst; w++) {
+    char *text;
+    size_t length;
+    FILE *to = open_memstream(&text, &length);
+    assert_non_null(to);
+    write_faulty(to, worst[w]);
+    fclose(to);
+    char *one = read_faulty(text, length, 1),
+         *two = read_faulty(text, length, 2);
+    assert_non_null(strstr(one, " 230815 "));
+    assert_string_equal(one, two);
+    if (worst[w] == NULL)
+      assert_drawn_alike("faulty", text, length, &kinds[0]);
+    free(one);
+    free(two);
     free(text);
   }
 }
@@ -219,6 +300,7 @@ static void threads_change_no_byte(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(threads_change_no_byte),
+      cmocka_unit_test(threads_change_no_message),
   };
   return cmocka_run_group_tests_name("parallel stages", tests, NULL, NULL);
 }

@@ -21,6 +21,8 @@ struct obj_parser {
   bool ahead;            /* the points to come are in the scene already */
   bool known;            /* a statement was understood */
   unsigned long strange; /* line of the first that was not; 0 */
+  const char *run_end;   /* where the last run of plain statements ended */
+  size_t run_bytes;      /* its length, with those right before it */
   struct precision_sample sample;
   ARRAY(uint32_t) bad; /* points that cannot be used, ascending */
   ARRAY(uint32_t) corner;

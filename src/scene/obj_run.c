@@ -2,10 +2,19 @@
  *
  * Nearly all statements are like the one before them, and plain: they are read
  * without a question that only others need.  What follows a run is left to
- * reader_obj.c. */
+ * reader_obj.c.
+ *
+ * In parallel, once a run is long, as many bytes as it had so far are divided
+ * into parts at the ends of lines.  Where all statements are plain, the lines
+ * before a part say where its points or faces belong.  The parts are taken up
+ * to the first that is not plain to its end; where that begins something else,
+ * it is read again: no more than was plain before. */
 #include "scene/obj_parser.h"
 
+#include <string.h>
+
 #include "base/number.h"
+#include "base/parallel.h"
 #include "scene/exact.h"
 #include "scene/limit.h"
 
@@ -13,20 +22,74 @@
 
 enum {
   PLAIN_ROOM = 128, /* bytes, more than a plain statement has */
-  PLAIN_RUN = 4096  /* statements that room is made for */
+  PLAIN_RUN = 4096, /* statements that room is made for */
+  PART_BYTES = 1 << 16,
+  PARTS_MAX = 64 /* at once: what is counted is still in the cache when read */
 };
 
-/* Is the next statement one of that letter, with room to look at? */
-static inline bool is_short_statement(const struct obj_parser *p,
-                                      char keyword) {
-  return p->end - p->at > PLAIN_ROOM && p->at[0] == keyword && p->at[1] == ' ';
+/* A run of statements, or a part of one. */
+struct run {
+  const char *at, *end; /* where the next one begins, and where it ends */
+  size_t most, count;   /* how many it may have, and has */
+  size_t before;        /* how many the parts before it may have */
+  ARRAY(const char *) sampled; /* points whose numbers are looked at */
+};
+
+/* Is there a statement of that letter, with room to look at? */
+static inline bool has_short_statement(const struct obj_parser *p,
+                                       const struct run *run, char keyword) {
+  return run->count < run->most && run->at < run->end &&
+         p->end - run->at > PLAIN_ROOM && run->at[0] == keyword &&
+         run->at[1] == ' ';
+}
+
+/* ---- Points -------------------------------------------------------------- */
+
+/* Reads "v x y z" to its end; NULL where it is something else. */
+static inline const char *read_plain_point(const char *at,
+                                           struct scene_point *point) {
+  at = number_parse_plain(at + 2, &point->x);
+  if (at == NULL || *at != ' ')
+    return NULL;
+  at = number_parse_plain(at + 1, &point->y);
+  if (at == NULL || *at != ' ')
+    return NULL;
+  at = number_parse_plain(at + 1, &point->z);
+  return at != NULL && *at == '\n' ? at + 1 : NULL;
+}
+
+/* The number of the point that is sampled next, from `number` on. */
+static size_t next_sampled(const struct obj_parser *p, size_t number) {
+  size_t next = p->sample.next > p->seen ? p->sample.next : p->seen;
+  while (next < number)
+    next = precision_sampled_after(next);
+  return next;
+}
+
+/* Reads the points of a run; false when memory ran out. */
+static bool read_points(const struct obj_parser *p, struct run *run) {
+  struct scene_point *point =
+      p->scene->point.item + p->scene->point.count + run->before;
+  size_t first = p->seen + run->before, sampled = next_sampled(p, first);
+  for (; has_short_statement(p, run, 'v'); run->count++) {
+    const char *past = read_plain_point(run->at, &point[run->count]);
+    if (past == NULL)
+      break;
+    if (first + run->count == sampled) {
+      if (!ARRAY_PUSH(&run->sampled, run->at))
+        return false;
+      sampled = precision_sampled_after(sampled);
+    }
+    run->at = past;
+  }
+  return true;
 }
 
 /* Looks at the numbers of "v x y z", which are plain. */
-static void sample_point(struct obj_parser *p,
+static void sample_point(struct obj_parser *p, const char *at,
                          const struct scene_point *point) {
   const double xyz[3] = {point->x, point->y, point->z};
-  const char *at = p->at + 2;
+  at += 2;
   for (int k = 0; k < 3; k++) {
     const char *start = at;
     while (*at > ' ')
@@ -35,34 +98,23 @@ static void sample_point(struct obj_parser *p,
   }
 }
 
-recto_status obj_run_points(struct obj_parser *p) {
-  struct scene *scene = p->scene;
-  if (scene->point.count > SCENE_LIMIT - PLAIN_RUN)
-    return RECTO_OK;
-  if (!ARRAY_RESERVE(&scene->point, PLAIN_RUN))
-    return error_memory(p->error);
-  for (int i = 0; i < PLAIN_RUN && is_short_statement(p, 'v'); i++) {
-    struct scene_point point;
-    const char *at = number_parse_plain(p->at + 2, &point.x);
-    if (at != NULL && *at == ' ')
-      at = number_parse_plain(at + 1, &point.y);
-    else
-      break;
-    if (at != NULL && *at == ' ')
-      at = number_parse_plain(at + 1, &point.z);
-    else
-      break;
-    if (at == NULL || *at != '\n')
-      break;
-    if (precision_is_sampled(&p->sample, p->seen))
-      sample_point(p, &point);
-    p->at = at + 1;
-    p->line++;
-    p->seen++;
-    scene->point.item[scene->point.count++] = point;
+static void add_points(struct obj_parser *p, const struct run *run) {
+  const struct scene_point *point =
+      p->scene->point.item + p->scene->point.count;
+  for (size_t i = 0; i < run->sampled.count; i++) {
+    size_t number = next_sampled(p, p->seen);
+    (void)precision_is_sampled(&p->sample, number);
+    sample_point(p, run->sampled.item[i], &point[number - p->seen]);
   }
-  return RECTO_OK;
+  p->seen += run->count;
+  p->scene->point.count += run->count;
 }
+
+static bool reserve_points(struct scene *scene, size_t count) {
+  return ARRAY_RESERVE(&scene->point, count);
+}
+
+/* ---- Faces --------------------------------------------------------------- */
 
 /* Reads " index" or " index/other/other" of up to seven digits, of a point
  * seen so far; NULL where it is something else. */
@@ -84,11 +136,12 @@ static inline const char *read_plain_index(const struct obj_parser *p,
 /* Reads "f a b c" to its end; NULL where it is something else, or where a
  * closer look is needed. */
 static inline const char *read_plain_face(const struct obj_parser *p,
+                                          const char *start,
                                           uint32_t corner[3]) {
-  const char *at = p->at + 1;
+  const char *at = start + 1;
   for (int k = 0; k < 3; k++) {
     at = read_plain_index(p, at, &corner[k]);
-    if (at == NULL || at - p->at > PLAIN_ROOM / 2)
+    if (at == NULL || at - start > PLAIN_ROOM / 2)
       return NULL;
   }
   const struct scene_point *point = p->scene->point.item;
@@ -99,29 +152,172 @@ static inline const char *read_plain_face(const struct obj_parser *p,
   return bent && *at == '\n' ? at + 1 : NULL;
 }
 
-recto_status obj_run_faces(struct obj_parser *p) {
+/* Reads the faces of a run. */
+static bool read_faces(const struct obj_parser *p, struct run *run) {
   struct scene *scene = p->scene;
-  if (p->bad.count || p->renamed || scene->face_start.count == 0)
-    return RECTO_OK;
-  if (scene->corner.count > SCENE_LIMIT - 3 * PLAIN_RUN)
-    return RECTO_OK;
-  if (!ARRAY_RESERVE(&scene->corner, 3 * PLAIN_RUN) ||
-      !ARRAY_RESERVE(&scene->face_start, PLAIN_RUN) ||
-      !ARRAY_RESERVE(&scene->face_group, PLAIN_RUN))
-    return error_memory(p->error);
-  for (int i = 0; i < PLAIN_RUN && is_short_statement(p, 'f'); i++) {
-    uint32_t *corner = scene->corner.item + scene->corner.count;
-    const char *past = read_plain_face(p, corner);
+  size_t corners = scene->corner.count + 3 * run->before;
+  uint32_t *corner = scene->corner.item + corners;
+  uint32_t *start =
+      scene->face_start.item + scene->face_start.count + run->before;
+  uint32_t *group =
+      scene->face_group.item + scene->face_group.count + run->before;
+  for (; has_short_statement(p, run, 'f'); run->count++) {
+    const char *past = read_plain_face(p, run->at, &corner[3 * run->count]);
     if (past == NULL)
       break;
-    p->at = past;
-    p->line++;
-    scene->corner.count += 3;
-    scene->face_start.item[scene->face_start.count++] =
-        (uint32_t)scene->corner.count;
-    scene->face_group.item[scene->face_group.count++] = scene->current_group;
+    start[run->count] = (uint32_t)(corners + 3 * (run->count + 1));
+    group[run->count] = scene->current_group;
+    run->at = past;
   }
-  return RECTO_OK;
+  return true;
+}
+
+static void add_faces(struct obj_parser *p, const struct run *run) {
+  p->scene->corner.count += 3 * run->count;
+  p->scene->face_start.count += run->count;
+  p->scene->face_group.count += run->count;
+}
+
+static bool reserve_faces(struct scene *scene, size_t count) {
+  return ARRAY_RESERVE(&scene->corner, 3 * count) &&
+         ARRAY_RESERVE(&scene->face_start, count) &&
+         ARRAY_RESERVE(&scene->face_group, count);
+}
+
+/* ---- In parallel --------------------------------------------------------- */
+
+/* What differs between points and faces. */
+struct run_kind {
+  bool (*reserve)(struct scene *scene, size_t count);
+  bool (*read)(const struct obj_parser *p, struct run *run);
+  void (*add)(struct obj_parser *p, const struct run *run);
+};
+
+static const struct run_kind points = {reserve_points, read_points, add_points},
+                             faces = {reserve_faces, read_faces, add_faces};
+
+struct parts {
+  struct obj_parser *p;
+  const struct run_kind *kind;
+  struct run *part;
+};
+
+static bool count_lines_of_parts(void *user, struct parallel_range range) {
+  enum { COUNTED = 128 }; /* bytes at once, whose sum is a byte */
+  const struct parts *parts = user;
+  for (size_t i = range.begin; i < range.end; i++) {
+    struct run *part = &parts->part[i];
+    part->most = 0;
+    for (const char *at = part->at; at < part->end; at += COUNTED) {
+      int bytes = part->end - at < COUNTED ? (int)(part->end - at) : COUNTED;
+      uint8_t lines = 0;
+#pragma omp simd reduction(+ : lines)
+      for (int k = 0; k < bytes; k++)
+        lines = (uint8_t)(lines + (at[k] == '\n'));
+      part->most += lines;
+    }
+  }
+  return true;
+}
+
+static bool read_parts(void *user, struct parallel_range range) {
+  const struct parts *parts = user;
+  bool ok = true;
+  for (size_t i = range.begin; ok && i < range.end; i++)
+    ok = parts->kind->read(parts->p, &parts->part[i]);
+  return ok;
+}
+
+/* Takes the statements of a run; whether it was plain to its end. */
+static bool take_run(struct obj_parser *p, const struct run_kind *kind,
+                     const struct run *run) {
+  kind->add(p, run);
+  p->at = run->at;
+  p->line += run->count;
+  return run->at == run->end;
+}
+
+/* Divides what follows into parts; returns how many lines they have. */
+static size_t divide_into_parts(struct parts *parts, size_t count,
+                                int workers) {
+  const struct obj_parser *p = parts->p;
+  struct run *part = parts->part;
+  size_t lines = 0;
+  for (size_t i = 0; i < count; i++) {
+    const char *nominal = p->at + (i + 1) * PART_BYTES;
+    const char *end = memchr(nominal, '\n', (size_t)(p->end - nominal));
+    part[i].at = i > 0 ? part[i - 1].end : p->at;
+    part[i].end = end != NULL ? end + 1 : p->end;
+  }
+  (void)parallel_ranges(workers, count, 1, count_lines_of_parts, parts);
+  for (size_t i = 0; i < count; i++) {
+    part[i].before = lines;
+    lines += part[i].most;
+  }
+  return lines;
+}
+
+/* Reads parts of what follows, no more bytes than the run had so far; *plain:
+ * all of them were plain. */
+static recto_status read_ahead(struct obj_parser *p,
+                               const struct run_kind *kind, bool *plain) {
+  size_t left = (size_t)(p->end - p->at);
+  size_t count = (p->run_bytes < left ? p->run_bytes : left) / PART_BYTES;
+  count = count < PARTS_MAX ? count : PARTS_MAX;
+  int workers = parallel_workers(count, 1);
+  struct parts parts = {p, kind, NULL};
+  *plain = false;
+  /* Eight bytes at least make a point, or three corners. */
+  if (workers == 1 || p->scene->corner.count + left / 2 > SCENE_LIMIT ||
+      p->scene->point.count + left / 8 > SCENE_LIMIT)
+    return RECTO_OK;
+  parts.part = mem_calloc(count, sizeof *parts.part);
+  bool ok = parts.part != NULL &&
+            kind->reserve(p->scene, divide_into_parts(&parts, count, workers));
+  ok = ok && parallel_ranges(workers, count, 1, read_parts, &parts);
+  *plain = ok;
+  const char *start = p->at;
+  for (size_t i = 0; *plain && i < count; i++)
+    *plain = take_run(p, kind, &parts.part[i]);
+  p->run_bytes += (size_t)(p->at - start);
+  for (size_t i = 0; parts.part != NULL && i < count; i++)
+    ARRAY_FREE(&parts.part[i].sampled);
+  mem_free(parts.part);
+  return ok ? RECTO_OK : error_memory(p->error);
+}
+
+/* ---- Runs ---------------------------------------------------------------- */
+
+/* Reads a run of up to PLAIN_RUN statements, and where there was another right
+ * before it, what follows in parallel. */
+static recto_status read_run(struct obj_parser *p,
+                             const struct run_kind *kind) {
+  struct run run = {.at = p->at, .end = p->end, .most = PLAIN_RUN};
+  bool goes_on = p->run_end <= p->at && p->at - p->run_end < PLAIN_ROOM;
+  bool ok = kind->reserve(p->scene, PLAIN_RUN) && kind->read(p, &run);
+  p->run_bytes = (goes_on ? p->run_bytes : 0) + (size_t)(run.at - p->at);
+  if (ok)
+    (void)take_run(p, kind, &run);
+  ARRAY_FREE(&run.sampled);
+  recto_status status = ok ? RECTO_OK : error_memory(p->error);
+  bool plain = run.count == PLAIN_RUN;
+  while (status == RECTO_OK && plain)
+    status = read_ahead(p, kind, &plain);
+  p->run_end = p->at;
+  return status;
+}
+
+recto_status obj_run_points(struct obj_parser *p) {
+  return p->scene->point.count > SCENE_LIMIT - PLAIN_RUN ? RECTO_OK
+                                                         : read_run(p, &points);
+}
+
+recto_status obj_run_faces(struct obj_parser *p) {
+  const struct scene *scene = p->scene;
+  if (p->bad.count || p->renamed || scene->face_start.count == 0 ||
+      scene->corner.count > SCENE_LIMIT - 3 * PLAIN_RUN)
+    return RECTO_OK;
+  return read_run(p, &faces);
 }
 
 #else
