@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "base/gunzip.h"
+#include "base/parallel.h"
 #include "base/poll.h"
 
 size_t input_most(void) {
@@ -61,10 +62,53 @@ static bool was_cut_short(const struct source *source, size_t count) {
          (size_t)attributes.st_size < source->size;
 }
 
+/* ---- A file proper, in parallel ------------------------------------------ */
+
+enum { PART = 1 << 20 }; /* bytes that a thread reads at once */
+
+struct parallel_reading {
+  const struct source *source;
+  off_t from;
+  char *to;
+  size_t *got; /* of each part */
+};
+
+/* Ends where anything is wrong: it is read once more to say what. */
+static bool read_part(void *user, struct parallel_range range) {
+  const struct parallel_reading *reading = user;
+  size_t at = range.begin;
+  ssize_t got = 1;
+  for (; at < range.end && got > 0; at += got > 0 ? (size_t)got : 0)
+    got = pread(reading->source->descriptor, reading->to + at, range.end - at,
+                reading->from + (off_t)at);
+  reading->got[range.begin / PART] = at - range.begin;
+  return true;
+}
+
+/* Reads what it can of a large file, from its position, to which it adds what
+ * was read. */
+static void read_parts(const struct source *source, struct byte_array *data) {
+  size_t parts = parallel_range_count(source->size, PART), count = 0;
+  int workers = parallel_workers(source->size, PART);
+  off_t from = workers > 1 ? lseek(source->descriptor, 0, SEEK_CUR) : -1;
+  size_t *got = from >= 0 ? mem_calloc(parts, sizeof *got) : NULL;
+  if (got == NULL)
+    return;
+  struct parallel_reading reading = {source, from, data->item, got};
+  (void)parallel_ranges(workers, source->size, PART, read_part, &reading);
+  for (size_t i = 0; i < parts && count == i * PART; i++)
+    count += got[i];
+  if (lseek(source->descriptor, from + (off_t)count, SEEK_SET) >= 0)
+    data->count = count;
+  mem_free(got);
+}
+
+/* ---- Anything ------------------------------------------------------------ */
+
 /* Reads to the end of the source. */
 static recto_status slurp(const struct source *source, struct input *input,
                           recto_error *error) {
-  enum { CHUNK = 1 << 16, PART = 1 << 22 };
+  enum { CHUNK = 1 << 16 };
   if (source->size > source->most)
     return refuse_size(source, error);
   /* One byte more than there are shows that the end is reached. */
@@ -72,6 +116,7 @@ static recto_status slurp(const struct source *source, struct input *input,
   if (!ARRAY_RESERVE(&input->slurped, capacity))
     return error_memory(error);
   advise_large_pages(input->slurped.item, capacity);
+  read_parts(source, &input->slurped);
   while (poll_now()) {
     if (input->slurped.capacity - input->slurped.count < 2 &&
         !ARRAY_RESERVE(&input->slurped, CHUNK))
