@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/hash.h"
-#include "base/poll.h"
+#include "base/parallel.h"
 #include "view/used.h"
 
 /* Point indices of the sheet are below this, like those of the scene. */
@@ -23,24 +23,44 @@ static size_t count_used(const uint8_t *used, size_t count) {
   return sum;
 }
 
-static bool project_points(struct layout *layout, const uint8_t *used) {
-  struct sheet *sheet = layout->sheet;
+struct projection_work {
+  struct layout *layout;
+  const uint8_t *used;
+};
+
+/* Projects the points of a range, each to the place of its own number. */
+static bool project_range(void *user, struct parallel_range range) {
+  const struct projection_work *work = user;
+  struct layout *layout = work->layout;
   const struct projection projection = layout->projection;
-  size_t count = 0;
-  for (size_t p = 0; p < layout->scene->point.count; p++) {
-    layout->point_map[p] = SHEET_NONE;
-    if (!used[p])
+  struct geom_point *point = layout->sheet->point.item;
+  for (size_t p = range.begin; p < range.end; p++) {
+    if (!work->used[p])
       continue;
-    if (!poll_at(p))
-      return false;
     struct view_point at = layout_view(layout, (uint32_t)p);
     layout->outcode[p] = clip_outcode(&projection, at);
-    if (layout->outcode[p] == 0) {
-      sheet->point.item[count] = project_point(&projection, at);
-      layout->point_map[p] = (uint32_t)count++;
-    }
+    if (layout->outcode[p] == 0)
+      point[p] = project_point(&projection, at);
   }
-  sheet->point.count = count;
+  return true;
+}
+
+/* Makes points of the sheet of those that are used and inside.
+ * used  one a scene point; the sheet has room for all of these */
+static bool project_points(struct layout *layout, const uint8_t *used) {
+  struct projection_work work = {layout, used};
+  struct geom_point *point = layout->sheet->point.item;
+  size_t points = layout->scene->point.count, count = 0;
+  if (!parallel_ranges(parallel_workers(points, PARALLEL_ITEMS), points,
+                       PARALLEL_ITEMS, project_range, &work))
+    return false;
+  for (size_t p = 0; p < points; p++) {
+    bool inside = used[p] && layout->outcode[p] == 0;
+    layout->point_map[p] = inside ? (uint32_t)count : SHEET_NONE;
+    if (inside)
+      point[count++] = point[p];
+  }
+  layout->sheet->point.count = count;
   return true;
 }
 
@@ -57,7 +77,7 @@ recto_status layout_points(struct layout *layout) {
   size_t count = count_used(used, points);
   if (count > point_limit)
     status = out_of_points(layout);
-  else if (!ARRAY_RESERVE(&layout->sheet->point, count))
+  else if (!ARRAY_RESERVE(&layout->sheet->point, points))
     status = error_memory(layout->error);
   else
     status = layout_range(layout, used);
