@@ -9,7 +9,7 @@
  *   5 sort the paths by their first edges
  *   6 look up the points: not while walking, where every step would depend on a
  *     cache miss; independent look-ups overlap their misses */
-#include "base/poll.h"
+#include "base/parallel.h"
 #include "ink/lines/paths.h"
 
 #include "base/sort.h"
@@ -21,6 +21,7 @@ struct chain {
   uint32_t *mate;
   uint8_t *used;       /* one a segment */
   ARRAY(uint32_t) end; /* path by path, each point as one of the ends there */
+  uint32_t *from;      /* one a path, sorted: the first of its ends */
   uint32_t *path_of_segment; /* the caller's, or NULL */
 };
 
@@ -189,33 +190,46 @@ static bool sort_paths(struct ink_paths *paths) {
   return ok;
 }
 
+/* Gives the points of a range of paths their positions. */
+static bool place_points_of_range(void *user, struct parallel_range range) {
+  const struct chain *c = user;
+  struct ink_paths *paths = c->paths;
+  for (size_t i = range.begin; i < range.end; i++) {
+    const struct ink_path *path = &paths->path.item[i];
+    const uint32_t *end = c->end.item + c->from[i];
+    struct ink_point *point = paths->point.item + path->point;
+    if (!poll_at(i))
+      return false;
+    for (uint32_t k = 0; k < path->count; k++)
+      point[k] = point_of_end(c, end[k]);
+    for (uint32_t k = 0; c->path_of_segment != NULL && k < path->count; k++)
+      c->path_of_segment[end[k] >> 1] = (uint32_t)i;
+    for (uint32_t k = 0; paths->approximate != NULL && k < path->count; k++)
+      paths->approximate[path->point + k] =
+          c->graph->approximate[node_of_end(c, end[k])];
+  }
+  return true;
+}
+
 static bool place_points(struct chain *c) {
   struct ink_paths *paths = c->paths;
-  if (!ARRAY_RESERVE(&paths->point, c->end.count))
+  size_t count = paths->path.count;
+  c->from = mem_alloc(count, sizeof *c->from);
+  if (c->from == NULL || !ARRAY_RESERVE(&paths->point, c->end.count))
     return false;
   if (c->graph->approximate != NULL) {
     paths->approximate = mem_alloc(c->end.count, sizeof *paths->approximate);
     if (paths->approximate == NULL)
       return false;
   }
-  for (size_t i = 0; i < paths->path.count; i++) {
+  for (size_t i = 0; i < count; i++) {
     struct ink_path *path = &paths->path.item[i];
-    const uint32_t *end = c->end.item + path->point;
-    struct ink_point *point = paths->point.item + paths->point.count;
-    for (uint32_t k = 0; k < path->count; k++) {
-      if (!poll_at(paths->point.count + k))
-        return false;
-      point[k] = point_of_end(c, end[k]);
-    }
-    for (uint32_t k = 0; c->path_of_segment != NULL && k < path->count; k++)
-      c->path_of_segment[end[k] >> 1] = (uint32_t)i;
-    for (uint32_t k = 0; paths->approximate != NULL && k < path->count; k++)
-      paths->approximate[paths->point.count + k] =
-          c->graph->approximate[node_of_end(c, end[k])];
+    c->from[i] = path->point;
     path->point = (uint32_t)paths->point.count;
     paths->point.count += path->count;
   }
-  return true;
+  return parallel_ranges(parallel_workers(count, PATHS_IN_RANGE), count,
+                         PATHS_IN_RANGE, place_points_of_range, c);
 }
 
 recto_status paths_chain(struct ink_paths *paths, uint32_t *path_of_segment,
@@ -230,6 +244,7 @@ recto_status paths_chain(struct ink_paths *paths, uint32_t *path_of_segment,
             walk_all(&c) && sort_paths(paths) && place_points(&c);
   mem_free(c.mate);
   mem_free(c.used);
+  mem_free(c.from);
   ARRAY_FREE(&c.end);
   return ok ? RECTO_OK : error_memory(error);
 }

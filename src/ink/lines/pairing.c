@@ -17,7 +17,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/poll.h"
+#include "base/parallel.h"
 #include "base/sort.h"
 
 enum { SMALL_FAN_MAX = 16 };
@@ -39,9 +39,10 @@ struct pairing {
   ARRAY(struct node_end) fan;
 };
 
-static void find_end_directions(struct pairing *p) {
+static bool find_directions_of_range(void *user, struct parallel_range range) {
+  const struct pairing *p = user;
   const struct segment_graph *graph = p->graph;
-  for (size_t i = 0; i < graph->segment.count; i++) {
+  for (size_t i = range.begin; i < range.end; i++) {
     const struct graph_segment *s = &graph->segment.item[i];
     struct ink_point a = graph->node.item[s->node[0]];
     struct ink_point b = graph->node.item[s->node[1]];
@@ -50,6 +51,7 @@ static void find_end_directions(struct pairing *p) {
     p->along[i] =
         (struct end_direction){(float)(x * scale), (float)(y * scale)};
   }
+  return true;
 }
 
 static struct node_end node_end(const struct pairing *p, uint32_t end) {
@@ -172,38 +174,42 @@ static bool pair_large_fan(struct pairing *p, const uint32_t *end,
 
 /* ---- All nodes ----------------------------------------------------------- */
 
-static bool pair_all(struct pairing *p) {
+/* Pairs the ends at a node. */
+static bool pair_node(struct pairing *p, size_t n) {
   const struct segment_graph *graph = p->graph;
-  for (size_t n = 0; n < graph->node.count; n++) {
-    const uint32_t *end = graph->end + graph->end_start[n];
-    uint32_t count = graph->end_start[n + 1] - graph->end_start[n];
-    if (!poll_at(n))
-      return false;
-    if (count == 2) {
-      if (graph->segment.item[end[0] >> 1].pen_key ==
-          graph->segment.item[end[1] >> 1].pen_key)
-        pair_ends(p, end[0], end[1]);
-    } else if (count > SMALL_FAN_MAX) {
-      if (!pair_large_fan(p, end, count))
-        return false;
-    } else if (count > 2) {
-      pair_small_fan(p, end, count);
-    }
-  }
+  const uint32_t *end = graph->end + graph->end_start[n];
+  uint32_t count = graph->end_start[n + 1] - graph->end_start[n];
+  if (count > SMALL_FAN_MAX)
+    return pair_large_fan(p, end, count);
+  if (count > 2)
+    pair_small_fan(p, end, count);
+  else if (count == 2 && graph->segment.item[end[0] >> 1].pen_key ==
+                             graph->segment.item[end[1] >> 1].pen_key)
+    pair_ends(p, end[0], end[1]);
   return true;
+}
+
+/* Each end is at one node: what one range pairs is no other's. */
+static bool pair_range(void *user, struct parallel_range range) {
+  struct pairing p = *(const struct pairing *)user; /* a fan of its own */
+  bool ok = true;
+  for (size_t n = range.begin; ok && n < range.end; n++)
+    ok = pair_node(&p, n);
+  ARRAY_FREE(&p.fan);
+  return ok;
 }
 
 bool pairing_find(uint32_t *mate, const struct segment_graph *graph) {
   struct pairing p = {.graph = graph, .mate = mate};
-  size_t count = graph->segment.count;
+  size_t count = graph->segment.count, nodes = graph->node.count;
   p.along = mem_alloc(count, sizeof *p.along);
-  bool ok = p.along != NULL;
-  if (ok) {
+  if (p.along != NULL)
     memset(mate, 0xff, 2 * count * sizeof *mate);
-    find_end_directions(&p);
-    ok = pair_all(&p);
-  }
+  bool ok = p.along != NULL &&
+            parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
+                            PARALLEL_ITEMS, find_directions_of_range, &p) &&
+            parallel_ranges(parallel_workers(nodes, PARALLEL_ITEMS), nodes,
+                            PARALLEL_ITEMS, pair_range, &p);
   mem_free(p.along);
-  ARRAY_FREE(&p.fan);
   return ok;
 }

@@ -20,6 +20,10 @@ struct ink_paths {
                       longer known */
 };
 
+/* Paths that a thread takes at once: one has a hundred points on a dense
+ * mesh. */
+enum { PATHS_IN_RANGE = 64 };
+
 void paths_fini(struct ink_paths *paths);
 
 /* Joins the segments of an indexed graph end to end.

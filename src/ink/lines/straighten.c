@@ -16,7 +16,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/poll.h"
+#include "base/parallel.h"
 #include "base/tolerance.h"
 
 struct vector {
@@ -142,24 +142,43 @@ static uint32_t straighten_path(struct ink_point *point, uint8_t *approximate,
   return kept;
 }
 
+struct straightening {
+  struct ink_paths *paths;
+  double wide;
+};
+
+static bool straighten_range(void *user, struct parallel_range range) {
+  const struct straightening *work = user;
+  struct ink_paths *paths = work->paths;
+  for (size_t i = range.begin; i < range.end; i++) {
+    struct ink_path *path = &paths->path.item[i];
+    uint8_t *approximate =
+        paths->approximate != NULL ? paths->approximate + path->point : NULL;
+    path->count = straighten_path(paths->point.item + path->point, approximate,
+                                  path, work->wide);
+    if (path->closed && path->count < 3) /* such a thin loop is a line
+                                            traversed twice */
+      path->closed = false;
+  }
+  return true;
+}
+
 void paths_straighten(struct ink_paths *paths, double output_step) {
   struct ink_point *point = paths->point.item;
   uint32_t to = 0;
-  double wide = fmax(output_step / 2, TOLERANCE_COLLINEAR_UNITS);
-  for (size_t i = 0; i < paths->path.count; i++) {
+  size_t count = paths->path.count;
+  struct straightening work = {
+      paths, fmax(output_step / 2, TOLERANCE_COLLINEAR_UNITS)};
+  if (count > 1)
+    (void)parallel_ranges(parallel_workers(count, PATHS_IN_RANGE), count,
+                          PATHS_IN_RANGE, straighten_range, &work);
+  else /* without a poll: there are calls for one path */
+    (void)straighten_range(&work, (struct parallel_range){0, count, 0});
+  for (size_t i = 0; i < count; i++) {
     struct ink_path *path = &paths->path.item[i];
-    (void)poll_at(i + 1); /* there are calls for one path */
-    struct ink_point *from = point + path->point;
-    uint8_t *approximate =
-        paths->approximate != NULL ? paths->approximate + path->point : NULL;
-    uint32_t kept = straighten_path(from, approximate, path, wide);
-    if (path->closed && kept < 3) /* such a thin loop is a line traversed
-                                     twice */
-      path->closed = false;
-    memmove(point + to, from, kept * sizeof *from);
+    memmove(point + to, point + path->point, path->count * sizeof *point);
     path->point = to;
-    path->count = kept;
-    to += kept;
+    to += path->count;
   }
   paths->point.count = to;
   mem_free(paths->approximate);
