@@ -127,6 +127,13 @@ typedef enum recto_hidden {
   RECTO_HIDDEN_LAYER     /* drawn whole on a layer of their own */
 } recto_hidden;
 
+/* What is drawn as the class silhouette. */
+typedef enum recto_contours {
+  RECTO_CONTOURS_MESH = 0, /* edges of the mesh: exact, and jagged where the
+                              mesh stands for a smooth surface */
+  RECTO_CONTOURS_SMOOTH    /* the contours of that surface: few long curves */
+} recto_contours;
+
 typedef enum recto_fill {
   RECTO_FILL_NONE = 0,
   RECTO_FILL_PAINT, /* visible fragments in their group's colour */
@@ -347,7 +354,10 @@ typedef struct recto_ink_options {
   double simplify_mm;   /* no point of a line moves by more */
   double min_stroke_mm; /* shorter strokes are dropped; negative: half a pen */
   bool ids;             /* one source for each stroke, written with it */
-  uint64_t reserved[8];
+  char unused[7];       /* 0 */
+  recto_contours contours; /* silhouettes of the mesh, or of the smooth surface
+                              that it samples; not with verify */
+  uint64_t reserved[7];
 } recto_ink_options;
 
 typedef struct recto_output_options {

@@ -74,6 +74,7 @@ page A7 200 200x x200 200x-100 0x100 200x100m nanx100 200x100mmx
 margin -1 x 1,5 nan 1e999mm 10furlongs
 edges x silhouette, ,crease silhouette,,crease
 crease -1 181 x
+contours x exact 1 smooth,mesh
 hidden x 0 -1 none,2 layer,0 dashed,x ,2 1,2
 pen 0 -1 101 x 1e-9 0.009mm
 hatch-pitch 0 1e-9 x
@@ -104,7 +105,7 @@ offered_or_refused() {
 for option in output format from method pitch resolution depth-bits subpixels \
   remove-backs contact view azimuth \
   elevation camera lookat up fov ortho fit no-fit scale near section page \
-  landscape margin edges crease hidden fill hatch-pitch hatch-angle hatch-inset light pen \
+  landscape margin edges crease contours hidden fill hatch-pitch hatch-angle hatch-inset light pen \
   pens pen-for pen-width pen-colour weights path order simplify precision ids stats verify check threads progress quiet \
   completion version help; do
   claim "--$option is there, or refused by name" offered_or_refused "$option"

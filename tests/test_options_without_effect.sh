@@ -67,8 +67,10 @@ done <<'END_OF_ROWS'
 --fov 20|a.svg --view top|a.svg -c 5,4,3|named views and for --no-fit; --fit
 --fov 20|a.svg -c 5,4,3 --no-fit|a.svg -c 5,4,3 --scale 1:2|named views and for --no-fit; --scale
 --scale 1:2|a.svg|a.svg --no-fit|true scale; --no-fit
---crease 20|a.svg|a.svg -e silhouette|edges of the classes crease and smooth and for fills; this --edges
---crease 20|a.svg -e none --fill shade|a.svg -e border|edges of the classes crease and smooth and for fills; this --edges
+--crease 20|a.svg|a.svg -e silhouette|edges of the classes crease and smooth, fills and smooth contours; this --edges
+--crease 20|a.svg -e none --fill shade|a.svg -e border|edges of the classes crease and smooth, fills and smooth contours; this --edges
+--crease 20|a.svg -e silhouette --contours smooth|a.svg -e silhouette|edges of the classes crease and smooth, fills and smooth contours; this --edges
+--contours smooth|a.svg|a.svg -e crease|edges of the class silhouette; this --edges
 --hidden layer|a.svg|a.svg -e none --fill paint|lines; --edges none
 --weights none|a.svg|a.svg -e none --fill paint|lines; --edges none
 --weights none|a.svg|a.hpgl|svg, pdf, eps, ps and png; hpgl

@@ -31,7 +31,7 @@ check_sources() {
           layer[name[i]] = i - 1
         set_floor("visibility", 1, "predicate")
         set_floor("visibility", 2, "index")
-        set_floor("visibility", 3, "culling intersection fragments")
+        set_floor("visibility", 3, "contour culling intersection fragments")
         set_floor("visibility", 4, "pairwise scan")
         set_floor("visibility", 5, "raster")
         set_floor("visibility", 6, "brute newell scanline_zbuffer tiles warnock " \

@@ -47,6 +47,7 @@ class Options(TypedDict, total=False):
 
     edges: Union[str, Iterable[str]]
     crease: float
+    contours: str  # mesh (default), or smooth
     hidden: Union[str, tuple[str, int]]  # "dashed", or ("dashed", 2)
     fill: str
     seam: float
@@ -260,6 +261,13 @@ class _Setter:
         how, layers = (value, 0) if isinstance(value, str) else value
         self.options.ink.hidden = _word("hidden", how, _HIDDEN)
         self.options.ink.hidden_by_max = layers
+
+    def contours(self, value: str) -> None:
+        known = {
+            "mesh": lib.RECTO_CONTOURS_MESH,
+            "smooth": lib.RECTO_CONTOURS_SMOOTH,
+        }
+        self.options.ink.contours = _word("contours", value, known)
 
     def fill(self, value: str) -> None:
         self.options.ink.fill = _word("fill", value, _FILLS)

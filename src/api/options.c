@@ -153,6 +153,7 @@ static recto_status check_options(const recto_options *o, recto_error *error) {
       {"the margin", o->page.margin_mm, -huge, huge},
       {"the mask of edges", o->ink.edges, 0, RECTO_EDGES_ALL},
       {"the crease angle", o->mesh.crease_deg, 0, 180},
+      {"the kind of contours", o->ink.contours, 0, RECTO_CONTOURS_SMOOTH},
       {"the kind of hidden lines", o->ink.hidden, 0, RECTO_HIDDEN_LAYER},
       {"the number of faces that hide a line", o->ink.hidden_by_max, 0,
        INT_MAX},
@@ -190,6 +191,10 @@ static recto_status check_options(const recto_options *o, recto_error *error) {
                      "there is no plotter \"%.60s\"; known are: %s",
                      o->output.device, known);
   }
+  if (o->ink.contours == RECTO_CONTOURS_SMOOTH && o->verify > 0)
+    return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                     "smooth contours cannot be verified: they are no edges of "
+                     "the mesh");
   recto_status status =
       check_ranges(range, sizeof range / sizeof range[0], error);
   return status == RECTO_OK ? check_lists(o, error) : status;

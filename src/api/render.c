@@ -21,6 +21,7 @@
 #include "view/camera_aim.h"
 #include "view/layout.h"
 #include "visibility/quantitative_invisibility.h"
+#include "visibility/smooth_contours.h"
 #include "visibility/solver.h"
 
 /* The results of the stages; zero-initialised is empty. */
@@ -78,9 +79,15 @@ static bool needs_fragments(const struct render *render) {
   return has_fills(render) || (render->options->results & RECTO_RESULT_FACES);
 }
 
+static bool draws_smooth_contours(const struct render *render) {
+  return render->options->ink.contours == RECTO_CONTOURS_SMOOTH &&
+         (render->options->ink.edges & RECTO_EDGE_SILHOUETTE) != 0;
+}
+
 /* Whether the scene's edges are used after the sheet was laid out. */
 static bool uses_topology(const struct render *render) {
-  return has_fills(render) || render->options->results != 0;
+  return has_fills(render) || draws_smooth_contours(render) ||
+         render->options->results != 0;
 }
 
 static bool keeps_invisibility(const struct render *render) {
@@ -151,8 +158,9 @@ static recto_status find_topology(struct render *render, recto_error *error) {
     return error_set(error, RECTO_ERROR_EMPTY, NULL, 0,
                      "there is nothing to draw: the weld length is larger than "
                      "all faces");
-  render->topology.drop_after_sheet =
-      !needs_fragments(render) && !is_shared(render);
+  render->topology.drop_after_sheet = !needs_fragments(render) &&
+                                      !draws_smooth_contours(render) &&
+                                      !is_shared(render);
   report_int(render->report, "scene", "edges",
              (int64_t)render->topology.edge.count);
   return status;
@@ -223,6 +231,22 @@ static recto_status solve_visibility(struct render *render,
   return status;
 }
 
+static recto_status add_smooth_contours(struct render *render,
+                                        recto_error *error) {
+  const recto_options *options = render->options;
+  struct smooth_contours_counts counts;
+  if (!draws_smooth_contours(render))
+    return RECTO_OK;
+  recto_status status = smooth_contours_add(
+      &render->sheet, &render->map, &render->topology, options->mesh.crease_deg,
+      options->ink.hidden == RECTO_HIDDEN_NONE ? 0 : options->ink.hidden_by_max,
+      &counts, error);
+  report_int(render->report, "contours", "segments", (int64_t)counts.segments);
+  report_int(render->report, "contours", "curves", (int64_t)counts.curves);
+  report_int(render->report, "contours", "pieces", (int64_t)counts.pieces);
+  return status;
+}
+
 static recto_status ink(struct render *render, recto_error *error) {
   if (!needs_fragments(render) && render->options->verify == 0)
     sheet_drop_triangles(&render->sheet);
@@ -255,6 +279,8 @@ static const struct stage {
     {"camera", "camera_cpu_s", "camera_wall_s", SHARE_CAMERA, aim},
     {"sheet", "sheet_cpu_s", "sheet_wall_s", SHARE_SHEET, project_scene},
     {"solve", "solve_cpu_s", "solve_wall_s", SHARE_SOLVE, solve_visibility},
+    {"contours", "contours_cpu_s", "contours_wall_s", SHARE_CONTOURS,
+     add_smooth_contours},
     {"ink", "ink_cpu_s", "ink_wall_s", SHARE_INK, ink},
     {"verify", "verify_cpu_s", "verify_wall_s", SHARE_VERIFY, verify},
 };

@@ -29,6 +29,7 @@ void shares_plan(double begin[SHARE_STAGES + 1], const recto_options *options) {
       [SHARE_CAMERA] = 1,
       [SHARE_SHEET] = 12,
       [SHARE_SOLVE] = weigh_solving(options),
+      [SHARE_CONTOURS] = options->ink.contours == RECTO_CONTOURS_SMOOTH ? 8 : 0,
       [SHARE_INK] = weigh_ink(options),
       [SHARE_VERIFY] = weigh_verifying(options),
       [SHARE_WRITE] = 5,

@@ -15,7 +15,14 @@
 #define FILL(name) BIT(16 + RECTO_FILL_##name)
 #define FIT(name) BIT(20 + RECTO_FIT_##name)
 #define EDGES(mask) ((uint64_t)(mask) << 24)
-enum { EYE = 32, NAMED_VIEW, PERSPECTIVE, NO_LIGHT, WARNOCK_PIXELS };
+enum {
+  EYE = 32,
+  NAMED_VIEW,
+  PERSPECTIVE,
+  NO_LIGHT,
+  WARNOCK_PIXELS,
+  SMOOTH_CONTOURS
+};
 enum { SVG = 40, HPGL, PNG, PAGES /* pdf, eps, ps */ };
 enum { STATS = 48, CHECK, BY_CHECK };
 
@@ -48,6 +55,8 @@ static uint64_t find_requests(const struct arguments *a) {
     bits |= BIT(NO_LIGHT);
   if (o->solver.method == RECTO_METHOD_WARNOCK && o->solver.resolution > 0)
     bits |= BIT(WARNOCK_PIXELS);
+  if (o->ink.contours == RECTO_CONTOURS_SMOOTH)
+    bits |= BIT(SMOOTH_CONTOURS);
   if (a->stats)
     bits |= BIT(STATS);
   if (a->check_file != NULL)
@@ -82,14 +91,18 @@ static const struct {
                      BIT(NAMED_VIEW) | FIT(NONE) | BIT(BY_CHECK)},
     [USED_BY_SCALE] = {"true scale", FIT(SCALE) | BIT(BY_CHECK)},
     [USED_BY_LINES] = {"lines", LINES},
+    [USED_BY_SILHOUETTES] = {"edges of the class silhouette",
+                             EDGES(RECTO_EDGE_SILHOUETTE)},
     [USED_BY_LINES_AND_CHECK] = {"lines", LINES | BIT(BY_CHECK)},
     [USED_BY_STROKES] = {"lines and hatching", LINES | FILL(HATCH)},
     [USED_BY_STROKES_AND_CHECK] = {"lines and hatching",
                                    LINES | FILL(HATCH) | BIT(BY_CHECK)},
-    /* Fills end where faces meet at a crease. */
-    [USED_BY_CREASE] = {"edges of the classes crease and smooth and for fills",
+    /* Fills and smooth contours end where faces meet at a crease. */
+    [USED_BY_CREASE] = {"edges of the classes crease and smooth, fills and "
+                        "smooth contours",
                         EDGES(RECTO_EDGE_CREASE | RECTO_EDGE_SMOOTH) |
-                            (FILLS & ~FILL(NONE)) | BIT(BY_CHECK)},
+                            (FILLS & ~FILL(NONE)) | BIT(SMOOTH_CONTOURS) |
+                            BIT(BY_CHECK)},
     [USED_BY_SEAM] = {"--fill paint and --fill shade",
                       FILL(PAINT) | FILL(SHADE)},
     [USED_BY_HATCH] = {"--fill hatch", FILL(HATCH)},

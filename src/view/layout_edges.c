@@ -7,6 +7,12 @@
 static const unsigned face_classes =
     RECTO_EDGES_ALL & ~(unsigned)(RECTO_EDGE_WIRE | RECTO_EDGE_INTERSECTION);
 
+/* Whether silhouettes are edges of the mesh; else they are found after it was
+ * solved (visibility/contour/). */
+static bool has_mesh_contours(const struct layout *layout) {
+  return layout->options->ink.contours == RECTO_CONTOURS_MESH;
+}
+
 /* The classes of an edge in this view: the given ones, with silhouette in place
  * of smooth where it is one.  An edge that one face has twice (a bridge to a
  * hole, or a spike) lies inside that face and is no silhouette.
@@ -87,6 +93,7 @@ static recto_status make_edges(struct layout *layout,
                                struct edge_ids *edge_ids) {
   const struct topology *topology = layout->topology;
   unsigned wanted = layout->options->ink.edges & face_classes;
+  bool is_mesh = has_mesh_contours(layout);
   for (uint32_t e = 0; e < topology->edge.count; e++) {
     const struct topology_edge *edge = &topology->edge.item[e];
     if (e % 64 == 0)
@@ -96,7 +103,9 @@ static recto_status make_edges(struct layout *layout,
       return error_cancelled(layout->error);
     if (class_masks != NULL)
       edge_class = lowest_bit(
-          class_mask_of(edge, class_masks[e], layout->sides[e]) & wanted);
+          (is_mesh ? class_mask_of(edge, class_masks[e], layout->sides[e])
+                   : class_masks[e]) &
+          wanted);
     bool contour = edge->uses != 2 || layout->sides[e] != LAYOUT_PLAIN;
     if (!edge_class && !layout->outlines && !contour)
       continue;
@@ -123,7 +132,9 @@ static recto_status make_edges(struct layout *layout,
 
 /* Makes an edge of every fold; only requested ones were stored. */
 static bool make_folds(struct layout *layout) {
-  unsigned wanted = layout->options->ink.edges & RECTO_EDGE_SILHOUETTE;
+  unsigned wanted = has_mesh_contours(layout)
+                        ? layout->options->ink.edges & RECTO_EDGE_SILHOUETTE
+                        : 0;
   for (size_t f = 0; f < layout->fold.count; f++) {
     const struct layout_fold *fold = &layout->fold.item[f];
     uint32_t group = layout->scene->face_group.item[fold->face];

@@ -4,6 +4,7 @@ librecto_core_la_SOURCES += \
   %D%/map.c %D%/map.h \
   %D%/progress.c %D%/progress.h \
   %D%/quantitative_invisibility.c %D%/quantitative_invisibility.h \
+  %D%/smooth_contours.c %D%/smooth_contours.h \
   %D%/solver.c %D%/solver.h \
   %D%/brute/brute.c %D%/brute/brute.h \
   %D%/fragments/fragments.c %D%/fragments/fragments.h \
@@ -26,6 +27,10 @@ librecto_core_la_SOURCES += \
   %D%/culling/occlusion_buffer.c %D%/culling/occlusion_buffer.h \
   %D%/culling/occlusion_culling.c %D%/culling/occlusion_culling.h \
   %D%/culling/potentially_visible.c %D%/culling/potentially_visible.h \
+  %D%/contour/contour_curves.c %D%/contour/contour_curves.h \
+  %D%/contour/facing.c %D%/contour/facing.h \
+  %D%/contour/page_crossings.c %D%/contour/page_crossings.h \
+  %D%/contour/zero_set.c %D%/contour/zero_set.h \
   %D%/newell/newell.c \
   %D%/newell/newell_order.c %D%/newell/newell_order.h \
   %D%/newell/newell_piece.c %D%/newell/newell_piece.h \

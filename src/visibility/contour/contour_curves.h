@@ -1,0 +1,57 @@
+/* contour_curves.h - the contour's segments as curves, and where along a curve
+ * its visibility may change. */
+#ifndef VISIBILITY_CONTOUR_CONTOUR_CURVES_H
+#define VISIBILITY_CONTOUR_CONTOUR_CURVES_H
+
+#include "visibility/contour/zero_set.h"
+
+/* A node of a curve and the segment that starts there.  A curve has one more
+ * step than segments; the last step of a closed one has the node of the
+ * first. */
+struct contour_step {
+  uint32_t node;
+  uint32_t segment; /* SHEET_NONE: the curve ends here */
+};
+
+struct contour_curve {
+  uint32_t step, count; /* its first step; the number of its segments */
+  bool closed;
+};
+
+/* A place at which a curve is divided. */
+struct contour_cut {
+  uint32_t step;
+  double t; /* along the step's segment, 0 to before 1 */
+};
+
+struct contour_curves {
+  const struct zero_set *set; /* borrowed, not owned */
+  ARRAY(struct contour_step) step;
+  ARRAY(struct contour_curve) curve;
+  ARRAY(struct contour_cut)
+  cut; /* ascending once contour_curves_sort_cuts ran */
+};
+
+/* Joins the segments to curves, end to end.  Where other than two segments
+ * meet, as creases do, curves end.  A closed curve that encloses a few vertices
+ * only is noise of the normals, and left out (contour_curves.c).
+ * curves  zero-initialised; the caller frees it
+ * Returns false when memory ran out. */
+USE_RESULT bool contour_curves_join(struct contour_curves *curves,
+                                    const struct zero_set *set);
+void contour_curves_fini(struct contour_curves *curves);
+
+/* Adds cuts at cusps: where the radial curvature changes its sign, and the
+ * image of the curve turns back.  Returns false when memory ran out. */
+USE_RESULT bool contour_curves_cut_at_cusps(struct contour_curves *curves);
+
+/* Sorts the cuts, and drops repeated ones.  Returns false when memory ran
+ * out. */
+USE_RESULT bool contour_curves_sort_cuts(struct contour_curves *curves);
+
+static inline const struct contour_node *
+contour_curves_node(const struct contour_curves *curves, size_t step) {
+  return &curves->set->node.item[curves->step.item[step].node];
+}
+
+#endif

@@ -1,0 +1,243 @@
+/* facing.c - the normals of the smooth surface at the vertices of a mesh, and
+ * which way they face. */
+#include "visibility/contour/facing.h"
+
+#include <float.h>
+#include <string.h>
+
+#include "base/poll.h"
+
+void facing_face_normal(const struct facing *f, uint32_t face, double n[3]) {
+  uint32_t start = f->scene->face_start.item[face];
+  uint32_t end = f->scene->face_start.item[face + 1];
+  double at[3], p[3], u[3], v[3], area[3];
+  facing_position(f, facing_point(f, start), at);
+  facing_position(f, facing_point(f, start + 1), p);
+  for (int k = 0; k < 3; k++) {
+    n[k] = 0;
+    u[k] = p[k] - at[k];
+  }
+  for (uint32_t c = start + 2; c < end; c++) {
+    facing_position(f, facing_point(f, c), p);
+    for (int k = 0; k < 3; k++)
+      v[k] = p[k] - at[k];
+    vector_cross(u, v, area);
+    for (int k = 0; k < 3; k++) {
+      n[k] += area[k];
+      u[k] = v[k];
+    }
+  }
+}
+
+uint32_t facing_corner_of_edge(const struct facing *f, uint32_t face,
+                               uint32_t edge) {
+  const uint32_t *point = f->topology->edge.item[edge].point;
+  for (uint32_t c = f->scene->face_start.item[face];
+       c < f->scene->face_start.item[face + 1]; c++) {
+    uint32_t p = facing_point(f, c);
+    uint32_t q = facing_point(f, facing_next(f, face, c));
+    if ((p == point[0] && q == point[1]) || (p == point[1] && q == point[0]))
+      return c;
+  }
+  return SHEET_NONE;
+}
+
+/* ---- Slots --------------------------------------------------------------- */
+
+bool facing_is_split(const struct facing *f, uint32_t edge) {
+  const struct topology_edge *e = &f->topology->edge.item[edge];
+  if (!facing_is_feature(f, edge))
+    return false;
+  if (e->uses != 2 || e->same_way || e->first == e->second)
+    return true;
+  uint32_t c = facing_corner_of_edge(f, e->first, edge);
+  uint32_t d = facing_corner_of_edge(f, e->second, edge);
+  return c == SHEET_NONE || d == SHEET_NONE ||
+         facing_slot(f, c) != facing_slot(f, facing_next(f, e->second, d)) ||
+         facing_slot(f, facing_next(f, e->first, c)) != facing_slot(f, d);
+}
+
+/* Joins the corners of two faces at both ends of their smooth edge. */
+static void join_corners(struct facing *f, uint32_t edge) {
+  const struct topology_edge *e = &f->topology->edge.item[edge];
+  uint32_t c = facing_corner_of_edge(f, e->first, edge);
+  uint32_t d = facing_corner_of_edge(f, e->second, edge);
+  if (c == SHEET_NONE || d == SHEET_NONE)
+    return;
+  sets_join(f->sets, c, facing_next(f, e->second, d));
+  sets_join(f->sets, facing_next(f, e->first, c), d);
+}
+
+/* Finds the points at which normals are split, and which corners there share
+ * one.  Returns false when memory ran out. */
+static bool split_at_features(struct facing *f) {
+  size_t edges = f->topology->edge.count;
+  for (uint32_t e = 0; e < edges; e++) {
+    if (!facing_is_feature(f, e))
+      continue;
+    if (f->split == NULL)
+      f->split = mem_calloc(f->scene->point.count, 1);
+    if (f->split == NULL)
+      return false;
+    for (int k = 0; k < 2; k++)
+      f->split[f->topology->edge.item[e].point[k]] = 1;
+  }
+  if (f->split == NULL)
+    return true;
+  f->sets = sets_create(f->scene->corner.count);
+  if (f->sets == NULL)
+    return false;
+  for (uint32_t e = 0; e < edges; e++) {
+    const uint32_t *point = f->topology->edge.item[e].point;
+    if ((f->split[point[0]] || f->split[point[1]]) && !facing_is_feature(f, e))
+      join_corners(f, e);
+  }
+  return true;
+}
+
+/* ---- Signs --------------------------------------------------------------- */
+
+static void record_signs(struct facing *f) {
+  for (uint32_t face = 0; face < scene_face_count(f->scene); face++) {
+    uint32_t start = f->scene->face_start.item[face];
+    double n[3], at[3], v[3];
+    (void)poll_at(face);
+    facing_face_normal(f, face, n);
+    facing_position(f, facing_point(f, start), at);
+    facing_view(f->camera, at, v);
+    uint8_t sign = vector_dot(n, v) < 0 ? FACING_FRONT : FACING_BACK;
+    for (uint32_t c = start; c < f->scene->face_start.item[face + 1]; c++)
+      f->signs[facing_slot(f, c)] |= sign;
+  }
+}
+
+/* The union of the signs of a face's slots. */
+static unsigned signs_of_face(const struct facing *f, uint32_t face) {
+  unsigned signs = 0;
+  for (uint32_t c = f->scene->face_start.item[face];
+       c < f->scene->face_start.item[face + 1]; c++)
+    signs |= f->signs[facing_slot(f, c)];
+  return signs;
+}
+
+/* Numbers the slots whose normals are needed: those of faces of both signs. */
+static void number_needed(struct facing *f) {
+  for (uint32_t face = 0; face < scene_face_count(f->scene); face++) {
+    (void)poll_at(face);
+    if (signs_of_face(f, face) != FACING_MIXED)
+      continue;
+    for (uint32_t c = f->scene->face_start.item[face];
+         c < f->scene->face_start.item[face + 1]; c++) {
+      uint32_t *place = &f->place[facing_slot(f, c)];
+      if (*place == SHEET_NONE)
+        *place = (uint32_t)f->count++;
+    }
+  }
+}
+
+/* ---- Normals ------------------------------------------------------------- */
+
+static double angle_between(const double a[3], const double b[3]) {
+  double cross[3];
+  vector_cross(a, b, cross);
+  return atan2(sqrt(vector_dot(cross, cross)), vector_dot(a, b));
+}
+
+/* Adds a face's share to the normals of its corners. */
+static void add_face(struct facing *f, uint32_t face) {
+  uint32_t start = f->scene->face_start.item[face];
+  uint32_t end = f->scene->face_start.item[face + 1];
+  double n[3];
+  facing_face_normal(f, face, n);
+  if (!vector_normalise(n))
+    return;
+  for (uint32_t c = start; c < end; c++) {
+    uint32_t place = f->place[facing_slot(f, c)];
+    double at[3], to[3], from[3];
+    if (place == SHEET_NONE)
+      continue;
+    facing_position(f, facing_point(f, c), at);
+    facing_position(f, facing_point(f, facing_next(f, face, c)), to);
+    facing_position(f, facing_point(f, c > start ? c - 1 : end - 1), from);
+    for (int k = 0; k < 3; k++) {
+      to[k] -= at[k];
+      from[k] -= at[k];
+    }
+    double angle = angle_between(to, from);
+    for (int k = 0; k < 3; k++)
+      f->normal[place][k] += angle * n[k];
+  }
+}
+
+/* Sets the values of the slots of a face. */
+static void set_values(struct facing *f, uint32_t face) {
+  for (uint32_t c = f->scene->face_start.item[face];
+       c < f->scene->face_start.item[face + 1]; c++) {
+    uint32_t slot = facing_slot(f, c), place = f->place[slot];
+    double at[3], v[3];
+    if (place == SHEET_NONE)
+      continue;
+    facing_position(f, facing_point(f, c), at);
+    facing_view(f->camera, at, v);
+    double g = vector_dot(f->normal[place], v);
+    /* Rounding does not change a sign on which all faces agree. */
+    if (f->signs[slot] == FACING_BACK)
+      g = fmax(g, 0);
+    else if (f->signs[slot] == FACING_FRONT)
+      g = fmin(g, -DBL_MIN);
+    f->value[place] = g;
+  }
+}
+
+static bool find_normals(struct facing *f) {
+  uint32_t faces = scene_face_count(f->scene);
+  f->normal = mem_calloc(f->count, sizeof *f->normal);
+  f->value = mem_calloc(f->count, sizeof *f->value);
+  if (f->normal == NULL || f->value == NULL)
+    return false;
+  for (uint32_t face = 0; face < faces; face++) {
+    (void)poll_at(face);
+    add_face(f, face);
+  }
+  for (size_t i = 0; i < f->count; i++)
+    (void)vector_normalise(f->normal[i]);
+  for (uint32_t face = 0; face < faces; face++)
+    set_values(f, face);
+  return !poll_is_cancelled();
+}
+
+/* ---- The whole ----------------------------------------------------------- */
+
+recto_status facing_init(struct facing *f, const struct sheet *sheet,
+                         const struct topology *topology, double crease_deg,
+                         recto_error *error) {
+  *f = (struct facing){
+      .scene = sheet->scene, .topology = topology, .camera = &sheet->camera};
+  f->class_masks = mem_alloc(topology->edge.count, sizeof *f->class_masks);
+  if (f->class_masks == NULL ||
+      !topology_class_masks(topology, f->scene, crease_deg, f->class_masks) ||
+      !split_at_features(f))
+    return error_memory(error);
+  size_t slots = f->scene->point.count;
+  if (f->split != NULL)
+    slots += f->scene->corner.count;
+  f->signs = mem_calloc(slots, sizeof *f->signs);
+  f->place = mem_alloc(slots, sizeof *f->place);
+  if (f->signs == NULL || f->place == NULL)
+    return error_memory(error);
+  memset(f->place, 0xff, slots * sizeof *f->place);
+  record_signs(f);
+  number_needed(f);
+  return find_normals(f) ? RECTO_OK : error_memory(error);
+}
+
+void facing_fini(struct facing *f) {
+  mem_free(f->class_masks);
+  mem_free(f->split);
+  mem_free(f->sets);
+  mem_free(f->signs);
+  mem_free(f->place);
+  mem_free(f->normal);
+  mem_free(f->value);
+  *f = (struct facing){.count = 0};
+}

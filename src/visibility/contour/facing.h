@@ -1,0 +1,108 @@
+/* facing.h - which way the smooth surface that a mesh samples faces, at the
+ * corners of its faces.
+ *
+ * The surface's normal at a vertex is the mean of the normals of the faces
+ * about it, weighted by their angles there [ThurmerWuthrich1998].  At creases
+ * and borders the surface is not smooth: corners of faces share a normal if
+ * smooth edges join them about their vertex.  The set of corners that share one
+ * is called a slot.
+ *
+ * The facing of a slot is g = n . v, where v points from the eye to the vertex
+ * in perspective and along the view otherwise: negative where the surface faces
+ * the viewer.  Where all faces about a slot have one sign it has the same, and
+ * its normal is not computed unless a neighbour's sign is another. */
+#ifndef VISIBILITY_CONTOUR_FACING_H
+#define VISIBILITY_CONTOUR_FACING_H
+
+#include "base/sets.h"
+#include "view/sheet.h"
+#include "view/vector.h"
+
+struct facing {
+  const struct scene *scene;       /* borrowed, not owned */
+  const struct topology *topology; /* borrowed, not owned */
+  const struct camera *camera;     /* borrowed, not owned */
+  uint8_t *class_masks;            /* one a topology edge */
+  uint8_t *split;  /* one a point: it is on a crease or border; NULL: none */
+  uint32_t *sets;  /* of corners at such points: union-find; NULL: none */
+  uint8_t *signs;  /* one a slot: FACING_... of the faces about it */
+  uint32_t *place; /* slot -> its normal and value; SHEET_NONE: not needed */
+  double (*normal)[3]; /* unit length, or 0, 0, 0 */
+  double *value;       /* g */
+  size_t count;        /* of normals and values */
+};
+
+enum { FACING_FRONT = 1, FACING_BACK = 2, FACING_MIXED = 3 };
+
+/* Finds the facing of all slots.
+ * Errors  RECTO_ERROR_MEMORY, RECTO_ERROR_CANCELLED.
+ * Cost    linear in the corners */
+USE_RESULT recto_status facing_init(struct facing *facing,
+                                    const struct sheet *sheet,
+                                    const struct topology *topology,
+                                    double crease_deg, recto_error *error);
+void facing_fini(struct facing *facing);
+
+/* The point of a corner, as welded. */
+static inline uint32_t facing_point(const struct facing *f, uint32_t corner) {
+  uint32_t point = f->scene->corner.item[corner];
+  return f->topology->weld != NULL ? f->topology->weld[point] : point;
+}
+
+/* The slot of a corner: that of its point, unless normals are split there. */
+static inline uint32_t facing_slot(const struct facing *f, uint32_t corner) {
+  uint32_t point = facing_point(f, corner);
+  if (f->split == NULL || !f->split[point])
+    return point;
+  return (uint32_t)f->scene->point.count + sets_root(f->sets, corner);
+}
+
+/* Whether the surface turns away there; 0 counts as turned away. */
+static inline bool facing_is_back(const struct facing *f, uint32_t slot) {
+  return f->place[slot] == SHEET_NONE ? f->signs[slot] == FACING_BACK
+                                      : f->value[f->place[slot]] >= 0;
+}
+
+/* Whether the surface is not smooth at the edge. */
+static inline bool facing_is_feature(const struct facing *f, uint32_t edge) {
+  const struct topology_edge *e = &f->topology->edge.item[edge];
+  return e->uses != 2 || e->same_way || e->first == e->second ||
+         (f->class_masks[edge] & (RECTO_EDGE_CREASE | RECTO_EDGE_BORDER)) != 0;
+}
+
+/* Whether the two faces of a feature have normals of their own at it; not where
+ * a crease ends within a smooth surface. */
+bool facing_is_split(const struct facing *f, uint32_t edge);
+
+/* The vector from the eye to a point, or along the view. */
+static inline void facing_view(const struct camera *camera, const double at[3],
+                               double v[3]) {
+  for (int k = 0; k < 3; k++)
+    v[k] = camera->perspective ? at[k] - camera->eye[k] : -camera->back[k];
+}
+
+static inline void facing_position(const struct facing *f, uint32_t point,
+                                   double at[3]) {
+  const struct scene_point *p = &f->scene->point.item[point];
+  at[0] = p->x;
+  at[1] = p->y;
+  at[2] = p->z;
+}
+
+/* The normal of a face by Newell's sum, of any length. */
+void facing_face_normal(const struct facing *f, uint32_t face, double n[3]);
+
+/* The corner of a face at which one of its sides starts, which is that edge;
+ * SHEET_NONE. */
+uint32_t facing_corner_of_edge(const struct facing *f, uint32_t face,
+                               uint32_t edge);
+
+/* The corner after a corner, around its face. */
+static inline uint32_t facing_next(const struct facing *f, uint32_t face,
+                                   uint32_t corner) {
+  return corner + 1 < f->scene->face_start.item[face + 1]
+             ? corner + 1
+             : f->scene->face_start.item[face];
+}
+
+#endif

@@ -1,0 +1,409 @@
+/* zero_set.c - finds where the facing of a smooth surface changes sign. */
+#include "visibility/contour/zero_set.h"
+
+#include <string.h>
+
+#include "base/poll.h"
+#include "view/clip.h"
+#include "view/triangulate.h"
+
+/* A share of a triangle's height that is nearly nothing. */
+#define CREASE_SHARE 0x1p-10
+
+struct zero_finder {
+  struct zero_set *set;
+  const struct facing *facing;
+  struct projection projection;
+  uint32_t *edge_node; /* two a topology edge: its node, where normals are split
+                          those of its first and its second face; SHEET_NONE */
+  uint32_t *point_node;          /* one a scene point; NULL: none yet */
+  ARRAY(uint32_t) diagonal_node; /* of the current face */
+  ARRAY(uint32_t) corner;        /* of the current face, welded */
+  struct triangulation triangulation;
+};
+
+void zero_set_fini(struct zero_set *set) {
+  ARRAY_FREE(&set->node);
+  ARRAY_FREE(&set->segment);
+  ARRAY_FREE(&set->border);
+}
+
+/* ---- Nodes and segments -------------------------------------------------- */
+
+static struct view_point view_of(const struct zero_finder *z,
+                                 const double at[3]) {
+  return camera_view(z->facing->camera,
+                     &(struct scene_point){at[0], at[1], at[2]});
+}
+
+static bool add_node(struct zero_finder *z, const double at[3], uint32_t front,
+                     uint32_t back, uint32_t *node) {
+  struct contour_node made = {.at = {at[0], at[1], at[2]},
+                              .front = front,
+                              .back = back,
+                              .segment = {SHEET_NONE, SHEET_NONE},
+                              .sheet_point = SHEET_NONE};
+  *node = (uint32_t)z->set->node.count;
+  return ARRAY_PUSH(&z->set->node, made);
+}
+
+static double facing_of_slot(const struct facing *f, uint32_t slot) {
+  return f->value[f->place[slot]];
+}
+
+/* Adds the node between two corners whose slots have different signs.  It is
+ * computed from the lower to the upper point, so that it is the same for both
+ * faces of an edge. */
+static bool add_crossing(struct zero_finder *z, uint32_t c, uint32_t d,
+                         uint32_t *node) {
+  const struct facing *f = z->facing;
+  uint32_t from = facing_point(f, c) < facing_point(f, d) ? c : d;
+  uint32_t to = from == c ? d : c;
+  uint32_t a = facing_slot(f, from), b = facing_slot(f, to);
+  double p[3], q[3], at[3];
+  double t =
+      facing_of_slot(f, a) / (facing_of_slot(f, a) - facing_of_slot(f, b));
+  facing_position(f, facing_point(f, from), p);
+  facing_position(f, facing_point(f, to), q);
+  for (int k = 0; k < 3; k++)
+    at[k] = p[k] + t * (q[k] - p[k]);
+  bool a_is_back = facing_is_back(f, a);
+  return add_node(z, at, a_is_back ? b : a, a_is_back ? a : b, node);
+}
+
+/* Adds a segment, clipped to the page.  A node that is outside gives way to a
+ * new one on the border. */
+static bool add_segment(struct zero_finder *z, struct contour_segment s) {
+  double at[2][3];
+  struct view_point end[2];
+  bool outside = false, moved[2] = {false, false};
+  for (int k = 0; k < 2; k++) {
+    memcpy(at[k], z->set->node.item[s.node[k]].at, sizeof at[k]);
+    end[k] = view_of(z, at[k]);
+    outside = outside || clip_outcode(&z->projection, end[k]) != 0;
+  }
+  if (outside && !clip_segment(&z->projection, end, moved))
+    return true;
+  for (int k = 0; k < 2; k++)
+    if (moved[k]) {
+      const struct camera *camera = z->facing->camera;
+      for (int i = 0; i < 3; i++)
+        at[k][i] = camera->eye[i] + end[k].x * camera->right[i] +
+                   end[k].y * camera->up[i] - end[k].d * camera->back[i];
+      if (!add_node(z, at[k], SHEET_NONE, SHEET_NONE, &s.node[k]))
+        return false;
+    }
+  for (int k = 0; k < 2; k++) {
+    struct contour_node *node = &z->set->node.item[s.node[k]];
+    if (node->degree < 2)
+      node->segment[node->degree] = (uint32_t)z->set->segment.count;
+    node->degree++;
+    node->page = project_point(&z->projection, end[k]);
+  }
+  return ARRAY_PUSH(&z->set->segment, s);
+}
+
+/* ---- Triangles ----------------------------------------------------------- */
+
+/* Where the node of a face's side is kept; NULL: it is shared with no face. */
+static uint32_t *place_of_side(struct zero_finder *z, uint32_t face,
+                               uint32_t edge) {
+  const struct topology_edge *e = &z->facing->topology->edge.item[edge];
+  if (e->uses > 2 || e->first == e->second)
+    return NULL;
+  bool second = face != e->first && facing_is_split(z->facing, edge);
+  return &z->edge_node[2 * (size_t)edge + second];
+}
+
+/* The node on the side of a triangle of a face, between corners c and d.
+ * side  as in triangulation.h */
+static bool node_of_side(struct zero_finder *z, uint32_t face, uint32_t side,
+                         uint32_t c, uint32_t d, uint32_t *node) {
+  uint32_t start = z->facing->scene->face_start.item[face];
+  uint32_t count = z->facing->scene->face_start.item[face + 1] - start;
+  uint32_t *place =
+      side < count
+          ? place_of_side(z, face,
+                          z->facing->topology->corner_edge[start + side])
+          : &z->diagonal_node.item[side - count];
+  if (place != NULL && *place != SHEET_NONE) {
+    *node = *place;
+    return true;
+  }
+  if (!add_crossing(z, c, d, node))
+    return false;
+  if (place != NULL)
+    *place = *node;
+  return true;
+}
+
+/* Sets what a segment takes from its triangle. */
+static void describe(const struct facing *f, const uint32_t corner[3],
+                     struct contour_segment *s) {
+  double p[3][3], e[3][3], n[3], to_view[2][3], v[3], g[3], longest = 0;
+  for (int k = 0; k < 3; k++) {
+    facing_position(f, facing_point(f, corner[k]), p[k]);
+    g[k] = facing_of_slot(f, facing_slot(f, corner[k]));
+  }
+  for (int k = 0; k < 3; k++) {
+    for (int i = 0; i < 3; i++)
+      e[k][i] = p[(k + 1) % 3][i] - p[k][i];
+    longest = fmax(longest, vector_dot(e[k], e[k]));
+  }
+  vector_cross(e[0], e[1], n);
+  s->width = sqrt(vector_dot(n, n) / longest);
+  /* The gradient of g, times the square of n's length, is
+   * (g1 - g0) (p2 - p0) x n + (g2 - g0) n x (p1 - p0). */
+  vector_cross(n, e[2], to_view[0]);
+  vector_cross(n, e[0], to_view[1]);
+  facing_view(f->camera, p[0], v);
+  s->radial = (g[1] - g[0]) * vector_dot(to_view[0], v) +
+              (g[2] - g[0]) * vector_dot(to_view[1], v);
+}
+
+/* Adds to a segment's normal that of the surface at a node. */
+static void add_normal(const struct facing *f, const struct contour_node *node,
+                       double n[3]) {
+  double a = facing_of_slot(f, node->front), b = facing_of_slot(f, node->back);
+  double t = a / (a - b);
+  const double *p = f->normal[f->place[node->front]];
+  const double *q = f->normal[f->place[node->back]];
+  for (int k = 0; k < 3; k++)
+    n[k] += p[k] + t * (q[k] - p[k]);
+}
+
+/* The segment across a triangle of a face, if there is one.
+ * corner  its corners; side[k] runs from corner[k] to the next */
+static bool cross_triangle(struct zero_finder *z, uint32_t face,
+                           const uint32_t corner[3], const uint32_t side[3]) {
+  const struct facing *f = z->facing;
+  bool back[3];
+  struct contour_segment s = {.face = face};
+  int count = 0;
+  for (int k = 0; k < 3; k++)
+    back[k] = facing_is_back(f, facing_slot(f, corner[k]));
+  if (back[0] == back[1] && back[1] == back[2])
+    return true;
+  for (int k = 0; k < 3; k++) {
+    int next = geom_next_corner(k);
+    if (back[k] != back[next] && !node_of_side(z, face, side[k], corner[k],
+                                               corner[next], &s.node[count++]))
+      return false;
+  }
+  describe(f, corner, &s);
+  for (int k = 0; k < 2; k++)
+    add_normal(f, &z->set->node.item[s.node[k]], s.normal);
+  (void)vector_normalise(s.normal);
+  return add_segment(z, s);
+}
+
+static bool cross_polygon(struct zero_finder *z, uint32_t face, uint32_t start,
+                          uint32_t count) {
+  struct triangulation *triangulation = &z->triangulation;
+  z->corner.count = z->diagonal_node.count = 0;
+  if (!ARRAY_RESERVE(&z->corner, count) ||
+      !ARRAY_RESERVE(&z->diagonal_node, count))
+    return false;
+  for (uint32_t c = 0; c < count; c++) {
+    z->corner.item[c] = facing_point(z->facing, start + c);
+    z->diagonal_node.item[c] = SHEET_NONE;
+  }
+  if (!triangulate(triangulation, z->facing->scene->point.item, z->corner.item,
+                   count))
+    return false;
+  for (size_t t = 0; t < triangulation->triangle.count; t++) {
+    const struct triangulation_triangle *of = &triangulation->triangle.item[t];
+    const uint32_t corner[3] = {start + of->corner[0], start + of->corner[1],
+                                start + of->corner[2]};
+    if (!cross_triangle(z, face, corner, of->side))
+      return false;
+  }
+  return true;
+}
+
+static bool cross_face(struct zero_finder *z, uint32_t face) {
+  const struct facing *f = z->facing;
+  uint32_t start = f->scene->face_start.item[face];
+  uint32_t count = f->scene->face_start.item[face + 1] - start;
+  bool front = false, back = false;
+  for (uint32_t c = start; c < start + count; c++) {
+    bool is_back = facing_is_back(f, facing_slot(f, c));
+    front = front || !is_back;
+    back = back || is_back;
+  }
+  if (!front || !back)
+    return true;
+  if (count > 3)
+    return cross_polygon(z, face, start, count);
+  const uint32_t corner[3] = {start, start + 1, start + 2};
+  const uint32_t side[3] = {0, 1, 2};
+  uint32_t p = facing_point(f, start), q = facing_point(f, start + 1),
+           r = facing_point(f, start + 2);
+  return p == q || q == r || r == p || cross_triangle(z, face, corner, side);
+}
+
+/* ---- Creases ------------------------------------------------------------- */
+
+static bool node_of_vertex(struct zero_finder *z, uint32_t point,
+                           uint32_t *node) {
+  double at[3];
+  if (z->point_node == NULL) {
+    size_t size = z->facing->scene->point.count * sizeof *z->point_node;
+    z->point_node =
+        mem_alloc(z->facing->scene->point.count, sizeof *z->point_node);
+    if (z->point_node == NULL)
+      return false;
+    memset(z->point_node, 0xff, size);
+  }
+  *node = z->point_node[point];
+  if (*node != SHEET_NONE)
+    return true;
+  facing_position(z->facing, point, at);
+  if (!add_node(z, at, SHEET_NONE, SHEET_NONE, node))
+    return false;
+  z->point_node[point] = *node;
+  return true;
+}
+
+static bool is_front(const struct facing *f, uint32_t face) {
+  double n[3], at[3], v[3];
+  facing_face_normal(f, face, n);
+  facing_position(f, facing_point(f, f->scene->face_start.item[face]), at);
+  facing_view(f->camera, at, v);
+  return vector_dot(n, v) < 0;
+}
+
+/* The segment along a crease from one node to another. */
+static bool add_along_crease(struct zero_finder *z, uint32_t edge,
+                             const uint32_t node[2]) {
+  const struct facing *f = z->facing;
+  const struct topology_edge *e = &f->topology->edge.item[edge];
+  struct contour_segment s = {
+      .node = {node[0], node[1]}, .face = e->first, .along_crease = true};
+  double first[3], second[3], at[3], beyond[3], along[3];
+  uint32_t c = facing_corner_of_edge(f, e->second, edge);
+  facing_face_normal(f, e->first, first);
+  facing_face_normal(f, e->second, second);
+  double least = fmin(vector_dot(first, first), vector_dot(second, second));
+  (void)vector_normalise(first);
+  (void)vector_normalise(second);
+  facing_position(f, e->point[0], at);
+  facing_position(f, e->point[1], along);
+  /* Convex where the other face lies behind this one. */
+  facing_position(
+      f,
+      facing_point(f, facing_next(f, e->second, facing_next(f, e->second, c))),
+      beyond);
+  for (int k = 0; k < 3; k++) {
+    s.normal[k] = first[k] + (e->same_way ? -second[k] : second[k]);
+    beyond[k] -= at[k];
+    along[k] -= at[k];
+  }
+  (void)vector_normalise(s.normal);
+  s.radial = -vector_dot(beyond, first);
+  /* Where the faces themselves fold over, the mesh about it is not uneven. */
+  s.width = sqrt(least / vector_dot(along, along));
+  if ((is_front(f, e->first) == is_front(f, e->second)) == e->same_way)
+    s.width *= CREASE_SHARE;
+  return add_segment(z, s);
+}
+
+/* The segments along a crease: where its two faces have different signs. */
+static bool cross_crease(struct zero_finder *z, uint32_t edge) {
+  const struct facing *f = z->facing;
+  const struct topology_edge *e = &f->topology->edge.item[edge];
+  const uint32_t face[2] = {e->first, e->second};
+  bool differ = e->same_way;
+  uint32_t stop[4]; /* nodes from end to end */
+  int count = 1;
+  for (int k = 0; k < 2; k++) {
+    uint32_t c = facing_corner_of_edge(f, face[k], edge);
+    if (c == SHEET_NONE)
+      return true;
+    if (facing_point(f, c) != e->point[0])
+      c = facing_next(f, face[k], c);
+    differ = differ != facing_is_back(f, facing_slot(f, c));
+    if (z->edge_node[2 * (size_t)edge + (size_t)k] != SHEET_NONE)
+      stop[count++] = z->edge_node[2 * (size_t)edge + (size_t)k];
+  }
+  if (!differ && count == 1)
+    return true;
+  if (!node_of_vertex(z, e->point[0], &stop[0]) ||
+      !node_of_vertex(z, e->point[1], &stop[count]))
+    return false;
+  if (count == 3) { /* in order along the edge */
+    double away[2];
+    for (int k = 0; k < 2; k++) {
+      double d[3];
+      for (int i = 0; i < 3; i++)
+        d[i] = z->set->node.item[stop[k + 1]].at[i] -
+               z->set->node.item[stop[0]].at[i];
+      away[k] = vector_dot(d, d);
+    }
+    if (away[1] < away[0]) {
+      uint32_t swap = stop[1];
+      stop[1] = stop[2];
+      stop[2] = swap;
+    }
+  }
+  for (int k = 0; k < count; k++, differ = !differ)
+    if (differ && !add_along_crease(z, edge, &stop[k]))
+      return false;
+  return true;
+}
+
+/* ---- Borders ------------------------------------------------------------- */
+
+static bool add_border_image(struct zero_finder *z, uint32_t edge) {
+  struct view_point end[2];
+  bool moved[2], outside = false;
+  for (int k = 0; k < 2; k++) {
+    double at[3];
+    facing_position(z->facing, z->facing->topology->edge.item[edge].point[k],
+                    at);
+    end[k] = view_of(z, at);
+    outside = outside || clip_outcode(&z->projection, end[k]) != 0;
+  }
+  if (outside && !clip_segment(&z->projection, end, moved))
+    return true;
+  struct geom_segment image = {project_point(&z->projection, end[0]),
+                               project_point(&z->projection, end[1])};
+  return ARRAY_PUSH(&z->set->border, image);
+}
+
+/* ---- The whole ----------------------------------------------------------- */
+
+static bool cross_all(struct zero_finder *z) {
+  const struct facing *f = z->facing;
+  size_t edges = f->topology->edge.count;
+  z->edge_node = mem_alloc(edges, 2 * sizeof *z->edge_node);
+  if (z->edge_node == NULL)
+    return false;
+  memset(z->edge_node, 0xff, edges * 2 * sizeof *z->edge_node);
+  for (uint32_t face = 0; face < scene_face_count(f->scene); face++)
+    if (!poll_at(face) || !cross_face(z, face))
+      return false;
+  for (uint32_t e = 0; e < edges && f->split != NULL; e++) {
+    const struct topology_edge *edge = &f->topology->edge.item[e];
+    if (edge->uses != 2 && !add_border_image(z, e))
+      return false;
+    if (edge->uses == 2 && edge->first != edge->second &&
+        facing_is_split(f, e) && !cross_crease(z, e))
+      return false;
+  }
+  return true;
+}
+
+recto_status zero_set_find(struct zero_set *set, const struct facing *facing,
+                           recto_error *error) {
+  struct zero_finder z = {.set = set,
+                          .facing = facing,
+                          .projection = projection_of(facing->camera)};
+  bool ok = cross_all(&z);
+  mem_free(z.edge_node);
+  mem_free(z.point_node);
+  ARRAY_FREE(&z.diagonal_node);
+  ARRAY_FREE(&z.corner);
+  triangulation_fini(&z.triangulation);
+  return ok ? RECTO_OK : error_memory(error);
+}

@@ -1,0 +1,362 @@
+/* smooth_contours.c - decides which pieces of the contour curves are visible,
+ * and makes edges of them. */
+#include "visibility/smooth_contours.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/poll.h"
+#include "base/sort.h"
+#include "view/clip.h"
+#include "visibility/contour/page_crossings.h"
+#include "visibility/index/triangle_grid.h"
+
+/* A point is asked off the surface, by so many heights of the triangles about
+ * it: outwards and towards the viewer where the surface bends away from the
+ * line of sight, since the mesh about it is uneven; else inwards. */
+#define OFFSET_OUT 0.1
+#define OFFSET_NEARER 1.0
+#define OFFSET_IN 0.6
+
+/* Points that are asked of a piece, at most, and segments whose heights give
+ * the offset, to either side of one. */
+enum { POINTS_MAX = 31, HEIGHT_REACH = 5 };
+
+/* A piece that is not longer, between two that are alike, is like them. */
+enum { SHORT_SEGMENTS = 3 };
+
+/* A part of a curve between two places. */
+struct contour_piece {
+  struct contour_cut from, to;
+  uint32_t visible, asked; /* numbers of its points */
+  uint32_t occluders;      /* the sum of those that hide them */
+  bool is_visible;
+};
+
+struct contour_pieces {
+  struct sheet *sheet;
+  struct map *map;
+  const struct zero_set *set;
+  struct contour_curves *curves;
+  struct projection projection;
+  struct triangle_grid grid;
+  struct triangle_grid_query query;
+  int hidden_max;
+  ARRAY(struct contour_piece) piece; /* of the current curve */
+  uint64_t piece_count;
+};
+
+/* ---- The visibility of a point ------------------------------------------- */
+
+/* How many triangles hide a point of the page; negative when memory ran out. */
+static int count_occluders(struct contour_pieces *c, struct geom_point p) {
+  const struct sheet *sheet = c->sheet;
+  int count = 0;
+  if (!triangle_grid_find(&c->grid, (struct box2){p.x, p.y, p.x, p.y},
+                          &c->query))
+    return -1;
+  for (size_t i = 0; i < c->query.found.count; i++) {
+    uint32_t t = c->query.found.item[i];
+    struct geom_triangle of = sheet_corners(sheet, t);
+    bool inside = (sheet->triangle_flags[t] & SHEET_FLAT) == 0;
+    for (int k = 0; inside && k < 3; k++)
+      inside = geom_orient2d(of.p[k], of.p[geom_next_corner(k)], p) > 0;
+    if (!inside)
+      continue;
+    struct geom_plane plane = geom_plane_of(of.p[0], of.p[1], of.p[2]);
+    count += geom_plane_value(&plane, p) < 0;
+  }
+  return count;
+}
+
+static int compare_doubles(const void *a, const void *b) {
+  double p = *(const double *)a, q = *(const double *)b;
+  return (p > q) - (p < q);
+}
+
+/* The median of the triangles' heights along a curve about one of its steps. */
+static double height_about(const struct contour_pieces *c,
+                           const struct contour_curve *curve, uint32_t step) {
+  double height[2 * HEIGHT_REACH + 1];
+  size_t count = 0;
+  const struct contour_segment *all = c->set->segment.item, *own;
+  own = &all[c->curves->step.item[step].segment];
+  for (int i = -HEIGHT_REACH; i <= HEIGHT_REACH; i++) {
+    int64_t at = (int64_t)step + i;
+    if (at < curve->step || at >= (int64_t)curve->step + curve->count)
+      continue;
+    const struct contour_segment *s = &all[c->curves->step.item[at].segment];
+    if (s == own || (!s->along_crease && !own->along_crease))
+      height[count++] = s->width;
+  }
+  qsort(height, count, sizeof *height, compare_doubles);
+  return height[count / 2];
+}
+
+/* How many triangles hide a point of a curve; negative when memory ran out.
+ * side  1: the surface bends away from the line of sight, so that the point is
+ *       asked in front of it; -1: it bends into it, which hides the point
+ *       unless it is the other side of the surface that is seen */
+static int count_hiding(struct contour_pieces *c,
+                        const struct contour_curve *curve, uint32_t step,
+                        double t, int side) {
+  const struct contour_node *a = contour_curves_node(c->curves, step);
+  const struct contour_node *b = contour_curves_node(c->curves, step + 1);
+  const double *normal =
+      c->set->segment.item[c->curves->step.item[step].segment].normal;
+  double height = height_about(c, curve, step), at[3], view[3];
+  facing_view(&c->sheet->camera, a->at, view);
+  (void)vector_normalise(view);
+  double off = height * (side > 0 ? OFFSET_OUT : -OFFSET_IN);
+  double near = side > 0 ? height * OFFSET_NEARER : 0;
+  for (int k = 0; k < 3; k++)
+    at[k] =
+        a->at[k] + t * (b->at[k] - a->at[k]) + off * normal[k] - near * view[k];
+  return count_occluders(
+      c,
+      project_point(&c->projection,
+                    camera_view(&c->sheet->camera,
+                                &(struct scene_point){at[0], at[1], at[2]})));
+}
+
+/* ---- Pieces -------------------------------------------------------------- */
+
+static double position(struct contour_cut cut) { return cut.step + cut.t; }
+
+/* The side of the surface on which the line of sight passes a piece: the outer
+ * one, as normals have it, unless the surface bends into the line there; then
+ * its other side is seen, or nothing. */
+static int side_of_piece(const struct contour_pieces *c,
+                         const struct contour_piece *piece) {
+  int64_t sum = 0;
+  for (uint32_t i = piece->from.step; position(piece->to) > i; i++) {
+    uint32_t segment = c->curves->step.item[i].segment;
+    sum += c->set->segment.item[segment].radial < 0 ? -1 : 1;
+  }
+  return sum < 0 ? -1 : 1;
+}
+
+static bool ask(struct contour_pieces *c, const struct contour_curve *curve,
+                struct contour_piece *piece) {
+  double from = position(piece->from), to = position(piece->to);
+  double last = (double)curve->step + curve->count - 1;
+  int side = side_of_piece(c, piece);
+  uint32_t points = (uint32_t)fmin(ceil(to - from), POINTS_MAX) | 1;
+  for (uint32_t i = 0; i < points; i++) {
+    double at = from + (to - from) * ((i + 0.5) / points);
+    double step = fmin(floor(at), last);
+    int count = count_hiding(c, curve, (uint32_t)step, at - step, side);
+    if (count < 0)
+      return false;
+    piece->asked++;
+    piece->visible += count == 0;
+    piece->occluders += (uint32_t)count;
+  }
+  return true;
+}
+
+/* ---- Edges --------------------------------------------------------------- */
+
+static uint32_t first_triangle_of(const struct sheet *sheet, uint32_t face) {
+  size_t t = 0;
+  LOWER_BOUND(t, 0, sheet->triangle.count, sheet->triangle.item[t].face < face);
+  return t < sheet->triangle.count && sheet->triangle.item[t].face == face
+             ? (uint32_t)t
+             : SHEET_NONE;
+}
+
+static bool add_sheet_point(struct sheet *sheet, struct geom_point at,
+                            uint32_t *point) {
+  *point = (uint32_t)sheet->point.count;
+  return ARRAY_PUSH(&sheet->point, at);
+}
+
+/* The sheet's point at a place of a curve. */
+static bool point_at(struct contour_pieces *c, struct contour_cut at,
+                     uint32_t *point) {
+  struct contour_node *node =
+      &c->set->node.item[c->curves->step.item[at.step].node];
+  if (at.t != 0) {
+    const struct geom_point p = node->page,
+                            q = contour_curves_node(c->curves, at.step + 1)
+                                    ->page;
+    return add_sheet_point(
+        c->sheet,
+        (struct geom_point){(int32_t)snap(p.x + at.t * ((double)q.x - p.x)),
+                            (int32_t)snap(p.y + at.t * ((double)q.y - p.y)),
+                            p.z + (int64_t)(at.t * (double)(q.z - p.z))},
+        point);
+  }
+  if (node->sheet_point == SHEET_NONE &&
+      !add_sheet_point(c->sheet, node->page, &node->sheet_point))
+    return false;
+  *point = node->sheet_point;
+  return true;
+}
+
+/* Makes edges of a piece; *point is the sheet's point where it starts, and gets
+ * that where it ends. */
+static bool add_edges(struct contour_pieces *c,
+                      const struct contour_piece *piece, uint32_t *point) {
+  struct sheet *sheet = c->sheet;
+  struct contour_cut at = piece->from;
+  while (position(at) < position(piece->to)) {
+    struct contour_cut next = {at.step + 1, 0};
+    if (at.step == piece->to.step)
+      next = piece->to;
+    uint32_t face =
+        c->set->segment.item[c->curves->step.item[at.step].segment].face;
+    struct sheet_edge edge = {
+        .point = {*point},
+        .triangle = {first_triangle_of(sheet, face), SHEET_NONE},
+        .source = SHEET_NONE,
+        .group = sheet->face_group[face],
+        .edge_class = RECTO_EDGE_SILHOUETTE};
+    if (!point_at(c, next, &edge.point[1]) || !ARRAY_PUSH(&sheet->edge, edge))
+      return false;
+    c->map->edge_state[c->map->edge_count++] =
+        piece->is_visible ? MAP_VISIBLE : MAP_HIDDEN;
+    *point = edge.point[1];
+    at = next;
+  }
+  return true;
+}
+
+/* Whether more triangles than are asked for hide a piece. */
+static bool is_too_deep(const struct contour_pieces *c,
+                        const struct contour_piece *piece) {
+  return c->hidden_max > 0 && !piece->is_visible &&
+         piece->occluders > (uint64_t)c->hidden_max * piece->asked;
+}
+
+/* ---- Curves -------------------------------------------------------------- */
+
+/* Divides a curve at its cuts, of which *cut is the first, and passes them. */
+static bool divide(struct contour_pieces *c, const struct contour_curve *curve,
+                   size_t *cut) {
+  const struct contour_cut *all = c->curves->cut.item;
+  uint32_t end = curve->step + curve->count;
+  struct contour_cut from = {curve->step, 0};
+  bool begins_with_cut = false;
+  c->piece.count = 0;
+  while (position(from) < end) {
+    struct contour_piece made = {.from = from, .to = {end, 0}};
+    if (*cut < c->curves->cut.count && all[*cut].step < end)
+      made.to = all[(*cut)++];
+    from = made.to;
+    if (position(made.from) == position(made.to))
+      begins_with_cut = true;
+    else if (!ask(c, curve, &made) || !ARRAY_PUSH(&c->piece, made))
+      return false;
+  }
+  /* A closed curve's first and last piece are one. */
+  if (curve->closed && !begins_with_cut && c->piece.count > 1) {
+    struct contour_piece *first = &c->piece.item[0],
+                         *last = &c->piece.item[c->piece.count - 1];
+    first->visible = last->visible += first->visible;
+    first->asked = last->asked += first->asked;
+    first->occluders = last->occluders += first->occluders;
+  }
+  for (size_t i = 0; i < c->piece.count; i++)
+    c->piece.item[i].is_visible =
+        2 * c->piece.item[i].visible > c->piece.item[i].asked;
+  return true;
+}
+
+/* Makes short pieces like the two beside them, if these are alike. */
+static void settle_short(struct contour_pieces *c,
+                         const struct contour_curve *curve) {
+  size_t count = c->piece.count;
+  for (size_t i = 0; i < count; i++) {
+    struct contour_piece *piece = &c->piece.item[i];
+    if ((!curve->closed && (i == 0 || i + 1 == count)) || count < 3 ||
+        position(piece->to) - position(piece->from) > SHORT_SEGMENTS)
+      continue;
+    bool before = c->piece.item[(i + count - 1) % count].is_visible;
+    if (before == c->piece.item[(i + 1) % count].is_visible)
+      piece->is_visible = before;
+  }
+}
+
+static bool add_curve(struct contour_pieces *c,
+                      const struct contour_curve *curve, size_t *cut) {
+  uint32_t point = SHEET_NONE;
+  if (!divide(c, curve, cut))
+    return false;
+  settle_short(c, curve);
+  for (size_t i = 0; i < c->piece.count; i++) {
+    const struct contour_piece *piece = &c->piece.item[i];
+    if (point == SHEET_NONE && !point_at(c, piece->from, &point))
+      return false;
+    if (is_too_deep(c, piece))
+      point = SHEET_NONE;
+    else if (!add_edges(c, piece, &point))
+      return false;
+  }
+  c->piece_count += c->piece.count;
+  return true;
+}
+
+static bool add_all_curves(struct contour_pieces *c) {
+  struct map *map = c->map;
+  size_t most =
+      c->sheet->edge.count + c->curves->step.count + c->curves->cut.count;
+  uint8_t *state = mem_resize(map->edge_state, most, 1);
+  if (state == NULL)
+    return false;
+  map->edge_state = state;
+  size_t cut = 0;
+  for (size_t i = 0; i < c->curves->curve.count; i++)
+    if (!poll_at(i) || !add_curve(c, &c->curves->curve.item[i], &cut))
+      return false;
+  return true;
+}
+
+/* ---- The whole ----------------------------------------------------------- */
+
+static bool add_pieces(struct contour_pieces *c) {
+  bool ok = contour_curves_join(c->curves, c->set);
+  if (!ok || c->curves->curve.count == 0)
+    return ok;
+  ok = contour_curves_cut_at_cusps(c->curves) &&
+       page_crossings_cut(c->curves, c->sheet) &&
+       contour_curves_sort_cuts(c->curves) &&
+       triangle_grid_init(&c->grid, c->sheet);
+  if (!ok)
+    return false;
+  ok = triangle_grid_query_init(&c->query, &c->grid) && add_all_curves(c);
+  triangle_grid_query_fini(&c->query);
+  triangle_grid_fini(&c->grid);
+  ARRAY_FREE(&c->piece);
+  return ok;
+}
+
+recto_status smooth_contours_add(struct sheet *sheet, struct map *map,
+                                 const struct topology *topology,
+                                 double crease_deg, int hidden_max,
+                                 struct smooth_contours_counts *counts,
+                                 recto_error *error) {
+  struct facing facing;
+  struct zero_set set = {.node = {0}};
+  struct contour_curves curves = {.set = &set};
+  recto_status status =
+      facing_init(&facing, sheet, topology, crease_deg, error);
+  if (status == RECTO_OK)
+    status = zero_set_find(&set, &facing, error);
+  facing_fini(&facing);
+  struct contour_pieces pieces = {.sheet = sheet,
+                                  .map = map,
+                                  .set = &set,
+                                  .curves = &curves,
+                                  .projection = projection_of(&sheet->camera),
+                                  .hidden_max = hidden_max};
+  if (status == RECTO_OK && !add_pieces(&pieces))
+    status = error_memory(error);
+  *counts = (struct smooth_contours_counts){
+      set.segment.count, curves.curve.count, pieces.piece_count};
+  contour_curves_fini(&curves);
+  zero_set_fini(&set);
+  return status;
+}

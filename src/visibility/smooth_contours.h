@@ -1,0 +1,32 @@
+/* smooth_contours.h - draws the contours of the smooth surface that a mesh
+ * samples in place of the mesh's own. */
+#ifndef VISIBILITY_SMOOTH_CONTOURS_H
+#define VISIBILITY_SMOOTH_CONTOURS_H
+
+#include "visibility/map.h"
+
+/* What is known of the contours, for --stats. */
+struct smooth_contours_counts {
+  uint64_t segments, curves, pieces;
+};
+
+/* Adds the smooth contours to a solved sheet as edges of the class silhouette,
+ * each visible or hidden from end to end.
+ *
+ * A curve is divided where its visibility may change: at its cusps and where
+ * lines pass in front of it (contour_curves.h, page_crossings.h).  Each piece
+ * is visible or hidden as a whole, as most of its points are.  A point is asked
+ * a little off the surface, so that the triangles about it do not decide.
+ * topology     of the sheet's scene, with its corners
+ * crease_deg   where normals are split
+ * hidden_max   hidden pieces that more triangles hide are left out; 0: none are
+ * map          of the sheet; its edges are known
+ * Errors       RECTO_ERROR_MEMORY, RECTO_ERROR_CANCELLED.
+ * Cost         linear in the mesh; near linear in the contours
+ * Source       doc/decisions/0039 */
+USE_RESULT recto_status smooth_contours_add(
+    struct sheet *sheet, struct map *map, const struct topology *topology,
+    double crease_deg, int hidden_max, struct smooth_contours_counts *counts,
+    recto_error *error);
+
+#endif
