@@ -62,6 +62,13 @@ static bool has_line(const struct sheet *sheet, struct geom_point a,
 
 /* ---- Known scenes -------------------------------------------------------- */
 
+static void init_two_triangles(struct sheet *sheet, const int one[][3],
+                               const int two[][3]) {
+  exact_sheet_init(sheet);
+  exact_add_face(sheet, one, 3, SCALE);
+  exact_add_face(sheet, two, 3, SCALE);
+}
+
 static const int table[][3] = {{0, 0, 8}, {16, 0, 8}, {0, 16, 8}};
 
 static void crossed_sheets_have_a_line(void **state) {
@@ -69,17 +76,13 @@ static void crossed_sheets_have_a_line(void **state) {
   static const int steep[][3] = {{2, 4, 4}, {8, 4, 4}, {6, 8, 12}};
   struct sheet sheet;
   (void)state;
-  exact_sheet_init(&sheet);
-  exact_add_face(&sheet, table, 3, SCALE);
-  exact_add_face(&sheet, steep, 3, SCALE);
+  init_two_triangles(&sheet, table, steep);
   assert_int_equal(pierce(&sheet), 1);
   assert_true(has_line(&sheet, (struct geom_point){4, 6, 8},
                        (struct geom_point){7, 6, 8}));
   exact_sheet_fini(&sheet);
   /* One seen edge-on pierces too. */
-  exact_sheet_init(&sheet);
-  exact_add_face(&sheet, across, 3, SCALE);
-  exact_add_face(&sheet, table, 3, SCALE);
+  init_two_triangles(&sheet, across, table);
   assert_int_equal(sheet.triangle_flags[0], SHEET_FLAT);
   assert_int_equal(pierce(&sheet), 1);
   assert_true(has_line(&sheet, (struct geom_point){2, 2, 8},
@@ -94,9 +97,7 @@ static void two_faces_seen_edge_on_have_no_line(void **state) {
   static const int three[][3] = {{4, 0, 4}, {4, 8, 1}, {4, 4, 9}};
   struct sheet sheet;
   (void)state;
-  exact_sheet_init(&sheet);
-  exact_add_face(&sheet, one, 3, SCALE);
-  exact_add_face(&sheet, two, 3, SCALE);
+  init_two_triangles(&sheet, one, two);
   exact_add_face(&sheet, three, 3, SCALE);
   assert_int_equal(pierce(&sheet), 0);
   exact_sheet_fini(&sheet);
@@ -219,9 +220,7 @@ static void a_shared_edge_is_no_piercing(void **state) {
   static const int two[][3] = {{4, 0, 4}, {4, 8, 9}, {8, 4, 1}};
   struct sheet sheet;
   (void)state;
-  exact_sheet_init(&sheet);
-  exact_add_face(&sheet, one, 3, SCALE);
-  exact_add_face(&sheet, two, 3, SCALE);
+  init_two_triangles(&sheet, one, two);
   assert_int_equal(pierce(&sheet), 0);
   exact_sheet_fini(&sheet);
 }
@@ -231,9 +230,7 @@ static void a_shared_vertex_alone_is_no_piercing(void **state) {
   static const int two[][3] = {{8, 8, 8}, {14, 2, 2}, {14, 14, 14}};
   struct sheet sheet;
   (void)state;
-  exact_sheet_init(&sheet);
-  exact_add_face(&sheet, one, 3, SCALE);
-  exact_add_face(&sheet, two, 3, SCALE);
+  init_two_triangles(&sheet, one, two);
   assert_int_equal(pierce(&sheet), 0);
   exact_sheet_fini(&sheet);
 }
@@ -243,9 +240,7 @@ static void from_a_shared_vertex_the_line_runs_inwards(void **state) {
   static const int two[][3] = {{0, 8, 8}, {16, 8, 16}, {16, 8, 0}};
   struct sheet sheet;
   (void)state;
-  exact_sheet_init(&sheet);
-  exact_add_face(&sheet, one, 3, SCALE);
-  exact_add_face(&sheet, two, 3, SCALE);
+  init_two_triangles(&sheet, one, two);
   assert_int_equal(pierce(&sheet), 1);
   assert_true(has_line(&sheet, (struct geom_point){0, 8, 8},
                        (struct geom_point){16, 8, 8}));

@@ -257,12 +257,16 @@ static int draw_corners(uint64_t *r, const struct twin t[LINES],
 
 enum { CORNERS = LINES * LINES };
 
-static void corners_init(struct twin_corner c[CORNERS]) {
+static void twins_init(struct twin t[LINES], struct twin_corner c[CORNERS]) {
+  for (int k = 0; k < LINES; k++)
+    twin_init(&t[k]);
   for (int k = 0; k < CORNERS; k++)
     rational_point_init(&c[k].exact);
 }
 
-static void corners_clear(struct twin_corner c[CORNERS]) {
+static void twins_clear(struct twin t[LINES], struct twin_corner c[CORNERS]) {
+  for (int k = 0; k < LINES; k++)
+    twin_clear(&t[k]);
   for (int k = 0; k < CORNERS; k++)
     rational_point_clear(&c[k].exact);
 }
@@ -273,9 +277,7 @@ static void side_is_the_sign_of_the_value(void **state) {
   struct twin t[LINES];
   struct twin_corner c[CORNERS];
   (void)state;
-  corners_init(c);
-  for (int k = 0; k < LINES; k++)
-    twin_init(&t[k]);
+  twins_init(t, c);
   for (int i = 0; i < ROUNDS; i++) {
     int count;
     draw_lines(&r, t);
@@ -292,9 +294,7 @@ static void side_is_the_sign_of_the_value(void **state) {
       }
   }
   assert_true(zeros > 1000 && wide_zeros > 100);
-  for (int k = 0; k < LINES; k++)
-    twin_clear(&t[k]);
-  corners_clear(c);
+  twins_clear(t, c);
 }
 
 static int compare_places(const struct rational_point *p,
@@ -311,9 +311,7 @@ static void corners_compare_by_x_then_y(void **state) {
   struct twin t[LINES];
   struct twin_corner c[CORNERS];
   (void)state;
-  corners_init(c);
-  for (int k = 0; k < LINES; k++)
-    twin_init(&t[k]);
+  twins_init(t, c);
   for (int i = 0; i < ROUNDS; i++) {
     int count;
     draw_lines(&r, t);
@@ -327,9 +325,7 @@ static void corners_compare_by_x_then_y(void **state) {
       }
   }
   assert_true(same > 1000);
-  for (int k = 0; k < LINES; k++)
-    twin_clear(&t[k]);
-  corners_clear(c);
+  twins_clear(t, c);
 }
 
 /* floor(2^bits v + 1/2) */
@@ -353,9 +349,7 @@ static void corners_round_to_the_nearest_halves_up(void **state) {
   struct rational_point exact;
   (void)state;
   rational_point_init(&exact);
-  corners_init(c);
-  for (int k = 0; k < LINES; k++)
-    twin_init(&t[k]);
+  twins_init(t, c);
   for (int i = 0; i < ROUNDS / 2; i++) {
     int count;
     draw_lines(&r, t);
@@ -370,9 +364,7 @@ static void corners_round_to_the_nearest_halves_up(void **state) {
         assert_int_equal(compare_places(&exact, &c[k].exact), 0);
       }
   }
-  for (int k = 0; k < LINES; k++)
-    twin_clear(&t[k]);
-  corners_clear(c);
+  twins_clear(t, c);
   rational_point_clear(&exact);
 }
 
@@ -433,9 +425,7 @@ static void corners_doubles_are_within_a_quarter_unit(void **state) {
   struct twin t[LINES];
   struct twin_corner c[CORNERS];
   (void)state;
-  corners_init(c);
-  for (int k = 0; k < LINES; k++)
-    twin_init(&t[k]);
+  twins_init(t, c);
   for (int i = 0; i < ROUNDS; i++) {
     int count;
     draw_lines(&r, t);
@@ -447,9 +437,7 @@ static void corners_doubles_are_within_a_quarter_unit(void **state) {
       assert_true(fabs(c[k].corner.y - (double)y * 0x1p-16) <= 0.25);
     }
   }
-  for (int k = 0; k < LINES; k++)
-    twin_clear(&t[k]);
-  corners_clear(c);
+  twins_clear(t, c);
 }
 
 /* ---- Wide lines ---------------------------------------------------------- */
@@ -586,9 +574,7 @@ static void a_line_turned_round_has_its_sides_swapped(void **state) {
   struct twin t[LINES];
   struct twin_corner c[CORNERS];
   (void)state;
-  corners_init(c);
-  for (int k = 0; k < LINES; k++)
-    twin_init(&t[k]);
+  twins_init(t, c);
   for (int i = 0; i < 500; i++) {
     int count;
     draw_lines(&r, t);
@@ -603,9 +589,7 @@ static void a_line_turned_round_has_its_sides_swapped(void **state) {
       assert_int_equal(geom_line_along(&back, &t[j].line), -1);
     }
   }
-  for (int k = 0; k < LINES; k++)
-    twin_clear(&t[k]);
-  corners_clear(c);
+  twins_clear(t, c);
 }
 
 /* A line through two places k and l steps from a point. */
