@@ -2,6 +2,7 @@
 #ifndef GEOM_CONVEX_H
 #define GEOM_CONVEX_H
 
+#include "base/memory.h"
 #include "geom/line.h"
 
 /* Side k runs on side[k] from corner[k] to corner[(k + 1) % count], the piece
@@ -44,10 +45,5 @@ USE_RESULT bool geom_convex_subtract(const struct geom_convex *piece,
 USE_RESULT bool geom_convex_copy(struct geom_convex *to,
                                  const struct geom_convex *from,
                                  struct arena *arena);
-
-static inline bool geom_boxes_apart(const struct geom_convex *p,
-                                    const struct geom_convex *q) {
-  return p->x1 < q->x0 || q->x1 < p->x0 || p->y1 < q->y0 || q->y1 < p->y0;
-}
 
 #endif

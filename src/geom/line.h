@@ -17,7 +17,6 @@
 #ifndef GEOM_LINE_H
 #define GEOM_LINE_H
 
-#include "base/memory.h"
 #include "geom/predicate.h"
 #include "geom/wide.h"
 

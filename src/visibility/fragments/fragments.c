@@ -4,7 +4,6 @@
 
 #include <string.h>
 
-#include "base/poll.h"
 #include "base/sort.h"
 #include "visibility/predicate/triangle_pair.h"
 #include "visibility/predicate/plane_filter.h"

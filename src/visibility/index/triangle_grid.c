@@ -7,7 +7,6 @@
 #include "base/poll.h"
 #include "visibility/index/bsp.h"
 #include "visibility/index/duplicate_triangles.h"
-#include "visibility/predicate/surrounder.h"
 
 enum {
   SPREAD = 8, /* cells per triangle, on average, for lists of pairs */

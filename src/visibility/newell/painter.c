@@ -10,7 +10,6 @@
  */
 #include "base/sort.h"
 #include "visibility/fragments/occluder_subtraction.h"
-#include "visibility/intersection/intersection.h"
 #include "visibility/progress.h"
 #include "visibility/solver.h"
 #include "visibility/predicate/edge_intervals.h"

@@ -17,7 +17,6 @@
 #include "base/parallel.h"
 #include "visibility/predicate/occlusion.h"
 #include "visibility/predicate/plane_filter.h"
-#include "visibility/predicate/surrounder.h"
 
 /* A scene is called deep if its depth complexity is above DEEP. */
 enum {

@@ -5,7 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/tolerance.h"
 #include "visibility/predicate/contact.h"
 #include "visibility/predicate/plane_filter.h"
 

@@ -4,8 +4,8 @@
 #define VISIBILITY_PREDICATE_SURROUNDER_H
 
 #include "view/sheet.h"
+#include "visibility/predicate/box2.h"
 #include "visibility/predicate/depth_plane.h"
-#include "visibility/predicate/window.h"
 
 /* Lower bounds for the depth of a surrounder's plane at the corners of a
  * window, with the contact tolerance and rounding subtracted.  Depth being

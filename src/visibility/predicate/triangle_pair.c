@@ -2,6 +2,8 @@
  * in contact, or one nearer than the other. */
 #include "visibility/predicate/triangle_pair.h"
 
+#include "visibility/predicate/occlusion.h"
+
 struct triangle_plane triangle_plane_of(const struct sheet *sheet,
                                         uint32_t triangle) {
   struct triangle_plane t;

@@ -4,7 +4,7 @@
 #define VISIBILITY_PREDICATE_TRIANGLE_PAIR_H
 
 #include "geom/convex.h"
-#include "visibility/predicate/occlusion.h"
+#include "view/sheet.h"
 
 /* Where triangle g is nearer than triangle f, within the part of the page that
  * both cover. */

@@ -24,6 +24,7 @@
 
 #include "base/memory.h"
 #include "visibility/predicate/surrounder.h"
+#include "visibility/predicate/window.h"
 #include "visibility/scan/facets.h"
 
 /* A list of a window: the entries [from, to) of a pool. */
