@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "visibility/predicate/occlusion.h"
 #include "visibility/predicate/triangle_pair.h"
 
 static bool is_flat(const struct sheet *sheet, uint32_t t) {
