@@ -169,8 +169,10 @@ static void assert_complement(const struct map *map, const char *name) {
     }
     if (ratio_compare(at, ratio_of(1, 1)) != 0)
       fail_msg("%s: edge %u ends too soon", name, e);
-    deep += has_deep;
-    mixed += has_mixed;
+    if (has_deep)
+      deep++;
+    if (has_mixed)
+      mixed++;
   }
 }
 

@@ -41,8 +41,6 @@ static bool sort_occluders(struct occluder_subtraction *subtraction) {
   if (!ARRAY_RESERVE(&subtraction->key, 2 * n) ||
       !ARRAY_RESERVE(&subtraction->list, n))
     return false;
-  if (n == 0)
-    return true;
   for (size_t i = 0; i < n; i++) {
     uint64_t bits; /* ordered as the areas are, which are not negative */
     double area =
@@ -126,6 +124,8 @@ bool occluder_subtraction_subtract_all(
   size_t n = subtraction->occluder.count,
          first = n < SUBTRACTED_BEFORE_TREE ? n : SUBTRACTED_BEFORE_TREE;
   uint32_t root;
+  if (n == 0)
+    return true;
   if (!sort_occluders(subtraction) || !subtract_range(subtraction, 0, first))
     return false;
   if (subtraction->left.count == 0)
