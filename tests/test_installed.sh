@@ -61,19 +61,44 @@ done
 claim "no path of the build is in the files that are text" \
   eval '! grep -rIlF "$builddir" "$staged" | grep .'
 
+pc=$staged$(grep '/recto\.pc$' files | sed 's/^\.//')
+# with_flags COMMAND... - with pkg-config and the loader as the installed tree
+# has them.
+with_flags() {
+  PKG_CONFIG_SYSROOT_DIR=$staged PKG_CONFIG_PATH=${pc%/*} \
+    LD_LIBRARY_PATH=${pc%/pkgconfig/*} "$@"
+}
 link= # how a program is linked
 # uses_it OPTION... - builds the README's first program as pkg-config says, and draws.
 uses_it() {
-  local pc
-  pc=$staged$(grep '/recto\.pc$' files | sed 's/^\.//')
   awk '/^```c$/ { on = 1; next } on && /^```/ { exit } on' "$srcdir/README.md" \
     >user.c
   cp "$srcdir/examples/models/gears.obj" model.obj && rm -f model.svg
   # shellcheck disable=SC2046,SC2086 # several words each
-  ${CC:-cc} -Wall -Werror $link user.c -o user $(PKG_CONFIG_SYSROOT_DIR=$staged \
-    PKG_CONFIG_PATH=${pc%/*} pkg-config --cflags --libs "$@" recto) 2>log &&
-    LD_LIBRARY_PATH=${pc%/pkgconfig/*} ./user && test -s model.svg && return 0
+  ${CC:-cc} -Wall -Werror $link user.c -o user $(with_flags \
+    pkg-config --cflags --libs "$@" recto) 2>log &&
+    with_flags ./user && test -s model.svg && return 0
   say "$(head -n 3 log)" && false
+}
+# example NAME ARGUMENT... - builds one of the examples so, and runs it; what it
+# prints or writes is not empty.
+example() {
+  # shellcheck disable=SC2046 # several words
+  ${CC:-cc} -std=c11 -pedantic -Wall -Werror "$srcdir/examples/$1.c" -o "$1" \
+    $(with_flags pkg-config --cflags --libs $static recto) -lm 2>log &&
+    with_flags "./$1" "${@:2}" >"$1.out" 2>log &&
+    cat "$1.out" example*.svg turn*.svg 2>/dev/null | grep -q . && rm -f ./*.svg &&
+    return 0
+  say "$(head -n 3 log)" && false
+}
+python_finds_it() {
+  cp -R "$srcdir/python" package && chmod -R u+w package &&
+    (cd package && with_flags /usr/bin/python3 setup.py -q build --build-lib ../lib) \
+      >log 2>&1 &&
+    PYTHONPATH=lib with_flags /usr/bin/python3 -c 'import recto
+recto.draw("model.obj", "python.svg")' 2>log && grep -q "<path" python.svg &&
+    return 0
+  say "$(tail -n 3 log)" && false
 }
 if nm "$builddir"/.libs/librecto.* 2>/dev/null | grep -q __asan; then
   skip "a program is built by pkg-config" "built with sanitizers"
@@ -81,8 +106,27 @@ else
   if grep -q '/librecto\.so$' files; then
     claim "a program is built by pkg-config" uses_it
   fi
+  static=--static
+  if grep -q '/librecto\.so$' files; then
+    static=
+  fi
+  cp "$srcdir/examples/models/gears.obj" model.obj
+  claim "example draw runs with the installed library" \
+    example draw model.obj example.svg
+  claim "so does surface" example surface example.svg
+  claim "so does turntable" example turntable model.obj 3
+  for name in dxf gcode faces hides; do
+    claim "so does $name" example "$name" model.obj
+  done
+  if test -z "$static" && /usr/bin/python3 -c 'import cffi, numpy, setuptools
+import os, sysconfig
+assert os.path.exists(sysconfig.get_path("include") + "/Python.h")' 2>/dev/null; then
+    claim "the Python package finds it by pkg-config" python_finds_it
+  else
+    skip "the Python package finds it by pkg-config" "no cffi or no librecto.so"
+  fi
   if grep -q '/librecto\.a$' files; then
-    claim "so it is by pkg-config --static" uses_it --static
+    claim "a program is built by pkg-config --static" uses_it --static
     what="and so it is where all libraries are static"
     echo 'int main(void) { return 0; }' >empty.c
     # shellcheck disable=SC2046 # several words each
