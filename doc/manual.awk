@@ -3,6 +3,7 @@
 #
 # A block of the header is a comment and the declarations below it, up to an
 # empty line; it is an entry where it declares a function or the type of one.
+# Structs, enumerations and constants are shown as they stand there.
 
 # Text as troff takes it; names in backquotes become italic.
 function escape(text) {
@@ -47,6 +48,13 @@ function add_entry(declarations, count, part, i, heads) {
   }
   if (heads)
     functions = functions text
+  if (constants != "")
+    show(constants)
+  constants = ""
+}
+# Lines of the header as they are, after the comment above them.
+function show(lines) {
+  functions = functions ".PP\n" text ".nf\n" lines ".fi\n"
 }
 
 FNR == NR && !opened { # the comment that opens the header
@@ -68,6 +76,24 @@ FNR == NR && /^  RECTO_(OK|ERROR_)/ {
   sub(/^[^*]*\* /, "", line)
   statuses = statuses sprintf("%-26s%s\n", name, \
     /\/\*/ ? bare(escape(line)) : "done")
+}
+FNR == NR && /^typedef (struct|enum).*{$/ {
+  add_entry(declarations)
+  declarations = type = ""
+  showing = 1
+}
+FNR == NR && showing {
+  type = type escape($0) "\n"
+  if (/^}/) {
+    show(type)
+    text = ""
+    showing = 0
+  }
+  next
+}
+FNR == NR && /^#define RECTO_[A-Z_]+ +[0-9U]/ {
+  constants = constants escape($0) "\n"
+  next
 }
 FNR == NR && /^\/\* ----/ { # a section, perhaps with a text
   title = $0

@@ -67,6 +67,25 @@ all_are_explained() {
   return "$all"
 }
 claim "recto(3) explains every function of recto.h" all_are_explained
+# names FILE - the fields, enumerators and constants that C text declares.
+names() {
+  sed -e 's/\\-/-/g' -e 's/^\\&//' "$1" | tr '\n' ' ' |
+    sed 's:/\*[^*]*\*\([^/*][^*]*\*\)*/: :g' |
+    grep -oE '\bRECTO_[A-Z0-9_]+\b|[a-z_0-9]+(\[[0-9a-z]+\])?[;,]' |
+    LC_ALL=C sort -u
+}
+types_are_shown() {
+  sed -n '/^typedef [a-z]* recto_[a-z_]* {/,/^}/p
+    /^#define RECTO_[A-Z_]* [0-9U]/p' "$header" >"$scratch/types.h"
+  sed -n '/^\.nf/,/^\.fi/p' "$library_manual" >"$scratch/types.3"
+  names "$scratch/types.h" >"$scratch/declared"
+  names "$scratch/types.3" | LC_ALL=C comm -23 "$scratch/declared" - \
+    >"$scratch/missing"
+  test "$(wc -l <"$scratch/declared")" -gt 150 && ! test -s "$scratch/missing" &&
+    return 0
+  say "$(head -n 5 "$scratch/missing")" && false
+}
+claim "and shows every field, enumerator and constant" types_are_shown
 all_statuses() {
   test "$(grep -cE '^RECTO_(OK|ERROR_[A-Z]+)  +[a-z]' "$library_manual")" -eq \
     "$(grep -cE '^  RECTO_(OK|ERROR_[A-Z]+)( =|,)' "$header")"
