@@ -128,7 +128,7 @@ check_sources() {
           wrong("a folder beside it")
         else if (from != to && (to == "visibility" || to == "ink") &&
                  subfolder(included) != "")
-          wrong("a folder that is the own affair of its layer")
+          wrong("a folder that is private to its layer")
       }')
 }
 

@@ -38,7 +38,7 @@ static struct cluster_member *join(const struct scene *scene, double length) {
     member[i].point = (uint32_t)i;
   size_t joined = cluster_join(scene, length, member, count), seen = 0;
   for (size_t i = 0; i < count; i++)
-    seen += member[i].stands != i;
+    seen += member[i].representative != i;
   assert_int_equal(joined, seen);
   return member;
 }
@@ -48,9 +48,10 @@ static void check_width(const struct scene *scene, double length,
                         const struct cluster_member *member) {
   const struct scene_point *point = scene->point.item;
   for (size_t i = 0; i < scene->point.count; i++) {
-    assert_int_equal(member[member[i].stands].stands, member[i].stands);
+    assert_int_equal(member[member[i].representative].representative,
+                     member[i].representative);
     for (size_t j = 0; j < i; j++)
-      if (member[i].stands == member[j].stands)
+      if (member[i].representative == member[j].representative)
         assert_true(distance(&point[i], &point[j]) <= length * (1 + 0x1p-40));
   }
 }
@@ -63,8 +64,8 @@ static void points_within_the_length_are_one(void **state) {
   add_point(&scene, 1.5, 2, 3);
   add_point(&scene, 1, 2, 3.6);
   struct cluster_member *member = join(&scene, 0.5);
-  assert_int_equal(member[1].stands, 0);
-  assert_int_equal(member[2].stands, 2);
+  assert_int_equal(member[1].representative, 0);
+  assert_int_equal(member[2].representative, 2);
   free(member);
   scene_fini(&scene);
 }
@@ -82,7 +83,7 @@ static void the_ends_of_a_chain_stay_apart(void **state) {
     check_width(&scene, 1, member);
     int clusters = 0;
     for (uint32_t k = 0; k < 3; k++)
-      clusters += member[k].stands == k;
+      clusters += member[k].representative == k;
     assert_int_equal(clusters, 2);
     free(member);
     scene_fini(&scene);
@@ -125,7 +126,7 @@ static void radii_are_kept(void **state) {
   check_width(&scene, 1, member);
   for (uint32_t i = 0; i < 200; i++)
     for (uint32_t j = 0; j < i; j++) {
-      if (member[i].stands != member[j].stands)
+      if (member[i].representative != member[j].representative)
         continue;
       assert_int_not_equal(member[i].halvings, CLUSTER_ALONE);
       assert_int_not_equal(member[j].halvings, CLUSTER_ALONE);
@@ -174,7 +175,7 @@ static void groups_that_are_apart_are_one_in_any_order(void **state) {
     struct cluster_member *member = join(&scene, 1);
     size_t count = 0;
     for (uint32_t i = 0; i < scene.point.count; i++)
-      if (member[i].stands == i) {
+      if (member[i].representative == i) {
         assert_true(count < 125);
         at[count++] = scene.point.item[i];
       }
@@ -198,7 +199,7 @@ static void points_on_the_borders_of_cells_are_found(void **state) {
         add_point(&scene, i * length * step / 4, i, k * length / 2);
     struct cluster_member *member = join(&scene, length);
     for (uint32_t i = 0; i < scene.point.count; i += 2)
-      assert_int_equal(member[i + 1].stands, member[i].stands);
+      assert_int_equal(member[i + 1].representative, member[i].representative);
     free(member);
     scene_fini(&scene);
   }
@@ -231,7 +232,7 @@ static void unusual_lengths_and_positions_are_handled(void **state) {
     add_point(&scene, -0x1p100, 0x1p100, 0x1p100);
     struct cluster_member *member = join(&scene, lengths[i]);
     check_width(&scene, lengths[i], member);
-    assert_int_equal(member[4].stands, member[3].stands);
+    assert_int_equal(member[4].representative, member[3].representative);
     free(member);
     scene_fini(&scene);
   }

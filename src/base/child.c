@@ -1,4 +1,4 @@
-/* child.c - runs a program of ours in a process of its own.
+/* child.c - runs a helper program in a process of its own.
  *
  * It is spawned rather than forked: between fork and exec a process with
  * several threads may call next to nothing, and a host may have any number.

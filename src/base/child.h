@@ -1,4 +1,4 @@
-/* child.h - runs a program of ours in a process of its own and gathers what it
+/* child.h - runs a helper program in a process of its own and gathers what it
  * writes. */
 #ifndef BASE_CHILD_H
 #define BASE_CHILD_H

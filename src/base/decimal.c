@@ -2,8 +2,8 @@
  *
  * The number is a quotient of two integers: digits * 10^e is N / 1 for e >= 0
  * and N / 5^-e * 2^e below.  Scaled by powers of two until 1 <= N / D < 2, its
- * first 64 binary digits fall out one by one; whether anything is left after
- * them is all that rounding asks besides.
+ * first 64 binary digits follow one by one; rounding also needs to know whether
+ * a remainder is left.
  *
  * Robustness: a double, and the middle of two neighbouring ones, has at most
  * 767 significant decimal digits.  Of a longer number the digits past the

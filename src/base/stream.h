@@ -1,11 +1,11 @@
 /* stream.h - buffered output that appears whole or not at all.
  *
- * A stream writes to a new file that is put in its place when it is finished
+ * A stream writes to a new file that gets its name when it is finished
  * without a fault; or to a pipe, a device or a file that must be written in
  * place, for which bytes are held back until then; or to memory.  Its status is
- * sticky: after the first fault every write is ignored and stream_finish
- * tells.  Every part of 64 KB polls (poll.h), so that writing may be cancelled.
- */
+ * sticky: after the first fault every write is ignored, and stream_finish
+ * returns it.  Every part of 64 KB polls (poll.h), so that writing may be
+ * cancelled. */
 #ifndef BASE_STREAM_H
 #define BASE_STREAM_H
 

@@ -1,8 +1,8 @@
-/* target.c - where a file is to appear, and how it gets there.
+/* target.c - output files that are complete before they have their name.
  *
  * A new file has no name while it is written, where the file system can do
  * that (O_TMPFILE): whatever ends the process, nothing is left.  Elsewhere it
- * has a name in the folder where it is to appear. */
+ * has a temporary name in the same folder. */
 #define _GNU_SOURCE /* O_TMPFILE, fallocate */
 #include "base/target.h"
 
@@ -177,7 +177,7 @@ static void remove_temporary(struct target *target) {
 
 /* ---- What belongs to a file ---------------------------------------------- */
 
-/* Attributes that only the system may set are its own affair. */
+/* Attributes that only the system may set are not copied. */
 static bool is_user_attribute(const char *attribute) {
   return strncmp(attribute, "user.", 5) == 0 ||
          strcmp(attribute, "system.posix_acl_access") == 0;

@@ -1,4 +1,4 @@
-/* target.h - where a file is to appear, and how it gets there. */
+/* target.h - output files that are complete before they have their name. */
 #ifndef BASE_TARGET_H
 #define BASE_TARGET_H
 

@@ -1,4 +1,4 @@
-/* predicate.h - exact questions about points of the page grid.
+/* predicate.h - exact predicates on points of the page grid.
  *
  * Ranges: |x|, |y| < 2^30, 0 <= z < 2^40, so coordinate differences are below
  * 2^31 in x, y and 2^40 in z.

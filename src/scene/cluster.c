@@ -31,10 +31,10 @@ enum { CHAIN_MAX = 128, NONE = -1 };
 
 struct cluster {
   double low[3], high[3];
-  double x, y, z;   /* of the first member */
-  uint32_t stands;  /* member */
-  int32_t next;     /* of the chain */
-  uint8_t halvings; /* of the radius */
+  double x, y, z;          /* of the first member */
+  uint32_t representative; /* member */
+  int32_t next;            /* of the chain */
+  uint8_t halvings;        /* of the radius */
 };
 
 struct clusters {
@@ -145,7 +145,7 @@ static bool begin_cluster(struct clusters *clusters, const double at[3],
                             .x = at[0],
                             .y = at[1],
                             .z = at[2],
-                            .stands = member,
+                            .representative = member,
                             .next = *chain,
                             .halvings = halvings};
   *chain = (int32_t)clusters->cluster.count;
@@ -153,7 +153,8 @@ static bool begin_cluster(struct clusters *clusters, const double at[3],
   return ARRAY_PUSH(&clusters->cluster, cluster);
 }
 
-/* Puts the member into a cluster, whose number goes to `stands` for now. */
+/* Puts the member into a cluster; `representative` is the cluster's number for
+ * now. */
 static bool join_cluster(struct clusters *clusters, const struct scene *scene,
                          struct cluster_member *member, uint32_t number) {
   const struct scene_point *point = scene->point.item;
@@ -165,14 +166,14 @@ static bool join_cluster(struct clusters *clusters, const struct scene *scene,
     if (clusters->levels >> level & 1)
       search_grid(clusters, level, at, halvings, &choice);
   if (choice.cluster == NONE) {
-    member[number].stands = (uint32_t)clusters->cluster.count;
+    member[number].representative = (uint32_t)clusters->cluster.count;
     return begin_cluster(clusters, at, number, halvings);
   }
   struct cluster *cluster = &clusters->cluster.item[choice.cluster];
-  member[number].stands = (uint32_t)choice.cluster;
+  member[number].representative = (uint32_t)choice.cluster;
   enlarge_cluster(cluster, at, halvings);
-  if (precedes_in_space(p, &point[member[cluster->stands].point]))
-    cluster->stands = number;
+  if (precedes_in_space(p, &point[member[cluster->representative].point]))
+    cluster->representative = number;
   return true;
 }
 
@@ -298,15 +299,16 @@ static bool allocate_clusters(struct clusters *clusters, double length,
   return clusters->chain != NULL;
 }
 
-/* From numbers of clusters to the members that stand for them. */
+/* From numbers of clusters to the members that represent them. */
 static size_t name_members(const struct clusters *clusters,
                            struct cluster_member *member, size_t count) {
   size_t joined = 0;
   for (size_t i = 0; i < count; i++) {
     if (member[i].halvings == CLUSTER_ALONE)
       continue;
-    member[i].stands = clusters->cluster.item[member[i].stands].stands;
-    joined += member[i].stands != i;
+    member[i].representative =
+        clusters->cluster.item[member[i].representative].representative;
+    joined += member[i].representative != i;
   }
   return joined;
 }
@@ -320,7 +322,7 @@ size_t cluster_join(const struct scene *scene, double length,
     left += member[i].halvings != CLUSTER_ALONE;
   ok = ok && allocate_clusters(&clusters, length, left);
   for (size_t i = 0; i < count && ok; i++) {
-    member[i].stands = (uint32_t)i;
+    member[i].representative = (uint32_t)i;
     if (member[i].halvings != CLUSTER_ALONE)
       ok = join_cluster(&clusters, scene, member, (uint32_t)i);
   }

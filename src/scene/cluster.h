@@ -13,8 +13,7 @@ enum { CLUSTER_LEVELS = 16, CLUSTER_ALONE = 0xff };
 struct cluster_member {
   uint32_t point; /* of the scene */
   uint8_t halvings;
-  uint32_t stands; /* out: its representative; itself, where it
-                      joined none */
+  uint32_t representative; /* out: itself, where it joined none */
 };
 
 /* Joins members to clusters, in their order.  A member joins a cluster only
@@ -23,7 +22,7 @@ struct cluster_member {
  * whose first member is nearest.  Otherwise it begins a cluster of its own.
  * The representative of a cluster is its first member by x, then y, then z.
  * length  0 or more, finite
- * Returns how many members do not stand for themselves, or SIZE_MAX when
+ * Returns how many members another one represents, or SIZE_MAX when
  *         memory ran out.
  * Guarantees  no two members of a cluster are farther apart than the length,
  *         nor, at the moment when the later one joined, than the radius of

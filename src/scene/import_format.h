@@ -1,7 +1,7 @@
-/* import_format.h - the form in which the importer, a process of its own, hands
- * a model to the library.
+/* import_format.h - the format in which the importer, a process of its own,
+ * passes a model to the library.
  *
- * IMPORT_MAGIC, then records, numbers as this machine has them:
+ * IMPORT_MAGIC, then records, numbers in native byte order:
  *   IMPORT_MESH    the record, its name, its points (three doubles each, scene
  *                  units), the number of corners of each of its elements
  *                  (uint32_t), and the corners of all of them (uint32_t,
@@ -29,7 +29,7 @@ struct import_record {
   uint64_t name_length, points, elements, corners;
 };
 
-/* Adds to the scene what stands in these bytes, which may be any: every field
+/* Adds the model in these bytes, which may be any, to the scene: every field
  * is validated before use.
  * path    of the model, for messages
  * format  its name, for messages

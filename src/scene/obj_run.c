@@ -1,7 +1,7 @@
 /* obj_run.c - runs of plain points and faces of an OBJ file.
  *
  * Nearly all statements are like the one before them, and plain: they are read
- * without a question that only others need.  What follows a run is left to
+ * without the tests that only others need.  What follows a run is left to
  * reader_obj.c.
  *
  * In parallel, once a run is long, as many bytes as it had so far are divided

@@ -2,7 +2,7 @@
  * full.
  *
  * A point's slot comes from the high bits of its hash; the low bits are kept
- * as a tag, which spares nearly every look at a point that is another one.
+ * as a tag, so that nearly all other points are rejected without being read.
  */
 #include "scene/positions.h"
 

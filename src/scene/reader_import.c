@@ -1,7 +1,7 @@
 /* reader_import.c - every other format, through Assimp in a process of its own.
  *
  * Assimp reads some fifty formats, and broken files make it crash, loop or take
- * all memory; a library may not end its host.  So a program of ours, the
+ * all memory; a library may not end its host.  So a helper program, the
  * importer (src/import), reads the file under limits of time and memory and
  * hands over what import_format.h describes.
  *

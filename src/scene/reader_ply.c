@@ -9,7 +9,7 @@
  * Colours, where they are wanted: of a face its own, else the mean of those of
  * its corners; they make groups (ply_colour.h) but no lines.
  *
- * Robustness: no number of elements is believed: memory is taken for no more
+ * Robustness: no number of elements is trusted: memory is allocated for no more
  * than the rest of the file can hold.  Elements that make no sense are skipped
  * with a warning; a file that ends before its last element is an error.
  */

@@ -1,8 +1,8 @@
-/* scene.c - the scene's life, and its groups, found by name.
+/* scene.c - creates and clears scenes, and finds groups by name.
  *
  * Groups are found through a table of group numbers + 1, 0 where a slot is
  * free, open addressing by a hash of the name.  Groups are numbered as they
- * come, so nothing of the table's order is ever seen.
+ * are added, so the table's order has no effect.
  */
 #include "scene/scene.h"
 

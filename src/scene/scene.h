@@ -1,4 +1,4 @@
-/* scene.h - what the user gave us: points, faces, polylines, groups.
+/* scene.h - the input: points, faces, polylines and groups.
  *
  * Invariants (scene_add_* keep them, everything after relies on them)
  *   points are finite; corner indices are in range; a face has at least three

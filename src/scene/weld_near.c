@@ -8,7 +8,7 @@
  *               rounding explains: see below.
  *   join        into clusters (cluster.h); one member's position represents
  *               all, none is made up.
- *   rewrite     faces and polylines use the points that stand for theirs.
+ *   rewrite     faces and polylines use the points that represent theirs.
  *
  * What rounding explains.  A file's coordinates have a common scale S, the
  * power of two below which nine in ten of the candidates' coordinates lie: one
@@ -254,7 +254,8 @@ static uint32_t *make_map(struct candidates *candidates,
     if (same != p)
       map[p] = map[same];
     else
-      map[p] = map[p] ? member[member[map[p] - 1].stands].point : (uint32_t)p;
+      map[p] = map[p] ? member[member[map[p] - 1].representative].point
+                      : (uint32_t)p;
   }
   return map;
 }
