@@ -9,9 +9,11 @@
  *          a sentence.  A failed call leaves its outputs NULL.  Every call that
  *          returns a status may return RECTO_ERROR_MEMORY, and
  *          RECTO_ERROR_ARGUMENT for an option out of its range or a pointer
- *          that is NULL where that has no meaning; what else it may return
- *          follows its description.  Given such a pointer, a call without a
- *          status does nothing and returns 0, NULL or the like.
+ *          that is NULL where that has no meaning; every one that takes options
+ *          RECTO_ERROR_UNSUPPORTED for an output format that is not built in,
+ *          and for a field of a later version; what else it may return follows
+ *          its description.  Given such a pointer, a call without a status does
+ *          nothing and returns 0, NULL or the like.
  * Owner    The library copies what it is given.  You own what a _create,
  *          _read or _render returns and free it with the matching _destroy,
  *          which accepts NULL.  What getters return is owned by the object and

@@ -190,20 +190,22 @@ static void numbers_that_make_no_sense_are_refused(void **state) {
 
 static void errors_say_what_a_number_must_be(void **state) {
   (void)state;
-  recto_options options[4];
-  static const char *const text[4] = {
+  recto_options options[5];
+  static const char *const text[5] = {
       "the contact length must be finite",
       "the scale must be above 0 and finite",
       "the pitch of scan lines must be finite, at least 0.01",
-      "the resolution must be from 0 to 1048576"};
+      "the resolution must be from 0 to 1048576",
+      "the margins leave no room on the page"};
   recto_scene *scene = make_cube();
-  for (int i = 0; i < 4; i++)
+  for (int i = 0; i < 5; i++)
     recto_options_init(&options[i]);
   options[0].solver.contact = INFINITY;
   options[1].camera.scale = 0;
   options[2].solver.pitch_mm = 1e-3;
   options[3].solver.resolution = -1;
-  for (int i = 0; i < 4; i++) {
+  options[4].page.margin_mm = 105;
+  for (int i = 0; i < 5; i++) {
     recto_drawing *drawing;
     recto_error error;
     assert_int_equal(recto_scene_render(scene, &options[i], &drawing, &error),

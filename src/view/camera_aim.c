@@ -75,7 +75,7 @@ static recto_status check_page(const struct aim *aim) {
     return argument_error(aim, "the margin is no number");
   double margins = 2 * margin_of(o);
   if (!(margins < o->page.width_mm && margins < o->page.height_mm))
-    return argument_error(aim, "the margins leave no printable on the page");
+    return argument_error(aim, "the margins leave no room on the page");
   return RECTO_OK;
 }
 
