@@ -254,6 +254,15 @@ static struct judge_point3 direction_from(const struct judge_triangle *t,
   return point3_unit(sum);
 }
 
+static bool is_clipped(const struct judge_camera *camera,
+                       const struct judge_triangle *t) {
+  struct judge_outline outline = judge_outline_on_page(camera, t);
+  for (unsigned i = 0; i < 3; i++)
+    if (outline.count != 3 || !is_same_point3(outline.p[i], t->p[i]))
+      return true;
+  return false;
+}
+
 /* Whether clipping leaves a triangle a corner beside a side, but nearer to it
  * than that distance.  The drawing's triangles of what is left may then all be
  * in contact with what touches the side. */
@@ -374,8 +383,11 @@ static bool add_common(struct intersection_finder *finder,
    * known. */
   double rounding = fmax(judge_rounding_at(camera, finder->ray_offset_mm, a),
                          judge_rounding_at(camera, finder->ray_offset_mm, b));
+  double contact = fmax(one->contact, two->contact);
   bool sure =
       !one->open && !two->open &&
+      (contact <= rounding ||
+       !(is_clipped(camera, one) || is_clipped(camera, two))) &&
       least_overshoot(camera, one, two) > 10 * fmax(two->contact, rounding) &&
       least_overshoot(camera, two, one) > 10 * fmax(one->contact, rounding);
   const struct judge_source source = {{SCENE_NONE, SCENE_NONE},
