@@ -4,10 +4,12 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
 
+#include "tests/scenes/random.h"
 #include "tests/sheet_fixture.h"
 #include "tests/scenes/scenes.h"
 #include "visibility/solver.h"
@@ -239,6 +241,41 @@ static void a_face_makes_no_line_with_itself(void **state) {
   assert_int_equal(lines.count, 0);
 }
 
+/* A point of a plane that is inclined to all axes. */
+static uint32_t point_in_plane(struct scene *scene, double u, double v) {
+  return build_point(scene, 0.6 * u + 0.48 * v, -0.8 * u + 0.36 * v, 0.8 * v);
+}
+
+/* Narrow strips that lie across each other in one plane: the plane of each is
+ * known to the grid's rounding over its width only. */
+static void strips_in_one_plane_make_no_line(void **state) {
+  struct random random = {11};
+  (void)state;
+  for (int i = 0; i < 300; i++) {
+    struct sheet_fixture fixture;
+    struct lines lines;
+    sheet_fixture_start(&fixture);
+    for (int strip = 0; strip < 2; strip++) {
+      double turn = random_between(&random, 0, 3), dx = cos(turn),
+             dy = sin(turn), x = random_between(&random, -5, 5),
+             y = random_between(&random, -5, 5),
+             width = pow(10, random_between(&random, -4, 0.5));
+      uint32_t corner[4];
+      for (int k = 0; k < 4; k++) {
+        double u = k == 1 || k == 2 ? 30 : -30, v = k < 2 ? -width : width;
+        corner[k] = point_in_plane(&fixture.scene, x + u * dx - v * dy,
+                                   y + u * dy + v * dx);
+      }
+      build_face(&fixture.scene, corner, 4);
+    }
+    fixture.options.camera.azimuth_deg = random_between(&random, 0, 360);
+    fixture.options.camera.elevation_deg = random_between(&random, -80, 80);
+    fixture.options.camera.fov_deg = i % 2 == 0 ? 0 : 40;
+    solve(&fixture, &lines);
+    assert_int_equal(lines.count, 0);
+  }
+}
+
 /* Where a triangle meets a rectangle beside its diagonal, within wide contact,
  * the line is where it is without contact, and not along the diagonal. */
 static void the_longer_part_of_a_line_says_where_it_is(void **state) {
@@ -274,6 +311,7 @@ int main(void) {
       cmocka_unit_test(a_clipped_face_has_its_whole_line),
       cmocka_unit_test(a_wall_seen_edge_on_has_its_whole_line),
       cmocka_unit_test(a_face_makes_no_line_with_itself),
+      cmocka_unit_test(strips_in_one_plane_make_no_line),
       cmocka_unit_test(the_longer_part_of_a_line_says_where_it_is),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -98,6 +98,7 @@
  *             are tested, it grows with the distance over the
  *             triangle's width.
  * Users       visibility/predicate/contact.c,
+ *             visibility/predicate/occlusion.c,
  *             visibility/intersection/edge_crossing.c
  * Ten times   faces 0.15 um apart on paper count as touching. */
 #define TOLERANCE_CONTACT_GRID_UNITS 16

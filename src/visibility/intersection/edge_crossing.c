@@ -157,13 +157,15 @@ static bool passes_through(const struct sheet *sheet,
   const struct incidence *end,
       *incidence = incidences_find(incidences, edge, &end);
   bool behind = false, in_front = false;
-  struct occluder plane;
-  occluder_init(&plane, sheet, g);
+  struct occluder hf, hg;
+  occluder_init(&hg, sheet, g);
   for (; incidence < end; incidence++) {
     if (is_same_face(sheet, incidence->triangle, g))
       continue;
-    struct side_count count =
-        side_count_of(&plane, sheet_corners(sheet, incidence->triangle).p);
+    occluder_init(&hf, sheet, incidence->triangle);
+    if (is_overlap_within_rounding(sheet, incidence->triangle, g, &hf, &hg))
+      continue;
+    struct side_count count = side_count_of(&hg, hf.p);
     behind |= count.in_front == 0 && count.behind == 1;
     in_front |= count.behind == 0 && count.in_front == 1;
   }

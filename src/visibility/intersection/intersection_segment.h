@@ -26,6 +26,15 @@ static inline bool ends_on_plane(struct side_count s) {
   return s.behind + s.in_front == 1;
 }
 
+/* Do triangles f and g differ by rounding only wherever their projections
+ * overlap?  The plane of a narrow one is known within its projection only: far
+ * from it, its rounding error grows, and coplanar triangles seem to straddle
+ * it.  Of a triangle that is seen edge-on, this is not known: false.
+ * hf, hg  the two, prepared */
+bool is_overlap_within_rounding(const struct sheet *sheet, uint32_t f,
+                                uint32_t g, const struct occluder *hf,
+                                const struct occluder *hg);
+
 /* Two triangles and the segment in which their surfaces intersect. */
 struct intersection_segment {
   uint32_t triangle[2]; /* the lower first */

@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/tolerance.h"
+
 #include "visibility/predicate/contact.h"
 #include "visibility/predicate/plane_filter.h"
 
@@ -214,6 +216,31 @@ bool occlude_by_outline(const struct geom_point corner[3], struct geom_point p,
   interval->to = ratio_of(1, 1);
   interval->sides = OCCLUDED_BOTH;
   return clip_to_outline(corner, p, q, interval);
+}
+
+bool occluder_edge_leaves_rounding(const struct occluder *occluder,
+                                   const struct sheet *sheet,
+                                   struct geom_point p, struct geom_point q) {
+  struct occluded_interval part;
+  if (!occlude_by_outline(occluder->p, p, q, &part))
+    return false;
+  bool given = sheet->camera.contact >= 0;
+  double grid = TOLERANCE_CONTACT_GRID_UNITS * FIXED_ONE *
+                (fabs(occluder->nx) + fabs(occluder->ny) + occluder->nz);
+  const struct geom_point end[2] = {p, q};
+  double value[2], tolerance[2];
+  for (int k = 0; k < 2; k++) {
+    value[k] = (double)geom_plane_value(&occluder->plane, end[k]) * FIXED_ONE;
+    tolerance[k] =
+        given ? grid : (double)(occluder->t0 + occluder->t1 * end[k].z);
+  }
+  for (int k = 0; k < 2; k++) {
+    double t = ratio_to_double(k == 0 ? part.from : part.to);
+    if (fabs(value[0] + t * (value[1] - value[0])) >
+        tolerance[0] + t * (tolerance[1] - tolerance[0]))
+      return true;
+  }
+  return false;
 }
 
 bool occlude_edge(const struct occluder *occluder, struct geom_point p,
