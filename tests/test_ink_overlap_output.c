@@ -279,7 +279,7 @@ static void outlines_near_each_other_are_one_closed_one(void **state) {
   }
 }
 
-static void with_ids_the_lower_rank_stays(void **state) {
+static void with_ids_the_higher_priority_stays(void **state) {
   (void)state;
   struct ink_fixture k;
   start(&k);
@@ -496,7 +496,7 @@ int main(void) {
       cmocka_unit_test(a_divided_edge_near_a_whole_one_is_two_points),
       cmocka_unit_test(what_is_beyond_a_near_line_goes_on_from_it),
       cmocka_unit_test(outlines_near_each_other_are_one_closed_one),
-      cmocka_unit_test(with_ids_the_lower_rank_stays),
+      cmocka_unit_test(with_ids_the_higher_priority_stays),
       cmocka_unit_test(isolated_segments_overlap_nothing),
       cmocka_unit_test(no_two_sides_of_random_drawings_share_more_than_a_unit),
       cmocka_unit_test(no_ink_is_lost_by_more_than_two_units),

@@ -93,7 +93,7 @@ static struct drawing_stroke stroke_like(const struct ink *ink,
                                  .hidden = path->hidden};
 }
 
-static bool take_points(const struct ink *ink, const struct ink_paths *paths,
+static bool copy_points(const struct ink *ink, const struct ink_paths *paths,
                         const struct ink_path *path, struct stroke_line *line) {
   line->closed = path->closed;
   line->point.count = 0;
@@ -133,7 +133,7 @@ static bool add_paths(struct ink *ink, const struct ink_paths *paths,
             ARRAY_RESERVE(&ink->drawing->stroke, paths->path.count);
   for (size_t i = 0; ok && i < paths->path.count; i++) {
     const struct ink_path *path = &paths->path.item[i];
-    ok = poll_at(i) && take_points(ink, paths, path, &line);
+    ok = poll_at(i) && copy_points(ink, paths, path, &line);
     if (ok && filter && is_too_short(ink, path, &line))
       ink->drawing->counts.too_short++;
     else
@@ -154,7 +154,7 @@ static bool mark_short(struct ink *ink, const struct ink_paths *paths,
   bool ok = path_is_short != NULL;
   for (size_t i = 0; ok && i < paths->path.count; i++) {
     const struct ink_path *path = &paths->path.item[i];
-    ok = poll_at(i) && take_points(ink, paths, path, &line);
+    ok = poll_at(i) && copy_points(ink, paths, path, &line);
     if (ok && is_too_short(ink, path, &line)) {
       path_is_short[i] = 1;
       ink->drawing->counts.too_short++;

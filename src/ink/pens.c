@@ -135,7 +135,7 @@ double pens_shortest_mm(const struct pens *pens, uint32_t pen) {
                                : pens->shortest_mm;
 }
 
-unsigned pens_weight_rank(const struct pens *pens, unsigned edge_class) {
+unsigned pens_weight_priority(const struct pens *pens, unsigned edge_class) {
   unsigned first = 0, index = class_index(edge_class);
   while (pens->weight[first] != pens->weight[index])
     first++;

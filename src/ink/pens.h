@@ -61,6 +61,6 @@ double pens_shortest_mm(const struct pens *pens, uint32_t pen);
 
 /* Equal for two classes of visible lines with equal weights, which may be
  * joined into one stroke. */
-unsigned pens_weight_rank(const struct pens *pens, unsigned edge_class);
+unsigned pens_weight_priority(const struct pens *pens, unsigned edge_class);
 
 #endif

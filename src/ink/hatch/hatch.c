@@ -29,10 +29,10 @@ struct hatch {
   struct hatch_lines lines;
   struct hatch_regions regions;
   const struct pens *pens;
-  uint32_t pen;    /* that hatches the current region */
-  double shortest; /* mm: shorter strokes are left out */
-  double reach;    /* mm from a side within which a move is on its ink */
-  double inset;    /* mm that the pen keeps from all sides; 0: it does not */
+  uint32_t pen;          /* that hatches the current region */
+  double shortest;       /* mm: shorter strokes are left out */
+  double inked_distance; /* mm from a side within which a move is on its ink */
+  double inset; /* mm that the pen keeps from all sides; 0: it does not */
   struct drawing_stroke attributes; /* of all strokes of the region */
   /* The sides that reach into strip first + k are
    *     strip_side[strip[k]] to strip_side[strip[k + 1] - 1]. */
@@ -141,10 +141,10 @@ static bool move_is_clear(const struct hatch *h,
                           const struct hatch_crossing *to) {
   struct hatch_point a = {from->u, hatch_lines_height(&h->lines, from->line)};
   struct hatch_point b = {to->u, hatch_lines_height(&h->lines, to->line)};
-  int64_t reach = (int64_t)ceil(h->inset / h->lines.pitch);
+  int64_t inked_distance = (int64_t)ceil(h->inset / h->lines.pitch);
   int64_t last = h->strips - 1, strip = to->line - h->first;
-  int64_t low = strip > reach ? strip - reach : 0;
-  int64_t high = strip + reach < last ? strip + reach : last;
+  int64_t low = strip > inked_distance ? strip - inked_distance : 0;
+  int64_t high = strip + inked_distance < last ? strip + inked_distance : last;
   const uint32_t *start = h->strip.item;
   for (uint32_t i = start[low]; i < start[high + 1]; i++)
     if (!inset_is_clear(&h->lines.side.item[h->strip_side.item[i]], a, b,
@@ -173,7 +173,7 @@ static bool is_on_ink(const struct hatch *h, uint32_t begin, uint32_t end,
   for (uint32_t i = begin; i < end; i++) {
     uint32_t s = h->strip_side.item[i];
     const struct hatch_side *side = &h->lines.side.item[s];
-    if (hatch_lines_distance(p, side->from, side->to) <= h->reach &&
+    if (hatch_lines_distance(p, side->from, side->to) <= h->inked_distance &&
         side_is_of_pen(h, s))
       return true;
   }
@@ -318,7 +318,7 @@ bool hatch_add(struct drawing *drawing, const struct sheet *sheet,
     uint32_t group = scene->face_group.item[face];
     h.pen = pens_of_hatch(pens, group);
     h.inset = options->ink.hatch_inset ? pens_width_mm(pens, h.pen) / 2 : 0;
-    h.reach = h.inset + pens_width_mm(pens, h.pen) / 2;
+    h.inked_distance = h.inset + pens_width_mm(pens, h.pen) / 2;
     h.shortest = pens_shortest_mm(pens, h.pen);
     h.attributes = (struct drawing_stroke){
         .layer = h.pen, .face = face, .edge = DRAWING_NONE, .group = group};

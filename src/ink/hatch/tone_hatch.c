@@ -107,9 +107,9 @@ static int directions_for_tone(double tone, double *each) {
 
 /* Adds the piece [u0, u1] of a span, with ink or blank.  False when memory ran
  * out. */
-static bool add_hatch_piece(struct tone_hatching *h, int direction,
-                            const struct hatch_span *span, double u0, double u1,
-                            bool blank) {
+static bool add_piece(struct tone_hatching *h, int direction,
+                      const struct hatch_span *span, double u0, double u1,
+                      bool blank) {
   struct hatch_piece piece = {.pen = h->pen,
                               .direction = (uint32_t)direction,
                               .face = h->face,
@@ -132,10 +132,10 @@ static bool add_inked(struct tone_hatching *h, int direction,
                       const struct hatch_span *span, double u0, double u1) {
   double left = span->left.u, right = span->right.u;
   if (u0 >= u1)
-    return add_hatch_piece(h, direction, span, left, right, true);
-  return add_hatch_piece(h, direction, span, left, u0, true) &&
-         add_hatch_piece(h, direction, span, u0, u1, false) &&
-         add_hatch_piece(h, direction, span, u1, right, true);
+    return add_piece(h, direction, span, left, right, true);
+  return add_piece(h, direction, span, left, u0, true) &&
+         add_piece(h, direction, span, u0, u1, false) &&
+         add_piece(h, direction, span, u1, right, true);
 }
 
 /* Sets [*u0, *u1] to the part of the hatch line at v where one plane of the
@@ -185,9 +185,9 @@ static bool add_curved_span(struct tone_hatching *h, int direction,
     return add_inked(h, direction, span, u0[low], u1[low]);
   if (u0[high] <= u1[low])
     return add_inked(h, direction, span, u0[low], fmax(u1[low], u1[high]));
-  return add_hatch_piece(h, direction, span, left, u1[low], false) &&
-         add_hatch_piece(h, direction, span, u1[low], u0[high], true) &&
-         add_hatch_piece(h, direction, span, u0[high], right, false);
+  return add_piece(h, direction, span, left, u1[low], false) &&
+         add_piece(h, direction, span, u1[low], u0[high], true) &&
+         add_piece(h, direction, span, u0[high], right, false);
 }
 
 /* Adds the pieces of a fragment of a curved region. */
@@ -222,9 +222,8 @@ static bool add_uniform(struct tone_hatching *h, const struct map *map,
         !hatch_lines_find_spans(lines))
       return false;
     for (size_t i = 0; i < lines->span.count; i++)
-      if (!add_hatch_piece(h, k, &lines->span.item[i],
-                           lines->span.item[i].left.u,
-                           lines->span.item[i].right.u, false))
+      if (!add_piece(h, k, &lines->span.item[i], lines->span.item[i].left.u,
+                     lines->span.item[i].right.u, false))
         return false;
   }
   return true;

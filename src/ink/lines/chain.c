@@ -3,12 +3,12 @@
  * Phases
  *   1 pair the ends at every node (pairing.c), which leaves simple paths and
  *          loops
- *   2 from every unpaired end, walk to the other end of its path
+ *   2 follow the path from every unpaired end to its other end
  *   3 the segments not visited so far form loops
  *   4 orient every path, see paths_chain
  *   5 sort the paths by their first edges
- *   6 look up the points: not while walking, where every step would depend on a
- *     cache miss; independent look-ups overlap their misses */
+ *   6 look up the points: not before, where every step would depend on a cache
+ *     miss; independent look-ups overlap their misses */
 #include "base/parallel.h"
 #include "ink/lines/paths.h"
 
@@ -70,7 +70,7 @@ static bool add_chained_path(struct chain *c, size_t from, uint32_t first,
 
 /* ---- Open paths ---------------------------------------------------------- */
 
-static bool walk_open(struct chain *c, uint32_t end) {
+static bool follow_open_path(struct chain *c, uint32_t end) {
   size_t from = c->end.count;
   uint32_t last = end;
   for (; end != SEGMENT_GRAPH_NONE; end = c->mate[last]) {
@@ -116,7 +116,7 @@ static size_t choose_path_start(const struct chain *c, const uint32_t *end,
   return start;
 }
 
-static bool walk_loop(struct chain *c, uint32_t end) {
+static bool follow_loop(struct chain *c, uint32_t end) {
   size_t from = c->end.count;
   uint32_t start = end;
   do {
@@ -142,19 +142,19 @@ static bool walk_loop(struct chain *c, uint32_t end) {
   return add_chained_path(c, from, first, true);
 }
 
-static bool walk_all(struct chain *c) {
+static bool follow_all(struct chain *c) {
   size_t count = c->graph->segment.count;
   for (size_t i = 0; i < count; i++) {
     if (!poll_at(i))
       return false;
     for (uint32_t side = 0; side < 2 && !c->used[i]; side++) {
       uint32_t end = (uint32_t)(2 * i) + side;
-      if (c->mate[end] == SEGMENT_GRAPH_NONE && !walk_open(c, end))
+      if (c->mate[end] == SEGMENT_GRAPH_NONE && !follow_open_path(c, end))
         return false;
     }
   }
   for (size_t i = 0; i < count; i++)
-    if (!c->used[i] && !walk_loop(c, (uint32_t)(2 * i)))
+    if (!c->used[i] && !follow_loop(c, (uint32_t)(2 * i)))
       return false;
   return true;
 }
@@ -241,7 +241,7 @@ recto_status paths_chain(struct ink_paths *paths, uint32_t *path_of_segment,
   c.mate = mem_alloc(count, 2 * sizeof *c.mate);
   c.used = mem_calloc(count, sizeof *c.used);
   bool ok = c.mate != NULL && c.used != NULL && pairing_find(c.mate, graph) &&
-            walk_all(&c) && sort_paths(paths) && place_points(&c);
+            follow_all(&c) && sort_paths(paths) && place_points(&c);
   mem_free(c.mate);
   mem_free(c.used);
   mem_free(c.from);

@@ -54,8 +54,8 @@ static void skip_sides(struct cursor *c, double along) {
 
 /* Stores the part of the line between two positions in `piece` and advances the
  * cursor to its end. */
-static bool take_piece(struct cursor *c, double from, double to,
-                       struct stroke_line *piece) {
+static bool cut_piece(struct cursor *c, double from, double to,
+                      struct stroke_line *piece) {
   piece->point.count = 0;
   skip_sides(c, from);
   if (!ARRAY_PUSH(&piece->point, point_along(c, from)))
@@ -92,7 +92,7 @@ static bool add_dashes(struct drawing *drawing,
   bool ok = true;
   for (double i = 0; ok && i < n; i++) {
     double from = i * period / n, to = (i + 1) * period / n - gap;
-    ok = take_piece(&cursor, from, to, &piece);
+    ok = cut_piece(&cursor, from, to, &piece);
     if (ok && !line->closed && i + 1 == n) /* the very end, unrounded */
       piece.point.item[piece.point.count - 1] =
           line->point.item[line->point.count - 1];

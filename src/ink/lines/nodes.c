@@ -5,12 +5,12 @@
  *   2 rows      horizontal bands, about as many as there are nodes in each:
  *               where nodes are dense, bands are thin, so that a search visits
  *               at most one band
- *   3 merge     in reading order each node absorbs the nodes near it
+ *   3 merge     in reading order the nodes near each node are merged into it
  *   4 renumber  the nodes, and sort the segments by them
  * Invariant  Two remaining nodes differ in x or in y by more than the
  *   tolerance: the later one was compared with the earlier and would have been
- *   absorbed. Nothing moves by more than the tolerance, as a node that has
- *   absorbed others stays. */
+ *   merged into it. Nothing moves by more than the tolerance, as a node that
+ *   others were merged into stays. */
 #include "base/poll.h"
 #include "ink/lines/segment_graph.h"
 
@@ -27,7 +27,7 @@ struct unite {
   size_t count;         /* of nodes, before */
   struct ink_point *at; /* row by row */
   uint32_t *order;      /* row by row: the original number of the node */
-  uint32_t *root;       /* row by row: the node that absorbed it, or itself */
+  uint32_t *root;       /* row by row: the node it is merged into, or itself */
   uint32_t *renumber;   /* old number -> new */
   uint32_t *bucket;     /* number of nodes by bucket of y, then the row of
                            the bucket */
@@ -90,7 +90,7 @@ static size_t bucket_of(const struct unite *u, int32_t y) {
 
 /* Groups buckets into rows: bucket[b] becomes its row, start[r + 1] the number
  * of nodes before row r, as fill_rows needs it. */
-static void form_rows(struct unite *u) {
+static void assign_rows(struct unite *u) {
   struct node_rows *rows = u->rows;
   double aim = sqrt((double)u->count);
   uint32_t target =
@@ -118,9 +118,9 @@ static void fill_rows(struct unite *u, const struct sort_key *key) {
   for (size_t i = 0; i < u->count; i++) {
     struct ink_point p = node[key[i].value];
     (void)poll_at(i);
-    uint32_t place = next[u->bucket[bucket_of(u, p.y)]]++;
-    u->order[place] = key[i].value;
-    u->at[place] = p;
+    uint32_t slot = next[u->bucket[bucket_of(u, p.y)]]++;
+    u->order[slot] = key[i].value;
+    u->at[slot] = p;
   }
   u->rows->start[0] = 0;
 }
@@ -131,7 +131,7 @@ static bool make_rows(struct unite *u) {
     return false;
   for (size_t i = 0; i < u->count; i++)
     u->bucket[bucket_of(u, u->graph->node.item[i].y)]++;
-  form_rows(u);
+  assign_rows(u);
   fill_rows(u, key);
   mem_free(key);
   return true;
@@ -139,8 +139,9 @@ static bool make_rows(struct unite *u) {
 
 /* ---- 3 Merge ------------------------------------------------------------- */
 
-/* Node i absorbs the nodes near it among [low, high), which are of one row. */
-static void absorb(struct unite *u, uint32_t i, size_t low, uint32_t high) {
+/* Merges the nodes among [low, high), of one row, that are near node i into it.
+ */
+static void merge_into(struct unite *u, uint32_t i, size_t low, uint32_t high) {
   const struct ink_point *at = u->at, p = at[i];
   int64_t y_min = (int64_t)p.y - TOLERANCE_COINCIDENT_UNITS,
           y_max = (int64_t)p.y + TOLERANCE_COINCIDENT_UNITS;
@@ -155,7 +156,7 @@ static void absorb(struct unite *u, uint32_t i, size_t low, uint32_t high) {
   }
 }
 
-static void absorb_near(struct unite *u) {
+static void merge_near_nodes(struct unite *u) {
   const struct node_rows *rows = u->rows;
   for (uint32_t i = 0; i < u->count; i++)
     u->root[i] = i;
@@ -168,10 +169,10 @@ static void absorb_near(struct unite *u) {
       struct ink_point p = u->at[i];
       if (i + 1 < end &&
           u->at[i + 1].x <= (int64_t)p.x + TOLERANCE_COINCIDENT_UNITS)
-        absorb(u, i, i + 1, end);
+        merge_into(u, i, i + 1, end);
       for (uint32_t q = r + 1;
            (int64_t)p.y + TOLERANCE_COINCIDENT_UNITS >= rows->low[q]; q++)
-        absorb(u, i, rows->start[q], rows->start[q + 1]);
+        merge_into(u, i, rows->start[q], rows->start[q + 1]);
     }
   }
 }
@@ -187,7 +188,7 @@ static void renumber_nodes(struct unite *u) {
     rows->start[r] = count;
     for (; i < end; i++) {
       (void)poll_at(i);
-      /* A root precedes the nodes it absorbed, so its number is known. */
+      /* A root precedes the nodes merged into it, so its number is known. */
       if (u->root[i] == i) {
         node[count] = u->at[i];
         rows->row[count] = (uint16_t)r;
@@ -295,7 +296,7 @@ recto_status segment_graph_unite(struct segment_graph *graph,
   if (count > 0) {
     if (!make_rows(&u))
       goto done;
-    absorb_near(&u);
+    merge_near_nodes(&u);
     renumber_nodes(&u);
     renumber_segments(&u);
   }

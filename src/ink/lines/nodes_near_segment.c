@@ -12,13 +12,13 @@ struct probe {
   uint32_t segment, p, q; /* nodes, p < q */
   struct ink_point from, to;
   int64_t dx, dy;
-  int64_t reach; /* a greater cross product is beyond the tolerance */
+  int64_t cross_max; /* a greater cross product is beyond the tolerance */
 };
 
 static inline bool is_near(const struct probe *probe, struct ink_point p) {
   int64_t cross = probe->dx * ((int64_t)p.y - probe->from.y) -
                   probe->dy * ((int64_t)p.x - probe->from.x);
-  return -probe->reach <= cross && cross <= probe->reach;
+  return -probe->cross_max <= cross && cross <= probe->cross_max;
 }
 
 /* Visits the nodes from k upwards, up to `end` and up to x. */
@@ -112,7 +112,7 @@ bool nodes_near_segment_visit(const struct node_search *w, uint32_t segment) {
   probe.to = w->graph->node.item[probe.q];
   probe.dx = (int64_t)probe.to.x - probe.from.x;
   probe.dy = (int64_t)probe.to.y - probe.from.y;
-  probe.reach = w->near * (llabs(probe.dx) + llabs(probe.dy));
+  probe.cross_max = w->near * (llabs(probe.dx) + llabs(probe.dy));
 
   uint32_t first = rows->row[probe.p], last = rows->row[probe.q];
   if (first == last) {

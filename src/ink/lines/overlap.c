@@ -5,7 +5,7 @@
  *     their own
  *   2 all ends are sorted along the line; ends within the tolerance are one
  *     breakpoint, and between two breakpoints is a slot
- *   3 in order of rank each segment takes the free slots it covers; a
+ *   3 in order of priority each segment takes the free slots it covers; a
  *     union-find of next free slots makes that near linear
  *   4 adjacent slots of one owner become one piece
  * Robustness  Positions along the line are integers: |dx|, |dy| < 2^31, so the
@@ -114,8 +114,8 @@ static struct overlap_line choose_line(const struct segment_graph *graph,
   for (size_t i = 1; i < count; i++) {
     struct overlap_line line = line_of_segment(graph, member[i]);
     if (line.length > best.length ||
-        (line.length == best.length &&
-         overlap_rank(graph, member[i]) < overlap_rank(graph, chosen))) {
+        (line.length == best.length && overlap_priority(graph, member[i]) <
+                                           overlap_priority(graph, chosen))) {
       best = line;
       chosen = member[i];
     }
@@ -165,7 +165,7 @@ static uint32_t find_breakpoints(struct overlap *o,
 /* ---- 3 Owners ------------------------------------------------------------ */
 
 /* The first free slot from `slot` on; halves the path. */
-static uint32_t next_free(uint32_t *next, uint32_t slot) {
+static uint32_t find_free_slot(uint32_t *next, uint32_t slot) {
   while (next[slot] != slot) {
     next[slot] = next[next[slot]];
     slot = next[slot];
@@ -173,20 +173,20 @@ static uint32_t next_free(uint32_t *next, uint32_t slot) {
   return slot;
 }
 
-static void take_slots(struct overlap *o, const struct segment_graph *graph,
-                       uint32_t count, uint32_t points) {
+static void assign_slots(struct overlap *o, const struct segment_graph *graph,
+                         uint32_t count, uint32_t points) {
   for (uint32_t k = 0; k < points; k++) {
     o->owner[k] = SEGMENT_GRAPH_NONE;
     o->next[k] = k;
   }
   for (uint32_t i = 0; i < count; i++)
-    o->key[i] = (struct sort_key){overlap_rank(graph, o->near[i]), i};
+    o->key[i] = (struct sort_key){overlap_priority(graph, o->near[i]), i};
   sort_keys(o->key, o->scratch, count);
   for (uint32_t k = 0; k < count; k++) {
     uint32_t i = o->key[k].value, a = o->slot[2 * i], b = o->slot[2 * i + 1];
     uint32_t low = a < b ? a : b, high = a < b ? b : a;
-    for (uint32_t s = next_free(o->next, low); s < high;
-         s = next_free(o->next, s)) {
+    for (uint32_t s = find_free_slot(o->next, low); s < high;
+         s = find_free_slot(o->next, s)) {
       o->owner[s] = i;
       o->next[s] = s + 1;
     }
@@ -228,7 +228,7 @@ bool overlap_resolve(struct overlap *o, const struct segment_graph *graph,
         o->rest[rest++] = member[i];
     }
     uint32_t points = find_breakpoints(o, graph, &line, near);
-    take_slots(o, graph, near, points);
+    assign_slots(o, graph, near, points);
     if (!add_uncovered_pieces(o, graph, points))
       return false;
     member = o->rest;

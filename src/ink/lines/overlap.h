@@ -9,10 +9,10 @@
 bool overlap_is_along(const struct segment_graph *graph, uint32_t a,
                       uint32_t b);
 
-/* The rank of a segment: where two overlap, the one with the lower rank is
- * drawn. */
-static inline uint64_t overlap_rank(const struct segment_graph *graph,
-                                    uint32_t segment) {
+/* The priority of a segment: where two overlap, the one with the smaller number
+ * is drawn. */
+static inline uint64_t overlap_priority(const struct segment_graph *graph,
+                                        uint32_t segment) {
   const struct graph_segment *s = &graph->segment.item[segment];
   uint64_t edge_class = s->style_key & RECTO_EDGES_ALL;
   return (uint64_t)graph_segment_is_hidden(s) << 40 | edge_class << 32 |

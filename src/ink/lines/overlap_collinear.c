@@ -59,8 +59,8 @@ static void drop_duplicate_runs(struct overlap_finder *w) {
   for (uint32_t i = 1; i < w->graph->segment.count; i++) {
     bool same_nodes =
         s[i].node[0] == s[best].node[0] && s[i].node[1] == s[best].node[1];
-    bool better =
-        !same_nodes || overlap_rank(w->graph, i) < overlap_rank(w->graph, best);
+    bool better = !same_nodes || overlap_priority(w->graph, i) <
+                                     overlap_priority(w->graph, best);
     if (same_nodes) {
       w->dropped[better ? best : i] = 1;
       w->dropped_count++;
@@ -93,7 +93,7 @@ static bool join_clusters(struct overlap_finder *w, uint32_t a, uint32_t b) {
 }
 
 /* Node k is near the segment's line: finds the overlapping segments there. */
-static bool look_at(void *user, uint32_t segment, uint32_t k) {
+static bool test_overlap(void *user, uint32_t segment, uint32_t k) {
   struct overlap_finder *w = user;
   const struct segment_graph *graph = w->graph;
   for (uint32_t i = graph->end_start[k]; i < graph->end_start[k + 1]; i++) {
@@ -184,7 +184,7 @@ recto_status segment_graph_drop_collinear(struct segment_graph *graph,
   size_t count = graph->segment.count;
   struct overlap_finder w = {.graph = graph};
   const struct node_search search = {graph, rows, TOLERANCE_COINCIDENT_UNITS,
-                                     look_at, &w};
+                                     test_overlap, &w};
   recto_status status = segment_graph_index_ends(graph, error);
   if (status != RECTO_OK)
     return status;

@@ -8,7 +8,7 @@
  *   1 duplicates  segments with near ends at both ends (vertex_snapping.c)
  *   2 pairs       every segment searches along its line and records which
  *                 others overlap it
- *   3 subtract    in order of rank, best first, a segment loses its overlap
+ *   3 subtract    in order of priority a segment loses its overlap
  *                 with the pieces that are kept; the rest ends at nodes of
  *                 theirs
  *   4 rebuild     and repeat if anything has moved, as it may have come near
@@ -31,7 +31,7 @@
 /* A segment with its derived quantities. */
 struct measured_segment {
   struct ink_point from, to;
-  int64_t dx, dy, reach; /* see nodes_near_segment.c */
+  int64_t dx, dy, cross_max; /* see nodes_near_segment.c */
   double length;
 };
 
@@ -43,12 +43,12 @@ struct overlap_cover {
   uint32_t node[2];
 };
 
-/* The remaining pieces: those of the segment at index i in order of rank are
+/* The remaining pieces: those of the segment at index i by priority are
  * piece[start[i]] up to piece[start[i + 1]]. */
 struct output_overlaps {
   struct vertex_snapping snapping;
   ARRAY(struct sort_key) pair;   /* worse segment << 32 | better one */
-  ARRAY(struct sort_key) member; /* rank, segment: all that occur in pairs */
+  ARRAY(struct sort_key) member; /* priority, segment: all in pairs */
   ARRAY(uint32_t) start;
   ARRAY(struct graph_segment) piece;
   ARRAY(struct overlap_cover) cover; /* of the current segment */
@@ -63,7 +63,7 @@ static struct measured_segment run_of(const struct vertex_snapping *snapping,
                                  .to = vertex_snapping_at(snapping, node[1])};
   run.dx = (int64_t)run.to.x - run.from.x;
   run.dy = (int64_t)run.to.y - run.from.y;
-  run.reach = snapping->output_step * (llabs(run.dx) + llabs(run.dy));
+  run.cross_max = snapping->output_step * (llabs(run.dx) + llabs(run.dy));
   run.length = sqrt((double)(run.dx * run.dx + run.dy * run.dy));
   return run;
 }
@@ -76,8 +76,8 @@ static bool is_near_segment(const struct measured_segment *run,
   int64_t cross = run->dx * y - run->dy * x, dot = run->dx * x + run->dy * y;
   double at = (double)dot / run->length;
   *along = fmin(fmax(at, 0), run->length);
-  return llabs(cross) <= run->reach && dot >= -run->reach &&
-         at - run->length <= (double)run->reach / run->length;
+  return llabs(cross) <= run->cross_max && dot >= -run->cross_max &&
+         at - run->length <= (double)run->cross_max / run->length;
 }
 
 static void widen(struct overlap_cover *cover, double along, uint32_t node) {
@@ -104,11 +104,11 @@ static bool find_cover(const struct vertex_snapping *snapping,
       INFINITY, -INFINITY, {SEGMENT_GRAPH_NONE, SEGMENT_GRAPH_NONE}};
   if (of_a.length == 0 || of_b.length == 0)
     return false;
-  double along, place[2];
+  double along, at[2];
   for (int k = 0; k < 2; k++)
-    if (is_near_segment(&of_a, k ? of_b.to : of_b.from, &place[k]))
-      widen(cover, place[k],
-            place[k] > 0 && place[k] < of_a.length ? b[k] : SEGMENT_GRAPH_NONE);
+    if (is_near_segment(&of_a, k ? of_b.to : of_b.from, &at[k]))
+      widen(cover, at[k],
+            at[k] > 0 && at[k] < of_a.length ? b[k] : SEGMENT_GRAPH_NONE);
   if (is_near_segment(&of_b, of_a.from, &along))
     widen(cover, 0, SEGMENT_GRAPH_NONE);
   if (is_near_segment(&of_b, of_a.to, &along))
@@ -116,7 +116,7 @@ static bool find_cover(const struct vertex_snapping *snapping,
   /* An end is near even a little beyond the other's end; the overlap itself
    * does not begin there, or short sides of a curve would overlap the next. */
   double shorter = fmin(of_a.length, of_b.length);
-  double run = fmin(fabs(place[1] - place[0]), cover->to - cover->from);
+  double run = fmin(fabs(at[1] - at[0]), cover->to - cover->from);
   return run > fmin((double)snapping->output_step, shorter / 2);
 }
 
@@ -124,7 +124,7 @@ static bool find_cover(const struct vertex_snapping *snapping,
 
 static bool is_better(const struct segment_graph *graph, uint32_t a,
                       uint32_t b) {
-  uint64_t of_a = overlap_rank(graph, a), of_b = overlap_rank(graph, b);
+  uint64_t of_a = overlap_priority(graph, a), of_b = overlap_priority(graph, b);
   return of_a < of_b || (of_a == of_b && a < b);
 }
 
@@ -250,11 +250,11 @@ static bool keep_rest(struct output_overlaps *r, uint32_t segment) {
 
 /* The index of a segment among the members. */
 static uint32_t find_member(const struct output_overlaps *r, uint32_t segment) {
-  uint64_t rank = overlap_rank(r->snapping.graph, segment);
+  uint64_t key = overlap_priority(r->snapping.graph, segment);
   const struct sort_key *m = r->member.item;
   size_t i;
   LOWER_BOUND(i, 0, r->member.count,
-              m[i].key < rank || (m[i].key == rank && m[i].value < segment));
+              m[i].key < key || (m[i].key == key && m[i].value < segment));
   return (uint32_t)i;
 }
 
@@ -269,16 +269,16 @@ static bool subtract_kept(struct output_overlaps *r, uint32_t segment) {
   r->cover.count = 0;
   for (size_t i = find_pair(r, segment);
        i < r->pair.count && r->pair.item[i].key >> 32 == segment; i++) {
-    uint32_t place = find_member(r, (uint32_t)r->pair.item[i].key);
-    uint32_t end = r->start.item[place + 1];
-    for (uint32_t k = r->start.item[place]; k < end; k++)
+    uint32_t position = find_member(r, (uint32_t)r->pair.item[i].key);
+    uint32_t end = r->start.item[position + 1];
+    for (uint32_t k = r->start.item[position]; k < end; k++)
       if (!record_cover(r, segment, &r->piece.item[k]))
         return false;
   }
   return keep_rest(r, segment);
 }
 
-/* The segments that occur in pairs, by rank, then by number. */
+/* The segments that occur in pairs, by priority, then by number. */
 static bool list_members(struct output_overlaps *r) {
   const struct segment_graph *graph = r->snapping.graph;
   for (size_t i = 0; i < r->pair.count; i++) {
@@ -293,7 +293,7 @@ static bool list_members(struct output_overlaps *r) {
   for (size_t i = 0; i < r->member.count; i++) {
     uint32_t segment = (uint32_t)r->member.item[i].key;
     r->member.item[i] =
-        (struct sort_key){overlap_rank(graph, segment), segment};
+        (struct sort_key){overlap_priority(graph, segment), segment};
   }
   return sort_unique(r->member.item, &r->member.count);
 }

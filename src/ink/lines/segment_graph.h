@@ -143,7 +143,7 @@ segment_graph_drop_collinear(struct segment_graph *graph,
  * alternate. */
 #define SEGMENT_GRAPH_ROUNDS 3
 
-/* Of lines that round to the same output, keeps one, by the same rank, and
+/* Of lines that round to the same output, keeps one, by the same priority, and
  * contracts segments without length at that precision where many nodes are near
  * each other.  Afterwards a node may have no ends.  Leaves the ends indexed.
  * output_step  the output's finest step, in grid units; up to the tolerance of

@@ -66,8 +66,8 @@ static bool node_at(struct collector *c, const struct sheet_edge *edge,
   return add_graph_node(c->graph, at, node);
 }
 
-static bool is_same_place(const struct segment_graph *graph, uint32_t a,
-                          uint32_t b) {
+static bool have_equal_positions(const struct segment_graph *graph, uint32_t a,
+                                 uint32_t b) {
   return graph->node.item[a].x == graph->node.item[b].x &&
          graph->node.item[a].y == graph->node.item[b].y;
 }
@@ -80,7 +80,7 @@ static uint32_t pen_key_of(const struct collector *c, uint32_t edge,
     return 2 * pens_of_hidden(c->pens, c->options, e->edge_class, e->group) + 1;
   return 2 * (pens_of_line(c->pens, e->edge_class, e->group) *
                   RECTO_EDGE_CLASS_COUNT +
-              pens_weight_rank(c->pens, e->edge_class));
+              pens_weight_priority(c->pens, e->edge_class));
 }
 
 static bool collect_segment(struct collector *c, uint32_t edge, struct ratio t0,
@@ -91,7 +91,7 @@ static bool collect_segment(struct collector *c, uint32_t edge, struct ratio t0,
                             .style_key = e->group << 7 | e->edge_class};
   if (!node_at(c, e, t0, &s.node[0]) || !node_at(c, e, t1, &s.node[1]))
     return false;
-  if (is_same_place(c->graph, s.node[0], s.node[1])) {
+  if (have_equal_positions(c->graph, s.node[0], s.node[1])) {
     c->graph->dots++;
     return true;
   }
@@ -136,7 +136,7 @@ static bool add_hidden_intervals(struct collector *c, uint32_t edge,
 
 /* The intervals of an edge, if the row at *mixed is the edge's, which it then
  * advances past. */
-static struct intervals take_intervals(const struct map_mixed **mixed,
+static struct intervals next_intervals(const struct map_mixed **mixed,
                                        const struct map_mixed *end,
                                        const struct map_interval *interval,
                                        uint32_t edge) {
@@ -157,9 +157,9 @@ static bool add_all(struct collector *c, bool hidden) {
       ARRAY_AT(&map->over_limit, map->over_limit.count);
   for (uint32_t i = 0; i < map->edge_count; i++) {
     struct intervals visible =
-        take_intervals(&mixed, mixed_end, map->interval.item, i);
+        next_intervals(&mixed, mixed_end, map->interval.item, i);
     struct intervals too_deep =
-        take_intervals(&deep, deep_end, map->over_limit_interval.item, i);
+        next_intervals(&deep, deep_end, map->over_limit_interval.item, i);
     uint8_t state = map->edge_state[i];
     bool ok = true;
     if (!poll_at(i))

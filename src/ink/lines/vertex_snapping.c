@@ -188,7 +188,7 @@ static size_t list_possible_duplicates(struct vertex_snapping *snapping,
   return count;
 }
 
-/* Sorts the list by the two clusters, and each group of equal keys by rank,
+/* Sorts the list by the two clusters, and each group of equal keys by priority,
  * and removes the duplicates of each group. */
 static void drop_all_duplicates(struct vertex_snapping *snapping,
                                 struct sort_key *pair, struct sort_key *scratch,
@@ -200,7 +200,7 @@ static void drop_all_duplicates(struct vertex_snapping *snapping,
     if (end == i + 1)
       continue;
     for (size_t k = i; k < end; k++)
-      pair[k].key = overlap_rank(snapping->graph, pair[k].value);
+      pair[k].key = overlap_priority(snapping->graph, pair[k].value);
     sort_keys(pair + i, scratch + i, end - i);
     drop_duplicate_segments(snapping, pair + i, end - i, kept);
   }

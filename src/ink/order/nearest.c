@@ -124,9 +124,9 @@ bool nearest_init(struct nearest *t, const struct drawing_point *point,
   while ((uint64_t)LEAF_MAX << t->levels < count)
     t->levels++;
   t->item = mem_alloc(count, sizeof *t->item);
-  t->place = mem_alloc(count, sizeof *t->place);
+  t->position = mem_alloc(count, sizeof *t->position);
   t->box = mem_alloc((size_t)2 << t->levels, sizeof *t->box);
-  if (t->item == NULL || t->place == NULL || t->box == NULL)
+  if (t->item == NULL || t->position == NULL || t->box == NULL)
     return false;
   for (uint32_t i = 0; i < count; i++) {
     (void)poll_at(i);
@@ -135,24 +135,24 @@ bool nearest_init(struct nearest *t, const struct drawing_point *point,
   build(t);
   for (uint32_t i = 0; i < count; i++) {
     (void)poll_at(i);
-    t->place[t->item[i].point] = i;
+    t->position[t->item[i].point] = i;
   }
   return true;
 }
 
 void nearest_fini(struct nearest *t) {
   mem_free(t->item);
-  mem_free(t->place);
+  mem_free(t->position);
   mem_free(t->box);
   *t = (struct nearest){0};
 }
 
 void nearest_remove(struct nearest *t, uint32_t point) {
-  uint64_t place = t->place[point];
-  t->item[place].deleted = true;
-  /* The leaf of the place is the last j that starts there or before, that is
-   * with n j / 2^l < place + 1. */
-  uint32_t leaf = (uint32_t)((((place + 1) << t->levels) - 1) / t->count);
+  uint64_t position = t->position[point];
+  t->item[position].deleted = true;
+  /* The leaf of a position is the last j that starts there or before, that is
+   * with n j / 2^l < position + 1. */
+  uint32_t leaf = (uint32_t)((((position + 1) << t->levels) - 1) / t->count);
   uint32_t i = (UINT32_C(1) << t->levels) + leaf;
   t->box[i] = bound(t, first_of_box(t, t->levels, leaf),
                     first_of_box(t, t->levels, leaf + 1));

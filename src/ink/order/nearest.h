@@ -10,7 +10,7 @@ struct nearest {
   uint32_t count;
   int levels;                /* below the root; 2^levels leaves */
   struct nearest_item *item; /* the points, grouped by leaf */
-  uint32_t *place;           /* of each point: its index in `item` */
+  uint32_t *position;        /* of each point: its index in `item` */
   struct nearest_box *box;   /* in heap order: 1 is the root, 2 i and
                                 2 i + 1 are the children of i */
 };

@@ -31,10 +31,10 @@ enum { NEIGHBOURS = 8, RUN_MAX = 3 };
 struct cyclic_tour {
   const struct drawing_point *end;
   struct drawing_point start;
-  uint32_t count;  /* of stops; the last index is the depot */
-  uint32_t *stop;  /* in order */
-  uint32_t *place; /* of each stop: its index in `stop` */
-  bool *reversed;  /* of each stop: drawn from its second end */
+  uint32_t count;     /* of stops; the last index is the depot */
+  uint32_t *stop;     /* in order */
+  uint32_t *position; /* of each stop: its index in `stop` */
+  bool *reversed;     /* of each stop: drawn from its second end */
   /* Of each end NEIGHBOURS ends, nearest first, padded with NEAREST_NONE. */
   uint32_t *neighbour;
   uint32_t *queue; /* circular, of stops for which moves are to be tried */
@@ -60,14 +60,14 @@ double tour_travel(const struct tour *tour) {
 
 /* The next stop in the current direction of traversal. */
 static uint32_t after(const struct cyclic_tour *r, uint32_t stop) {
-  uint32_t p = r->place[stop];
+  uint32_t p = r->position[stop];
   if (r->back)
     return r->stop[p > 0 ? p - 1 : r->count - 1];
   return r->stop[p + 1 < r->count ? p + 1 : 0];
 }
 
 static uint32_t before(const struct cyclic_tour *r, uint32_t stop) {
-  uint32_t p = r->place[stop];
+  uint32_t p = r->position[stop];
   if (r->back)
     return r->stop[p + 1 < r->count ? p + 1 : 0];
   return r->stop[p > 0 ? p - 1 : r->count - 1];
@@ -95,21 +95,22 @@ static double gap(const struct cyclic_tour *r, uint32_t a, uint32_t b) {
 /* The number of stops from a to b, both included, forwards. */
 static uint32_t count_stops(const struct cyclic_tour *r, uint32_t a,
                             uint32_t b) {
-  uint32_t p = r->place[a], q = r->place[b];
+  uint32_t p = r->position[a], q = r->position[b];
   return q >= p ? q - p + 1 : q + r->count - p + 1;
 }
 
 /* Reverses the run of `count` stops at the places p, p + 1, ..., cyclically. */
-static void reverse_places(struct cyclic_tour *r, uint32_t p, uint32_t count) {
+static void reverse_positions(struct cyclic_tour *r, uint32_t p,
+                              uint32_t count) {
   uint32_t q = (uint32_t)(((uint64_t)p + count - 1) % r->count);
   for (uint32_t i = 0; i < (count + 1) / 2; i++) {
     uint32_t a = r->stop[p], b = r->stop[q];
     r->stop[p] = b;
-    r->place[b] = p;
+    r->position[b] = p;
     r->reversed[b] = !r->reversed[b];
     if (a != b) {
       r->stop[q] = a;
-      r->place[a] = q;
+      r->position[a] = q;
       r->reversed[a] = !r->reversed[a];
     }
     p = p + 1 < r->count ? p + 1 : 0;
@@ -128,9 +129,9 @@ static void reverse_run(struct cyclic_tour *r, uint32_t a, uint32_t b) {
   }
   uint32_t count = count_stops(r, a, b);
   if (count <= r->count - count)
-    reverse_places(r, r->place[a], count);
+    reverse_positions(r, r->position[a], count);
   else
-    reverse_places(r, (r->place[b] + 1) % r->count, r->count - count);
+    reverse_positions(r, (r->position[b] + 1) % r->count, r->count - count);
 }
 
 /* The number of stops that reverse_run would move. */
@@ -140,20 +141,20 @@ static uint32_t reverse_cost(const struct cyclic_tour *r, uint32_t a,
   return count <= r->count - count ? count : r->count - count;
 }
 
-static uint32_t wrap_position(const struct cyclic_tour *r, uint32_t place) {
-  return place < r->count ? place : place - r->count;
+static uint32_t wrap_position(const struct cyclic_tour *r, uint32_t position) {
+  return position < r->count ? position : position - r->count;
 }
 
-static void set_stop(struct cyclic_tour *r, uint32_t stop, uint32_t place) {
-  r->stop[place] = stop;
-  r->place[stop] = place;
+static void set_stop(struct cyclic_tour *r, uint32_t stop, uint32_t position) {
+  r->stop[position] = stop;
+  r->position[stop] = position;
 }
 
 /* The number of stops, forwards, between the run of `count` stops that begins
- * at place p and the gap after stop g. */
+ * at position p and the gap after stop g. */
 static uint32_t count_ahead(const struct cyclic_tour *r, uint32_t p,
                             uint32_t count, uint32_t g) {
-  uint32_t from = wrap_position(r, p + count), to = r->place[g];
+  uint32_t from = wrap_position(r, p + count), to = r->position[g];
   return (to >= from ? to - from : to + r->count - from) + 1;
 }
 
@@ -162,7 +163,7 @@ static uint32_t count_ahead(const struct cyclic_tour *r, uint32_t p,
  * are shifted, on whichever way round the cycle there are fewer. */
 static void move_run(struct cyclic_tour *r, uint32_t first, uint32_t count,
                      uint32_t g, bool reverse) {
-  uint32_t run[RUN_MAX], p = r->place[first], to = p;
+  uint32_t run[RUN_MAX], p = r->position[first], to = p;
   for (uint32_t i = 0; i < count; i++)
     run[i] = r->stop[wrap_position(r, p + i)];
   uint32_t ahead = count_ahead(r, p, count, g);
@@ -350,12 +351,12 @@ bool tour_improve(struct tour *tour, const struct tour_effort *effort) {
                           .neighbours_left = effort->neighbours_examined_max,
                           .moves = effort->moves};
   r.stop = mem_alloc(count, sizeof *r.stop);
-  r.place = mem_alloc(count, sizeof *r.place);
+  r.position = mem_alloc(count, sizeof *r.position);
   r.reversed = mem_alloc(count, sizeof *r.reversed);
   r.neighbour = mem_alloc(count, 2 * NEIGHBOURS * sizeof *r.neighbour);
   r.queue = mem_alloc(count, sizeof *r.queue);
   r.queued = mem_calloc(count, sizeof *r.queued);
-  bool ok = r.stop != NULL && r.place != NULL && r.reversed != NULL &&
+  bool ok = r.stop != NULL && r.position != NULL && r.reversed != NULL &&
             r.neighbour != NULL && r.queue != NULL && r.queued != NULL;
   if (ok) {
     close_tour(&r, tour);
@@ -366,7 +367,7 @@ bool tour_improve(struct tour *tour, const struct tour_effort *effort) {
     open_tour(&r, tour);
   }
   mem_free(r.stop);
-  mem_free(r.place);
+  mem_free(r.position);
   mem_free(r.reversed);
   mem_free(r.neighbour);
   mem_free(r.queue);
