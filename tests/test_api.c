@@ -766,17 +766,17 @@ static void an_empty_page_says_why(void **state) {
   assert_warns(scene, options, "");
   options.ink.edges = RECTO_EDGES_NONE;
   assert_warns(scene, options,
-               "the drawing is empty: neither lines nor fills are asked for");
+               "the drawing is empty: neither lines nor fills are requested");
   options.ink.edges = RECTO_EDGE_INTERSECTION;
   assert_warns(scene, options,
-               "the drawing is empty: nothing that was asked for is visible "
+               "the drawing is empty: nothing that was requested is visible "
                "and long enough");
   options.ink.edges = RECTO_EDGES_DEFAULT;
   options.camera.fit = RECTO_FIT_SCALE;
   for (options.camera.scale = 0.01; options.camera.scale > 1e-300;
        options.camera.scale *= 1e-99)
     assert_warns(scene, options,
-                 "the drawing is empty: nothing that was asked for is visible "
+                 "the drawing is empty: nothing that was requested is visible "
                  "and long enough");
   options.camera.scale = 100;
   options.camera.has_target = true;

@@ -253,11 +253,11 @@ static void weights_of_classes_not_drawn_are_reported(void **state) {
       {{CREASE},
        1,
        SILHOUETTE,
-       "a weight is for crease lines, which are not asked for"},
+       "a weight is for crease lines, which are not requested"},
       {{CREASE, SILHOUETTE},
        2,
        SILHOUETTE,
-       "a weight is for crease lines, which are not asked for"},
+       "a weight is for crease lines, which are not requested"},
       {{CREASE}, 1, CREASE, NULL},
       {{CREASE}, 0, SILHOUETTE, NULL},
   };

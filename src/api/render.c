@@ -316,9 +316,9 @@ static void warn_of_empty_page(const struct render *render) {
   if (drawing->stroke.count > 0 || drawing->fill.count > 0 ||
       o->warning == NULL)
     return;
-  const char *why = "nothing that was asked for is visible and long enough";
+  const char *why = "nothing that was requested is visible and long enough";
   if (o->ink.edges == RECTO_EDGES_NONE && o->ink.fill == RECTO_FILL_NONE)
-    why = "neither lines nor fills are asked for";
+    why = "neither lines nor fills are requested";
   else if (is_outside_page(render))
     why = "all of the scene is outside of the page's margins";
   char text[128];

@@ -65,19 +65,19 @@ void pens_warn_unused(const struct pens *pens, const recto_options *options) {
   if (!options->warning)
     return;
   if (pens->of_hidden != PENS_NONE && options->ink.hidden == RECTO_HIDDEN_NONE)
-    warn_of_pen(options, "pen %u is for hidden lines, which are not asked for",
+    warn_of_pen(options, "pen %u is for hidden lines, which are not requested",
                 pens->of_hidden + 1);
   if (pens->of_hatch != PENS_NONE && options->ink.fill != RECTO_FILL_HATCH)
-    warn_of_pen(options, "pen %u is for hatching, which is not asked for",
+    warn_of_pen(options, "pen %u is for hatching, which is not requested",
                 pens->of_hatch + 1);
   for (unsigned i = 0; i < RECTO_EDGE_CLASS_COUNT; i++)
     if (pens->of_class[i] != PENS_NONE && !pens_is_drawn(options, i))
-      warn_of_pen(options, "pen %u is for %s lines, which are not asked for",
+      warn_of_pen(options, "pen %u is for %s lines, which are not requested",
                   pens->of_class[i] + 1,
                   recto_edge_class_name((recto_edge_class)(1u << i)));
   for (size_t i = 0; i < options->ink.weight_count; i++)
     if ((options->ink.edges & options->ink.weight[i].edge_class) == 0)
-      warn_of_pen(options, "a weight is for %s lines, which are not asked for",
+      warn_of_pen(options, "a weight is for %s lines, which are not requested",
                   recto_edge_class_name(options->ink.weight[i].edge_class));
   warn_unused_looks(pens, options);
 }

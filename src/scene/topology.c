@@ -1,15 +1,14 @@
 /* topology.c - finds the edges of a scene and the faces that meet there.
  *
  * Phases
- *   number   the sides are walked in file order.  A side looks for its edge
- *            among those of its lower point; one that finds none makes it.
+ *   number   the sides are visited in file order.  Each is looked up among the
+ *            edges of its lower point, and added where it is not there.
  * Where a point has too many for that, all is done in another way:
  *   count    the sides of all faces are counted at the lower of their points.
  *   name     where a point has many sides (a fan of a hundred thousand
  *            triangles), these are distinguished by a table by upper point:
  *            each is named by the first side in the file between its points.
- *   number   the sides are walked again, and look for their edges by their
- *            names too.
+ *   number   the sides are visited again, and looked up by their names too.
  *   weld     where points of border edges coincide (weld_equal.h), all is done
  *            again with those points made one.
  * Invariants  Edges stand in the order in which the file first uses them.
@@ -29,50 +28,50 @@ enum { FEW_SIDES = 24, MANY_EDGES = 48 };
 
 /* ---- The sides of all faces, in file order ------------------------------- */
 
-struct topology_walk {
+struct side_iterator {
   const struct scene *scene;
   const uint32_t *weld;       /* NULL: points as they are */
   uint32_t face, corner, end; /* the side leaves `corner` of `face` */
   uint32_t from, to;          /* welded points */
 };
 
-static struct topology_walk walk_sides(const struct scene *scene,
-                                       const uint32_t *weld) {
-  return (struct topology_walk){
+static struct side_iterator iterate_sides(const struct scene *scene,
+                                          const uint32_t *weld) {
+  return (struct side_iterator){
       .scene = scene, .weld = weld, .face = SCENE_NONE};
 }
 
-static inline uint32_t welded_corner(const struct topology_walk *walk,
+static inline uint32_t welded_corner(const struct side_iterator *it,
                                      uint32_t corner) {
-  uint32_t point = walk->scene->corner.item[corner];
-  return walk->weld != NULL ? walk->weld[point] : point;
+  uint32_t point = it->scene->corner.item[corner];
+  return it->weld != NULL ? it->weld[point] : point;
 }
 
-static inline bool next_side_of_point(struct topology_walk *walk) {
-  if (walk->corner + 1 >= walk->end) {
-    uint32_t face = walk->face + 1; /* SCENE_NONE + 1 is 0 */
-    if (face == scene_face_count(walk->scene))
+static inline bool next_side_in_file(struct side_iterator *it) {
+  if (it->corner + 1 >= it->end) {
+    uint32_t face = it->face + 1; /* SCENE_NONE + 1 is 0 */
+    if (face == scene_face_count(it->scene))
       return false;
-    walk->face = face;
-    walk->corner = walk->scene->face_start.item[face];
-    walk->end = walk->scene->face_start.item[face + 1];
-    walk->from = welded_corner(walk, walk->corner);
+    it->face = face;
+    it->corner = it->scene->face_start.item[face];
+    it->end = it->scene->face_start.item[face + 1];
+    it->from = welded_corner(it, it->corner);
   } else {
-    walk->corner++;
-    walk->from = walk->to;
+    it->corner++;
+    it->from = it->to;
   }
-  uint32_t next = walk->corner + 1 < walk->end
-                      ? walk->corner + 1
-                      : walk->scene->face_start.item[walk->face];
-  walk->to = welded_corner(walk, next);
+  uint32_t next = it->corner + 1 < it->end
+                      ? it->corner + 1
+                      : it->scene->face_start.item[it->face];
+  it->to = welded_corner(it, next);
   return true;
 }
 
-static inline uint32_t lower_end(const struct topology_walk *walk) {
-  return walk->from < walk->to ? walk->from : walk->to;
+static inline uint32_t lower_end(const struct side_iterator *it) {
+  return it->from < it->to ? it->from : it->to;
 }
-static inline uint32_t upper(const struct topology_walk *walk) {
-  return walk->from < walk->to ? walk->to : walk->from;
+static inline uint32_t upper_end(const struct side_iterator *it) {
+  return it->from < it->to ? it->to : it->from;
 }
 
 /* ---- Hubs ---------------------------------------------------------------- */
@@ -83,25 +82,25 @@ struct topology_side {
   uint32_t corner; /* where it starts */
 };
 
-/* Deals the sides of hubs to their hubs, in file order.
+/* Distributes the sides of hubs to their hubs, in file order.
  * end  one a point: the sides it has; then where its own end */
-static void deal_sides(const struct scene *scene, const uint32_t *weld,
-                       const uint32_t *count, uint32_t *end,
-                       struct topology_side *side) {
+static void distribute_sides(const struct scene *scene, const uint32_t *weld,
+                             const uint32_t *count, uint32_t *end,
+                             struct topology_side *side) {
   uint32_t sum = 0;
   for (size_t p = 0; p < scene->point.count; p++) {
     end[p] = sum;
     sum += count[p] > FEW_SIDES ? count[p] : 0;
   }
-  for (struct topology_walk walk = walk_sides(scene, weld);
-       next_side_of_point(&walk);)
-    if (count[lower_end(&walk)] > FEW_SIDES)
-      side[end[lower_end(&walk)]++] =
-          (struct topology_side){upper(&walk), walk.corner};
+  for (struct side_iterator it = iterate_sides(scene, weld);
+       next_side_in_file(&it);)
+    if (count[lower_end(&it)] > FEW_SIDES)
+      side[end[lower_end(&it)]++] =
+          (struct topology_side){upper_end(&it), it.corner};
 }
 
-/* Names the sides of one hub: named[corner] is the first corner whose side has
- * the same two points.
+/* Identifies the sides of one hub: named[corner] is the first corner whose side
+ * has the same two points.
  * first  by upper point; SCENE_NONE before and after */
 static void name_sides(const struct topology_side *side, uint32_t count,
                        uint32_t *first, uint32_t *named) {
@@ -114,8 +113,9 @@ static void name_sides(const struct topology_side *side, uint32_t count,
     first[side[i].upper] = SCENE_NONE;
 }
 
-static bool name_hubs(const struct scene *scene, const uint32_t *weld,
-                      const uint32_t *count, size_t sides, uint32_t *named) {
+static bool name_sides_of_hubs(const struct scene *scene, const uint32_t *weld,
+                               const uint32_t *count, size_t sides,
+                               uint32_t *named) {
   size_t points = scene->point.count;
   uint32_t *end = mem_alloc(points, sizeof *end);
   uint32_t *first = mem_alloc(points, sizeof *first);
@@ -123,7 +123,7 @@ static bool name_hubs(const struct scene *scene, const uint32_t *weld,
   bool ok = end != NULL && first != NULL && side != NULL;
   if (ok) {
     memset(first, 0xff, points * sizeof *first);
-    deal_sides(scene, weld, count, end, side);
+    distribute_sides(scene, weld, count, end, side);
     for (size_t p = 0; p < points; p++)
       if (count[p] > FEW_SIDES)
         name_sides(side + end[p] - count[p], count[p], first, named);
@@ -139,7 +139,7 @@ static bool name_hubs(const struct scene *scene, const uint32_t *weld,
 /* Faces have numbers within these. */
 enum { FACE_BITS = (1 << 30) - 1 };
 
-/* The edges of a point that is no hub hang on it as a list. */
+/* The edges of a point that is no hub are in a list. */
 struct lists {
   uint32_t *head; /* one a point: an edge, SCENE_NONE, or HUB */
   uint32_t *next; /* one an edge */
@@ -149,18 +149,18 @@ struct lists {
 #define HUB (SCENE_NONE - 1)
 
 static bool is_new(const struct topology *topology,
-                   const struct topology_walk *walk, struct lists *lists,
+                   const struct side_iterator *it, struct lists *lists,
                    uint32_t *found) {
-  uint32_t e = lists->head[lower_end(walk)];
+  uint32_t e = lists->head[lower_end(it)];
   if (e == HUB) {
     /* A name is a corner no later than the side's own: if it is not its own,
      * it holds its edge's number by now. */
-    uint32_t name = topology->corner_edge[walk->corner];
-    *found = name == walk->corner ? SCENE_NONE : topology->corner_edge[name];
-    return name == walk->corner;
+    uint32_t name = topology->corner_edge[it->corner];
+    *found = name == it->corner ? SCENE_NONE : topology->corner_edge[name];
+    return name == it->corner;
   }
   int passed = 0;
-  while (e != SCENE_NONE && topology->edge.item[e].point[1] != upper(walk)) {
+  while (e != SCENE_NONE && topology->edge.item[e].point[1] != upper_end(it)) {
     e = lists->next[e];
     passed++;
   }
@@ -171,15 +171,15 @@ static bool is_new(const struct topology *topology,
 }
 
 static bool add_topology_edge(struct topology *topology,
-                              const struct topology_walk *walk,
+                              const struct side_iterator *it,
                               struct lists *lists) {
   struct topology_edge edge = {
-      .point = {lower_end(walk), upper(walk)},
-      .first = walk->face & FACE_BITS,
+      .point = {lower_end(it), upper_end(it)},
+      .first = it->face & FACE_BITS,
       .uses = 1,
       .second = TOPOLOGY_NONE,
-      .same_way = walk->from < walk->to, /* the first face's way, until */
-  };                                     /* a second one comes */
+      .same_way = it->from < it->to, /* the first face's way, until */
+  };                                 /* a second one comes */
   uint32_t e = (uint32_t)topology->edge.count;
   if (!ARRAY_PUSH(&topology->edge, edge))
     return false;
@@ -188,15 +188,15 @@ static bool add_topology_edge(struct topology *topology,
     lists->next[e] = *head;
     *head = e;
   }
-  topology->corner_edge[walk->corner] = e;
+  topology->corner_edge[it->corner] = e;
   return true;
 }
 
 static void use_edge(struct topology_edge *edge,
-                     const struct topology_walk *walk) {
+                     const struct side_iterator *it) {
   if (edge->uses == 1) {
-    edge->second = walk->face & FACE_BITS;
-    edge->same_way = edge->same_way == (walk->from < walk->to);
+    edge->second = it->face & FACE_BITS;
+    edge->same_way = edge->same_way == (it->from < it->to);
   }
   if (edge->uses < 3)
     edge->uses++;
@@ -204,17 +204,17 @@ static void use_edge(struct topology_edge *edge,
 
 static bool number_edges(struct topology *topology, const struct scene *scene,
                          struct lists *lists) {
-  for (struct topology_walk walk = walk_sides(scene, topology->weld);
-       !lists->overfull && next_side_of_point(&walk);) {
+  for (struct side_iterator it = iterate_sides(scene, topology->weld);
+       !lists->overfull && next_side_in_file(&it);) {
     uint32_t e;
-    if (!poll_at(walk.corner))
+    if (!poll_at(it.corner))
       return false;
-    if (is_new(topology, &walk, lists, &e)) {
-      if (!add_topology_edge(topology, &walk, lists))
+    if (is_new(topology, &it, lists, &e)) {
+      if (!add_topology_edge(topology, &it, lists))
         return false;
     } else {
-      topology->corner_edge[walk.corner] = e;
-      use_edge(&topology->edge.item[e], &walk);
+      topology->corner_edge[it.corner] = e;
+      use_edge(&topology->edge.item[e], &it);
     }
   }
   return true;
@@ -224,22 +224,22 @@ static bool number_edges(struct topology *topology, const struct scene *scene,
 static size_t count_sides(const struct scene *scene, const uint32_t *weld,
                           uint32_t *count) {
   size_t at_hubs = 0;
-  for (struct topology_walk walk = walk_sides(scene, weld);
-       next_side_of_point(&walk);)
-    count[lower_end(&walk)]++;
+  for (struct side_iterator it = iterate_sides(scene, weld);
+       next_side_in_file(&it);)
+    count[lower_end(&it)]++;
   for (size_t p = 0; p < scene->point.count; p++)
     at_hubs += count[p] > FEW_SIDES ? count[p] : 0;
   return at_hubs;
 }
 
-/* Tells hubs from other points, and names their sides. */
-static bool mark_hubs(struct topology *topology, const struct scene *scene,
+/* Distinguishes hubs from other points, and identifies their sides. */
+static bool find_hubs(struct topology *topology, const struct scene *scene,
                       struct lists *lists) {
   size_t points = scene->point.count;
   memset(lists->head, 0, points * sizeof *lists->head);
   size_t at_hubs = count_sides(scene, topology->weld, lists->head);
-  if (at_hubs > 0 && !name_hubs(scene, topology->weld, lists->head, at_hubs,
-                                topology->corner_edge))
+  if (at_hubs > 0 && !name_sides_of_hubs(scene, topology->weld, lists->head,
+                                         at_hubs, topology->corner_edge))
     return false;
   for (size_t p = 0; p < points; p++)
     lists->head[p] = lists->head[p] > FEW_SIDES ? HUB : SCENE_NONE;
@@ -264,7 +264,7 @@ static bool build_edges(struct topology *topology, const struct scene *scene) {
   if (ok && lists.overfull) {
     lists.overfull = false;
     topology->edge.count = 0;
-    ok = mark_hubs(topology, scene, &lists) &&
+    ok = find_hubs(topology, scene, &lists) &&
          number_edges(topology, scene, &lists);
   }
 end:
