@@ -92,11 +92,11 @@ recto_status recto_scene_check_sized(const recto_scene *scene, const char *path,
   struct judge_verdict found;
   recto_options checked;
   struct poll poll;
-  if (!sized_give(verdict, size, &own, sizeof own))
+  if (!sized_copy_out(verdict, size, &own, sizeof own))
     return error_null(error, "the verdict");
   if (scene == NULL || path == NULL)
     return error_null(error, scene == NULL ? "the scene" : "the path");
-  recto_status status = options_take(&checked, options, error);
+  recto_status status = options_copy_valid(&checked, options, error);
   if (status != RECTO_OK)
     return status;
   poll_open(&poll, &checked);
@@ -117,7 +117,7 @@ recto_status recto_scene_check_sized(const recto_scene *scene, const char *path,
   }
   if (status == RECTO_OK) {
     fill_verdict(&own, &found);
-    (void)sized_give(verdict, size, &own, sizeof own);
+    (void)sized_copy_out(verdict, size, &own, sizeof own);
   }
   judge_drawing_fini(&drawing);
   poll_close(&poll);

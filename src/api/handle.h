@@ -82,9 +82,9 @@ USE_RESULT recto_status options_copy(recto_options *own,
 
 /* The same, and checks that each of them is finite and in range, and adapts
  * them to their output. */
-USE_RESULT recto_status options_take(recto_options *own,
-                                     const recto_options *options,
-                                     recto_error *error);
+USE_RESULT recto_status options_copy_valid(recto_options *own,
+                                           const recto_options *options,
+                                           recto_error *error);
 
 /* Adapts options to their output's format, if any: sets the unit, and where the
  * format is for plotters replaces defaults: the margin by the one that the

@@ -98,7 +98,7 @@ static recto_status use_face_group(struct scene *scene, const recto_mesh *mesh,
 
 /* Copies the corners of face number `face`.
  * first  the scene's index of the mesh's first point */
-static recto_status take_corners(const recto_mesh *mesh, size_t face,
+static recto_status copy_corners(const recto_mesh *mesh, size_t face,
                                  size_t first, struct mesh_face *to,
                                  recto_error *error) {
   size_t start = face_start(mesh, face), end = face_start(mesh, face + 1);
@@ -124,7 +124,7 @@ static recto_status add_faces(struct scene *scene, const recto_mesh *mesh,
   recto_status status = RECTO_OK;
   struct mesh_face face = {0};
   for (size_t f = 0; f < mesh->face_count && status == RECTO_OK; f++) {
-    status = take_corners(mesh, f, first, &face, error);
+    status = copy_corners(mesh, f, first, &face, error);
     if (status == RECTO_OK && mesh->face_groups != NULL)
       status = use_face_group(scene, mesh, f, error);
     if (status == RECTO_OK)
@@ -145,7 +145,7 @@ recto_status recto_scene_add_mesh_sized(recto_scene *scene,
   if (size < offsetof(recto_mesh, face_offsets))
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
                      "a mesh of %zu bytes is none of recto_mesh", size);
-  recto_status status = sized_take(&own, sizeof own, mesh, size, error);
+  recto_status status = sized_copy_in(&own, sizeof own, mesh, size, error);
   if (status == RECTO_OK)
     status = complete_mesh(&own, error);
   if (status != RECTO_OK)

@@ -34,7 +34,7 @@ static const recto_options defaults = {
 
 void recto_options_init_sized(recto_options *options, size_t size) {
   if (size >= sizeof options->size &&
-      sized_give(options, size, &defaults, sizeof defaults))
+      sized_copy_out(options, size, &defaults, sizeof defaults))
     options->size = size;
 }
 
@@ -211,7 +211,7 @@ recto_status options_copy(recto_options *own, const recto_options *options,
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
                      "the options were not initialised by recto_options_init");
   recto_status status =
-      sized_take(own, sizeof *own, options, options->size, error);
+      sized_copy_in(own, sizeof *own, options, options->size, error);
   own->size = sizeof *own;
   if (status == RECTO_OK && !(IS_UNUSED(own->solver) && IS_UNUSED(own->mesh) &&
                               IS_UNUSED(own->camera) && IS_UNUSED(own->page) &&
@@ -220,8 +220,9 @@ recto_status options_copy(recto_options *own, const recto_options *options,
   return status;
 }
 
-recto_status options_take(recto_options *own, const recto_options *options,
-                          recto_error *error) {
+recto_status options_copy_valid(recto_options *own,
+                                const recto_options *options,
+                                recto_error *error) {
   recto_status status = options_copy(own, options, error);
   if (status == RECTO_OK)
     status = check_options(own, error);

@@ -162,7 +162,7 @@ recto_status recto_drawing_write_with_stats(
   struct outputs outputs = {NULL, NULL};
   if (drawing == NULL || path == NULL)
     return error_null(error, drawing == NULL ? "the drawing" : "the path");
-  recto_status status = options_take(&own, options, error);
+  recto_status status = options_copy_valid(&own, options, error);
   if (status != RECTO_OK)
     return status;
   const struct writer *writer = find_writer(path, format);
@@ -215,7 +215,7 @@ recto_status recto_drawing_write_to(const recto_drawing *drawing,
     return error_null(error, drawing == NULL  ? "the drawing"
                              : format == NULL ? "the format"
                                               : "the write function");
-  recto_status status = options_take(&own, options, error);
+  recto_status status = options_copy_valid(&own, options, error);
   if (status != RECTO_OK)
     return status;
   const struct writer *writer = find_writer(NULL, format);

@@ -393,8 +393,7 @@ static recto_status check_pens(const struct render *render,
   return status;
 }
 
-static recto_status render_stages_and_report(struct render *render,
-                                             recto_error *error) {
+static recto_status run_and_report(struct render *render, recto_error *error) {
   recto_status status = check_method(render->options, error);
   if (status == RECTO_OK)
     status = check_pens(render, error);
@@ -452,7 +451,7 @@ recto_status recto_scene_render(const recto_scene *scene,
   *drawing = NULL;
   if (scene == NULL)
     return error_null(error, "the scene");
-  recto_status status = options_take(&own, options, error);
+  recto_status status = options_copy_valid(&own, options, error);
   if (status != RECTO_OK)
     return status;
   recto_drawing *made = mem_calloc(1, sizeof *made);
@@ -468,7 +467,7 @@ recto_status recto_scene_render(const recto_scene *scene,
                           .verdict = made->verdict};
   struct poll poll;
   poll_open(&poll, &own);
-  status = render_stages_and_report(&render, error);
+  status = run_and_report(&render, error);
   poll_close(&poll);
   if (status == RECTO_OK && !keep_files(made, &scene->scene))
     status = error_memory(error);

@@ -56,7 +56,7 @@ bool recto_drawing_layer_sized(const recto_drawing *drawing, size_t index,
                         .colour = from->colour,
                         .width_mm = from->width_mm};
   }
-  return sized_give(layer, size, &own, sizeof own) && is_there;
+  return sized_copy_out(layer, size, &own, sizeof own) && is_there;
 }
 
 size_t recto_drawing_group_count(const recto_drawing *drawing) {
@@ -98,7 +98,7 @@ bool recto_drawing_stroke_sized(const recto_drawing *drawing, size_t index,
         .group = from->group,
     };
   }
-  return sized_give(stroke, size, &own, sizeof own) && is_there;
+  return sized_copy_out(stroke, size, &own, sizeof own) && is_there;
 }
 
 /* ---- The projection ------------------------------------------------------ */

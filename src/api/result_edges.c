@@ -246,5 +246,5 @@ bool recto_drawing_edge_sized(const recto_drawing *drawing, size_t index,
                      .intervals = ARRAY_AT(&drawing->interval, from->interval),
                      .interval_count = from->count};
   }
-  return sized_give(edge, size, &own, sizeof own) && is_there;
+  return sized_copy_out(edge, size, &own, sizeof own) && is_there;
 }

@@ -136,7 +136,7 @@ bool recto_drawing_fragment_sized(const recto_drawing *drawing, size_t index,
   bool is_there = index < recto_drawing_fragment_count(drawing);
   if (is_there)
     own = drawing->fragment.item[index];
-  return sized_give(fragment, size, &own, sizeof own) && is_there;
+  return sized_copy_out(fragment, size, &own, sizeof own) && is_there;
 }
 
 const recto_loop *recto_drawing_loops(const recto_drawing *drawing,

@@ -42,7 +42,7 @@ recto_status recto_scene_prepare(recto_scene *scene,
   recto_options own;
   if (scene == NULL)
     return error_null(error, "the scene");
-  recto_status status = options_take(&own, options, error);
+  recto_status status = options_copy_valid(&own, options, error);
   if (status != RECTO_OK)
     return status;
   scene_forget_preparation(scene);

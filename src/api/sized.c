@@ -10,8 +10,8 @@ recto_status sized_reject(recto_error *error) {
                    "uses a field that this one does not have");
 }
 
-recto_status sized_take(void *to, size_t to_size, const void *from,
-                        size_t from_size, recto_error *error) {
+recto_status sized_copy_in(void *to, size_t to_size, const void *from,
+                           size_t from_size, recto_error *error) {
   const unsigned char *byte = from;
   for (size_t i = to_size; i < from_size; i++)
     if (byte[i] != 0)
@@ -20,7 +20,8 @@ recto_status sized_take(void *to, size_t to_size, const void *from,
   return RECTO_OK;
 }
 
-bool sized_give(void *to, size_t to_size, const void *from, size_t from_size) {
+bool sized_copy_out(void *to, size_t to_size, const void *from,
+                    size_t from_size) {
   if (to == NULL || to_size == 0)
     return false;
   size_t both = from_size < to_size ? from_size : to_size;

@@ -12,14 +12,16 @@
  * that an older caller does not know keep the values that they have in `to`.
  * Errors  RECTO_ERROR_UNSUPPORTED: a newer caller has set a field that this
  *         library does not know (it is not zero) */
-USE_RESULT recto_status sized_take(void *to, size_t to_size, const void *from,
-                                   size_t from_size, recto_error *error);
+USE_RESULT recto_status sized_copy_in(void *to, size_t to_size,
+                                      const void *from, size_t from_size,
+                                      recto_error *error);
 
 /* Sets the error of a newer caller. */
 recto_status sized_reject(recto_error *error);
 
 /* Copies the library's struct to the caller's, of which the rest becomes zero.
  * Returns false where there is none: `to` is NULL, or its size is 0. */
-bool sized_give(void *to, size_t to_size, const void *from, size_t from_size);
+bool sized_copy_out(void *to, size_t to_size, const void *from,
+                    size_t from_size);
 
 #endif

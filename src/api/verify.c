@@ -18,9 +18,10 @@
 
 /* ---- The strokes --------------------------------------------------------- */
 
-static bool take_stroke(struct judge_drawing *to, const struct drawing *drawing,
-                        const struct drawing_stroke *stroke,
-                        enum judge_role role) {
+static bool add_judged_stroke(struct judge_drawing *to,
+                              const struct drawing *drawing,
+                              const struct drawing_stroke *stroke,
+                              enum judge_role role) {
   const struct drawing_point *point = drawing->point.item + stroke->point;
   struct judge_stroke taken = {(uint32_t)to->point.count,
                                stroke->count + stroke->closed, role};
@@ -35,13 +36,12 @@ static bool take_stroke(struct judge_drawing *to, const struct drawing *drawing,
 }
 
 /* Collects the lines of edges, but no hatching. */
-static bool take_drawn(struct judge_drawing *to,
-                       const struct drawing *drawing) {
+static bool add_drawn(struct judge_drawing *to, const struct drawing *drawing) {
   for (size_t i = 0; i < drawing->stroke.count; i++) {
     const struct drawing_stroke *stroke = &drawing->stroke.item[i];
     if (stroke->edge_class != 0 &&
-        !take_stroke(to, drawing, stroke,
-                     stroke->hidden ? JUDGE_HIDDEN : JUDGE_INK))
+        !add_judged_stroke(to, drawing, stroke,
+                           stroke->hidden ? JUDGE_HIDDEN : JUDGE_INK))
       return false;
   }
   return true;
@@ -57,9 +57,9 @@ static bool take_drawn(struct judge_drawing *to,
  * are drawn as well, since lines end where these begin.
  * unit_mm    of the output at which they are drawn
  * collapsed  by so much the output may have shortened them, mm */
-static recto_status take_short(struct judge_drawing *to,
-                               const struct verify *verify, double unit_mm,
-                               double collapsed, recto_error *error) {
+static recto_status add_short(struct judge_drawing *to,
+                              const struct verify *verify, double unit_mm,
+                              double collapsed, recto_error *error) {
   recto_options all = *verify->options;
   double shortest = all.ink.min_stroke_mm;
   all.output.unit_mm = unit_mm;
@@ -77,7 +77,7 @@ static recto_status take_short(struct judge_drawing *to,
     if (!stroke->hidden &&
         drawing_stroke_mm(&drawing, stroke) <
             (shortest < 0 ? half_pen : shortest) + collapsed &&
-        !take_stroke(to, &drawing, stroke, JUDGE_DROPPED))
+        !add_judged_stroke(to, &drawing, stroke, JUDGE_DROPPED))
       status = error_memory(error);
   }
   drawing_fini(&drawing);
@@ -87,16 +87,15 @@ static recto_status take_short(struct judge_drawing *to,
 /* Collects the lines that were not drawn because they are too short.  Where the
  * output's unit is large they may have been long before: rounding makes near
  * lines one, and divides a line of which a part is near another. */
-static recto_status take_dropped(struct judge_drawing *to,
-                                 const struct verify *verify,
-                                 recto_error *error) {
+static recto_status add_dropped(struct judge_drawing *to,
+                                const struct verify *verify,
+                                recto_error *error) {
   double unit = verify->options->output.unit_mm;
   recto_status status = RECTO_OK;
   if (unit > FINE_UNIT_MM)
-    status =
-        take_short(to, verify, FINE_UNIT_MM, COLLAPSED_UNITS * unit, error);
+    status = add_short(to, verify, FINE_UNIT_MM, COLLAPSED_UNITS * unit, error);
   if (status == RECTO_OK && verify->options->ink.min_stroke_mm != 0)
-    status = take_short(to, verify, unit, 0, error);
+    status = add_short(to, verify, unit, 0, error);
   return status;
 }
 
@@ -181,8 +180,8 @@ recto_status verify_drawing(const struct verify *verify, struct report *report,
   struct judge_input input;
   if (!judge_input_init(&input, verify->scene))
     return error_memory(error);
-  recto_status status = take_drawn(&drawing, verify->drawing)
-                            ? take_dropped(&drawing, verify, error)
+  recto_status status = add_drawn(&drawing, verify->drawing)
+                            ? add_dropped(&drawing, verify, error)
                             : error_memory(error);
   if (status == RECTO_OK)
     status = judge_own_drawing(verify, &input, &drawing, &verdict, error);

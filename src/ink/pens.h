@@ -28,7 +28,7 @@ struct pens {
 };
 
 /* Call pens_fini whatever the status.
- * options  in range (options_take), valid until pens_fini
+ * options  in range (options_copy_valid), valid until pens_fini
  * Errors   RECTO_ERROR_ARGUMENT: a pen is for a group that the scene does not
  *          have; RECTO_ERROR_MEMORY. */
 USE_RESULT recto_status pens_init(struct pens *pens, const struct scene *scene,
