@@ -20,7 +20,8 @@
  *          valid until the object is changed or destroyed.
  * Threads  No global state: different objects may be used from different
  *          threads at once; one object from one thread at a time, but for
- *          renders of a scene that was prepared (recto_scene_prepare).
+ *          renders of a scene that was prepared (recto_scene_prepare), and for
+ *          writing a drawing and its getters, recto_drawing_stats excepted.
  * Stability  Enumerators keep their values.  Options are initialised by
  *          recto_options_init.  Structs that are handed over grow at their end
  *          or in their reserved fields; macros pass the size that the caller
@@ -627,7 +628,8 @@ RECTO_USE_RESULT recto_status recto_scene_check_sized(
  * drawing. */
 const char *recto_drawing_verdict(const recto_drawing *drawing);
 
-/* Counts, times and choices as one JSON object.  Owned by the drawing. */
+/* Counts, times and choices as one JSON object.  Owned by the drawing, until
+ * the next call for it. */
 const char *recto_drawing_stats(const recto_drawing *drawing);
 
 /* ---- Level 3: the drawing as data ----------------------------------------

@@ -1,5 +1,5 @@
 /* test_api_prepare.c - a scene that was prepared is drawn as one that was not,
- * also by several threads at once. */
+ * also by several threads at once; and a drawing is written by several. */
 #include <math.h>
 #include <pthread.h>
 #include <setjmp.h>
@@ -175,6 +175,49 @@ static void several_threads_draw_a_prepared_scene_at_once(void **state) {
   recto_scene_destroy(prepared);
 }
 
+struct write_task {
+  const recto_drawing *drawing;
+  struct text text;
+};
+
+static void *write_drawing(void *user) {
+  struct write_task *task = user;
+  if (recto_drawing_write_to(task->drawing, "svg", NULL, append, &task->text,
+                             NULL) != RECTO_OK)
+    free(task->text.bytes);
+  return NULL;
+}
+
+/* The first writes of a drawing add to its stats. */
+static void several_threads_write_a_drawing_at_once(void **state) {
+  enum { TIMES = 30 };
+  (void)state;
+  recto_scene *scene = make_torus();
+  for (int time = 0; time < TIMES; time++) {
+    struct write_task task[VIEWS] = {{NULL, {NULL, 0}}};
+    pthread_t thread[VIEWS];
+    recto_drawing *drawing;
+    assert_int_equal(recto_scene_render(scene, NULL, &drawing, NULL), RECTO_OK);
+    for (int i = 0; i < VIEWS; i++) {
+      task[i].drawing = drawing;
+      assert_int_equal(
+          pthread_create(&thread[i], NULL, write_drawing, &task[i]), 0);
+    }
+    for (int i = 0; i < VIEWS; i++)
+      assert_int_equal(pthread_join(thread[i], NULL), 0);
+    for (int i = 1; i < VIEWS; i++) {
+      assert_string_equal(task[i].text.bytes, task[0].text.bytes);
+      free(task[i].text.bytes);
+    }
+    free(task[0].text.bytes);
+    const char *once = strstr(recto_drawing_stats(drawing), "\"write_cpu_s\"");
+    assert_non_null(once);
+    assert_null(strstr(once + 1, "\"write_cpu_s\""));
+    recto_drawing_destroy(drawing);
+  }
+  recto_scene_destroy(scene);
+}
+
 static void bad_options_are_refused_and_prepare_nothing(void **state) {
   (void)state;
   recto_scene *scene = make_torus();
@@ -196,6 +239,7 @@ int main(void) {
       cmocka_unit_test(other_options_are_prepared_by_the_render),
       cmocka_unit_test(what_is_added_undoes_the_preparation),
       cmocka_unit_test(several_threads_draw_a_prepared_scene_at_once),
+      cmocka_unit_test(several_threads_write_a_drawing_at_once),
       cmocka_unit_test(bad_options_are_refused_and_prepare_nothing),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import os
+import threading
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Mapping, NamedTuple
@@ -29,6 +30,7 @@ SIDES = {
     "intersection": lib.RECTO_SIDE_INTERSECTION,
     "clip": lib.RECTO_SIDE_CLIP,
 }
+_STATS_LOCK = threading.Lock()
 _INTERVAL = record_type("recto_interval")
 _LOOP = record_type("recto_loop")
 _HALF_EDGE = record_type("recto_half_edge")
@@ -292,7 +294,9 @@ class Drawing:
     @property
     def stats(self) -> dict[str, Any]:
         """Counts, times and choices, as --stats reports them."""
-        return json.loads(text_of(lib.recto_drawing_stats(self._owner)))
+        with _STATS_LOCK:  # the text is the library's until the next call
+            text = text_of(lib.recto_drawing_stats(self._owner))
+        return json.loads(text)
 
     @property
     def verdict(self) -> str | None:

@@ -49,6 +49,9 @@ void drawing_keep_projection(recto_drawing *drawing,
                              const struct camera *camera,
                              const struct rescaled *rescaled);
 
+/* The drawing's report as JSON; the report is locked by the caller. */
+const char *drawing_json(const recto_drawing *drawing);
+
 /* What the results of a drawing are made from. */
 struct result_sources {
   const struct sheet *sheet;

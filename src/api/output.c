@@ -148,10 +148,12 @@ static recto_status fill_outputs(struct outputs *outputs,
   struct writer_options how = writer_options_of(options);
   recto_status status =
       writer->write(&drawing->drawing, &how, outputs->drawing, error);
+  report_lock(drawing->report);
   stats_add_seconds(drawing->report, "write_cpu_s", clock_cpu() - cpu);
   stats_add_seconds(drawing->report, "write_wall_s", clock_wall() - wall);
   if (status == RECTO_OK && outputs->stats != NULL)
-    stream_text(outputs->stats, recto_drawing_stats(drawing));
+    stream_text(outputs->stats, drawing_json(drawing));
+  report_unlock(drawing->report);
   return status;
 }
 

@@ -25,11 +25,18 @@ const char *recto_drawing_verdict(const recto_drawing *drawing) {
                                                         : NULL;
 }
 
-const char *recto_drawing_stats(const recto_drawing *drawing) {
-  const char *json = drawing != NULL && drawing->report != NULL
-                         ? report_json(drawing->report)
-                         : NULL;
+const char *drawing_json(const recto_drawing *drawing) {
+  const char *json = report_json(drawing->report);
   return json != NULL ? json : "{}\n";
+}
+
+const char *recto_drawing_stats(const recto_drawing *drawing) {
+  if (drawing == NULL)
+    return "{}\n";
+  report_lock(drawing->report);
+  const char *json = drawing_json(drawing);
+  report_unlock(drawing->report);
+  return json;
 }
 
 /* ---- Page, layers and groups --------------------------------------------- */

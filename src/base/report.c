@@ -2,6 +2,7 @@
 #include "base/report.h"
 
 #include <math.h>
+#include <pthread.h>
 #include <string.h>
 #include <time.h>
 
@@ -24,10 +25,26 @@ struct report_entry {
 struct report {
   ARRAY(struct report_entry) entry;
   struct stream *json; /* NULL until the first report_json */
+  pthread_mutex_t lock;
 };
 
 struct report *report_create(void) {
-  return mem_calloc(1, sizeof(struct report));
+  struct report *report = mem_calloc(1, sizeof *report);
+  if (report != NULL && pthread_mutex_init(&report->lock, NULL) != 0) {
+    mem_free(report);
+    return NULL;
+  }
+  return report;
+}
+
+void report_lock(struct report *report) {
+  if (report != NULL)
+    (void)pthread_mutex_lock(&report->lock);
+}
+
+void report_unlock(struct report *report) {
+  if (report != NULL)
+    (void)pthread_mutex_unlock(&report->lock);
 }
 
 static void forget_value(struct report_entry *entry) {
@@ -45,6 +62,7 @@ void report_destroy(struct report *report) {
     forget_value(&report->entry.item[i]);
   ARRAY_FREE(&report->entry);
   stream_discard(report->json);
+  (void)pthread_mutex_destroy(&report->lock);
   mem_free(report);
 }
 

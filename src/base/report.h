@@ -17,6 +17,10 @@ struct report;
 struct report *report_create(void);
 void report_destroy(struct report *report);
 
+/* What several threads do with one report stands between these. */
+void report_lock(struct report *report);
+void report_unlock(struct report *report);
+
 void report_int(struct report *report, const char *section, const char *name,
                 int64_t value);
 void report_add(struct report *report, const char *section, const char *name,
