@@ -204,11 +204,6 @@ static void complete_file(struct stream *stream) {
     flush_buffer(stream);
 }
 
-static void flush_descriptor(struct stream *stream) {
-  if (!stream->is_memory && stream->target.kind == TARGET_DESCRIPTOR)
-    flush_buffer(stream);
-}
-
 static void commit_target(struct stream *stream) {
   struct target *target = &stream->target;
   if (stream->is_memory || stream->status != RECTO_OK)
@@ -289,9 +284,9 @@ recto_status stream_finish_all(struct stream *const *stream, size_t count,
       complete_file(stream[i]);
   recto_status status = first_fault(stream, count, error);
   for (size_t i = count; i-- > 0 && status == RECTO_OK;) {
-    if (stream[i] == NULL)
-      continue;
-    flush_descriptor(stream[i]);
+    if (stream[i] != NULL && !stream[i]->is_memory &&
+        stream[i]->target.kind == TARGET_DESCRIPTOR)
+      flush_buffer(stream[i]);
     status = first_fault(stream, count, error);
   }
   if (status == RECTO_OK)

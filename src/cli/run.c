@@ -102,15 +102,11 @@ static recto_status read_models(const struct arguments *arguments,
   return status;
 }
 
-static double percent(double part, double whole) {
-  return whole > 0 ? 100 * part / whole : 0;
-}
-
 /* Prints a length and its share, and the first place where it has some. */
 static void print_fault(const char *what, double fault_mm, double whole_mm,
                         const double at_mm[2]) {
   printf("%s  %11.3f mm  %7.3f %%", what, fault_mm,
-         percent(fault_mm, whole_mm));
+         whole_mm > 0 ? 100 * fault_mm / whole_mm : 0);
   if (fault_mm > 0)
     printf("  first at %.3f,%.3f mm", at_mm[0], at_mm[1]);
   printf("\n");

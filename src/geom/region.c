@@ -155,10 +155,6 @@ static const struct geom_corner *segment_start(const struct segment *s) {
   return s->forward ? &s->low : &s->high;
 }
 
-static const struct geom_corner *end_of(const struct segment *s) {
-  return s->forward ? &s->high : &s->low;
-}
-
 static int compare_segment_starts(const void *a, const void *b, void *user) {
   (void)user;
   return geom_corner_compare(segment_start(a), segment_start(b));
@@ -176,7 +172,7 @@ static bool sharper_left(const struct geom_line *in, const struct geom_line *u,
 /* The segment that goes on from `in`; segments are sorted by start. */
 static struct segment *next_segment(segments *boundary,
                                     const struct segment *in) {
-  const struct geom_corner *end = end_of(in);
+  const struct geom_corner *end = in->forward ? &in->high : &in->low;
   size_t low = 0, high = boundary->count;
   struct segment *best = NULL;
   while (low < high) {

@@ -119,14 +119,6 @@ int scan_edge_compare_exact(const struct scan_edge *a,
 
 /* ---- Convex polygons ----------------------------------------------------- */
 
-static uint32_t corner_after(const struct scan_convex *scan, uint32_t corner) {
-  return corner + 1 == scan->count ? 0 : corner + 1;
-}
-
-static uint32_t corner_before(const struct scan_convex *scan, uint32_t corner) {
-  return corner == 0 ? scan->count - 1 : corner - 1;
-}
-
 /* Starts the next edge of one chain that covers a line.  Counter-clockwise
  * corners lead down on the left and up on the right. */
 static bool next_chain_edge(struct scan_convex *scan,
@@ -136,8 +128,8 @@ static bool next_chain_edge(struct scan_convex *scan,
   struct scan_edge *edge = left ? &scan->left : &scan->right;
   while (*at != scan->end) {
     uint32_t from = *at;
-    *at = left == grid->down ? corner_after(scan, from)
-                             : corner_before(scan, from);
+    *at = left == grid->down ? (from + 1 == scan->count ? 0 : from + 1)
+                             : (from == 0 ? scan->count : from) - 1;
     if (scan_edge_init(edge, grid, &point[from], &point[*at]))
       return true;
   }

@@ -32,18 +32,6 @@
 #include "base/input.h"
 #include "scene/import_format.h"
 
-/* The sanitizers reserve more addresses than any limit allows. */
-#if defined __SANITIZE_ADDRESS__
-#define LIMITS_MEMORY 0
-#elif defined __has_feature
-#if __has_feature(address_sanitizer)
-#define LIMITS_MEMORY 0
-#endif
-#endif
-#ifndef LIMITS_MEMORY
-#define LIMITS_MEMORY 1
-#endif
-
 /* From a node's own coordinates to the scene's: rows of a 3 x 4 matrix. */
 struct transform {
   double row[3][4];
@@ -208,8 +196,9 @@ static void limit_self(long seconds, long mb) {
 #endif
   set_limit(RLIMIT_CORE, 0);
   set_limit(RLIMIT_CPU, (rlim_t)seconds + 1);
-  if (LIMITS_MEMORY)
-    set_limit(RLIMIT_AS, (rlim_t)mb << 20);
+#ifndef __SANITIZE_ADDRESS__ /* it reserves more addresses than that */
+  set_limit(RLIMIT_AS, (rlim_t)mb << 20);
+#endif
 }
 
 /* The name that Assimp gives to a file in memory, also in its messages: see

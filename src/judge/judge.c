@@ -274,14 +274,6 @@ static bool has_ink(const void *user, struct judge_point2 at) {
   return false;
 }
 
-/* Whether a point is so close behind the near plane that rounding may have
- * clipped it. */
-static bool is_at_near_plane(const struct judge_camera *camera,
-                             struct judge_point3 position) {
-  return judge_ahead(camera, position) <=
-         camera->near_d + judge_near_tolerance(camera);
-}
-
 static bool is_requested(const void *user, uint32_t edge) {
   const struct judge_context *context = user;
   const struct judge_source *source = &context->edges.edge.item[edge].source;
@@ -323,7 +315,9 @@ static void judge_edge_sample(struct judge_context *context, uint32_t number,
       count_sample(&verdict->visible, mm);
     return;
   }
-  if (is_at_near_plane(context->camera, from)) {
+  /* Rounding may have clipped a point so close behind the near plane. */
+  if (judge_ahead(context->camera, from) <=
+      context->camera->near_d + judge_near_tolerance(context->camera)) {
     count_sample(&verdict->undecided, mm);
     return;
   }

@@ -27,10 +27,6 @@ static uint64_t fingerprint(const struct scene_point *point) {
   return mixed >> 31;
 }
 
-static bool coincide(const struct scene_point *a, const struct scene_point *b) {
-  return a->x == b->x && a->y == b->y && a->z == b->z;
-}
-
 /* Welds within one run of equal fingerprints, ascending points.  A point is
  * compared with those alone that stand for themselves.
  * Returns how many were welded to another. */
@@ -40,8 +36,10 @@ static size_t weld_run(const struct scene_point *point,
   size_t welded = 0;
   for (size_t i = 1; i < count; i++)
     for (size_t j = 0; j < i; j++) {
-      if (weld[run[j].value] != run[j].value ||
-          !coincide(&point[run[j].value], &point[run[i].value]))
+      const struct scene_point *a = &point[run[j].value],
+                               *b = &point[run[i].value];
+      if (weld[run[j].value] != run[j].value || a->x != b->x || a->y != b->y ||
+          a->z != b->z)
         continue;
       weld[run[i].value] = run[j].value;
       welded++;

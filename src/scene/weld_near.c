@@ -89,10 +89,6 @@ static bool find_weld_candidates(struct candidates *candidates,
   return true;
 }
 
-static uint32_t welded_point(const struct topology *topology, uint32_t point) {
-  return topology->weld != NULL ? topology->weld[point] : point;
-}
-
 static double square_between(const struct scene_point *a,
                              const struct scene_point *b) {
   double x = b->x - a->x, y = b->y - a->y, z = b->z - a->z;
@@ -250,7 +246,7 @@ static uint32_t *make_map(struct candidates *candidates,
   const struct cluster_member *member = candidates->member.item;
   uint32_t *map = candidates->number;
   for (size_t p = 0; p < scene->point.count; p++) {
-    uint32_t same = welded_point(topology, (uint32_t)p);
+    uint32_t same = topology->weld != NULL ? topology->weld[p] : (uint32_t)p;
     if (same != p)
       map[p] = map[same];
     else

@@ -247,10 +247,6 @@ static struct view_point view_of_aim(const struct aim *aim, const double p[3]) {
   return camera_view(aim->camera, &(struct scene_point){p[0], p[1], p[2]});
 }
 
-static struct view_point view_of_point(const struct aim *aim, size_t p) {
-  return camera_view(aim->camera, &aim->scene->point.item[p]);
-}
-
 /* ---- Depths -------------------------------------------------------------- */
 
 static void measure_depth(struct aim *aim) {
@@ -259,7 +255,7 @@ static void measure_depth(struct aim *aim) {
   for (size_t p = 0; p < aim->scene->point.count; p++) {
     if (!aim->used[p])
       continue;
-    double d = view_of_point(aim, p).d;
+    double d = camera_view(aim->camera, &aim->scene->point.item[p]).d;
     aim->d_low = min_number(aim->d_low, d);
     aim->d_high = max_number(aim->d_high, d);
   }

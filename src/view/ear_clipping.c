@@ -154,10 +154,6 @@ static void queue_remove(struct ear_clipper *clipper, uint32_t b) {
     sift(clipper, slot, last);
 }
 
-static void queue_insert(struct ear_clipper *clipper, uint32_t b) {
-  sift(clipper, ++clipper->queued, b);
-}
-
 /* ---- The state of a corner ----------------------------------------------- */
 
 static void set_turn(struct ear_clipper *clipper, uint32_t c, int turn) {
@@ -199,7 +195,7 @@ static void update_corner(struct ear_clipper *clipper, uint32_t b) {
                      : clipper->unchecked ? priority_by_turn(corner->turn)
                                           : PRIORITY_EAR;
   if (spike || clipper->unchecked || corner->turn > 0)
-    queue_insert(clipper, b);
+    sift(clipper, ++clipper->queued, b);
 }
 
 /* A candidate ear a, b, c. */

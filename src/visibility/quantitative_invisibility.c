@@ -122,12 +122,6 @@ static bool store_intervals(struct invisibility_sweep *sweep, uint32_t edge) {
          (invisible.count == 0 || ARRAY_PUSH(&map->invisible, invisible));
 }
 
-static bool may_change_invisibility(const struct invisibility_sweep *sweep,
-                                    size_t e) {
-  return sweep->map->edge_state[e] != MAP_VISIBLE &&
-         sheet_edge_is_drawn(sweep->sheet, e);
-}
-
 static recto_status find_all(struct invisibility_sweep *sweep,
                              const struct solver_request *request,
                              recto_error *error) {
@@ -136,7 +130,8 @@ static recto_status find_all(struct invisibility_sweep *sweep,
   for (size_t e = 0; e < edges; e++) {
     if (!progress_step_at(&progress, 1 + sweep->query.found.count, e, edges))
       return error_memory(error);
-    if (may_change_invisibility(sweep, e) &&
+    if (sweep->map->edge_state[e] != MAP_VISIBLE &&
+        sheet_edge_is_drawn(sweep->sheet, e) &&
         !(find_changes(sweep, &sweep->sheet->edge.item[e]) &&
           store_intervals(sweep, (uint32_t)e)))
       return error_memory(error);

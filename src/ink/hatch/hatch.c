@@ -44,12 +44,6 @@ struct hatch {
 
 /* ---- 1 Sides ------------------------------------------------------------- */
 
-/* Whether a side is drawn as a line. */
-static bool side_is_inked(const struct hatch *h, uint32_t side) {
-  return hatch_regions_side_is_inked(&h->regions,
-                                     h->lines.side.item[side].corner);
-}
-
 /* Collects the sides of the region with fragments [begin, end), except where
  * the pen may cross them to a neighbour.  False when memory ran out. */
 static bool collect_sides(struct hatch *h, const struct map *map, size_t begin,
@@ -158,7 +152,7 @@ static bool move_is_clear(const struct hatch *h,
 static bool side_is_of_pen(const struct hatch *h, uint32_t side) {
   const struct map_corner *corner = h->lines.side.item[side].corner;
   const struct sheet *sheet = h->sheet;
-  if (!side_is_inked(h, side))
+  if (!hatch_regions_side_is_inked(&h->regions, corner))
     return false;
   if (corner->side == MAP_SIDE_INTERSECTION || corner->id >= sheet->edge.count)
     return !h->pens->several && h->pens->of_hatch == PENS_NONE;

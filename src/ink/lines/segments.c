@@ -66,12 +66,6 @@ static bool node_at(struct collector *c, const struct sheet_edge *edge,
   return add_graph_node(c->graph, at, node);
 }
 
-static bool have_equal_positions(const struct segment_graph *graph, uint32_t a,
-                                 uint32_t b) {
-  return graph->node.item[a].x == graph->node.item[b].x &&
-         graph->node.item[a].y == graph->node.item[b].y;
-}
-
 /* Segments may be joined where one pen draws them with one weight. */
 static uint32_t pen_key_of(const struct collector *c, uint32_t edge,
                            bool hidden) {
@@ -91,7 +85,9 @@ static bool collect_segment(struct collector *c, uint32_t edge, struct ratio t0,
                             .style_key = e->group << 7 | e->edge_class};
   if (!node_at(c, e, t0, &s.node[0]) || !node_at(c, e, t1, &s.node[1]))
     return false;
-  if (have_equal_positions(c->graph, s.node[0], s.node[1])) {
+  const struct ink_point *node = c->graph->node.item;
+  if (node[s.node[0]].x == node[s.node[1]].x &&
+      node[s.node[0]].y == node[s.node[1]].y) {
     c->graph->dots++;
     return true;
   }

@@ -179,18 +179,15 @@ static bool columns_in_row(const struct occlusion_culling *culling,
   return true;
 }
 
-static struct cell_range cells_of(const struct candidate *candidate) {
-  return (struct cell_range){candidate->x0, candidate->y0, candidate->x1,
-                             candidate->y1};
-}
-
 /* Is the triangle hidden in all cells that it meets?  False also where too much
  * has been tested.  First by blocks; then by the rows of cells, but only those
  * of a block row that is not hidden. */
 static bool is_triangle_hidden(struct culling_work *work,
                                const struct candidate *candidate) {
   const struct occlusion_buffer *buffer = &work->culling->buffer;
-  struct cell_range r = cells_of(candidate), part = r;
+  struct cell_range r = {candidate->x0, candidate->y0, candidate->x1,
+                         candidate->y1},
+                    part = r;
   work->tests -= (1 + ((r.x1 - r.x0) >> OCCLUSION_BLOCK_SHIFT)) *
                  (1 + ((r.y1 - r.y0) >> OCCLUSION_BLOCK_SHIFT));
   if (work->tests < 0 ||
