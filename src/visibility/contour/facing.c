@@ -206,7 +206,73 @@ static bool find_normals(struct facing *f) {
   return !poll_is_cancelled();
 }
 
+/* ---- Tips ---------------------------------------------------------------- */
+
+/* Makes creases of all edges at points about which a face bends away from the
+ * mean normal by more than the crease angle: at the tip of a cone no normal is
+ * near those of its faces.
+ * Returns whether there are such points; false also when memory ran out, which
+ * then is_lost. */
+static bool crease_tips(struct facing *f, double crease_deg, bool *is_lost) {
+  double cosine = cos(crease_deg * (acos(-1.0) / 180));
+  uint8_t *is_tip = mem_calloc(f->scene->point.count, 1);
+  bool any = false;
+  *is_lost = is_tip == NULL;
+  for (uint32_t face = 0; !*is_lost && face < scene_face_count(f->scene);
+       face++) {
+    double n[3];
+    if (signs_of_face(f, face) != FACING_MIXED)
+      continue;
+    facing_face_normal(f, face, n);
+    if (!vector_normalise(n))
+      continue;
+    for (uint32_t c = f->scene->face_start.item[face];
+         c < f->scene->face_start.item[face + 1]; c++)
+      if (vector_dot(f->normal[f->place[facing_slot(f, c)]], n) < cosine)
+        is_tip[facing_point(f, c)] = any = true;
+  }
+  for (uint32_t e = 0; any && e < f->topology->edge.count; e++) {
+    const uint32_t *point = f->topology->edge.item[e].point;
+    if (is_tip[point[0]] || is_tip[point[1]])
+      f->class_masks[e] |= RECTO_EDGE_CREASE;
+  }
+  mem_free(is_tip);
+  return any;
+}
+
 /* ---- The whole ----------------------------------------------------------- */
+
+static void free_slots(struct facing *f) {
+  mem_free(f->split);
+  mem_free(f->sets);
+  mem_free(f->signs);
+  mem_free(f->place);
+  mem_free(f->normal);
+  mem_free(f->value);
+  f->split = f->signs = NULL;
+  f->sets = f->place = NULL;
+  f->normal = NULL;
+  f->value = NULL;
+  f->count = 0;
+}
+
+/* Finds everything by the edges' classes.  Returns false when memory ran out or
+ * the caller cancelled. */
+static bool find_slots(struct facing *f) {
+  if (!split_at_features(f))
+    return false;
+  size_t slots = f->scene->point.count;
+  if (f->split != NULL)
+    slots += f->scene->corner.count;
+  f->signs = mem_calloc(slots, sizeof *f->signs);
+  f->place = mem_alloc(slots, sizeof *f->place);
+  if (f->signs == NULL || f->place == NULL)
+    return false;
+  memset(f->place, 0xff, slots * sizeof *f->place);
+  record_signs(f);
+  number_needed(f);
+  return find_normals(f);
+}
 
 recto_status facing_init(struct facing *f, const struct sheet *sheet,
                          const struct topology *topology, double crease_deg,
@@ -214,30 +280,19 @@ recto_status facing_init(struct facing *f, const struct sheet *sheet,
   *f = (struct facing){
       .scene = sheet->scene, .topology = topology, .camera = &sheet->camera};
   f->class_masks = mem_alloc(topology->edge.count, sizeof *f->class_masks);
-  if (f->class_masks == NULL ||
-      !topology_class_masks(topology, f->scene, crease_deg, f->class_masks) ||
-      !split_at_features(f))
-    return error_memory(error);
-  size_t slots = f->scene->point.count;
-  if (f->split != NULL)
-    slots += f->scene->corner.count;
-  f->signs = mem_calloc(slots, sizeof *f->signs);
-  f->place = mem_alloc(slots, sizeof *f->place);
-  if (f->signs == NULL || f->place == NULL)
-    return error_memory(error);
-  memset(f->place, 0xff, slots * sizeof *f->place);
-  record_signs(f);
-  number_needed(f);
-  return find_normals(f) ? RECTO_OK : error_memory(error);
+  bool ok =
+      f->class_masks != NULL &&
+      topology_class_masks(topology, f->scene, crease_deg, f->class_masks) &&
+      find_slots(f);
+  bool is_lost = false;
+  if (ok && crease_tips(f, crease_deg, &is_lost)) {
+    free_slots(f);
+    ok = find_slots(f);
+  }
+  return ok && !is_lost ? RECTO_OK : error_memory(error);
 }
 
 void facing_fini(struct facing *f) {
   mem_free(f->class_masks);
-  mem_free(f->split);
-  mem_free(f->sets);
-  mem_free(f->signs);
-  mem_free(f->place);
-  mem_free(f->normal);
-  mem_free(f->value);
-  *f = (struct facing){.count = 0};
+  free_slots(f);
 }
