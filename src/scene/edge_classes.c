@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
+#include "base/sets.h"
 #include "base/tolerance.h"
 #include "scene/angle.h"
 #include "scene/topology.h"
@@ -239,6 +240,30 @@ bool topology_class_masks(const struct topology *topology,
             parallel_ranges(workers, topology->edge.count, PARALLEL_ITEMS,
                             find_masks, &work);
   mem_free(work.direction);
+  return ok;
+}
+
+bool topology_coarse_parts(const struct topology *topology,
+                           const struct scene *scene,
+                           const uint8_t *class_masks, uint8_t *coarse) {
+  size_t points = scene->point.count, edges = topology->edge.count;
+  uint32_t *part = sets_create(points);
+  uint32_t *count = mem_calloc(points, 2 * sizeof *count); /* all, creases */
+  bool ok = part != NULL && count != NULL;
+  for (size_t e = 0; ok && e < edges; e++)
+    sets_join(part, topology->edge.item[e].point[0],
+              topology->edge.item[e].point[1]);
+  for (size_t e = 0; ok && e < edges; e++) {
+    size_t root = sets_root(part, topology->edge.item[e].point[0]);
+    count[2 * root]++;
+    count[2 * root + 1] += (class_masks[e] & RECTO_EDGE_CREASE) != 0;
+  }
+  for (uint32_t p = 0; ok && p < points; p++) {
+    size_t root = sets_root(part, p);
+    coarse[p] = 4 * (uint64_t)count[2 * root + 1] > count[2 * root];
+  }
+  mem_free(part);
+  mem_free(count);
   return ok;
 }
 

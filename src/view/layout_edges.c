@@ -7,10 +7,11 @@
 static const unsigned face_classes =
     RECTO_EDGES_ALL & ~(unsigned)(RECTO_EDGE_WIRE | RECTO_EDGE_INTERSECTION);
 
-/* Whether silhouettes are edges of the mesh; else they are found after it was
- * solved (visibility/contour/). */
-static bool has_mesh_contours(const struct layout *layout) {
-  return layout->options->ink.contours == RECTO_CONTOURS_MESH;
+/* Whether silhouettes are edges of the mesh at a point; else they are found
+ * after it was solved (visibility/smooth_contours.h).
+ * coarse  of topology_coarse_parts; NULL: silhouettes are edges everywhere */
+static bool has_mesh_contours(const uint8_t *coarse, uint32_t point) {
+  return coarse == NULL || coarse[point];
 }
 
 /* The classes of an edge in this view: the given ones, with silhouette in place
@@ -90,10 +91,10 @@ static bool add_sheet_edge(struct layout *layout, struct layout_cut ends,
  * requested */
 static recto_status make_edges(struct layout *layout,
                                const uint8_t *class_masks,
+                               const uint8_t *coarse,
                                struct edge_ids *edge_ids) {
   const struct topology *topology = layout->topology;
   unsigned wanted = layout->options->ink.edges & face_classes;
-  bool is_mesh = has_mesh_contours(layout);
   for (uint32_t e = 0; e < topology->edge.count; e++) {
     const struct topology_edge *edge = &topology->edge.item[e];
     if (e % 64 == 0)
@@ -103,8 +104,9 @@ static recto_status make_edges(struct layout *layout,
       return error_cancelled(layout->error);
     if (class_masks != NULL)
       edge_class = lowest_bit(
-          (is_mesh ? class_mask_of(edge, class_masks[e], layout->sides[e])
-                   : class_masks[e]) &
+          (has_mesh_contours(coarse, edge->point[0])
+               ? class_mask_of(edge, class_masks[e], layout->sides[e])
+               : class_masks[e]) &
           wanted);
     bool contour = edge->uses != 2 || layout->sides[e] != LAYOUT_PLAIN;
     if (!edge_class && !layout->outlines && !contour)
@@ -131,14 +133,16 @@ static recto_status make_edges(struct layout *layout,
 }
 
 /* Makes an edge of every fold; only requested ones were stored. */
-static bool make_folds(struct layout *layout) {
-  unsigned wanted = has_mesh_contours(layout)
-                        ? layout->options->ink.edges & RECTO_EDGE_SILHOUETTE
-                        : 0;
+static bool make_folds(struct layout *layout, const uint8_t *coarse) {
+  const struct scene *scene = layout->scene;
+  unsigned wanted = layout->options->ink.edges & RECTO_EDGE_SILHOUETTE;
   for (size_t f = 0; f < layout->fold.count; f++) {
     const struct layout_fold *fold = &layout->fold.item[f];
-    uint32_t group = layout->scene->face_group.item[fold->face];
-    if (!add_sheet_edge(layout, fold->ends, SHEET_NONE, group, wanted, 0))
+    uint32_t group = scene->face_group.item[fold->face];
+    uint32_t corner = scene->corner.item[scene->face_start.item[fold->face]];
+    bool is_mesh = has_mesh_contours(coarse, layout_weld(layout, corner));
+    if (!add_sheet_edge(layout, fold->ends, SHEET_NONE, group,
+                        is_mesh ? wanted : 0, 0))
       return false;
   }
   return true;
@@ -175,7 +179,7 @@ recto_status layout_edges(struct layout *layout) {
   size_t edges = layout->topology->edge.count;
   recto_status status;
   struct edge_ids edge_ids;
-  uint8_t *class_masks = NULL;
+  uint8_t *class_masks = NULL, *coarse = NULL;
   if (!edge_ids_init(&edge_ids, edges))
     goto no_memory;
   if (layout->options->ink.edges & face_classes) {
@@ -185,10 +189,18 @@ recto_status layout_edges(struct layout *layout) {
                               layout->options->mesh.crease_deg, class_masks))
       goto no_memory;
   }
+  if (layout->options->ink.contours == RECTO_CONTOURS_SMOOTH &&
+      class_masks != NULL) {
+    coarse = mem_alloc(layout->scene->point.count, 1);
+    if (coarse == NULL ||
+        !topology_coarse_parts(layout->topology, layout->scene, class_masks,
+                               coarse))
+      goto no_memory;
+  }
   if (layout->outlines && !ARRAY_RESERVE(&layout->sheet->edge, edges))
     goto no_memory;
-  status = make_edges(layout, class_masks, &edge_ids);
-  if (status == RECTO_OK && !make_folds(layout))
+  status = make_edges(layout, class_masks, coarse, &edge_ids);
+  if (status == RECTO_OK && !make_folds(layout, coarse))
     goto no_memory;
   if (status == RECTO_OK)
     link_sides(layout, &edge_ids);
@@ -198,6 +210,7 @@ no_memory:
 end:
   edge_ids_fini(&edge_ids);
   mem_free(class_masks);
+  mem_free(coarse);
   return status;
 }
 

@@ -265,6 +265,11 @@ static bool divide(struct contour_pieces *c, const struct contour_curve *curve,
   return true;
 }
 
+static bool runs_along_crease(const struct contour_pieces *c, uint32_t step) {
+  uint32_t segment = c->curves->step.item[step].segment;
+  return c->set->segment.item[segment].along_crease;
+}
+
 /* Makes short pieces like the two beside them, if these are alike. */
 static void settle_short(struct contour_pieces *c,
                          const struct contour_curve *curve) {
@@ -272,6 +277,7 @@ static void settle_short(struct contour_pieces *c,
   for (size_t i = 0; i < count; i++) {
     struct contour_piece *piece = &c->piece.item[i];
     if ((!curve->closed && (i == 0 || i + 1 == count)) || count < 3 ||
+        runs_along_crease(c, piece->from.step) ||
         position(piece->to) - position(piece->from) > SHORT_SEGMENTS)
       continue;
     bool before = c->piece.item[(i + count - 1) % count].is_visible;

@@ -106,6 +106,8 @@ static void record_signs(struct facing *f) {
     facing_position(f, facing_point(f, start), at);
     facing_view(f->camera, at, v);
     uint8_t sign = vector_dot(n, v) < 0 ? FACING_FRONT : FACING_BACK;
+    if (f->coarse[facing_point(f, start)])
+      sign = FACING_BACK; /* has no smooth contour */
     for (uint32_t c = start; c < f->scene->face_start.item[face + 1]; c++)
       f->signs[facing_slot(f, c)] |= sign;
   }
@@ -280,9 +282,11 @@ recto_status facing_init(struct facing *f, const struct sheet *sheet,
   *f = (struct facing){
       .scene = sheet->scene, .topology = topology, .camera = &sheet->camera};
   f->class_masks = mem_alloc(topology->edge.count, sizeof *f->class_masks);
+  f->coarse = mem_alloc(f->scene->point.count, 1);
   bool ok =
-      f->class_masks != NULL &&
+      f->class_masks != NULL && f->coarse != NULL &&
       topology_class_masks(topology, f->scene, crease_deg, f->class_masks) &&
+      topology_coarse_parts(topology, f->scene, f->class_masks, f->coarse) &&
       find_slots(f);
   bool is_lost = false;
   if (ok && crease_tips(f, crease_deg, &is_lost)) {
@@ -294,5 +298,6 @@ recto_status facing_init(struct facing *f, const struct sheet *sheet,
 
 void facing_fini(struct facing *f) {
   mem_free(f->class_masks);
+  mem_free(f->coarse);
   free_slots(f);
 }

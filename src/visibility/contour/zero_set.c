@@ -354,6 +354,16 @@ static bool cross_crease(struct zero_finder *z, uint32_t edge) {
 
 /* ---- Borders ------------------------------------------------------------- */
 
+/* Whether the surface ends at an edge, or folds over at one of a part that has
+ * no smooth contours. */
+static bool is_occluding(const struct facing *f, uint32_t edge) {
+  const struct topology_edge *e = &f->topology->edge.item[edge];
+  if (e->uses != 2)
+    return true;
+  return f->coarse[e->point[0]] &&
+         (is_front(f, e->first) == is_front(f, e->second)) == e->same_way;
+}
+
 static bool add_border_image(struct zero_finder *z, uint32_t edge) {
   struct view_point end[2];
   bool moved[2], outside = false;
@@ -384,11 +394,14 @@ static bool cross_all(struct zero_finder *z) {
     if (!poll_at(face) || !cross_face(z, face))
       return false;
   for (uint32_t e = 0; e < edges && f->split != NULL; e++) {
+    if (!poll_at(e))
+      return false;
     const struct topology_edge *edge = &f->topology->edge.item[e];
-    if (edge->uses != 2 && !add_border_image(z, e))
+    if (is_occluding(f, e) && !add_border_image(z, e))
       return false;
     if (edge->uses == 2 && edge->first != edge->second &&
-        facing_is_split(f, e) && !cross_crease(z, e))
+        !f->coarse[edge->point[0]] && facing_is_split(f, e) &&
+        !cross_crease(z, e))
       return false;
   }
   return true;

@@ -36,8 +36,8 @@ struct contour_segment {
 struct zero_set {
   ARRAY(struct contour_node) node;
   ARRAY(struct contour_segment) segment;
-  ARRAY(struct geom_segment) border; /* images of the edges of one face, or of
-                                        more than two */
+  ARRAY(struct geom_segment) border; /* images of edges at which the surface
+                                        ends, and of coarse parts' contours */
 };
 
 /* Finds the contour.
