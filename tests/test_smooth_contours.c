@@ -333,12 +333,68 @@ static void the_contours_of_a_torus_are_its_visible_pieces(void **state) {
   }
 }
 
+/* ---- What is not smooth -------------------------------------------------- */
+
+/* From the tip down its side, which ends at three quarters of v, to the middle
+ * of its base. */
+static void cone(double u, double v, double p[3]) {
+  double t = v / (2 * M_PI), side = fmin(t / 0.75, 1);
+  double radius = 0.5 * (t > 0.75 ? (1 - t) / 0.25 : side);
+  p[0] = radius * cos(u);
+  p[1] = 1 - 2 * side;
+  p[2] = radius * sin(u);
+}
+
+static void the_contour_of_a_cone_starts_at_its_tip(void **state) {
+  (void)state;
+  recto_scene *scene = make_scene(cone, true, 64, 8);
+  recto_options options;
+  init_view(&options, 0);
+  options.camera.elevation_deg = 10;
+  struct axes axes = axes_of(&options);
+  const double tip[3] = {0, 1, 0};
+  const double at[2] = {PAGE_MM / 2 + SCALE_MM * dot(tip, axes.right),
+                        PAGE_MM / 2 + SCALE_MM * dot(tip, axes.up)};
+  recto_drawing *drawing = draw(scene, &options);
+  assert_true(distance_to_ink(drawing, at) < 0.1);
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(scene);
+}
+
+static double position_sum(const recto_drawing *drawing) {
+  double sum = 0;
+  for (size_t s = 0; s < recto_drawing_stroke_count(drawing); s++) {
+    recto_stroke stroke;
+    assert_true(recto_drawing_stroke(drawing, s, &stroke));
+    for (size_t i = 0; i < 2 * stroke.count; i++)
+      sum += (double)(i + 1 + stroke.hidden) * stroke.points[i];
+  }
+  return sum;
+}
+
+static void a_part_of_creases_is_drawn_by_its_own_edges(void **state) {
+  (void)state;
+  recto_scene *scene = make_scene(torus, false, 9, 5);
+  recto_options options;
+  init_view(&options, 5);
+  options.ink.hidden = RECTO_HIDDEN_LAYER;
+  recto_drawing *smooth = draw(scene, &options);
+  options.ink.contours = RECTO_CONTOURS_MESH;
+  recto_drawing *mesh = draw(scene, &options);
+  assert_int_equal(recto_drawing_stroke_count(smooth),
+                   recto_drawing_stroke_count(mesh));
+  assert_true(position_sum(smooth) == position_sum(mesh));
+  recto_drawing_destroy(smooth);
+  recto_drawing_destroy(mesh);
+  recto_scene_destroy(scene);
+}
+
 /* ---- Methods ------------------------------------------------------------- */
 
 static void smooth_contours_are_the_same_by_all_methods(void **state) {
   (void)state;
   recto_scene *scene = make_scene(torus, false, 48, 24);
-  double length[RECTO_METHOD_COUNT];
+  double sum[RECTO_METHOD_COUNT];
   recto_options options;
   init_view(&options, 3);
   options.camera.fov_deg = 40;
@@ -346,15 +402,8 @@ static void smooth_contours_are_the_same_by_all_methods(void **state) {
   for (int method = 0; method < RECTO_METHOD_COUNT; method++) {
     options.solver.method = (recto_method)method;
     recto_drawing *drawing = draw(scene, &options);
-    length[method] = 0;
-    for (size_t s = 0; s < recto_drawing_stroke_count(drawing); s++) {
-      recto_stroke stroke;
-      assert_true(recto_drawing_stroke(drawing, s, &stroke));
-      assert_int_equal(stroke.edge_class, RECTO_EDGE_SILHOUETTE);
-      for (size_t i = 0; i < 2 * stroke.count; i++)
-        length[method] += (double)(i + 1 + stroke.hidden) * stroke.points[i];
-    }
-    assert_true(length[method] == length[0]);
+    sum[method] = position_sum(drawing);
+    assert_true(sum[method] == sum[0]);
     recto_drawing_destroy(drawing);
   }
   recto_scene_destroy(scene);
@@ -377,6 +426,8 @@ int main(void) {
       cmocka_unit_test(the_contour_of_a_sphere_is_one_stroke),
       cmocka_unit_test(the_contour_of_an_ellipsoid_is_one_stroke),
       cmocka_unit_test(the_contours_of_a_torus_are_its_visible_pieces),
+      cmocka_unit_test(the_contour_of_a_cone_starts_at_its_tip),
+      cmocka_unit_test(a_part_of_creases_is_drawn_by_its_own_edges),
       cmocka_unit_test(smooth_contours_are_the_same_by_all_methods),
       cmocka_unit_test(smooth_contours_are_not_verified),
   };
