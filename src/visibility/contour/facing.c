@@ -97,20 +97,29 @@ static bool split_at_features(struct facing *f) {
 
 /* ---- Signs --------------------------------------------------------------- */
 
-static void record_signs(struct facing *f) {
-  for (uint32_t face = 0; face < scene_face_count(f->scene); face++) {
-    uint32_t start = f->scene->face_start.item[face];
+/* Finds the sign of each face by its own normal. */
+static bool find_face_signs(struct facing *f) {
+  uint32_t faces = scene_face_count(f->scene);
+  f->face_sign = mem_alloc(faces, 1);
+  for (uint32_t face = 0; f->face_sign != NULL && face < faces; face++) {
+    uint32_t first = facing_point(f, f->scene->face_start.item[face]);
     double n[3], at[3], v[3];
     (void)poll_at(face);
     facing_face_normal(f, face, n);
-    facing_position(f, facing_point(f, start), at);
+    facing_position(f, first, at);
     facing_view(f->camera, at, v);
-    uint8_t sign = vector_dot(n, v) < 0 ? FACING_FRONT : FACING_BACK;
-    if (f->coarse[facing_point(f, start)])
-      sign = FACING_BACK; /* has no smooth contour */
-    for (uint32_t c = start; c < f->scene->face_start.item[face + 1]; c++)
-      f->signs[facing_slot(f, c)] |= sign;
+    /* Coarse parts have no smooth contour. */
+    f->face_sign[face] =
+        vector_dot(n, v) < 0 && !f->coarse[first] ? FACING_FRONT : FACING_BACK;
   }
+  return f->face_sign != NULL;
+}
+
+static void record_signs(struct facing *f) {
+  for (uint32_t face = 0; face < scene_face_count(f->scene); face++)
+    for (uint32_t c = f->scene->face_start.item[face];
+         c < f->scene->face_start.item[face + 1]; c++)
+      f->signs[facing_slot(f, c)] |= f->face_sign[face];
 }
 
 /* The union of the signs of a face's slots. */
@@ -145,15 +154,19 @@ static double angle_between(const double a[3], const double b[3]) {
   return atan2(sqrt(vector_dot(cross, cross)), vector_dot(a, b));
 }
 
-/* Adds a face's share to the normals of its corners. */
+/* Adds a face's share to those normals of its corners that are needed. */
 static void add_face(struct facing *f, uint32_t face) {
   uint32_t start = f->scene->face_start.item[face];
-  uint32_t end = f->scene->face_start.item[face + 1];
+  uint32_t end = f->scene->face_start.item[face + 1], first = start;
   double n[3];
+  while (first < end && f->place[facing_slot(f, first)] == SHEET_NONE)
+    first++;
+  if (first == end)
+    return;
   facing_face_normal(f, face, n);
   if (!vector_normalise(n))
     return;
-  for (uint32_t c = start; c < end; c++) {
+  for (uint32_t c = first; c < end; c++) {
     uint32_t place = f->place[facing_slot(f, c)];
     double at[3], to[3], from[3];
     if (place == SHEET_NONE)
@@ -287,7 +300,7 @@ recto_status facing_init(struct facing *f, const struct sheet *sheet,
       f->class_masks != NULL && f->coarse != NULL &&
       topology_class_masks(topology, f->scene, crease_deg, f->class_masks) &&
       topology_coarse_parts(topology, f->scene, f->class_masks, f->coarse) &&
-      find_slots(f);
+      find_face_signs(f) && find_slots(f);
   bool is_lost = false;
   if (ok && crease_tips(f, crease_deg, &is_lost)) {
     free_slots(f);
@@ -299,5 +312,6 @@ recto_status facing_init(struct facing *f, const struct sheet *sheet,
 void facing_fini(struct facing *f) {
   mem_free(f->class_masks);
   mem_free(f->coarse);
+  mem_free(f->face_sign);
   free_slots(f);
 }

@@ -24,6 +24,7 @@ struct facing {
   const struct camera *camera;     /* borrowed, not owned */
   uint8_t *class_masks;            /* one a topology edge */
   uint8_t *coarse;                 /* one a point: topology_coarse_parts */
+  uint8_t *face_sign;              /* one a face: FACING_FRONT or FACING_BACK */
   uint8_t *split;  /* one a point: it is on a crease or border; NULL: none */
   uint32_t *sets;  /* of corners at such points: union-find; NULL: none */
   uint8_t *signs;  /* one a slot: FACING_... of the faces about it */
