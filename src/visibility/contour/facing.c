@@ -273,7 +273,7 @@ static void free_slots(struct facing *f) {
 
 /* Finds everything by the edges' classes.  Returns false when memory ran out or
  * the caller cancelled. */
-static bool find_slots(struct facing *f) {
+static bool find_facings(struct facing *f) {
   if (!split_at_features(f))
     return false;
   size_t slots = f->scene->point.count;
@@ -300,11 +300,11 @@ recto_status facing_init(struct facing *f, const struct sheet *sheet,
       f->class_masks != NULL && f->coarse != NULL &&
       topology_class_masks(topology, f->scene, crease_deg, f->class_masks) &&
       topology_coarse_parts(topology, f->scene, f->class_masks, f->coarse) &&
-      find_face_signs(f) && find_slots(f);
+      find_face_signs(f) && find_facings(f);
   bool is_lost = false;
   if (ok && crease_tips(f, crease_deg, &is_lost)) {
     free_slots(f);
-    ok = find_slots(f);
+    ok = find_facings(f);
   }
   return ok && !is_lost ? RECTO_OK : error_memory(error);
 }
