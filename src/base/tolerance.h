@@ -97,7 +97,8 @@
  *             triangle; beyond the triangle, where the corners of another one
  *             are tested, it grows with the distance over the
  *             triangle's width.
- * Users       visibility/predicate/contact.c,
+ * Users       view/layout_clipping.c,
+ *             visibility/predicate/contact.c,
  *             visibility/predicate/occlusion.c,
  *             visibility/intersection/edge_crossing.c
  * Ten times   faces 0.15 um apart on paper count as touching. */

@@ -73,16 +73,38 @@ struct clipped_ring {
   uint32_t point[CLIP_CORNERS_MAX]; /* of the sheet */
   uint32_t side[CLIP_CORNERS_MAX];  /* that starts there, as of edge_of */
   int count;
+  bool narrow; /* as of is_narrow */
 };
+
+/* Whether rounding may decide on which side of a diagonal a corner is: the face
+ * is seen edge-on. */
+static bool is_narrow(const struct layout *layout,
+                      const struct clipped_ring *ring) {
+  const struct geom_point *at = layout->sheet->point.item;
+  struct geom_point first = at[ring->point[0]];
+  int128 twice = 0, longest = 0; /* the area, the diagonal's square */
+  for (int i = 1; i < ring->count; i++) {
+    struct geom_point p = at[ring->point[i]];
+    int64_t x = (int64_t)p.x - first.x, y = (int64_t)p.y - first.y;
+    int128 square = (int128)x * x + (int128)y * y;
+    longest = square > longest ? square : longest;
+    if (i + 1 < ring->count)
+      twice += geom_orient2d(first, p, at[ring->point[i + 1]]);
+  }
+  double height = sqrt((double)longest) * TOLERANCE_CONTACT_GRID_UNITS;
+  return fabs((double)twice) <= height;
+}
 
 /* The corner that is cut off by the shortest diagonal on the page, the first of
  * equal ones.  So a side that is a few grid units long shares its triangle with
  * a short diagonal, and the long sides' triangles are no slivers, whose planes
- * would be decided by rounding. */
+ * would be decided by rounding.  Of a face that is seen edge-on all are slivers:
+ * then a fan is cut about the farthest corner.  The depths of each of its
+ * triangles differ much, so that rounding explains what seems to be behind. */
 static int find_ear(const struct layout *layout,
                     const struct clipped_ring *ring) {
   const struct geom_point *at = layout->sheet->point.item;
-  int n = ring->count, ear = 1;
+  int n = ring->count, ear = 1, farthest = 0;
   int64_t least = INT64_MAX;
   for (int i = 0; n > 3 && i < n; i++) {
     struct geom_point a = at[ring->point[(i + n - 1) % n]],
@@ -92,8 +114,10 @@ static int find_ear(const struct layout *layout,
       least = x * x + y * y;
       ear = i;
     }
+    if (at[ring->point[i]].z < at[ring->point[farthest]].z)
+      farthest = i;
   }
-  return ear;
+  return ring->narrow ? (farthest + 1) % n : ear;
 }
 
 /* Adds the triangle of a corner and its neighbours, and removes the corner.
@@ -134,6 +158,7 @@ static recto_status add_clipped_ears(struct layout *layout,
     ring.point[i] = point[i];
     ring.side[i] = edge_of(layout, triangle, polygon, i);
   }
+  ring.narrow = is_narrow(layout, &ring);
   for (int i = 0; i < ears; i++) {
     area[i] = cut_ear(layout, triangle->face, find_ear(layout, &ring), &ring,
                       corner[i]);

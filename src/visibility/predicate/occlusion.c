@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/tolerance.h"
-
 #include "visibility/predicate/contact.h"
 #include "visibility/predicate/plane_filter.h"
 
