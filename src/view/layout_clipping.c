@@ -98,9 +98,10 @@ static bool is_narrow(const struct layout *layout,
 /* The corner that is cut off by the shortest diagonal on the page, the first of
  * equal ones.  So a side that is a few grid units long shares its triangle with
  * a short diagonal, and the long sides' triangles are no slivers, whose planes
- * would be decided by rounding.  Of a face that is seen edge-on all are slivers:
- * then a fan is cut about the farthest corner.  The depths of each of its
- * triangles differ much, so that rounding explains what seems to be behind. */
+ * would be decided by rounding.  Of a face that is seen edge-on all are
+ * slivers: then a fan is cut about the farthest corner.  The depths of each of
+ * its triangles differ much, so that rounding explains what seems to be
+ * behind. */
 static int find_ear(const struct layout *layout,
                     const struct clipped_ring *ring) {
   const struct geom_point *at = layout->sheet->point.item;

@@ -150,8 +150,8 @@ bool occlude_by_outline(const struct geom_point corner[3], struct geom_point p,
 
 /* Whether a part of the edge within the triangle's projection is behind the
  * plane or in front of it by more than rounding: of the page grid and, where no
- * contact tolerance is given, of the coordinates.  In doubles: what differs from
- * that bound by their own rounding error may be taken for either. */
+ * contact tolerance is given, of the coordinates.  In doubles: what differs
+ * from that bound by their own rounding error may be taken for either. */
 bool occluder_edge_leaves_rounding(const struct occluder *occluder,
                                    const struct sheet *sheet,
                                    struct geom_point p, struct geom_point q);
