@@ -172,7 +172,7 @@ static bool read_faces(const struct obj_parser *p, struct run *run) {
   return true;
 }
 
-static void add_faces(struct obj_parser *p, const struct run *run) {
+static void add_run_faces(struct obj_parser *p, const struct run *run) {
   p->scene->corner.count += 3 * run->count;
   p->scene->face_start.count += run->count;
   p->scene->face_group.count += run->count;
@@ -194,7 +194,7 @@ struct run_kind {
 };
 
 static const struct run_kind points = {reserve_points, read_points, add_points},
-                             faces = {reserve_faces, read_faces, add_faces};
+                             faces = {reserve_faces, read_faces, add_run_faces};
 
 struct parts {
   struct obj_parser *p;
@@ -220,7 +220,7 @@ static bool count_lines_of_parts(void *user, struct parallel_range range) {
   return true;
 }
 
-static bool read_parts(void *user, struct parallel_range range) {
+static bool read_run_parts(void *user, struct parallel_range range) {
   const struct parts *parts = user;
   bool ok = true;
   for (size_t i = range.begin; ok && i < range.end; i++)
@@ -274,7 +274,7 @@ static recto_status read_ahead(struct obj_parser *p,
   parts.part = mem_calloc(count, sizeof *parts.part);
   bool ok = parts.part != NULL &&
             kind->reserve(p->scene, divide_into_parts(&parts, count, workers));
-  ok = ok && parallel_ranges(workers, count, 1, read_parts, &parts);
+  ok = ok && parallel_ranges(workers, count, 1, read_run_parts, &parts);
   *plain = ok;
   const char *start = p->at;
   for (size_t i = 0; *plain && i < count; i++)
