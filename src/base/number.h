@@ -21,18 +21,19 @@ const char *number_parse_double(const char *text, const char *end,
 
 #if DIGITS_WINDOWS
 /* So many bytes are read at once. */
-enum { NUMBER_PLAIN_ROOM = 24 };
+enum { NUMBER_PLAIN_ROOM = 32 };
 
 /* 1e0 to 1e15, all of them exact. */
 extern const double number_power_of_ten[16];
 
 /* Parses [-]digits[.digits] where there are at most 7 digits before the point
- * and 8 behind it: whole numbers below 2^53 over a power of ten that is a
+ * and 15 behind it: whole numbers up to 2^53 over a power of ten that is a
  * double, so one division rounds once [Clinger].
  * text  has NUMBER_PLAIN_ROOM bytes at least
  * Returns where it stopped, or NULL where there is something else.
  * Exact: as number_parse_double. */
 static inline const char *number_parse_plain(const char *text, double *value) {
+  enum { DIGITS_MAX = 19 }; /* so many fit in 64 bits */
   uint64_t window;
   bool negative = *text == '-';
   text += negative;
@@ -48,8 +49,17 @@ static inline const char *number_parse_plain(const char *text, double *value) {
     sum = sum * (uint64_t)number_power_of_ten[decimals] +
           digits_sum(window, decimals);
     text += decimals;
-    if (digits_is_one(*text))
-      return NULL;
+    if (decimals == 8 && digits_is_one(*text)) {
+      int more = digits_count(text, &window);
+      decimals += more;
+      if (more == 8 || whole + decimals > DIGITS_MAX)
+        return NULL;
+      sum =
+          sum * (uint64_t)number_power_of_ten[more] + digits_sum(window, more);
+      text += more;
+      if (sum > UINT64_C(1) << 53)
+        return NULL;
+    }
   }
   double magnitude = (double)(int64_t)sum / number_power_of_ten[decimals];
   *value = negative ? -magnitude : magnitude;

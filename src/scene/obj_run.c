@@ -11,6 +11,7 @@
  * it is read again: no more than was plain before. */
 #include "scene/obj_parser.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/number.h"
@@ -45,16 +46,31 @@ static inline bool has_short_statement(const struct obj_parser *p,
 
 /* ---- Points -------------------------------------------------------------- */
 
+/* Reads a coordinate of a statement; NULL where it is no finite number, or
+ * where those before it were too long. */
+static inline const char *read_coordinate(const struct obj_parser *p,
+                                          const char *start, const char *at,
+                                          double *value) {
+  if (at - start > PLAIN_ROOM / 2)
+    return NULL;
+  const char *past = number_parse_plain(at, value);
+  if (past != NULL && *past <= ' ')
+    return past;
+  past = number_parse_double(at, p->end, value);
+  return past != NULL && isfinite(*value) ? past : NULL;
+}
+
 /* Reads "v x y z" to its end; NULL where it is something else. */
-static inline const char *read_plain_point(const char *at,
+static inline const char *read_plain_point(const struct obj_parser *p,
+                                           const char *start,
                                            struct scene_point *point) {
-  at = number_parse_plain(at + 2, &point->x);
+  const char *at = read_coordinate(p, start, start + 2, &point->x);
   if (at == NULL || *at != ' ')
     return NULL;
-  at = number_parse_plain(at + 1, &point->y);
+  at = read_coordinate(p, start, at + 1, &point->y);
   if (at == NULL || *at != ' ')
     return NULL;
-  at = number_parse_plain(at + 1, &point->z);
+  at = read_coordinate(p, start, at + 1, &point->z);
   return at != NULL && *at == '\n' ? at + 1 : NULL;
 }
 
@@ -72,7 +88,7 @@ static bool read_points(const struct obj_parser *p, struct run *run) {
       p->scene->point.item + p->scene->point.count + run->before;
   size_t first = p->seen + run->before, sampled = next_sampled(p, first);
   for (; has_short_statement(p, run, 'v'); run->count++) {
-    const char *past = read_plain_point(run->at, &point[run->count]);
+    const char *past = read_plain_point(p, run->at, &point[run->count]);
     if (past == NULL)
       break;
     if (first + run->count == sampled) {
