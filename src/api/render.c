@@ -248,8 +248,9 @@ static recto_status add_smooth_contours(struct render *render,
 }
 
 static recto_status ink(struct render *render, recto_error *error) {
-  if (!needs_fragments(render) && render->options->verify == 0)
-    sheet_drop_triangles(&render->sheet);
+  if (!needs_fragments(render) && render->options->verify == 0 &&
+      !sheet_drop_triangles(&render->sheet))
+    return error_memory(error);
   return ink_draw(render->drawing, &render->sheet,
                   &render->prepared->welded.scene, &render->map,
                   render->options, error);

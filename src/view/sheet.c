@@ -3,17 +3,29 @@
 
 #include <string.h>
 
-void sheet_drop_triangles(struct sheet *sheet) {
-  for (size_t e = 0; e < sheet->edge.count; e++) {
+#include "base/parallel.h"
+
+static bool name_faces_of_range(void *user, struct parallel_range range) {
+  struct sheet *sheet = user;
+  for (size_t e = range.begin; e < range.end; e++) {
     uint32_t *triangle = sheet->edge.item[e].triangle;
     for (int k = 0; k < 2; k++)
       if (triangle[k] != SHEET_NONE)
         triangle[k] = sheet->triangle.item[triangle[k]].face;
   }
+  return true;
+}
+
+bool sheet_drop_triangles(struct sheet *sheet) {
+  size_t edges = sheet->edge.count;
+  if (!parallel_ranges(parallel_workers(edges, PARALLEL_ITEMS), edges,
+                       PARALLEL_ITEMS, name_faces_of_range, sheet))
+    return false;
   sheet->triangles_dropped = true;
   ARRAY_FREE(&sheet->triangle);
   mem_free(sheet->triangle_flags);
   sheet->triangle_flags = NULL;
+  return true;
 }
 
 void sheet_fini(struct sheet *sheet) {

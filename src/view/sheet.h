@@ -115,8 +115,9 @@ struct sheet {
 void sheet_fini(struct sheet *sheet);
 
 /* Frees the triangles to save memory, once only the scene faces of edges are
- * still needed (sheet_edge_face). */
-void sheet_drop_triangles(struct sheet *sheet);
+ * still needed (sheet_edge_face).  Returns false when the caller cancelled; the
+ * edges may then not be used any more. */
+USE_RESULT bool sheet_drop_triangles(struct sheet *sheet);
 
 /* The points of an edge or a contour, from its `point`. */
 static inline struct geom_segment sheet_ends(const struct sheet *sheet,

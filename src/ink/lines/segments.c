@@ -18,7 +18,8 @@ struct collector {
   const recto_options *options;
   uint32_t
       *node_of_point; /* sheet point -> node; SEGMENT_GRAPH_NONE: none yet */
-  uint32_t pen_key;   /* of the current edge */
+  uint32_t pen_key;   /* of edges of this class and group */
+  uint32_t edge_class, group;
 };
 
 void segment_graph_init(struct segment_graph *graph) {
@@ -66,15 +67,20 @@ static bool node_at(struct collector *c, const struct sheet_edge *edge,
   return add_graph_node(c->graph, at, node);
 }
 
-/* Segments may be joined where one pen draws them with one weight. */
-static uint32_t pen_key_of(const struct collector *c, uint32_t edge,
-                           bool hidden) {
+/* Sets the pen key for an edge: segments may be joined where one pen draws
+ * them with one weight.  Mostly it is that of the edge before. */
+static void set_pen_key(struct collector *c, uint32_t edge, bool hidden) {
   const struct sheet_edge *e = &c->sheet->edge.item[edge];
-  if (hidden)
-    return 2 * pens_of_hidden(c->pens, c->options, e->edge_class, e->group) + 1;
-  return 2 * (pens_of_line(c->pens, e->edge_class, e->group) *
-                  RECTO_EDGE_CLASS_COUNT +
-              pens_weight_priority(c->pens, e->edge_class));
+  if (e->edge_class == c->edge_class && e->group == c->group)
+    return;
+  c->edge_class = e->edge_class;
+  c->group = e->group;
+  c->pen_key =
+      hidden
+          ? 2 * pens_of_hidden(c->pens, c->options, e->edge_class, e->group) + 1
+          : 2 * (pens_of_line(c->pens, e->edge_class, e->group) *
+                     RECTO_EDGE_CLASS_COUNT +
+                 pens_weight_priority(c->pens, e->edge_class));
 }
 
 static bool collect_segment(struct collector *c, uint32_t edge, struct ratio t0,
@@ -147,6 +153,7 @@ static struct intervals next_intervals(const struct map_mixed **mixed,
 /* Adds the visible or the hidden intervals of all drawable edges, in order. */
 static bool add_all(struct collector *c, bool hidden) {
   const struct map *map = c->map;
+  c->edge_class = 0; /* no drawn edge's */
   const struct map_mixed *mixed = map->mixed.item, *deep = map->over_limit.item;
   const struct map_mixed *mixed_end = ARRAY_AT(&map->mixed, map->mixed.count);
   const struct map_mixed *deep_end =
@@ -162,7 +169,7 @@ static bool add_all(struct collector *c, bool hidden) {
       return false;
     if (c->sheet->edge.item[i].edge_class == 0)
       continue;
-    c->pen_key = pen_key_of(c, i, hidden);
+    set_pen_key(c, i, hidden);
     if (hidden && state != MAP_VISIBLE)
       ok = add_hidden_intervals(c, i, visible, too_deep);
     else if (!hidden && state == MAP_VISIBLE)
