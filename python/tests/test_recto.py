@@ -384,6 +384,26 @@ def test_threads():
     assert ran > 3, ran
 
 
+def test_writers():
+    """Several threads write and ask one drawing at once"""
+    written = []
+    for _ in range(10):
+        drawing = cube().render()
+        texts = []
+
+        def write(drawing=drawing, texts=texts):
+            texts.append((drawing.svg(), len(drawing.strokes), drawing.stats))
+
+        threads = [threading.Thread(target=write) for _ in range(8)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        written += texts
+    assert len(written) == 80
+    assert len({text[:2] for text in written}) == 1
+
+
 def test_prepared():
     """A prepared scene is drawn by several threads at once, each the same"""
     scene = cube()
