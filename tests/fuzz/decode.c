@@ -57,6 +57,7 @@ static const char *const alternatives[][MAX_ALTERNATIVES] = {
     {"", "--up=0,0,1", "--up=1,0,0", "--up=1,1,1"},
     {"--threads=1", "--threads=2"},
     {"", "--divide=box"},
+    {"", "", "--contours=smooth"},
 };
 
 /* ---- Words --------------------------------------------------------------- */

@@ -19,6 +19,7 @@ static void verify(const recto_scene *scene, recto_options *options,
   struct rendered verified;
   options->solver.method = RECTO_METHOD_AUTO;
   options->verify = VERIFIED_POINTS;
+  options->ink.contours = RECTO_CONTOURS_MESH; /* of others it is refused */
   render_svg(&verified, scene, options);
   if (verified.status == RECTO_ERROR_VERIFY)
     fuzz_found(finding, "verify: %s", verified.error.text);
