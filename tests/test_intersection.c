@@ -1,9 +1,9 @@
 /* test_intersection.c - where faces pierce each other, and where they only
  * touch. */
 #include "visibility/intersection/intersection.h"
-#include "base/tolerance.h"
 #include "exact_fixture/rational.h"
 #include "exact_fixture/scene.h"
+#include "visibility/predicate/contact.h"
 #include "visibility/predicate/occlusion.h"
 
 #include <math.h>
@@ -418,8 +418,10 @@ static bool straddles(const struct sheet *sheet, const struct geom_point f[3],
 }
 
 /* The largest distance of side a-b of one triangle from the plane of the other,
- * within the other's projection, as a share of what rounding may do. */
-static long double side_share(struct geom_point a, struct geom_point b,
+ * within the other's projection, as a share of what rounding may do.
+ * units  of the grid */
+static long double side_share(double units, struct geom_point a,
+                              struct geom_point b,
                               const struct geom_point g[3]) {
   struct geom_plane plane = geom_plane_of(g[0], g[1], g[2]);
   long double va = (long double)geom_plane_value(&plane, a),
@@ -437,17 +439,17 @@ static long double side_share(struct geom_point a, struct geom_point b,
   if (low > high - 1e-12L)
     return 0;
   return fmaxl(fabsl(va + low * (vb - va)), fabsl(va + high * (vb - va))) /
-         (TOLERANCE_CONTACT_GRID_UNITS *
-          (fabsl((long double)plane.nx) + fabsl((long double)plane.ny) +
-           (long double)plane.nz));
+         (units * (fabsl((long double)plane.nx) + fabsl((long double)plane.ny) +
+                   (long double)plane.nz));
 }
 
 /* The same of all sides of both. */
-static long double overlap_share(struct geom_point p[2][3]) {
+static long double overlap_share(double units, struct geom_point p[2][3]) {
   long double most = 0;
   for (int f = 0; f < 2; f++)
     for (int k = 0; k < 3; k++)
-      most = fmaxl(most, side_share(p[f][k], p[f][(k + 1) % 3], p[1 - f]));
+      most =
+          fmaxl(most, side_share(units, p[f][k], p[f][(k + 1) % 3], p[1 - f]));
   return most;
 }
 
@@ -464,7 +466,7 @@ static void check_pair(struct sheet *sheet, int *pierced, int *within) {
          common_segment(p[0], p[1], end);
   if (want &&
       !((sheet->triangle_flags[0] | sheet->triangle_flags[1]) & SHEET_FLAT)) {
-    long double share = overlap_share(p);
+    long double share = overlap_share(contact_grid_units(sheet), p);
     if (fabsl(share - 1) < 1e-9L)
       return;
     want = share > 1;

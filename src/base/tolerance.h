@@ -99,7 +99,6 @@
  *             triangle's width.
  * Users       view/layout_clipping.c,
  *             visibility/predicate/contact.c,
- *             visibility/predicate/occlusion.c,
  *             visibility/intersection/edge_crossing.c
  * Ten times   faces 0.15 um apart on paper count as touching. */
 #define TOLERANCE_CONTACT_GRID_UNITS 16

@@ -5,7 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/tolerance.h"
 #include "visibility/predicate/contact.h"
 #include "visibility/predicate/plane_filter.h"
 
@@ -224,7 +223,7 @@ bool occluder_edge_leaves_rounding(const struct occluder *occluder,
   if (!occlude_by_outline(occluder->p, p, q, &part))
     return false;
   bool given = sheet->camera.contact >= 0;
-  double grid = TOLERANCE_CONTACT_GRID_UNITS * FIXED_ONE *
+  double grid = contact_grid_units(sheet) * FIXED_ONE *
                 (fabs(occluder->nx) + fabs(occluder->ny) + occluder->nz);
   const struct geom_point end[2] = {p, q};
   double value[2], tolerance[2];
