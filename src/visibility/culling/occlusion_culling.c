@@ -50,18 +50,6 @@ struct culling_work {
 
 /* ---- Phase 1 ------------------------------------------------------------- */
 
-static struct box2 page_box(const struct sheet *sheet) {
-  struct box2 all = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
-  for (size_t i = 0; i < sheet->point.count; i++) {
-    struct geom_point p = sheet->point.item[i];
-    all.x0 = box2_min(all.x0, p.x);
-    all.y0 = box2_min(all.y0, p.y);
-    all.x1 = box2_max(all.x1, p.x);
-    all.y1 = box2_max(all.y1, p.y);
-  }
-  return all;
-}
-
 static double box_area(struct box2 box) {
   return ((double)box.x1 - box.x0 + 1) * ((double)box.y1 - box.y0 + 1);
 }
@@ -344,7 +332,7 @@ bool occlusion_culling_init(struct occlusion_culling *culling,
                               .culling = culling,
                               .fragments = fragments,
                               .contact = occlusion_tolerance_bound_all(sheet)};
-  struct box2 page = page_box(sheet);
+  struct box2 page = box2_of_sheet(sheet);
   *culling = (struct occlusion_culling){.culled = NULL};
   if (sheet->triangle.count == 0 ||
       occlusion_culling_complexity(sheet, box_area(page)) < COMPLEXITY_MIN)

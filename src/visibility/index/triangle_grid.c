@@ -16,19 +16,6 @@ enum {
 
 typedef ARRAY(uint32_t) triangle_list;
 
-/* The box of all points, those of wires too: triangles use nearly all. */
-static struct box2 box_of_sheet(const struct sheet *sheet) {
-  struct box2 all = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
-  for (size_t i = 0; i < sheet->point.count; i++) {
-    struct geom_point p = sheet->point.item[i];
-    all.x0 = box2_min(all.x0, p.x);
-    all.y0 = box2_min(all.y0, p.y);
-    all.x1 = box2_max(all.x1, p.x);
-    all.y1 = box2_max(all.y1, p.y);
-  }
-  return sheet->point.count > 0 ? all : (struct box2){0, 0, 0, 0};
-}
-
 /* Do the boxes meet at most `spread` cells of 2^shift units on average?
  * Estimated from every stride-th triangle. */
 static bool is_spread(const struct sheet *sheet, int shift, unsigned spread) {
@@ -60,7 +47,7 @@ static void shape(struct triangle_grid *grid, const struct sheet *sheet,
 
 void triangle_grid_shape(struct triangle_grid *grid, const struct sheet *sheet,
                          unsigned spread, unsigned most) {
-  struct box2 all = box_of_sheet(sheet);
+  struct box2 all = box2_of_sheet(sheet);
   uint64_t capacity = (uint64_t)most * sheet->triangle.count + 16;
   int shift = 0;
   while (shift < MAX_SHIFT && (cells_across(all.x0, all.x1, shift) *
@@ -95,7 +82,7 @@ static double cost_of_pairs(const struct triangle_grid *grid,
 bool triangle_grid_enlarge(struct triangle_grid *grid,
                            const struct sheet *sheet, const uint32_t *subset,
                            size_t n, double *cost) {
-  struct box2 all = box_of_sheet(sheet);
+  struct box2 all = box2_of_sheet(sheet);
   struct triangle_grid next;
   int shift = grid->shift;
   uint32_t *count = mem_alloc(triangle_grid_cell_count(grid), sizeof *count);

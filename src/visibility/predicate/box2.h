@@ -31,6 +31,20 @@ static inline struct box2 box2_of_triangle(const struct sheet *sheet,
                        box2_max(a->y, box2_max(b->y, c->y))};
 }
 
+/* The box of all points, those of wires too: triangles use nearly all.  Of none,
+ * it is a point. */
+static inline struct box2 box2_of_sheet(const struct sheet *sheet) {
+  struct box2 all = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
+  for (size_t i = 0; i < sheet->point.count; i++) {
+    struct geom_point p = sheet->point.item[i];
+    all.x0 = box2_min(all.x0, p.x);
+    all.y0 = box2_min(all.y0, p.y);
+    all.x1 = box2_max(all.x1, p.x);
+    all.y1 = box2_max(all.y1, p.y);
+  }
+  return sheet->point.count > 0 ? all : (struct box2){0, 0, 0, 0};
+}
+
 /* Boxes that only touch are not disjoint. */
 static inline bool box2_disjoint(struct box2 a, struct box2 b) {
   return a.x1 < b.x0 || b.x1 < a.x0 || a.y1 < b.y0 || b.y1 < a.y0;
