@@ -224,7 +224,7 @@ static bool add_edges(struct contour_pieces *c,
   return true;
 }
 
-/* Whether more triangles than are asked for hide a piece. */
+/* Whether more triangles hide a piece than are requested. */
 static bool is_too_deep(const struct contour_pieces *c,
                         const struct contour_piece *piece) {
   return c->hidden_max > 0 && !piece->is_visible &&
