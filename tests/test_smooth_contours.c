@@ -409,6 +409,25 @@ static void smooth_contours_are_the_same_by_all_methods(void **state) {
   recto_scene_destroy(scene);
 }
 
+/* Whatever the crease angle, a body of few faces keeps its outline: a double
+ * pyramid of 3 to 8 sides, of which a contour may enclose two vertices. */
+static void bodies_of_few_faces_keep_their_outline(void **state) {
+  (void)state;
+  for (int sides = 3; sides <= 8; sides++) {
+    recto_scene *scene = make_scene(sphere, true, sides, 2);
+    for (int crease = 90; crease <= 180; crease += 15)
+      for (int view = 0; view < VIEWS; view++) {
+        recto_options options;
+        init_view(&options, view);
+        options.mesh.crease_deg = crease;
+        recto_drawing *drawing = draw(scene, &options);
+        assert_true(recto_drawing_stroke_count(drawing) > 0);
+        recto_drawing_destroy(drawing);
+      }
+    recto_scene_destroy(scene);
+  }
+}
+
 static void smooth_contours_are_not_verified(void **state) {
   (void)state;
   recto_scene *scene = make_scene(torus, false, 12, 8);
@@ -429,6 +448,7 @@ int main(void) {
       cmocka_unit_test(the_contour_of_a_cone_starts_at_its_tip),
       cmocka_unit_test(a_part_of_creases_is_drawn_by_its_own_edges),
       cmocka_unit_test(smooth_contours_are_the_same_by_all_methods),
+      cmocka_unit_test(bodies_of_few_faces_keep_their_outline),
       cmocka_unit_test(smooth_contours_are_not_verified),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

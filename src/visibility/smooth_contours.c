@@ -43,6 +43,7 @@ struct contour_pieces {
   struct projection projection;
   struct triangle_grid grid;
   struct triangle_grid_query query;
+  double crease_deg;
   int hidden_max;
   ARRAY(struct contour_piece) piece; /* of the current curve */
   uint64_t piece_count;
@@ -323,7 +324,7 @@ static bool add_all_curves(struct contour_pieces *c) {
 /* ---- The whole ----------------------------------------------------------- */
 
 static bool add_pieces(struct contour_pieces *c) {
-  bool ok = contour_curves_join(c->curves, c->set);
+  bool ok = contour_curves_join(c->curves, c->set, c->crease_deg);
   if (!ok || c->curves->curve.count == 0)
     return ok;
   ok = contour_curves_cut_at_cusps(c->curves) &&
@@ -357,6 +358,7 @@ recto_status smooth_contours_add(struct sheet *sheet, struct map *map,
                                   .set = &set,
                                   .curves = &curves,
                                   .projection = projection_of(&sheet->camera),
+                                  .crease_deg = crease_deg,
                                   .hidden_max = hidden_max};
   if (status == RECTO_OK && !add_pieces(&pieces))
     status = error_memory(error);

@@ -2,15 +2,17 @@
  * cusps. */
 #include "visibility/contour/contour_curves.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/poll.h"
 #include "base/sort.h"
 
-/* A closed curve is noise where the vertices on one of its sides are so few.
- * About a smooth body a curve passes 360 / 30 = 12 edges at least, as the usual
- * crease angle is 30 degrees; about a bump of the noise that normals have it
- * passes fewer. */
+/* A closed curve is noise where the vertices on one of its sides are so few, at
+ * most.  Edges of a smooth body bend by no more than the crease angle, so that a
+ * curve about it passes 360 degrees / that angle of them at least, half of which
+ * have other vertices on one side; about a bump of the noise that normals have
+ * it passes fewer. */
 enum { NOISE_VERTICES = 6 };
 
 /* The sign of the radial curvature is that of most of so many segments to
@@ -74,15 +76,23 @@ static uint32_t count_changes(const struct contour_curves *curves,
   return changes;
 }
 
+/* The most vertices on a side of noise; 0: none is known to be noise, as a
+ * contour may go about a single vertex of a body. */
+static uint32_t noise_vertices(double crease_deg) {
+  double half = fmin(180 / crease_deg, NOISE_VERTICES);
+  return half < 2 ? 0 : (uint32_t)half;
+}
+
 static bool is_noise(const struct contour_curves *curves,
-                     const struct contour_curve *curve) {
-  return curve->closed &&
-         (count_changes(curves, curve, false) <= NOISE_VERTICES ||
-          count_changes(curves, curve, true) <= NOISE_VERTICES);
+                     const struct contour_curve *curve, uint32_t most) {
+  return most > 0 && curve->closed &&
+         (count_changes(curves, curve, false) <= most ||
+          count_changes(curves, curve, true) <= most);
 }
 
 bool contour_curves_join(struct contour_curves *curves,
-                         const struct zero_set *set) {
+                         const struct zero_set *set, double crease_deg) {
+  uint32_t noise = noise_vertices(crease_deg);
   curves->set = set;
   size_t segments = set->segment.count;
   uint8_t *done = mem_calloc(segments, 1);
@@ -96,8 +106,8 @@ bool contour_curves_join(struct contour_curves *curves,
           continue;
         size_t steps = curves->step.count;
         ok = follow(curves, done, node, s);
-        if (ok &&
-            is_noise(curves, &curves->curve.item[curves->curve.count - 1])) {
+        if (ok && is_noise(curves, &curves->curve.item[curves->curve.count - 1],
+                           noise)) {
           curves->curve.count--;
           curves->step.count = steps;
         }

@@ -35,10 +35,12 @@ struct contour_curves {
 /* Joins the segments to curves, end to end.  Where other than two segments
  * meet, as creases do, curves end.  A closed curve that encloses a few vertices
  * only is noise of the normals, and left out (contour_curves.c).
- * curves  zero-initialised; the caller frees it
+ * curves      zero-initialised; the caller frees it
+ * crease_deg  between faces of smooth bodies
  * Returns false when memory ran out. */
 USE_RESULT bool contour_curves_join(struct contour_curves *curves,
-                                    const struct zero_set *set);
+                                    const struct zero_set *set,
+                                    double crease_deg);
 void contour_curves_fini(struct contour_curves *curves);
 
 /* Adds cuts at cusps: where the radial curvature changes its sign, and the
