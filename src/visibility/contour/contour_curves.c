@@ -9,10 +9,10 @@
 #include "base/sort.h"
 
 /* A closed curve is noise where the vertices on one of its sides are so few, at
- * most.  Edges of a smooth body bend by no more than the crease angle, so that a
- * curve about it passes 360 degrees / that angle of them at least, half of which
- * have other vertices on one side; about a bump of the noise that normals have
- * it passes fewer. */
+ * most.  Edges of a smooth body bend by no more than the crease angle, so that
+ * a curve about it passes 360 degrees / that angle of them at least, half of
+ * which have other vertices on one side; about a bump of the noise that normals
+ * have it passes fewer. */
 enum { NOISE_VERTICES = 6 };
 
 /* The sign of the radial curvature is that of most of so many segments to

@@ -31,8 +31,8 @@ static inline struct box2 box2_of_triangle(const struct sheet *sheet,
                        box2_max(a->y, box2_max(b->y, c->y))};
 }
 
-/* The box of all points, those of wires too: triangles use nearly all.  Of none,
- * it is a point. */
+/* The box of all points, those of wires too: triangles use nearly all.  Of
+ * none, it is a point. */
 static inline struct box2 box2_of_sheet(const struct sheet *sheet) {
   struct box2 all = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
   for (size_t i = 0; i < sheet->point.count; i++) {
