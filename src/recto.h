@@ -355,9 +355,14 @@ typedef struct recto_ink_options {
 
   recto_order order;
   double simplify_mm;   /* no point of a line moves by more */
-  double min_stroke_mm; /* shorter strokes are dropped; negative: half a pen */
-  bool ids;             /* one source for each stroke, written with it */
-  char unused[7];       /* 0 */
+  /* Hatch lines that are shorter are dropped, and so are creases and group
+   * borders of which an end is free; negative: half a pen, and creases 10 pens.
+   * Other lines are dropped if they are shorter than that and than half a pen.
+   */
+  double min_stroke_mm;
+  bool ids;       /* one source for each stroke, written with it */
+  bool exact;     /* no crease is dropped because an end is free */
+  char unused[6]; /* 0 */
   recto_contours contours; /* silhouettes of the mesh, or of the smooth surface
                               that it samples; not with verify */
   uint64_t reserved[7];

@@ -61,6 +61,7 @@ uint32_t ink_fixture_group(struct ink_fixture *k, const char *name) {
 uint32_t ink_fixture_point_at(struct ink_fixture *k, int32_t x, int32_t y) {
   struct geom_point p = {.x = x, .y = y};
   assert_true(ARRAY_PUSH(&k->sheet.point, p));
+  k->sheet.vertex_count = k->sheet.point.count;
   return (uint32_t)k->sheet.point.count - 1;
 }
 

@@ -54,6 +54,8 @@ unit_tests += %D%/test_polls
 %C%_test_polls_SOURCES = %D%/test_polls.c %D%/temporary.c %D%/temporary.h
 unit_tests += %D%/test_result_models
 %C%_test_result_models_SOURCES = %D%/test_result_models.c
+unit_tests += %D%/test_speckles
+%C%_test_speckles_SOURCES = %D%/test_speckles.c %D%/ink_fixture.c %D%/ink_fixture.h
 unit_tests += %D%/test_smooth_contours
 %C%_test_smooth_contours_SOURCES = %D%/test_smooth_contours.c
 unit_tests += %D%/test_verify
@@ -98,7 +100,7 @@ endif
 check_PROGRAMS += %D%/paper_tool
 %C%_paper_tool_SOURCES = %D%/paper_tool.c %D%/drawing_fixture.c %D%/drawing_fixture.h
 dist_check_SCRIPTS += %D%/test_paper.sh %D%/test_same_picture.sh \
-  %D%/test_tone.sh %D%/test_verify_rounding.sh %D%/test_viewers.sh
+  %D%/test_speckles.sh %D%/test_tone.sh %D%/test_verify_rounding.sh %D%/test_viewers.sh
 
 # Layer 0.
 unit_tests += %D%/test_input

@@ -82,6 +82,7 @@ done <<'END_OF_ROWS'
 --pen-colour 1=00f|a.svg|a.hpgl|svg, pdf, eps, ps and png; hpgl
 --order near|a.svg|a.svg -e none --fill paint|lines and hatching; --edges none
 --min-stroke 1|a.svg|a.svg -e none --fill paint|lines and hatching; --edges none
+--exact|a.svg|a.svg -e none --fill hatch|lines; --edges none
 --seam 0.1|a.svg --fill shade|a.svg --fill hatch|--fill paint and --fill shade; --fill hatch
 --hatch-pitch 2|a.svg --fill hatch|a.svg --fill paint|--fill hatch; --fill paint
 --hatch-pitch 2|a.svg --fill hatch|a.svg --fill hatch --light 1,1,1|hatching of one pitch; hatching by --light
@@ -131,7 +132,7 @@ check_reports_progress() {
 claim "--progress is used by --check" check_reports_progress
 claim "--check looks with the same camera, edges and tolerances" \
   check_uses --view iso --lookat 0,0,1 --fov 20 --no-fit --margin 5 \
-  -e all --crease 20 --contact 0 --pen 0.3 --min-stroke 0.1 --pen-width 2=0.5 \
+  -e all --crease 20 --contact 0 --pen 0.3 --min-stroke 0.1 --exact --pen-width 2=0.5 \
   --simplify 0.1
 
 claim "a tolerance is used by --check" check_uses --tolerance 1%

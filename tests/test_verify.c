@@ -360,20 +360,28 @@ static void a_line_where_no_edge_is_is_found(void **state) {
   end(&run);
 }
 
-/* A line that is too short to be drawn is no excuse for a long one. */
+/* A roof in a plane of 20 x 10, whose ridge of 2 mm alone is a crease. */
 static void only_what_is_too_short_may_be_missing(void **state) {
   (void)state;
   struct judged_run run;
   start_plates(&run);
-  build_parallelogram(&run.scene, vector_of(20, 0, 0), vector_of(1, 0, 0),
-                      vector_of(0, 1, 0));
-  run.options.ink.min_stroke_mm = 10;
+  uint32_t corner[4], ridge[2];
+  for (int i = 0; i < 4; i++)
+    corner[i] = build_point(&run.scene, i == 1 || i == 2 ? 10 : -10,
+                            i / 2 ? 25 : 35, 5);
+  for (int i = 0; i < 2; i++)
+    ridge[i] = build_point(&run.scene, 2 * i - 1, 30, 6);
+  build_quad(&run.scene, corner[0], corner[1], ridge[1], ridge[0]);
+  build_triangle(&run.scene, corner[1], corner[2], ridge[1]);
+  build_quad(&run.scene, corner[2], corner[3], ridge[0], ridge[1]);
+  build_triangle(&run.scene, corner[3], corner[0], ridge[0]);
+  run.options.mesh.crease_deg = 20;
   draw(&run);
-  assert_int_equal(run.pipeline.drawing.stroke.count, 1);
-  assert_right(&run, "a small plate is dropped");
-  run.options.ink.min_stroke_mm = 3;
+  assert_int_equal(run.pipeline.drawing.dropped.count, 1);
+  assert_right(&run, "a short ridge is dropped");
+  run.pipeline.drawing.dropped.count = 0;
   assert_int_equal(verify_run(&run, 0), RECTO_ERROR_VERIFY);
-  assert_says(&run, "of face 2 is visible");
+  assert_says(&run, "is visible");
   end(&run);
 }
 

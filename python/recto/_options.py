@@ -64,6 +64,7 @@ class Options(TypedDict, total=False):
     order: str
     simplify: float
     min_stroke: float
+    exact: bool
     ids: bool
 
     format: Union[str, None]
@@ -155,6 +156,7 @@ _FIELDS = {
     "pens": ("ink", "pens"),
     "simplify": ("ink", "simplify_mm"),
     "min_stroke": ("ink", "min_stroke_mm"),
+    "exact": ("ink", "exact"),
     "ids": ("ink", "ids"),
     "up": ("camera", "up"),
     "unit": ("output", "unit_mm"),

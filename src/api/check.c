@@ -45,13 +45,18 @@ static void fill_verdict(recto_verdict *to, const struct judge_verdict *from) {
 
 /* The largest of all pens' least stroke lengths: which pen drew a line of the
  * file is unknown. */
-static recto_status find_shortest(double *mm, const struct scene *scene,
+static recto_status find_shortest(struct judge_options *options,
+                                  const struct scene *scene,
                                   const recto_options *o, recto_error *error) {
   struct pens pens;
   recto_status status = pens_init(&pens, scene, o, error);
-  *mm = 0;
-  for (uint32_t pen = 0; status == RECTO_OK && pen <= o->ink.pen_count; pen++)
-    *mm = fmax(*mm, pens_shortest_mm(&pens, pen));
+  for (uint32_t pen = 0; status == RECTO_OK && pen <= o->ink.pen_count; pen++) {
+    double line = pens_shortest_line_mm(&pens, pen);
+    double crease = pens_shortest_crease_mm(&pens, pen);
+    options->shortest_mm = fmax(options->shortest_mm, line);
+    options->shortest_crease_mm =
+        fmax(options->shortest_crease_mm, fmax(line, crease));
+  }
   pens_fini(&pens);
   return status;
 }
@@ -75,7 +80,7 @@ static recto_status judge_file_drawing(const struct scene *scene,
   options.samples = SAMPLES;
   options.ink_distance_mm = options.lateral_mm =
       o->ink.pen_mm / 4 + ink_deviation_mm(o);
-  status = find_shortest(&options.shortest_mm, scene, o, error);
+  status = find_shortest(&options, scene, o, error);
   if (status == RECTO_OK &&
       !judge_drawing(verdict, drawing, &input.scene, &seen, &options))
     status = error_memory(error);

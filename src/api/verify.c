@@ -2,9 +2,10 @@
  *
  * Phases
  *   scene    converts the scene for the judge: judge_input.h.
- *   strokes  collects the drawing's lines; and draws the scene again without a
- *            least length, to collect the lines that were too short: the judge
- *            must not miss these.
+ *   strokes  collects the drawing's lines, and those that were too short: the
+ *            judge must not miss these.  Where the output is coarse, it also
+ *            draws the scene again more finely, to find lines that were longer
+ *            before.
  *   verdict  makes a report, a summary or an error of the judge's verdict. */
 #include "api/verify.h"
 
@@ -19,10 +20,9 @@
 /* ---- The strokes --------------------------------------------------------- */
 
 static bool add_judged_stroke(struct judge_drawing *to,
-                              const struct drawing *drawing,
                               const struct drawing_stroke *stroke,
+                              const struct drawing_point *point,
                               enum judge_role role) {
-  const struct drawing_point *point = drawing->point.item + stroke->point;
   struct judge_stroke taken = {(uint32_t)to->point.count,
                                stroke->count + stroke->closed, role};
   if (!ARRAY_RESERVE(&to->point, taken.count) ||
@@ -40,7 +40,7 @@ static bool add_drawn(struct judge_drawing *to, const struct drawing *drawing) {
   for (size_t i = 0; i < drawing->stroke.count; i++) {
     const struct drawing_stroke *stroke = &drawing->stroke.item[i];
     if (stroke->edge_class != 0 &&
-        !add_judged_stroke(to, drawing, stroke,
+        !add_judged_stroke(to, stroke, drawing->point.item + stroke->point,
                            stroke->hidden ? JUDGE_HIDDEN : JUDGE_INK))
       return false;
   }
@@ -52,36 +52,28 @@ static bool add_drawn(struct judge_drawing *to, const struct drawing *drawing) {
 #define FINE_UNIT_MM 0.01
 #define COLLAPSED_UNITS 4
 
-/* Collects the lines that are not drawn because they are too short: with ids
- * too, the length of a line before it is split by source decides.  Hidden lines
- * are drawn as well, since lines end where these begin.
- * unit_mm    of the output at which they are drawn
- * collapsed  by so much the output may have shortened them, mm */
-static recto_status add_short(struct judge_drawing *to,
-                              const struct verify *verify, double unit_mm,
-                              double collapsed, recto_error *error) {
-  recto_options all = *verify->options;
-  double shortest = all.ink.min_stroke_mm;
-  all.output.unit_mm = unit_mm;
-  all.ink.min_stroke_mm = 0;
-  all.ink.ids = false;
-  all.ink.fill = RECTO_FILL_NONE;
-  all.ink.order = RECTO_ORDER_NONE;
-  struct drawing drawing;
-  drawing_init(&drawing);
-  recto_status status = ink_draw(&drawing, verify->sheet, verify->scene,
-                                 verify->map, &all, error);
-  for (size_t i = 0; status == RECTO_OK && i < drawing.stroke.count; i++) {
-    const struct drawing_stroke *stroke = &drawing.stroke.item[i];
-    double half_pen = drawing.layer.item[stroke->layer].width_mm / 2;
-    if (!stroke->hidden &&
-        drawing_stroke_mm(&drawing, stroke) <
-            (shortest < 0 ? half_pen : shortest) + collapsed &&
-        !add_judged_stroke(to, &drawing, stroke, JUDGE_DROPPED))
-      status = error_memory(error);
+/* Collects the lines of a drawing that are not drawn or that are shorter than
+ * half a pen and a length more.
+ * more  mm; hidden lines are drawn as well, since lines end where these begin */
+static bool add_short(struct judge_drawing *to, const struct drawing *drawing,
+                      double more) {
+  for (size_t i = 0; i < drawing->dropped.count; i++) {
+    const struct drawing_stroke *stroke = &drawing->dropped.item[i];
+    if (!add_judged_stroke(to, stroke,
+                           drawing->dropped_point.item + stroke->point,
+                           JUDGE_DROPPED))
+      return false;
   }
-  drawing_fini(&drawing);
-  return status;
+  for (size_t i = 0; more > 0 && i < drawing->stroke.count; i++) {
+    const struct drawing_stroke *stroke = &drawing->stroke.item[i];
+    double half_pen = drawing->layer.item[stroke->layer].width_mm / 2;
+    if (!stroke->hidden &&
+        drawing_stroke_mm(drawing, stroke) < half_pen + more &&
+        !add_judged_stroke(to, stroke, drawing->point.item + stroke->point,
+                           JUDGE_DROPPED))
+      return false;
+  }
+  return true;
 }
 
 /* Collects the lines that were not drawn because they are too short.  Where the
@@ -90,12 +82,23 @@ static recto_status add_short(struct judge_drawing *to,
 static recto_status add_dropped(struct judge_drawing *to,
                                 const struct verify *verify,
                                 recto_error *error) {
-  double unit = verify->options->output.unit_mm;
-  recto_status status = RECTO_OK;
-  if (unit > FINE_UNIT_MM)
-    status = add_short(to, verify, FINE_UNIT_MM, COLLAPSED_UNITS * unit, error);
-  if (status == RECTO_OK && verify->options->ink.min_stroke_mm != 0)
-    status = add_short(to, verify, unit, 0, error);
+  recto_options fine = *verify->options;
+  double unit = fine.output.unit_mm;
+  recto_status status =
+      add_short(to, verify->drawing, 0) ? RECTO_OK : error_memory(error);
+  if (status != RECTO_OK || unit <= FINE_UNIT_MM)
+    return status;
+  fine.output.unit_mm = FINE_UNIT_MM;
+  fine.ink.ids = false;
+  fine.ink.fill = RECTO_FILL_NONE;
+  fine.ink.order = RECTO_ORDER_NONE;
+  struct drawing drawing;
+  drawing_init(&drawing);
+  status = ink_draw(&drawing, verify->sheet, verify->scene, verify->map, &fine,
+                    error);
+  if (status == RECTO_OK && !add_short(to, &drawing, COLLAPSED_UNITS * unit))
+    status = error_memory(error);
+  drawing_fini(&drawing);
   return status;
 }
 

@@ -13,6 +13,8 @@ void drawing_fini(struct drawing *drawing) {
   ARRAY_FREE(&drawing->fill);
   ARRAY_FREE(&drawing->loop);
   ARRAY_FREE(&drawing->point);
+  ARRAY_FREE(&drawing->dropped);
+  ARRAY_FREE(&drawing->dropped_point);
   for (size_t i = 0; i < drawing->group_name.count; i++)
     mem_free(drawing->group_name.item[i]);
   ARRAY_FREE(&drawing->group_name);

@@ -68,6 +68,10 @@ struct drawing {
   ARRAY(struct drawing_fill) fill;
   ARRAY(struct drawing_loop) loop;
   ARRAY(struct drawing_point) point;
+  /* Visible lines that are not drawn as they are too short, and their points:
+   * for those who judge the drawing. */
+  ARRAY(struct drawing_stroke) dropped;
+  ARRAY(struct drawing_point) dropped_point;
   ARRAY(char *) group_name; /* of the scene, owned; written if ids */
   bool ids;                 /* write faces, edges and groups of elements */
   struct drawing_counts counts;

@@ -58,10 +58,15 @@ static recto_status make_paths(const struct ink *ink, struct ink_paths *paths,
                                uint32_t *path_of_segment,
                                const struct segment_graph *graph,
                                recto_error *error) {
+  double step = ink->options->output.unit_mm * SHEET_UNITS_PER_MM;
   recto_status status = paths_chain(paths, path_of_segment, graph, error);
+  if (status == RECTO_OK && !ink->options->ink.exact &&
+      ink->options->ink.min_stroke_mm != 0 &&
+      !paths_find_free_ends(paths, graph, ink->sheet, step))
+    status = error_memory(error);
   if (status != RECTO_OK)
     return status;
-  paths_straighten(paths, ink->options->output.unit_mm * SHEET_UNITS_PER_MM);
+  paths_straighten(paths, step);
   if (ink->options->ink.simplify_mm > 0)
     status = paths_simplify(
         paths, ink->options->ink.simplify_mm * SHEET_UNITS_PER_MM, error);
@@ -109,8 +114,10 @@ static bool copy_points(const struct ink *ink, const struct ink_paths *paths,
 
 static bool is_too_short(const struct ink *ink, const struct ink_path *path,
                          const struct stroke_line *line) {
-  return stroke_line_length(line) <
-         pens_shortest_mm(ink->pens, stroke_like(ink, path).layer);
+  uint32_t layer = stroke_like(ink, path).layer;
+  double length = stroke_line_length(line);
+  return length < pens_shortest_line_mm(ink->pens, layer) ||
+         (path->is_free && length < pens_shortest_crease_mm(ink->pens, layer));
 }
 
 static bool add_drawn_path(struct ink *ink, const struct ink_path *path,
@@ -124,6 +131,23 @@ static bool add_drawn_path(struct ink *ink, const struct ink_path *path,
                     line->closed);
 }
 
+/* Counts a path that is too short, and keeps it if it is visible. */
+static bool drop_path(struct ink *ink, const struct ink_path *path,
+                      const struct stroke_line *line) {
+  struct drawing *drawing = ink->drawing;
+  struct drawing_stroke stroke = stroke_like(ink, path);
+  drawing->counts.too_short++;
+  if (path->hidden)
+    return true;
+  stroke.point = (uint32_t)drawing->dropped_point.count;
+  stroke.count = (uint32_t)line->point.count;
+  stroke.closed = line->closed;
+  for (size_t i = 0; i < line->point.count; i++)
+    if (!ARRAY_PUSH(&drawing->dropped_point, line->point.item[i]))
+      return false;
+  return ARRAY_PUSH(&drawing->dropped, stroke);
+}
+
 /* Adds the paths as strokes; with `filter` those that are too short are left
  * out. */
 static bool add_paths(struct ink *ink, const struct ink_paths *paths,
@@ -134,10 +158,9 @@ static bool add_paths(struct ink *ink, const struct ink_paths *paths,
   for (size_t i = 0; ok && i < paths->path.count; i++) {
     const struct ink_path *path = &paths->path.item[i];
     ok = poll_at(i) && copy_points(ink, paths, path, &line);
-    if (ok && filter && is_too_short(ink, path, &line))
-      ink->drawing->counts.too_short++;
-    else
-      ok = ok && add_drawn_path(ink, path, &line);
+    ok = ok && (filter && is_too_short(ink, path, &line)
+                    ? drop_path
+                    : add_drawn_path)(ink, path, &line);
   }
   ARRAY_FREE(&line.point);
   return ok;
@@ -157,7 +180,7 @@ static bool mark_short(struct ink *ink, const struct ink_paths *paths,
     ok = poll_at(i) && copy_points(ink, paths, path, &line);
     if (ok && is_too_short(ink, path, &line)) {
       path_is_short[i] = 1;
-      ink->drawing->counts.too_short++;
+      ok = drop_path(ink, path, &line);
     }
   }
   for (size_t i = 0; ok && i < segments; i++)

@@ -18,6 +18,7 @@ librecto_core_la_SOURCES += \
   %D%/hatch/tone_hatch.c \
   %D%/lines/chain.c \
   %D%/lines/dash.c \
+  %D%/lines/free_ends.c \
   %D%/lines/isolated.c \
   %D%/lines/nodes.c \
   %D%/lines/nodes_near_segment.c %D%/lines/nodes_near_segment.h \

@@ -1,10 +1,14 @@
 /* pens.c - assigns lines to pens, and weights to classes, by the options. */
 #include "ink/pens.h"
 
+#include <math.h>
 #include <string.h>
 
 /* ISO 128: wide lines are twice as wide as narrow ones. */
 #define WIDE 2.0
+
+/* In pen widths: shorter creases that end free are no line to the eye. */
+#define SHORTEST_CREASE_PENS 10
 
 /* The index of the bit of a class. */
 static unsigned class_index(unsigned edge_class) {
@@ -89,7 +93,8 @@ recto_status pens_init(struct pens *pens, const struct scene *scene,
                         .own = options->ink.pen,
                         .own_count = options->ink.pen_count,
                         .width_mm = options->ink.pen_mm,
-                        .shortest_mm = options->ink.min_stroke_mm};
+                        .shortest_mm = options->ink.min_stroke_mm,
+                        .exact = options->ink.exact};
   for (int i = 0; i < RECTO_EDGE_CLASS_COUNT; i++)
     pens->of_class[i] = PENS_NONE;
   if (!assign_groups(pens, scene, options))
@@ -130,9 +135,20 @@ double pens_width_mm(const struct pens *pens, uint32_t pen) {
   return own > 0 ? own : pens->width_mm;
 }
 
-double pens_shortest_mm(const struct pens *pens, uint32_t pen) {
+double pens_shortest_hatch_mm(const struct pens *pens, uint32_t pen) {
   return pens->shortest_mm < 0 ? pens_width_mm(pens, pen) / 2
                                : pens->shortest_mm;
+}
+
+double pens_shortest_line_mm(const struct pens *pens, uint32_t pen) {
+  return fmin(pens_shortest_hatch_mm(pens, pen), pens_width_mm(pens, pen) / 2);
+}
+
+double pens_shortest_crease_mm(const struct pens *pens, uint32_t pen) {
+  return pens->exact ? 0
+         : pens->shortest_mm < 0
+             ? SHORTEST_CREASE_PENS * pens_width_mm(pens, pen)
+             : pens->shortest_mm;
 }
 
 unsigned pens_weight_priority(const struct pens *pens, unsigned edge_class) {

@@ -25,6 +25,7 @@ struct pens {
   double weight[RECTO_EDGE_CLASS_COUNT]; /* in pen widths, by the index of
                                             the bit */
   double width_mm, shortest_mm;          /* from the options */
+  bool exact;
 };
 
 /* Call pens_fini whatever the status.
@@ -56,8 +57,11 @@ static inline uint32_t pens_of_group(const struct pens *pens, uint32_t group) {
 
 double pens_width_mm(const struct pens *pens, uint32_t pen);
 
-/* The length below which strokes of the pen are dropped. */
-double pens_shortest_mm(const struct pens *pens, uint32_t pen);
+/* The lengths below which strokes of the pen are dropped: any line, at most half
+ * the pen; chains of creases with a free end; lines of hatching. */
+double pens_shortest_line_mm(const struct pens *pens, uint32_t pen);
+double pens_shortest_crease_mm(const struct pens *pens, uint32_t pen);
+double pens_shortest_hatch_mm(const struct pens *pens, uint32_t pen);
 
 /* Equal for two classes of visible lines with equal weights, which may be
  * joined into one stroke. */

@@ -287,14 +287,19 @@ static bool is_requested(const void *user, uint32_t edge) {
  * are on one line, so its length is computed once. */
 static bool is_too_short_to_draw(struct judge_context *context, uint32_t edge,
                                  double t) {
-  const struct judge_missing_run run = {.sampler = &context->sampler,
-                                        .edges = &context->edges,
-                                        .by_image = &context->by_image,
-                                        .shortest_mm =
-                                            context->options.shortest_mm,
-                                        .is_requested = is_requested,
-                                        .has_ink = has_ink,
-                                        .user = context};
+  const struct judge_options *options = &context->options;
+  unsigned mask =
+      context->edges.edge.item[edge].source.class_mask & options->edges;
+  bool inner = mask != 0 &&
+               (mask & ~(unsigned)(RECTO_EDGE_CREASE | RECTO_EDGE_GROUP)) == 0;
+  const struct judge_missing_run run = {
+      .sampler = &context->sampler,
+      .edges = &context->edges,
+      .by_image = &context->by_image,
+      .shortest_mm = inner ? options->shortest_crease_mm : options->shortest_mm,
+      .is_requested = is_requested,
+      .has_ink = has_ink,
+      .user = context};
   if (run.shortest_mm == 0)
     return false;
   if (context->long_edge != edge && judge_is_long_run(&run, edge, t))
@@ -356,7 +361,7 @@ static bool visible_part(const struct judge_context *context, uint32_t edge,
     return false;
   part->a = point_on(&context->image[edge], *t0);
   part->b = point_on(&context->image[edge], *t1);
-  return length_of(part) > (context->options.shortest_mm > 0
+  return length_of(part) > (context->options.shortest_crease_mm > 0
                                 ? context->options.ray_offset_mm
                                 : context->options.ink_distance_mm);
 }

@@ -25,6 +25,8 @@ struct judge_options {
   double shortest_mm; /* shorter strokes need not be drawn: a visible line
                          without ink that is not surely this long is undecided;
                          0: every stroke must be drawn */
+  double shortest_crease_mm; /* the same of creases and group borders; at least
+                                shortest_mm */
 };
 
 /* 0.02 mm steps and reach, 30 degrees, the default classes. */

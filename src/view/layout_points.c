@@ -60,7 +60,7 @@ static bool project_points(struct layout *layout, const uint8_t *used) {
     if (inside)
       point[count++] = point[p];
   }
-  layout->sheet->point.count = count;
+  layout->sheet->point.count = layout->sheet->vertex_count = count;
   return true;
 }
 

@@ -77,6 +77,8 @@ struct sheet_face_error {
 
 struct sheet {
   ARRAY(struct geom_point) point; /* x, y in grid units, z in depth units */
+  size_t vertex_count; /* the first points are those of the scene; clipping and
+                          intersections add others */
   ARRAY(struct sheet_triangle) triangle;
   uint8_t *triangle_flags;   /* one a triangle */
   bool triangles_dropped;    /* the triangles were freed: edge.triangle then has

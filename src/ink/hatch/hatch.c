@@ -313,7 +313,7 @@ bool hatch_add(struct drawing *drawing, const struct sheet *sheet,
     h.pen = pens_of_hatch(pens, group);
     h.inset = options->ink.hatch_inset ? pens_width_mm(pens, h.pen) / 2 : 0;
     h.inked_distance = h.inset + pens_width_mm(pens, h.pen) / 2;
-    h.shortest = pens_shortest_mm(pens, h.pen);
+    h.shortest = pens_shortest_hatch_mm(pens, h.pen);
     h.attributes = (struct drawing_stroke){
         .layer = h.pen, .face = face, .edge = DRAWING_NONE, .group = group};
     ok = poll_at(n) && collect_sides(&h, map, i, end) && hatch_region(&h);

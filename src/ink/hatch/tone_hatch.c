@@ -236,7 +236,7 @@ static bool add_uniform(struct tone_hatching *h, const struct map *map,
 static bool add_tone_stroke(struct tone_hatching *h,
                             const struct hatch_piece *piece, double u0,
                             double u1) {
-  if (!(u1 - u0 >= pens_shortest_mm(h->pens, piece->pen)) || u1 <= u0)
+  if (!(u1 - u0 >= pens_shortest_hatch_mm(h->pens, piece->pen)) || u1 <= u0)
     return true;
   struct hatch_lines *lines = &h->lines[piece->direction];
   double each = FULL_COVERAGE;

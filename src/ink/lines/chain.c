@@ -195,13 +195,18 @@ static bool place_points_of_range(void *user, struct parallel_range range) {
   const struct chain *c = user;
   struct ink_paths *paths = c->paths;
   for (size_t i = range.begin; i < range.end; i++) {
-    const struct ink_path *path = &paths->path.item[i];
+    struct ink_path *path = &paths->path.item[i];
     const uint32_t *end = c->end.item + c->from[i];
     struct ink_point *point = paths->point.item + path->point;
     if (!poll_at(i))
       return false;
-    for (uint32_t k = 0; k < path->count; k++)
-      point[k] = point_of_end(c, end[k]);
+    path->end[0] = end[0];
+    path->end[1] = end[path->count - 1];
+    for (uint32_t k = 0; k < path->count; k++) {
+      const struct graph_segment *s = &c->graph->segment.item[end[k] >> 1];
+      point[k] = c->graph->node.item[s->node[end[k] & 1]];
+      path->classes |= (uint8_t)(s->style_key & RECTO_EDGES_ALL);
+    }
     for (uint32_t k = 0; c->path_of_segment != NULL && k < path->count; k++)
       c->path_of_segment[end[k] >> 1] = (uint32_t)i;
     for (uint32_t k = 0; paths->approximate != NULL && k < path->count; k++)

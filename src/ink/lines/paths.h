@@ -9,8 +9,11 @@
  * */
 struct ink_path {
   uint32_t point, count;
-  uint32_t edge; /* sheet edge of its first segment */
+  uint32_t edge;   /* sheet edge of its first segment */
+  uint32_t end[2]; /* its ends in the segment graph, if it is open */
+  uint8_t classes; /* all classes of its segments */
   bool hidden, closed;
+  bool is_free; /* see paths_find_free_ends */
 };
 
 struct ink_paths {
@@ -42,6 +45,18 @@ USE_RESULT recto_status paths_chain(struct ink_paths *paths,
                                     uint32_t *path_of_segment,
                                     const struct segment_graph *graph,
                                     recto_error *error);
+
+/* Sets is_free of the paths that consist of creases and group borders alone and
+ * of which an end is free: the line ends there in the model, at a vertex where
+ * no other edge is to be drawn, visible or not, and on the page no other line
+ * ends there.
+ * graph        the one that was chained
+ * output_step  see segment_graph_drop_output_overlaps
+ * Returns false when memory ran out.  Cost: linear in the edges and paths. */
+USE_RESULT bool paths_find_free_ends(struct ink_paths *paths,
+                                     const struct segment_graph *graph,
+                                     const struct sheet *sheet,
+                                     double output_step);
 
 /* Removes points within TOLERANCE_COLLINEAR_UNITS of the straight line that
  * remains without them, if they are in order along it.  For approximate points
