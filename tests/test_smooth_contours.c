@@ -333,6 +333,50 @@ static void the_contours_of_a_torus_are_its_visible_pieces(void **state) {
   }
 }
 
+/* ---- Visible faces ------------------------------------------------------- */
+
+/* How far the outline of the visible faces is from ink at a side's middle, mm;
+ * 0 where there are faces on both sides, which meet. */
+static double distance_of_side(const recto_drawing *drawing,
+                               const recto_half_edge *half, size_t from,
+                               size_t to) {
+  const recto_half_edge *p = &half[from], *q = &half[to];
+  if (p->twin != RECTO_NONE) {
+    const recto_half_edge *twin = &half[p->twin];
+    assert_int_equal(twin->twin, from);
+    assert_true(fabs(twin->x_mm - q->x_mm) < 1e-8);
+    assert_true(fabs(twin->y_mm - q->y_mm) < 1e-8);
+    return 0;
+  }
+  const double at[2] = {(p->x_mm + q->x_mm) / 2, (p->y_mm + q->y_mm) / 2};
+  return distance_to_ink(drawing, at);
+}
+
+/* But for three sides of some thousands: the far contour of a view passes
+ * beyond the near one, but not beyond the mesh's outline. */
+static void visible_faces_end_at_the_contour(void **state) {
+  (void)state;
+  recto_scene *scene = make_scene(torus, false, 32, 16);
+  int off = 0;
+  for (int view = 0; view < VIEWS; view++) {
+    recto_options options;
+    init_view(&options, view);
+    options.results = RECTO_RESULT_FACES;
+    recto_drawing *drawing = draw(scene, &options);
+    size_t loops, halves;
+    const recto_loop *loop = recto_drawing_loops(drawing, &loops);
+    const recto_half_edge *half = recto_drawing_half_edges(drawing, &halves);
+    for (size_t l = 0; l < loops; l++)
+      for (uint32_t i = 0; i < loop[l].count; i++)
+        off += distance_of_side(drawing, half, loop[l].half_edge + i,
+                                loop[l].half_edge + (i + 1) % loop[l].count) >
+               0.002;
+    recto_drawing_destroy(drawing);
+  }
+  assert_true(off <= 3);
+  recto_scene_destroy(scene);
+}
+
 /* ---- What is not smooth -------------------------------------------------- */
 
 /* From the tip down its side, which ends at three quarters of v, to the middle
@@ -445,6 +489,7 @@ int main(void) {
       cmocka_unit_test(the_contour_of_a_sphere_is_one_stroke),
       cmocka_unit_test(the_contour_of_an_ellipsoid_is_one_stroke),
       cmocka_unit_test(the_contours_of_a_torus_are_its_visible_pieces),
+      cmocka_unit_test(visible_faces_end_at_the_contour),
       cmocka_unit_test(the_contour_of_a_cone_starts_at_its_tip),
       cmocka_unit_test(a_part_of_creases_is_drawn_by_its_own_edges),
       cmocka_unit_test(smooth_contours_are_the_same_by_all_methods),

@@ -28,7 +28,9 @@ librecto_core_la_SOURCES += \
   %D%/culling/occlusion_culling.c %D%/culling/occlusion_culling.h \
   %D%/culling/potentially_visible.c %D%/culling/potentially_visible.h \
   %D%/contour/contour_curves.c %D%/contour/contour_curves.h \
+  %D%/contour/corner_moves.c %D%/contour/corner_moves.h \
   %D%/contour/facing.c %D%/contour/facing.h \
+  %D%/contour/fit_fragments.c %D%/contour/fit_fragments.h \
   %D%/contour/page_crossings.c %D%/contour/page_crossings.h \
   %D%/contour/zero_set.c %D%/contour/zero_set.h \
   %D%/newell/newell.c \

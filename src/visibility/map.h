@@ -59,7 +59,8 @@ struct map_corner {
 
 /* A boundary loop.  The fragment is on its left: outer loops run
  * counter-clockwise, holes clockwise.  No corner is collinear with its
- * neighbours; the first corner of a loop is the least in (x, y). */
+ * neighbours; the first corner of a loop is the least in (x, y); not where
+ * fragments were made to end at smooth contours (contour/fit_fragments.h). */
 struct map_loop {
   uint32_t corner, count;
   uint32_t half_edge; /* the first one of the first corner's side */

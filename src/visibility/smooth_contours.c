@@ -10,6 +10,7 @@
 #include "base/poll.h"
 #include "base/sort.h"
 #include "view/clip.h"
+#include "visibility/contour/fit_fragments.h"
 #include "visibility/contour/page_crossings.h"
 #include "visibility/index/triangle_grid.h"
 
@@ -33,6 +34,8 @@ struct contour_piece {
   uint32_t visible, asked; /* numbers of its points */
   uint32_t occluders;      /* the sum of those that hide them */
   bool is_visible;
+  int side; /* of the surface on which the line of sight passes: 1: the outer
+               one, as normals have it; -1: the other one */
 };
 
 struct contour_pieces {
@@ -50,6 +53,13 @@ struct contour_pieces {
 };
 
 /* ---- The visibility of a point ------------------------------------------- */
+
+static struct geom_point image_of(const struct contour_pieces *c,
+                                  const double at[3]) {
+  return project_point(&c->projection,
+                       camera_view(&c->sheet->camera,
+                                   &(struct scene_point){at[0], at[1], at[2]}));
+}
 
 /* How many triangles hide a point of the page; negative when memory ran out. */
 static int count_occluders(struct contour_pieces *c, struct geom_point p) {
@@ -115,11 +125,7 @@ static int count_hiding(struct contour_pieces *c,
   for (int k = 0; k < 3; k++)
     at[k] =
         a->at[k] + t * (b->at[k] - a->at[k]) + off * normal[k] - near * view[k];
-  return count_occluders(
-      c,
-      project_point(&c->projection,
-                    camera_view(&c->sheet->camera,
-                                &(struct scene_point){at[0], at[1], at[2]})));
+  return count_occluders(c, image_of(c, at));
 }
 
 /* ---- Pieces -------------------------------------------------------------- */
@@ -143,12 +149,12 @@ static bool ask(struct contour_pieces *c, const struct contour_curve *curve,
                 struct contour_piece *piece) {
   double from = position(piece->from), to = position(piece->to);
   double last = (double)curve->step + curve->count - 1;
-  int side = side_of_piece(c, piece);
+  piece->side = side_of_piece(c, piece);
   uint32_t points = (uint32_t)fmin(ceil(to - from), POINTS_MAX) | 1;
   for (uint32_t i = 0; i < points; i++) {
     double at = from + (to - from) * ((i + 0.5) / points);
     double step = fmin(floor(at), last);
-    int count = count_hiding(c, curve, (uint32_t)step, at - step, side);
+    int count = count_hiding(c, curve, (uint32_t)step, at - step, piece->side);
     if (count < 0)
       return false;
     piece->asked++;
@@ -197,6 +203,21 @@ static bool point_at(struct contour_pieces *c, struct contour_cut at,
   return true;
 }
 
+/* Whether the surface is on the left of a step's segment on the page. */
+static bool has_surface_left(const struct contour_pieces *c, uint32_t step,
+                             int side) {
+  const struct contour_node *a = contour_curves_node(c->curves, step);
+  const struct contour_segment *s =
+      &c->set->segment.item[c->curves->step.item[step].segment];
+  double off = s->width * side;
+  struct geom_point outside =
+      image_of(c, (const double[3]){a->at[0] + off * s->normal[0],
+                                    a->at[1] + off * s->normal[1],
+                                    a->at[2] + off * s->normal[2]});
+  return geom_orient2d(a->page, contour_curves_node(c->curves, step + 1)->page,
+                       outside) <= 0;
+}
+
 /* Makes edges of a piece; *point is the sheet's point where it starts, and gets
  * that where it ends. */
 static bool add_edges(struct contour_pieces *c,
@@ -217,6 +238,11 @@ static bool add_edges(struct contour_pieces *c,
         .edge_class = RECTO_EDGE_SILHOUETTE};
     if (!point_at(c, next, &edge.point[1]) || !ARRAY_PUSH(&sheet->edge, edge))
       return false;
+    if (!has_surface_left(c, at.step, piece->side)) {
+      struct sheet_edge *made = &sheet->edge.item[sheet->edge.count - 1];
+      made->point[0] = edge.point[1];
+      made->point[1] = edge.point[0];
+    }
     c->map->edge_state[c->map->edge_count++] =
         piece->is_visible ? MAP_VISIBLE : MAP_HIDDEN;
     *point = edge.point[1];
@@ -345,6 +371,7 @@ recto_status smooth_contours_add(struct sheet *sheet, struct map *map,
                                  double crease_deg, int hidden_max,
                                  struct smooth_contours_counts *counts,
                                  recto_error *error) {
+  uint32_t first = (uint32_t)sheet->edge.count;
   struct facing facing;
   struct zero_set set = {.node = {0}};
   struct contour_curves curves = {.set = &set};
@@ -360,7 +387,9 @@ recto_status smooth_contours_add(struct sheet *sheet, struct map *map,
                                   .projection = projection_of(&sheet->camera),
                                   .crease_deg = crease_deg,
                                   .hidden_max = hidden_max};
-  if (status == RECTO_OK && !add_pieces(&pieces))
+  if (status == RECTO_OK &&
+      !(add_pieces(&pieces) && (map->fragment.count == 0 ||
+                                fit_fragments(map, sheet, topology, first))))
     status = error_memory(error);
   *counts = (struct smooth_contours_counts){
       set.segment.count, curves.curve.count, pieces.piece_count};

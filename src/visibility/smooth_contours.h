@@ -17,6 +17,7 @@ struct smooth_contours_counts {
  * lines pass in front of it (contour_curves.h, page_crossings.h).  Each piece
  * is visible or hidden as a whole, as most of its points are.  A point is asked
  * a little off the surface, so that the triangles about it do not decide.
+ * Visible fragments are made to end at the visible pieces (fit_fragments.h).
  * topology     of the sheet's scene, with its corners
  * crease_deg   where normals are split
  * hidden_max   hidden pieces that more triangles hide are left out; 0: none are
