@@ -54,8 +54,8 @@ struct contour_pieces {
 
 /* ---- The visibility of a point ------------------------------------------- */
 
-static struct geom_point image_of(const struct contour_pieces *c,
-                                  const double at[3]) {
+static struct geom_point page_point(const struct contour_pieces *c,
+                                    const double at[3]) {
   return project_point(&c->projection,
                        camera_view(&c->sheet->camera,
                                    &(struct scene_point){at[0], at[1], at[2]}));
@@ -125,7 +125,7 @@ static int count_hiding(struct contour_pieces *c,
   for (int k = 0; k < 3; k++)
     at[k] =
         a->at[k] + t * (b->at[k] - a->at[k]) + off * normal[k] - near * view[k];
-  return count_occluders(c, image_of(c, at));
+  return count_occluders(c, page_point(c, at));
 }
 
 /* ---- Pieces -------------------------------------------------------------- */
@@ -211,9 +211,9 @@ static bool has_surface_left(const struct contour_pieces *c, uint32_t step,
       &c->set->segment.item[c->curves->step.item[step].segment];
   double off = s->width * side;
   struct geom_point outside =
-      image_of(c, (const double[3]){a->at[0] + off * s->normal[0],
-                                    a->at[1] + off * s->normal[1],
-                                    a->at[2] + off * s->normal[2]});
+      page_point(c, (const double[3]){a->at[0] + off * s->normal[0],
+                                      a->at[1] + off * s->normal[1],
+                                      a->at[2] + off * s->normal[2]});
   return geom_orient2d(a->page, contour_curves_node(c->curves, step + 1)->page,
                        outside) <= 0;
 }

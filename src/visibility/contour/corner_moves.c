@@ -15,7 +15,8 @@
 /* ---- 1 Contour edges about points ---------------------------------------- */
 
 /* Counts an edge at the points of its face, or stores it. */
-static void list_edge(struct corner_moves *moves, uint32_t edge, bool store) {
+static void list_contour(struct corner_moves *moves, uint32_t edge,
+                         bool store) {
   const struct scene *scene = moves->sheet->scene;
   uint32_t t = moves->sheet->edge.item[edge].triangle[0];
   if (t == SHEET_NONE || moves->map->edge_state[edge] != MAP_VISIBLE)
@@ -57,19 +58,19 @@ static bool join_edges(struct corner_moves *moves) {
   return true;
 }
 
-static bool list_edges(struct corner_moves *moves) {
+static bool list_contours(struct corner_moves *moves) {
   size_t points = moves->sheet->scene->point.count;
   moves->start = mem_calloc(points + 1, sizeof *moves->start);
   if (moves->start == NULL)
     return false;
   for (uint32_t e = moves->first; e < moves->sheet->edge.count; e++)
-    list_edge(moves, e, false);
+    list_contour(moves, e, false);
   for (size_t p = 1; p <= points; p++)
     moves->start[p] += moves->start[p - 1];
   moves->item = mem_alloc(moves->start[points], sizeof *moves->item);
   for (uint32_t e = moves->first;
        moves->item != NULL && e < moves->sheet->edge.count; e++)
-    list_edge(moves, e, true);
+    list_contour(moves, e, true);
   return moves->item != NULL;
 }
 
@@ -225,7 +226,8 @@ static bool find_moves(struct corner_moves *moves) {
 
 /* ---- 3 Points ------------------------------------------------------------ */
 
-static size_t hash_of(const struct corner_moves *moves, double x, double y) {
+static size_t hash_of_place(const struct corner_moves *moves, double x,
+                            double y) {
   return (size_t)(hash_add_double(hash_add_double(0, x + 0.0), y + 0.0) *
                       HASH_GOLDEN >>
                   20) &
@@ -235,7 +237,7 @@ static size_t hash_of(const struct corner_moves *moves, double x, double y) {
 /* The place in the table of a point, or where it belongs. */
 static uint32_t *place_of(const struct corner_moves *moves, double x,
                           double y) {
-  size_t at = hash_of(moves, x, y);
+  size_t at = hash_of_place(moves, x, y);
   for (; moves->table[at] != 0; at = (at + 1) & moves->mask) {
     const double *from = moves->move.item[moves->table[at] - 1].from;
     if (from[0] == x && from[1] == y)
@@ -279,7 +281,7 @@ static bool choose_moves(struct corner_moves *moves) {
 }
 
 bool corner_moves_find(struct corner_moves *moves) {
-  return join_edges(moves) && list_edges(moves) && find_moves(moves) &&
+  return join_edges(moves) && list_contours(moves) && find_moves(moves) &&
          choose_moves(moves);
 }
 

@@ -1,7 +1,6 @@
-/* fit_fragments.c - moves corners of visible fragments onto smooth contours, and
- * lets the sides between them follow the contours. */
+/* fit_fragments.c - moves corners of visible fragments onto smooth contours,
+ * and lets the sides between them follow the contours. */
 #include "visibility/contour/fit_fragments.h"
-
 #include <math.h>
 #include <string.h>
 
@@ -43,11 +42,12 @@ static bool is_matched(const struct map *map, const struct map_half_edge *half,
 }
 
 /* Follows a contour from one moved point on an edge to another one on the last
- * edge, through an end of the first one, for no longer than `most`.  Returns the length of the way;
- * INFINITY: it does not lead there. */
-static double follow(const struct fit *f, const struct corner_move *from,
-                     uint32_t edge, const struct corner_move *to, uint32_t last,
-                     int end, double most, struct fit_way *way) {
+ * edge, through an end of the first one, for no longer than `most`.  Returns the
+ * length of the way; INFINITY: it does not lead there. */
+static double follow_contour(const struct fit *f,
+                             const struct corner_move *from, uint32_t edge,
+                             const struct corner_move *to, uint32_t last,
+                             int end, double most, struct fit_way *way) {
   const struct sheet *sheet = f->moves.sheet;
   double length = 0, at[2] = {from->to[0], from->to[1]};
   way->count = 0;
@@ -81,7 +81,7 @@ static struct fit_way way_between(const struct fit *f,
     uint32_t to = k & 2 ? b->farther : b->edge;
     if (from == SHEET_NONE || to == SHEET_NONE)
       continue;
-    double length = follow(f, a, from, b, to, k >> 2, least, &way);
+    double length = follow_contour(f, a, from, b, to, k >> 2, least, &way);
     if (length < least) {
       least = length;
       best = way;
@@ -117,7 +117,7 @@ static bool count_points(struct fit *f) {
 
 /* ---- The fragments ----------------------------------------------------- */
 
-static double round_corner(double x) {
+static double map_coordinate(double x) {
   return rint(x * MAP_CORNER_SCALE) / MAP_CORNER_SCALE;
 }
 
@@ -141,7 +141,7 @@ static bool add_side(struct fit *f, struct map_corner corner,
 
 /* Adds what half-edge h becomes: one, or one for each edge of the contour along
  * which it runs. */
-static bool add_sides(struct fit *f, uint32_t h) {
+static bool add_half_edges(struct fit *f, uint32_t h) {
   const struct map_half_edge *all = f->map->half_edge.item, *old = &all[h];
   const struct corner_move *from = corner_moves_at(&f->moves, old->origin);
   struct map_corner corner = f->map->corner.item[old->side];
@@ -156,8 +156,8 @@ static bool add_sides(struct fit *f, uint32_t h) {
   corner.x = f->map->corner.item[old->origin].x;
   corner.y = f->map->corner.item[old->origin].y;
   if (from != NULL) {
-    corner.x = round_corner(from->to[0]);
-    corner.y = round_corner(from->to[1]);
+    corner.x = map_coordinate(from->to[0]);
+    corner.y = map_coordinate(from->to[1]);
     if (is_along(f, old))
       corner.id = from->edge;
   }
@@ -184,7 +184,7 @@ static bool add_sides(struct fit *f, uint32_t h) {
 }
 
 /* Makes the map's loops anew. */
-static bool add_loops(struct fit *f) {
+static bool make_loops(struct fit *f) {
   struct map *map = f->map;
   f->new_corner = mem_alloc(map->corner.count, sizeof *f->new_corner);
   if (f->new_corner == NULL)
@@ -196,7 +196,7 @@ static bool add_loops(struct fit *f) {
     if (!poll_at(l))
       return false;
     do {
-      if (!add_sides(f, h))
+      if (!add_half_edges(f, h))
         return false;
       h = map->half_edge.item[h].next;
     } while (h != first);
@@ -227,7 +227,7 @@ bool fit_fragments(struct map *map, const struct sheet *sheet,
       .map = map,
       .moves = {
           .map = map, .sheet = sheet, .topology = topology, .first = first}};
-  bool ok = corner_moves_find(&f.moves) && count_points(&f) && add_loops(&f);
+  bool ok = corner_moves_find(&f.moves) && count_points(&f) && make_loops(&f);
   if (ok)
     replace_loops(&f);
   corner_moves_fini(&f.moves);
