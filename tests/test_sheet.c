@@ -630,6 +630,38 @@ static void what_is_behind_all_faces_does_not_touch_them(void **state) {
   sheet_fixture_fini(&fixture);
 }
 
+/* A wall that is seen edge-on, and that the near plane cuts, stands in a floor
+ * that fills the page, and all of whose depths are equal. */
+static void what_is_left_of_a_wall_pierces_the_floor(void **state) {
+  static const double floor[] = {-500, -500, 0, 500, -500, 0, 0, 500, 0},
+                      wall[] = {-500, 10, -9, 500,  10, -9,
+                                500,  10, 9,  -500, 10, 9};
+  (void)state;
+  for (int perspective = 0; perspective < 2; perspective++) {
+    struct sheet_fixture fixture;
+    sheet_fixture_start(&fixture);
+    build_polygon(&fixture.scene, floor, 3);
+    build_polygon(&fixture.scene, wall, 4);
+    scenes_view_page(&fixture.options, 20, 20);
+    fixture.options.camera.fov_deg = perspective ? 1 : 0;
+    fixture.options.camera.near_distance = 995;
+    sheet_fixture_out(&fixture, false);
+    const struct sheet *sheet = &fixture.sheet;
+    int64_t nearest = 0, at_floor = 0;
+    for (size_t t = 0; t < sheet->triangle.count; t++)
+      for (int k = 0; k < 3; k++) {
+        const struct sheet_triangle *triangle = &sheet->triangle.item[t];
+        int64_t z = sheet->point.item[triangle->point[k]].z;
+        if (triangle->face == 0)
+          at_floor = z;
+        else if (z > nearest)
+          nearest = z;
+      }
+    assert_true(nearest > at_floor + SHEET_Z_MAX / 8);
+    sheet_fixture_fini(&fixture);
+  }
+}
+
 /* A long face is off its plane by a little, compared with its length, but by
  * far more than contact: it may hide its own edges. */
 static void only_planar_faces_are_marked_coplanar(void **state) {
@@ -850,6 +882,7 @@ int main(void) {
       cmocka_unit_test(wires_are_edges_segment_by_segment),
       cmocka_unit_test(wires_are_cut_at_the_page),
       cmocka_unit_test(what_is_behind_all_faces_does_not_touch_them),
+      cmocka_unit_test(what_is_left_of_a_wall_pierces_the_floor),
       cmocka_unit_test(only_planar_faces_are_marked_coplanar),
       cmocka_unit_test(a_strip_thinner_than_the_grid_makes_no_fold),
       cmocka_unit_test(triangles_that_rounding_turns_make_no_fold),

@@ -15,6 +15,10 @@
  * far end is moved back by the length of the range, so that what is set to it
  * is not in contact with the farthest face.  A range that is so short that it
  * would be, as that of a single face seen from the front, includes all lines.
+ * Where what is left of a face seen edge-on is nearer than the range, as where
+ * the near plane cuts it, the near end is moved towards it, at most so far that
+ * the range of z is twice as long, so that it pierces the nearest face instead
+ * of ending on it.
  */
 #include "base/poll.h"
 #include "view/layout_phases.h"
@@ -26,8 +30,12 @@
 
 struct depth_range {
   double low, high;
+  double edge_on; /* the least depth of triangles without an area */
   bool is_passed; /* lines were left out that are wholly behind it */
 };
+
+#define EMPTY_RANGE                                                            \
+  { .low = INFINITY, .high = -INFINITY, .edge_on = INFINITY }
 
 /* Extending the range by one line may make it overlap another, so the lines are
  * gone through until nothing changes; in the last of so many rounds all of them
@@ -59,7 +67,8 @@ static void sort_pair(uint32_t *a, uint32_t *b) {
   *a = low;
 }
 
-/* Includes the depths of a clipped triangle, if it has an area on the page.
+/* Includes the depths of a clipped triangle, if it has an area on the page; if
+ * not, in `edge_on`.
  * Its corners are taken in the order of their indices, so that the range does
  * not depend, not even in the last bit, on the face's own order. */
 static void grow_by_triangle(struct depth_range *range,
@@ -77,11 +86,16 @@ static void grow_by_triangle(struct depth_range *range,
   sort_pair(&own[0], &own[1]);
   for (int k = 0; k < 3; k++)
     corner[k] = layout_view(layout, own[k]);
-  if (!clip_triangle(projection, corner, forward, &polygon) ||
-      !has_area(projection, &polygon))
+  if (!clip_triangle(projection, corner, forward, &polygon))
     return;
-  for (int k = 0; k < polygon.count; k++)
-    grow_range(range, polygon.corner[k].at.d);
+  bool area = has_area(projection, &polygon);
+  for (int k = 0; k < polygon.count; k++) {
+    double d = polygon.corner[k].at.d;
+    if (area)
+      grow_range(range, d);
+    else
+      range->edge_on = min_number(range->edge_on, d);
+  }
 }
 
 /* The same for a face.  Returns false when memory ran out. */
@@ -215,7 +229,7 @@ static void grow_by_points(struct depth_range *range, struct layout *layout,
 
 recto_status layout_range(struct layout *layout, const uint8_t *used) {
   struct camera *camera = &layout->sheet->camera;
-  struct depth_range range = {.low = INFINITY, .high = -INFINITY};
+  struct depth_range range = EMPTY_RANGE;
   if (camera->all_on_page)
     return RECTO_OK;
   grow_by_points(&range, layout, used);
@@ -228,8 +242,13 @@ recto_status layout_range(struct layout *layout, const uint8_t *used) {
   }
   if (range.low > range.high)
     return RECTO_OK;
+  double high = range.high;
   if (range.is_passed)
-    range.high += range.high - range.low;
+    range.high += high - range.low;
+  if (range.edge_on < range.low)
+    range.low = max_number(range.edge_on, camera->perspective
+                                              ? 1 / (2 / range.low - 1 / high)
+                                              : 2 * range.low - high);
   camera->d_min = range.low;
   camera->d_max = range.high;
   layout->projection = projection_of(camera);
