@@ -682,6 +682,32 @@ static void only_planar_faces_are_marked_coplanar(void **state) {
   }
 }
 
+/* The page cuts off corners of both triangles of a bent face; a triangle of
+ * which one piece is left is none of several. */
+static void what_clipping_leaves_of_a_triangle_is_marked(void **state) {
+  static const double face[] = {10, -9, 0, 40, 10, 3, 10, 29, 0, -20, 10, 3},
+                      corner[] = {10, 10, 9, 90, 10, 9, 10, 90, 9};
+  struct sheet_fixture fixture;
+  (void)state;
+  sheet_fixture_start(&fixture);
+  build_polygon(&fixture.scene, face, 4);
+  build_polygon(&fixture.scene, corner, 3);
+  scenes_view_page(&fixture.options, 20, 20);
+  sheet_fixture_out(&fixture, false);
+  const struct sheet *sheet = &fixture.sheet;
+  int first[2] = {0, 0}, pieces[2] = {0, 0};
+  for (uint32_t t = 0; t < sheet->triangle.count; t++) {
+    uint32_t f = sheet->triangle.item[t].face;
+    first[f] += (sheet->triangle_flags[t] & SHEET_FIRST_PIECE) != 0;
+    pieces[f] += (sheet->triangle_flags[t] & SHEET_PIECE) != 0;
+    assert_int_equal(sheet_is_coplanar(sheet, 0, t), f == 0 && first[0] == 1);
+  }
+  assert_int_equal(first[0], 2);
+  assert_true(pieces[0] >= 4);
+  assert_int_equal(first[1], pieces[1] > 0);
+  sheet_fixture_fini(&fixture);
+}
+
 /* Of the second triangle of a bent face, a strip is left behind the near plane
  * that is thinner than the grid: it lies where the triangle lies, so that the
  * face does not fold there. */
@@ -884,6 +910,7 @@ int main(void) {
       cmocka_unit_test(what_is_behind_all_faces_does_not_touch_them),
       cmocka_unit_test(what_is_left_of_a_wall_pierces_the_floor),
       cmocka_unit_test(only_planar_faces_are_marked_coplanar),
+      cmocka_unit_test(what_clipping_leaves_of_a_triangle_is_marked),
       cmocka_unit_test(a_strip_thinner_than_the_grid_makes_no_fold),
       cmocka_unit_test(triangles_that_rounding_turns_make_no_fold),
       cmocka_unit_test(wires_not_requested_are_left_out),

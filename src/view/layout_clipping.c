@@ -153,6 +153,7 @@ static recto_status add_clipped_ears(struct layout *layout,
   int64_t area[CLIP_CORNERS_MAX];
   int128 whole = 0;
   int ears = polygon->count - 2;
+  size_t first = layout->flags.count;
   if (!layout_reserve(layout, CLIP_CORNERS_MAX))
     return error_memory(layout->error);
   for (int i = 0; i < ring.count; i++) {
@@ -164,6 +165,9 @@ static recto_status add_clipped_ears(struct layout *layout,
     area[i] = cut_ear(layout, triangle->face, find_ear(layout, &ring), &ring,
                       corner[i]);
     whole += area[i];
+    if (ears > 1)
+      layout->flags.item[first + (size_t)i] |=
+          i == 0 ? SHEET_PIECE | SHEET_FIRST_PIECE : SHEET_PIECE;
   }
   *sign = geom_sign128(whole);
   recto_status status = RECTO_OK;

@@ -49,7 +49,10 @@ enum {
   SHEET_FLIPPED = 2, /* the face's own winding is clockwise on the page */
   SHEET_INNER = 4,   /* shifted by k: side k is no edge of the mesh: a diagonal,
                         or one that clipping made */
-  SHEET_COPLANAR = 32 /* one of several triangles of a planar face */
+  SHEET_COPLANAR = 32, /* one of several triangles of a planar face */
+  SHEET_PIECE = 64, /* one of several that clipping left of one triangle; they
+                       follow each other */
+  SHEET_FIRST_PIECE = 128
 };
 
 struct sheet_edge {
@@ -161,6 +164,22 @@ static inline uint32_t sheet_edge_face(const struct sheet *sheet,
 static inline bool sheet_is_inner_side(const struct sheet *sheet,
                                        uint32_t triangle, int k) {
   return (sheet->triangle_flags[triangle] & SHEET_INNER << k) != 0;
+}
+
+/* Are both triangles in one plane of the scene, as parts of a planar face or of
+ * one triangle that was clipped? */
+static inline bool sheet_is_coplanar(const struct sheet *sheet, uint32_t f,
+                                     uint32_t g) {
+  const uint8_t *flags = sheet->triangle_flags;
+  uint32_t first = f < g ? f : g, last = f < g ? g : f;
+  if (sheet->triangle.item[f].face != sheet->triangle.item[g].face)
+    return false;
+  if (flags[f] & SHEET_COPLANAR)
+    return true;
+  while (last > first &&
+         (flags[last] & (SHEET_PIECE | SHEET_FIRST_PIECE)) == SHEET_PIECE)
+    last--;
+  return last == first;
 }
 
 /* Converts grid units from the middle of the page to mm from its lower left

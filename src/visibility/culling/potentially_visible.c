@@ -40,15 +40,18 @@ static bool list_triangles(struct potentially_visible *part,
   if (!ARRAY_RESERVE(&sheet->triangle, left) || sheet->triangle_flags == NULL ||
       part->triangle == NULL)
     return false;
+  uint8_t first = 0; /* of the pieces of a triangle that are left */
   for (uint32_t t = 0; t < whole->triangle.count; t++) {
     if (!poll_at(t))
       return false;
+    first |= whole->triangle_flags[t] & SHEET_FIRST_PIECE;
     if (is_triangle_culled(numbering, t))
       continue;
     const struct sheet_triangle *triangle = &whole->triangle.item[t];
     size_t n = sheet->triangle.count++;
     sheet->triangle.item[n] = *triangle;
-    sheet->triangle_flags[n] = whole->triangle_flags[t];
+    sheet->triangle_flags[n] = whole->triangle_flags[t] | first;
+    first = 0;
     part->triangle[n] = t;
     numbering->triangle[t] = (uint32_t)n + 1;
     for (int k = 0; k < 3; k++) {

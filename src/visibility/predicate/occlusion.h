@@ -44,8 +44,9 @@
  * Own triangles.  An edge is never hidden by the two triangles that it names:
  * a mesh edge has value 0 there in any case, and an intersection, which lies on
  * both, was rounded and may be off them by more than contact.  Nor is it hidden
- * by the other triangles of these faces, if they are planar: seen edge-on,
- * these are slivers, whose planes rounding turned.
+ * by the other triangles of these faces, if they are planar, nor by what else
+ * clipping left of these triangles: seen edge-on, these are slivers, whose
+ * planes rounding turned.
  *
  * Bits.  value < 2^105, shifted 2^121; T is capped at 2^122; their sum and the
  * difference of two such sums stay below 2^125, as ratio.h requires.
@@ -74,18 +75,17 @@ void occluder_init(struct occluder *occluder, const struct sheet *sheet,
                    uint32_t triangle);
 
 /* Does the edge belong to the triangle: is that one of the two that it names,
- * or of the same planar face as one of them? */
+ * or in one plane with one of them? */
 static inline bool occlusion_is_own(const struct sheet *sheet,
                                     const struct sheet_edge *edge,
                                     uint32_t triangle) {
   if (triangle == edge->triangle[0] || triangle == edge->triangle[1])
     return true;
-  if ((sheet->triangle_flags[triangle] & SHEET_COPLANAR) == 0)
+  if ((sheet->triangle_flags[triangle] & (SHEET_COPLANAR | SHEET_PIECE)) == 0)
     return false;
   for (int k = 0; k < 2; k++)
     if (edge->triangle[k] != SHEET_NONE &&
-        sheet->triangle.item[edge->triangle[k]].face ==
-            sheet->triangle.item[triangle].face)
+        sheet_is_coplanar(sheet, edge->triangle[k], triangle))
       return true;
   return false;
 }
