@@ -2,6 +2,7 @@
 #include "ink/look.h"
 
 #include "ink/fill/light.h"
+#include "scene/newell_normal.h"
 #include "view/vector.h"
 
 /* Colours of low saturation, so that the lines dominate the picture; any two
@@ -25,7 +26,7 @@ static double shade(const struct scene *scene, uint32_t face,
                     const struct camera *camera, const double light[3],
                     bool *is_back) {
   double normal[3];
-  light_face_normal(scene, face, normal);
+  newell_normal_of_face(scene, face, normal);
   *is_back = light_is_turned_away(scene, face, camera, normal);
   for (int k = 0; k < 3 && *is_back; k++)
     normal[k] = -normal[k];

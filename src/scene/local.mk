@@ -11,6 +11,7 @@ librecto_core_la_SOURCES += \
   %D%/limit.h \
   %D%/material.c %D%/material.h \
   %D%/name.c %D%/name.h \
+  %D%/newell_normal.c %D%/newell_normal.h \
   %D%/obj_parser.c %D%/obj_parser.h \
   %D%/obj_run.c \
   %D%/ply_colour.c %D%/ply_colour.h \

@@ -67,6 +67,13 @@ static inline uint32_t scene_wire_count(const struct scene *scene) {
   return (uint32_t)scene->wire_group.count;
 }
 
+/* The corner after one of a face's, around the face. */
+static inline uint32_t scene_next_corner(const struct scene *scene,
+                                         uint32_t face, uint32_t corner) {
+  const uint32_t *start = &scene->face_start.item[face];
+  return corner + 1 < start[1] ? corner + 1 : start[0];
+}
+
 /* Whether there is a line of the class group where faces of the two meet. */
 static inline bool scene_groups_differ(const struct scene *scene, uint32_t a,
                                        uint32_t b) {

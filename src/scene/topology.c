@@ -60,10 +60,8 @@ static inline bool next_side_in_file(struct side_iterator *it) {
     it->corner++;
     it->from = it->to;
   }
-  uint32_t next = it->corner + 1 < it->end
-                      ? it->corner + 1
-                      : it->scene->face_start.item[it->face];
-  it->to = welded_corner(it, next);
+  it->to =
+      welded_corner(it, scene_next_corner(it->scene, it->face, it->corner));
   return true;
 }
 

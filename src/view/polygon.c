@@ -6,6 +6,7 @@
 
 #include "base/tolerance.h"
 #include "scene/exact.h"
+#include "scene/newell_normal.h"
 #include "view/vector.h"
 
 static void offset(const struct polygon *polygon, uint32_t c,
@@ -52,20 +53,11 @@ static void find_box(const struct polygon *polygon, double low[3],
 
 struct polygon_areas polygon_measure(const struct polygon *polygon) {
   struct polygon_areas areas = {{0, 0, 0}, 0};
-  double origin[3], a[3], b[3], more[3];
-  polygon_position(polygon, 0, origin);
-  offset(polygon, 1, origin, a);
-  for (uint32_t c = 2; c < polygon->count; c++) {
-    offset(polygon, c, origin, b);
-    vector_cross(a, b, more);
-    for (int k = 0; k < 3; k++) {
-      areas.value[k] += more[k];
-      a[k] = b[k];
-    }
-  }
-  find_box(polygon, a, b);
+  double low[3], high[3];
+  newell_normal(polygon->point, polygon->corner, polygon->count, areas.value);
+  find_box(polygon, low, high);
   for (int k = 0; k < 3; k++)
-    areas.extent = max_number(areas.extent, b[k] - a[k]);
+    areas.extent = max_number(areas.extent, high[k] - low[k]);
   return areas;
 }
 

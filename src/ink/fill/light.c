@@ -21,24 +21,6 @@ double light_brightness(const double normal[3], const double light[3]) {
   return share < 1 ? share : 1;
 }
 
-void light_face_normal(const struct scene *scene, uint32_t face,
-                       double normal[3]) {
-  const uint32_t *corner = scene->corner.item + scene->face_start.item[face];
-  uint32_t count =
-      scene->face_start.item[face + 1] - scene->face_start.item[face];
-  struct scene_point o = scene->point.item[corner[0]];
-  normal[0] = normal[1] = normal[2] = 0;
-  for (uint32_t i = 0; i < count; i++) {
-    struct scene_point p = scene->point.item[corner[i]];
-    struct scene_point q = scene->point.item[corner[(i + 1) % count]];
-    double a[3] = {p.x - o.x, p.y - o.y, p.z - o.z};
-    double b[3] = {q.x - o.x, q.y - o.y, q.z - o.z};
-    normal[0] += (a[1] - b[1]) * (a[2] + b[2]);
-    normal[1] += (a[2] - b[2]) * (a[0] + b[0]);
-    normal[2] += (a[0] - b[0]) * (a[1] + b[1]);
-  }
-}
-
 bool light_is_turned_away(const struct scene *scene, uint32_t face,
                           const struct camera *camera, const double normal[3]) {
   uint32_t corner = scene->corner.item[scene->face_start.item[face]];

@@ -19,13 +19,6 @@ void light_direction(const struct camera *camera, const recto_options *options,
  *                LIGHT_DARKEST */
 double light_brightness(const double normal[3], const double light[3]);
 
-/* The Newell normal of a face.  Its length is twice the area, and it points to
- * the side from which the face is counter-clockwise.  Coordinates are taken
- * relative to the first corner, so that models far from the origin lose no
- * precision. */
-void light_face_normal(const struct scene *scene, uint32_t face,
-                       double normal[3]);
-
 /* Whether the normal of a face points away from the viewer. */
 bool light_is_turned_away(const struct scene *scene, uint32_t face,
                           const struct camera *camera, const double normal[3]);

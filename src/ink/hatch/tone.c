@@ -15,6 +15,7 @@
 #include "base/sets.h"
 #include "base/tolerance.h"
 #include "ink/fill/light.h"
+#include "scene/newell_normal.h"
 #include "view/project.h"
 #include "view/vector.h"
 
@@ -26,7 +27,7 @@ struct tone_work {
   const struct scene *scene;
   const struct sheet *sheet;
   double light[3];
-  double crease_cosine;
+  double crease_deg;
   struct tone_normal *face; /* of each face */
   struct tone_normal *sum;  /* of each set of corners, at its root */
   uint32_t *corner_root;    /* disjoint sets of corners */
@@ -34,36 +35,20 @@ struct tone_work {
   uint32_t *first_use;      /* of each edge: the corner where the first of its
                                two faces leaves along it, and this face */
   uint32_t *first_face;
-  float *min, *max; /* extreme tones of each region, at its root */
+  uint8_t *class_masks; /* of each edge */
+  float *min, *max;     /* extreme tones of each region, at its root */
 };
 
 /* ---- 2 Joins ------------------------------------------------------------- */
 
-/* Whether two faces meet at no more than the crease angle. */
-static bool meet_smoothly(const struct tone_work *w, uint32_t f, uint32_t g) {
-  const double *a = w->face[f].xyz, *b = w->face[g].xyz;
-  double dot = vector_dot(a, b);
-  return dot >= w->crease_cosine * vector_length(a) * vector_length(b);
-}
-
-/* The corner of a face after the given one, counter-clockwise. */
-static uint32_t next_corner(const struct scene *scene, uint32_t face,
-                            uint32_t corner) {
-  return corner + 1 < scene->face_start.item[face + 1]
-             ? corner + 1
-             : scene->face_start.item[face];
-}
-
-/* Joins faces f and g, and their corners at the edge they share, if it is
- * smooth.  The edge starts at corner a of f and, in the opposite direction, at
- * corner b of g. */
+/* Joins faces f and g, and their corners at the smooth edge they share.  The
+ * edge starts at corner a of f and, in the opposite direction, at corner b of
+ * g. */
 static void join_faces(struct tone_work *w, uint32_t f, uint32_t a, uint32_t g,
                        uint32_t b) {
-  if (!meet_smoothly(w, f, g))
-    return;
   sets_join(w->face_root, f, g);
-  sets_join(w->corner_root, a, next_corner(w->scene, g, b));
-  sets_join(w->corner_root, next_corner(w->scene, f, a), b);
+  sets_join(w->corner_root, a, scene_next_corner(w->scene, g, b));
+  sets_join(w->corner_root, scene_next_corner(w->scene, f, a), b);
 }
 
 /* Joins faces and corners at all smooth edges, in time linear in the number of
@@ -77,7 +62,8 @@ static void join_smooth_edges(struct tone_work *w) {
          c < w->scene->face_start.item[f + 1]; c++) {
       uint32_t e = topology->corner_edge[c];
       const struct topology_edge *edge = &topology->edge.item[e];
-      if (edge->uses != 2 || edge->same_way)
+      if (edge->uses != 2 || edge->same_way ||
+          (w->class_masks[e] & RECTO_EDGE_CREASE) != 0)
         continue;
       if (w->first_use[e] == SCENE_NONE) {
         w->first_use[e] = c;
@@ -175,16 +161,19 @@ static bool prepare_tone_work(struct tone_work *w) {
   w->face_root = sets_create(faces);
   w->first_use = mem_alloc(edges, sizeof *w->first_use);
   w->first_face = mem_alloc(edges, sizeof *w->first_face);
+  w->class_masks = mem_alloc(edges, sizeof *w->class_masks);
   w->min = mem_alloc(faces, sizeof *w->min);
   w->max = mem_alloc(faces, sizeof *w->max);
   if (w->face == NULL || w->sum == NULL || w->corner_root == NULL ||
       w->face_root == NULL || w->first_use == NULL || w->first_face == NULL ||
-      w->min == NULL || w->max == NULL)
+      w->class_masks == NULL || w->min == NULL || w->max == NULL ||
+      (edges > 0 && !topology_class_masks(w->sheet->topology, w->scene,
+                                          w->crease_deg, w->class_masks)))
     return false;
   for (uint32_t f = 0; f < faces; f++) {
     if (!poll_at(f))
       return false;
-    light_face_normal(w->scene, f, w->face[f].xyz);
+    newell_normal_of_face(w->scene, f, w->face[f].xyz);
     w->min[f] = 1;
     w->max[f] = 0;
   }
@@ -198,14 +187,15 @@ static void release_tone_work(struct tone_work *w) {
   mem_free(w->face_root);
   mem_free(w->first_use);
   mem_free(w->first_face);
+  mem_free(w->class_masks);
   mem_free(w->min);
   mem_free(w->max);
 }
 
 bool tones_init(struct tones *tones, const struct sheet *sheet,
                 const struct scene *scene, const recto_options *options) {
-  struct tone_work w = {.scene = scene, .sheet = sheet};
-  w.crease_cosine = cos(options->mesh.crease_deg * (acos(-1.0) / 180));
+  struct tone_work w = {
+      .scene = scene, .sheet = sheet, .crease_deg = options->mesh.crease_deg};
   light_direction(&sheet->camera, options, w.light);
   *tones = (struct tones){.scene = scene};
   tones->corner = mem_alloc(scene->corner.count, sizeof *tones->corner);

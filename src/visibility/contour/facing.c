@@ -6,28 +6,7 @@
 #include <string.h>
 
 #include "base/poll.h"
-
-void facing_face_normal(const struct facing *f, uint32_t face, double n[3]) {
-  uint32_t start = f->scene->face_start.item[face];
-  uint32_t end = f->scene->face_start.item[face + 1];
-  double at[3], p[3], u[3], v[3], area[3];
-  facing_position(f, facing_point(f, start), at);
-  facing_position(f, facing_point(f, start + 1), p);
-  for (int k = 0; k < 3; k++) {
-    n[k] = 0;
-    u[k] = p[k] - at[k];
-  }
-  for (uint32_t c = start + 2; c < end; c++) {
-    facing_position(f, facing_point(f, c), p);
-    for (int k = 0; k < 3; k++)
-      v[k] = p[k] - at[k];
-    vector_cross(u, v, area);
-    for (int k = 0; k < 3; k++) {
-      n[k] += area[k];
-      u[k] = v[k];
-    }
-  }
-}
+#include "scene/angle.h"
 
 uint32_t facing_corner_of_edge(const struct facing *f, uint32_t face,
                                uint32_t edge) {
@@ -35,7 +14,7 @@ uint32_t facing_corner_of_edge(const struct facing *f, uint32_t face,
   for (uint32_t c = f->scene->face_start.item[face];
        c < f->scene->face_start.item[face + 1]; c++) {
     uint32_t p = facing_point(f, c);
-    uint32_t q = facing_point(f, facing_next(f, face, c));
+    uint32_t q = facing_point(f, scene_next_corner(f->scene, face, c));
     if ((p == point[0] && q == point[1]) || (p == point[1] && q == point[0]))
       return c;
   }
@@ -53,8 +32,10 @@ bool facing_is_split(const struct facing *f, uint32_t edge) {
   uint32_t c = facing_corner_of_edge(f, e->first, edge);
   uint32_t d = facing_corner_of_edge(f, e->second, edge);
   return c == SHEET_NONE || d == SHEET_NONE ||
-         facing_slot(f, c) != facing_slot(f, facing_next(f, e->second, d)) ||
-         facing_slot(f, facing_next(f, e->first, c)) != facing_slot(f, d);
+         facing_slot(f, c) !=
+             facing_slot(f, scene_next_corner(f->scene, e->second, d)) ||
+         facing_slot(f, scene_next_corner(f->scene, e->first, c)) !=
+             facing_slot(f, d);
 }
 
 /* Joins the corners of two faces at both ends of their smooth edge. */
@@ -64,8 +45,8 @@ static void join_corners(struct facing *f, uint32_t edge) {
   uint32_t d = facing_corner_of_edge(f, e->second, edge);
   if (c == SHEET_NONE || d == SHEET_NONE)
     return;
-  sets_join(f->sets, c, facing_next(f, e->second, d));
-  sets_join(f->sets, facing_next(f, e->first, c), d);
+  sets_join(f->sets, c, scene_next_corner(f->scene, e->second, d));
+  sets_join(f->sets, scene_next_corner(f->scene, e->first, c), d);
 }
 
 /* Finds the points at which normals are split, and which corners there share
@@ -105,7 +86,7 @@ static bool find_face_signs(struct facing *f) {
     uint32_t first = facing_point(f, f->scene->face_start.item[face]);
     double n[3], at[3], v[3];
     (void)poll_at(face);
-    facing_face_normal(f, face, n);
+    newell_normal_of_face(f->scene, face, n);
     facing_position(f, first, at);
     facing_view(f->camera, at, v);
     /* Coarse parts have no smooth contour. */
@@ -163,7 +144,7 @@ static void add_face(struct facing *f, uint32_t face) {
     first++;
   if (first == end)
     return;
-  facing_face_normal(f, face, n);
+  newell_normal_of_face(f->scene, face, n);
   if (!vector_normalise(n))
     return;
   for (uint32_t c = first; c < end; c++) {
@@ -172,7 +153,8 @@ static void add_face(struct facing *f, uint32_t face) {
     if (place == SHEET_NONE)
       continue;
     facing_position(f, facing_point(f, c), at);
-    facing_position(f, facing_point(f, facing_next(f, face, c)), to);
+    facing_position(f, facing_point(f, scene_next_corner(f->scene, face, c)),
+                    to);
     facing_position(f, facing_point(f, c > start ? c - 1 : end - 1), from);
     for (int k = 0; k < 3; k++) {
       to[k] -= at[k];
@@ -229,7 +211,7 @@ static bool find_normals(struct facing *f) {
  * Returns whether there are such points; false also when memory ran out, which
  * then is_lost. */
 static bool crease_tips(struct facing *f, double crease_deg, bool *is_lost) {
-  double cosine = cos(crease_deg * (acos(-1.0) / 180));
+  double cosine = angle_of_degrees(crease_deg).cosine;
   uint8_t *is_tip = mem_calloc(f->scene->point.count, 1);
   bool any = false;
   *is_lost = is_tip == NULL;
@@ -238,7 +220,7 @@ static bool crease_tips(struct facing *f, double crease_deg, bool *is_lost) {
     double n[3];
     if (signs_of_face(f, face) != FACING_MIXED)
       continue;
-    facing_face_normal(f, face, n);
+    newell_normal_of_face(f->scene, face, n);
     if (!vector_normalise(n))
       continue;
     for (uint32_t c = f->scene->face_start.item[face];

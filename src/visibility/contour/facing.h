@@ -15,6 +15,7 @@
 #define VISIBILITY_CONTOUR_FACING_H
 
 #include "base/sets.h"
+#include "scene/newell_normal.h"
 #include "view/sheet.h"
 #include "view/vector.h"
 
@@ -91,20 +92,9 @@ static inline void facing_position(const struct facing *f, uint32_t point,
   at[2] = p->z;
 }
 
-/* The normal of a face by Newell's sum, of any length. */
-void facing_face_normal(const struct facing *f, uint32_t face, double n[3]);
-
 /* The corner of a face at which one of its sides starts, which is that edge;
  * SHEET_NONE. */
 uint32_t facing_corner_of_edge(const struct facing *f, uint32_t face,
                                uint32_t edge);
-
-/* The corner after a corner, around its face. */
-static inline uint32_t facing_next(const struct facing *f, uint32_t face,
-                                   uint32_t corner) {
-  return corner + 1 < f->scene->face_start.item[face + 1]
-             ? corner + 1
-             : f->scene->face_start.item[face];
-}
 
 #endif

@@ -267,7 +267,7 @@ static bool node_of_vertex(struct zero_finder *z, uint32_t point,
 
 static bool is_front(const struct facing *f, uint32_t face) {
   double n[3], at[3], v[3];
-  facing_face_normal(f, face, n);
+  newell_normal_of_face(f->scene, face, n);
   facing_position(f, facing_point(f, f->scene->face_start.item[face]), at);
   facing_view(f->camera, at, v);
   return vector_dot(n, v) < 0;
@@ -282,8 +282,8 @@ static bool add_along_crease(struct zero_finder *z, uint32_t edge,
       .node = {node[0], node[1]}, .face = e->first, .along_crease = true};
   double first[3], second[3], at[3], beyond[3], along[3];
   uint32_t c = facing_corner_of_edge(f, e->second, edge);
-  facing_face_normal(f, e->first, first);
-  facing_face_normal(f, e->second, second);
+  newell_normal_of_face(f->scene, e->first, first);
+  newell_normal_of_face(f->scene, e->second, second);
   double least = fmin(vector_dot(first, first), vector_dot(second, second));
   (void)vector_normalise(first);
   (void)vector_normalise(second);
@@ -292,7 +292,9 @@ static bool add_along_crease(struct zero_finder *z, uint32_t edge,
   /* Convex where the other face lies behind this one. */
   facing_position(
       f,
-      facing_point(f, facing_next(f, e->second, facing_next(f, e->second, c))),
+      facing_point(
+          f, scene_next_corner(f->scene, e->second,
+                               scene_next_corner(f->scene, e->second, c))),
       beyond);
   for (int k = 0; k < 3; k++) {
     s.normal[k] = first[k] + (e->same_way ? -second[k] : second[k]);
@@ -321,7 +323,7 @@ static bool cross_crease(struct zero_finder *z, uint32_t edge) {
     if (c == SHEET_NONE)
       return true;
     if (facing_point(f, c) != e->point[0])
-      c = facing_next(f, face[k], c);
+      c = scene_next_corner(f->scene, face[k], c);
     differ = differ != facing_is_back(f, facing_slot(f, c));
     if (z->edge_node[2 * (size_t)edge + (size_t)k] != SHEET_NONE)
       stop[count++] = z->edge_node[2 * (size_t)edge + (size_t)k];
