@@ -36,6 +36,19 @@ static void a_solver_is_found_by_its_method_and_its_name(void **state) {
   assert_null(solver_by_method(RECTO_METHOD_COUNT));
 }
 
+static void a_request_is_what_the_options_say(void **state) {
+  recto_options options;
+  (void)state;
+  recto_options_init(&options);
+  struct solver_request request = solver_request_of(&options);
+  assert_true(request.edges && !request.fragments && !request.divide_by_box);
+  options.ink.edges = RECTO_EDGES_NONE;
+  options.ink.fill = RECTO_FILL_PAINT;
+  options.solver.divide = RECTO_DIVIDE_BOX;
+  request = solver_request_of(&options);
+  assert_true(!request.edges && request.fragments && request.divide_by_box);
+}
+
 /* ---- Each allocation failing --------------------------------------------- */
 
 /* Bars in a cycle, a sheet that pierces them, a decal on that and a needle
@@ -219,6 +232,7 @@ static void a_solver_does_no_more_than_was_requested(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_solver_is_found_by_its_method_and_its_name),
+      cmocka_unit_test(a_request_is_what_the_options_say),
       cmocka_unit_test(running_out_of_memory_is_a_status_and_leaks_nothing),
       cmocka_unit_test(a_cancelled_raster_is_not_polled_again),
       cmocka_unit_test(numbers_of_pixels_out_of_range_are_refused),

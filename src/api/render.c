@@ -204,20 +204,10 @@ static recto_status project_scene(struct render *render, recto_error *error) {
 static recto_status solve_visibility(struct render *render,
                                      recto_error *error) {
   const recto_options *options = render->options;
-  struct solver_request request = {
-      .edges = options->ink.edges != RECTO_EDGES_NONE,
-      .fragments = needs_fragments(render),
-      .hidden = options->ink.hidden != RECTO_HIDDEN_NONE ||
-                (options->results & RECTO_RESULT_EDGES) != 0,
-      .intersections = (options->ink.edges & RECTO_EDGE_INTERSECTION) != 0,
-      .threads = parallel_threads(),
-      .pitch_mm = options->solver.pitch_mm,
-      .resolution = options->solver.resolution,
-      .divide_by_box = options->solver.divide == RECTO_DIVIDE_BOX,
-      .subpixels = options->solver.subpixels,
-      .remove_backs = options->solver.remove_backs,
-      .depth_bits = options->solver.depth_bits,
-  };
+  struct solver_request request = solver_request_of(options);
+  request.fragments = needs_fragments(render);
+  request.hidden |= (options->results & RECTO_RESULT_EDGES) != 0;
+  request.threads = parallel_threads();
   recto_status status = choose_method(render, &request)
                             ->solve(&render->sheet, &request, &render->map,
                                     render->report, error);

@@ -10,6 +10,22 @@ static const struct solver *const table[] = {
     &solver_painter, &solver_painter_given,
     &solver_brute,   NULL};
 
+struct solver_request solver_request_of(const recto_options *options) {
+  return (struct solver_request){
+      .edges = options->ink.edges != RECTO_EDGES_NONE,
+      .fragments = options->ink.fill != RECTO_FILL_NONE,
+      .hidden = options->ink.hidden != RECTO_HIDDEN_NONE,
+      .intersections = (options->ink.edges & RECTO_EDGE_INTERSECTION) != 0,
+      .threads = 1,
+      .pitch_mm = options->solver.pitch_mm,
+      .resolution = options->solver.resolution,
+      .depth_bits = options->solver.depth_bits,
+      .remove_backs = options->solver.remove_backs,
+      .divide_by_box = options->solver.divide == RECTO_DIVIDE_BOX,
+      .subpixels = options->solver.subpixels,
+  };
+}
+
 const struct solver *const *solvers(void) { return table; }
 
 const struct solver *solver_by_method(recto_method method) {

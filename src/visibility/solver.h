@@ -24,6 +24,10 @@ struct solver_request {
                          one sample */
 };
 
+/* The request that options make of a solver: its edges, and fragments only where
+ * they fill faces; one thread. */
+struct solver_request solver_request_of(const recto_options *options);
+
 struct solver {
   recto_method method;
   const char *name;

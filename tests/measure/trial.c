@@ -9,18 +9,13 @@
 static recto_status solve(struct trial *trial, const recto_options *options,
                           const struct solver *solver, int lines,
                           enum trial_part part) {
-  const struct solver_request request = {
-      .edges = (part & TRIAL_STROKES) != 0,
-      .fragments = (part & TRIAL_FRAGMENTS) != 0,
-      .intersections = (part & TRIAL_STROKES) != 0 &&
-                       (options->ink.edges & RECTO_EDGE_INTERSECTION) != 0,
-      .threads = 1,
-      .resolution = lines,
-      .pitch_mm = lines > 0 ? options->page.height_mm / lines : 0,
-      .subpixels = options->solver.subpixels,
-      .remove_backs = options->solver.remove_backs,
-      .depth_bits = options->solver.depth_bits,
-  };
+  struct solver_request request = solver_request_of(options);
+  request.edges = (part & TRIAL_STROKES) != 0;
+  request.fragments = (part & TRIAL_FRAGMENTS) != 0;
+  request.hidden = false;
+  request.intersections &= request.edges;
+  request.resolution = lines;
+  request.pitch_mm = lines > 0 ? options->page.height_mm / lines : 0;
   double start = clock_cpu();
   recto_status status =
       solver->solve(&trial->sheet, &request, &trial->map, NULL, NULL);

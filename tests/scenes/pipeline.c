@@ -12,18 +12,9 @@
 static recto_status solve(struct pipeline *pipeline,
                           const recto_options *options,
                           const struct solver *solver) {
-  const struct solver_request request = {
-      .edges = options->ink.edges != RECTO_EDGES_NONE,
-      .fragments = options->ink.fill != RECTO_FILL_NONE,
-      .hidden = options->ink.hidden != RECTO_HIDDEN_NONE,
-      .intersections = (options->ink.edges & RECTO_EDGE_INTERSECTION) != 0,
-      .threads = options->solver.threads > 0 ? options->solver.threads : 1,
-      .pitch_mm = options->solver.pitch_mm,
-      .resolution = options->solver.resolution,
-      .subpixels = options->solver.subpixels,
-      .remove_backs = options->solver.remove_backs,
-      .depth_bits = options->solver.depth_bits,
-  };
+  struct solver_request request = solver_request_of(options);
+  if (options->solver.threads > 0)
+    request.threads = options->solver.threads;
   return solver->solve(&pipeline->sheet, &request, &pipeline->map,
                        pipeline->report, &pipeline->error);
 }
