@@ -35,6 +35,18 @@ struct geom_triangle {
 /* The corner after corner k of a triangle, in its order. */
 static inline int geom_next_corner(int k) { return k == 2 ? 0 : k + 1; }
 
+/* The farthest and the nearest depth of three corners. */
+static inline void geom_depth_range(const struct geom_point p[3], int64_t *low,
+                                    int64_t *high) {
+  *low = *high = p[0].z;
+  for (int k = 1; k < 3; k++) {
+    if (p[k].z < *low)
+      *low = p[k].z;
+    if (p[k].z > *high)
+      *high = p[k].z;
+  }
+}
+
 static inline int geom_sign64(int64_t a) { return (a > 0) - (a < 0); }
 static inline int geom_sign128(int128 a) { return (a > 0) - (a < 0); }
 

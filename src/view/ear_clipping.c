@@ -43,6 +43,7 @@
  */
 #include "view/ear_clipping.h"
 
+#include "base/sets.h"
 #include "view/vector.h"
 
 enum {
@@ -234,23 +235,15 @@ static bool have_same_position(const struct ear_clipper *clipper, uint32_t a,
   return polygon_compare(clipper->polygon, a, b) == 0;
 }
 
-static uint32_t representative_side(const struct ear_clipper *clipper,
-                                    uint32_t side) {
-  const uint32_t *same = clipper->triangulation->same.item;
-  while (same[side] != side)
-    side = same[side];
-  return side;
-}
-
 /* Records that two sides run between the same two positions: a diagonal is
  * replaced by the polygon's side, or by the earlier diagonal. */
 static void merge_sides(struct ear_clipper *clipper, uint32_t one,
                         uint32_t two) {
-  one = representative_side(clipper, one);
-  two = representative_side(clipper, two);
+  uint32_t *same = clipper->triangulation->same.item;
+  one = sets_root(same, one);
+  two = sets_root(same, two);
   if (one >= clipper->count || two >= clipper->count)
-    clipper->triangulation->same.item[one > two ? one : two] =
-        one > two ? two : one;
+    sets_join(same, one, two);
 }
 
 /* Removes a corner; the previous one's side now ends at the next one. */
@@ -400,12 +393,11 @@ static uint32_t remove_all_degenerate(struct ear_clipper *clipper) {
   return b;
 }
 
-static void number_sides(struct ear_clipper *clipper) {
-  struct triangulation *t = clipper->triangulation;
+static void number_sides(struct triangulation *t) {
   for (size_t i = 0; i < t->triangle.count; i++)
     for (int k = 0; k < 3; k++)
       t->triangle.item[i].side[k] =
-          representative_side(clipper, t->triangle.item[i].side[k]);
+          sets_root(t->same.item, t->triangle.item[i].side[k]);
 }
 
 bool ear_clipping(struct triangulation *triangulation,
@@ -434,6 +426,6 @@ bool ear_clipping(struct triangulation *triangulation,
     triangulation_add(triangulation, a, b, c, clipper.corner[a].side,
                       clipper.corner[b].side, clipper.corner[c].side);
   }
-  number_sides(&clipper);
+  number_sides(triangulation);
   return true;
 }

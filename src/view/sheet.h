@@ -152,6 +152,14 @@ static inline struct geom_plane sheet_plane(const struct sheet *sheet,
   return geom_plane_of(t.p[0], t.p[1], t.p[2]);
 }
 
+/* The depth of a triangle's nearest corner. */
+static inline int64_t sheet_nearest_z(const struct sheet *sheet,
+                                      size_t triangle) {
+  int64_t low, high;
+  geom_depth_range(sheet_corners(sheet, triangle).p, &low, &high);
+  return high;
+}
+
 /* The scene face of an edge's first triangle; SHEET_NONE. */
 static inline uint32_t sheet_edge_face(const struct sheet *sheet,
                                        const struct sheet_edge *edge) {

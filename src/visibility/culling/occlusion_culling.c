@@ -96,7 +96,7 @@ static double make_candidates(const struct culling_work *work,
       margin += thickness_of(&work->contact, &corners);
     candidate[t] = (struct candidate){
         (uint32_t)t,
-        occlusion_steps_up((double)triangle_nearest_z(sheet, (uint32_t)t) +
+        occlusion_steps_up((double)sheet_nearest_z(sheet, (uint32_t)t) +
                            margin),
         (uint16_t)r.x0,
         (uint16_t)r.y0,

@@ -28,17 +28,6 @@ void occluder_subtraction_fini(struct occluder_subtraction *subtraction) {
   arena_fini(&subtraction->arena);
 }
 
-static void find_depth_range(const struct geom_point p[3], int64_t *low,
-                             int64_t *high) {
-  *low = *high = p[0].z;
-  for (int k = 1; k < 3; k++) {
-    if (p[k].z < *low)
-      *low = p[k].z;
-    if (p[k].z > *high)
-      *high = p[k].z;
-  }
-}
-
 bool occluder_subtraction_start(struct occluder_subtraction *subtraction,
                                 uint32_t triangle,
                                 const struct geom_convex *part) {
@@ -47,7 +36,7 @@ bool occluder_subtraction_start(struct occluder_subtraction *subtraction,
   subtraction->plane = triangle_plane_of(subtraction->sheet, triangle);
   subtraction->filter = plane_filter_of(subtraction->sheet, triangle);
   subtraction->box = box2_of_triangle(subtraction->sheet, triangle);
-  find_depth_range(subtraction->plane.p, &subtraction->low, &subtraction->high);
+  geom_depth_range(subtraction->plane.p, &subtraction->low, &subtraction->high);
   subtraction->covered = subtraction->interpenetrating = false;
   subtraction->occluder.count = subtraction->left.count = 0;
   subtraction->whole = part == NULL;
@@ -118,7 +107,7 @@ bool occluder_subtraction_collect(struct occluder_subtraction *subtraction,
   subtraction->counts.pairs++;
   for (int k = 0; k < 3; k++)
     plane.p[k] = sheet->point.item[sheet->triangle.item[g].point[k]];
-  find_depth_range(plane.p, &low, &high);
+  geom_depth_range(plane.p, &low, &high);
   if (high < subtraction->low ||
       triangles_disjoint(sheet, subtraction->triangle, g))
     return true;

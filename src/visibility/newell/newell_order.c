@@ -69,16 +69,7 @@ static bool add_triangles(struct newell_order *order) {
                          triangle_grid_leaves_out(order->grid, (uint32_t)t)
                      ? NEWELL_UNSEEN
                      : NEWELL_WAITING};
-    piece.z_low = INT64_MAX;
-    piece.z_high = INT64_MIN;
-    struct geom_triangle corner = sheet_corners(sheet, t);
-    for (int k = 0; k < 3; k++) {
-      int64_t z = corner.p[k].z;
-      if (z < piece.z_low)
-        piece.z_low = z;
-      if (z > piece.z_high)
-        piece.z_high = z;
-    }
+    geom_depth_range(sheet_corners(sheet, t).p, &piece.z_low, &piece.z_high);
     order->open[t] = piece.state == NEWELL_WAITING ? (uint32_t)t : NEWELL_NONE;
     order->piece.item[order->piece.count++] = piece;
   }

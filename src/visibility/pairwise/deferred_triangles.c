@@ -100,8 +100,8 @@ static uint32_t
 count_nearer_buckets(const struct deferred_triangles *deferred_triangles,
                      uint32_t triangle) {
   return (uint32_t)(TILE_BUCKETS - 1 -
-                    tile_bucket(triangle_nearest_z(deferred_triangles->sheet,
-                                                   triangle)));
+                    tile_bucket(
+                        sheet_nearest_z(deferred_triangles->sheet, triangle)));
 }
 
 /* Sorts by depth bucket, and within a bucket by tile: triangles that follow one

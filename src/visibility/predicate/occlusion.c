@@ -46,10 +46,7 @@ void occluder_init(struct occluder *occluder, const struct sheet *sheet,
   }
   occluder->t0_near = (double)occluder->t0;
   occluder->t1_near = (double)occluder->t1;
-  occluder->z_max = occluder->p[0].z;
-  for (int k = 1; k < 3; k++)
-    if (occluder->p[k].z > occluder->z_max)
-      occluder->z_max = occluder->p[k].z;
+  occluder->z_max = sheet_nearest_z(sheet, triangle);
   occluder->box = box2_of_triangle(sheet, triangle);
 }
 

@@ -51,7 +51,7 @@ void surrounder_depths_of(const struct sheet *sheet, uint32_t triangle,
 bool surrounder_hides(const struct sheet *sheet,
                       const struct surrounder_depths *front,
                       const struct box2 *window, uint32_t triangle) {
-  if ((double)triangle_nearest_z(sheet, triangle) < front->low)
+  if ((double)sheet_nearest_z(sheet, triangle) < front->low)
     return true;
   struct geom_plane exact = sheet_plane(sheet, triangle);
   struct depth_plane plane = depth_plane_of(&exact);

@@ -36,15 +36,6 @@ void surrounder_depths_of(const struct sheet *sheet, uint32_t triangle,
                           const struct box2 *window,
                           struct surrounder_depths *depth);
 
-/* The depth of a triangle's nearest corner. */
-static inline int64_t triangle_nearest_z(const struct sheet *sheet,
-                                         uint32_t triangle) {
-  const uint32_t *p = sheet->triangle.item[triangle].point;
-  int64_t a = sheet->point.item[p[0]].z, b = sheet->point.item[p[1]].z,
-          c = sheet->point.item[p[2]].z;
-  return a > b ? (a > c ? a : c) : b > c ? b : c;
-}
-
 /* Is the triangle certainly behind the surrounder over the whole window?
  * Decided by its nearest corner, else by its plane at the window's corners.
  * Sufficient, not necessary.

@@ -39,19 +39,12 @@ bool active_edge_pair_start(struct active_edge_pair *pair,
   if (!scan_convex_start(&pair->edges, grid, point, pair->count))
     return false;
   pair->facet = facet;
-  pair->z_low = INFINITY;
-  pair->z_high = -INFINITY;
-  for (uint32_t k = 0; k < pair->count; k++) {
-    double z = (double)sheet->point.item[pair->corner[k]].z;
-    if (z < pair->z_low)
-      pair->z_low = z;
-    if (z > pair->z_high)
-      pair->z_high = z;
-  }
+  facet_depth_range(sheet, pair->corner, pair->count, &pair->z_low,
+                    &pair->z_high);
   facet_slopes(sheet, grid, facet, &per_column, &per_line);
   pair->dz_x = -per_column;
   pair->dz_y = -per_line;
-  pair->steep = raster_is_steep(raster, per_column, per_line);
+  pair->steep = facet_is_steep(grid, per_column, per_line);
   pair->z_left = depth_on_left(pair, raster);
   return true;
 }

@@ -23,7 +23,7 @@ struct active_edge_pair {
   struct scan_convex edges;
   double z_left, dz_x, dz_y;
   double z_low, z_high; /* of the facet's corners */
-  bool steep;           /* see raster_is_steep */
+  bool steep;           /* see facet_is_steep */
 };
 
 /* Starts a facet at its topmost line.  Returns false where it covers no line.

@@ -13,7 +13,7 @@
  * below 2^80: within the ranges of ratio.h.
  *
  * Error bound.  Let the depth of a facet that is not steep change by
- * G = RASTER_DEPTH_CHANGE_MAX over the frame, and u = 2^-53.
+ * G = FACET_DEPTH_CHANGE_MAX over the frame, and u = 2^-53.
  *   - The x of its left edge is off by at most 2 u columns (lines + 12)
  *     (scanfill.c), its depth thereby by 2 u G (lines + 12).
  *   - The slopes, each with a relative error of 6 u, and the steps, each
@@ -104,7 +104,7 @@ recto_status raster_init(struct raster *raster, const struct sheet *sheet,
                      RASTER_COLUMNS_MAX);
   raster->depth_bits = depth_bits;
   raster->level_scale = (ldexp(1, depth_bits) - 1) / ldexp(1, SHEET_Z_BITS);
-  raster->error_bound = 2 * DBL_EPSILON * RASTER_DEPTH_CHANGE_MAX *
+  raster->error_bound = 2 * DBL_EPSILON * FACET_DEPTH_CHANGE_MAX *
                         (raster->grid.lines + raster->grid.columns + 64);
   raster->kept = whole ? lines : 1;
   raster->line_mask = whole ? UINT32_MAX : 0;
@@ -145,7 +145,7 @@ void raster_clear_line(struct raster *raster, int32_t line) {
 static struct ratio exact_depth(const struct raster *raster, uint32_t facet,
                                 int32_t column, int32_t line) {
   const struct scan_grid *grid = &raster->grid;
-  struct geom_plane plane = facet_plane(raster->sheet, facet);
+  struct geom_plane plane = sheet_plane(raster->sheet, facet);
   int64_t x = grid->x_first + column * grid->x_step + grid->x_step / 2;
   int64_t y = grid->y_first + line * grid->y_step + grid->y_step / 2;
   int128 den = (int128)plane.nz * grid->den;

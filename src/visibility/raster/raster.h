@@ -29,13 +29,6 @@
 #define RASTER_DEPTH_BITS_MAX 32
 #define RASTER_SPARE 4 /* padding past the last pixel, for vector stores */
 
-/* A facet is steep if its plane's depth changes by more than this over the
- * columns and lines of the frame: within one part in 256 of edge-on where the
- * scene is as deep as the page is high.  Its depths are computed exactly pixel
- * by pixel.  Those of other facets are computed incrementally in doubles, over
- * at most all lines and columns, with an error below half of `error_bound`. */
-#define RASTER_DEPTH_CHANGE_MAX 0x1p48
-
 /* The pixel of a point of the sheet: `line` as in struct scan_point, and the
  * column, clamped to the frame. */
 struct raster_pixel {
@@ -77,14 +70,6 @@ USE_RESULT recto_status raster_init(struct raster *raster,
                                     int depth_bits, bool whole,
                                     recto_error *error);
 void raster_fini(struct raster *raster);
-
-/* Is a facet with these changes of depth per column and line steep? */
-static inline bool raster_is_steep(const struct raster *raster,
-                                   double per_column, double per_line) {
-  return !(fabs(per_column) * raster->grid.columns +
-               fabs(per_line) * raster->grid.lines <=
-           RASTER_DEPTH_CHANGE_MAX);
-}
 
 /* The index of a line's first pixel. */
 static inline size_t raster_row(const struct raster *raster, int32_t line) {

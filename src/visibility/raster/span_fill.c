@@ -2,7 +2,7 @@
  *
  * Error bound.  A depth is computed from the plane's at frame (0, 0) by the
  * slopes per line and column; each product and sum is rounded to u of at most
- * RASTER_DEPTH_CHANGE_MAX and the range of depths.  With the relative error
+ * FACET_DEPTH_CHANGE_MAX and the range of depths.  With the relative error
  * 4 u of the slopes that is less than the 20 u G that raster.c allows for. */
 #include "visibility/raster/span_fill.h"
 
@@ -20,7 +20,8 @@ static void init_plane(struct span_fill_plane *plane,
                &plane->per_line);
   plane->z = (double)raster->sheet->point.item[point].z -
              plane->per_column * corner.column - plane->per_line * y;
-  plane->steep = raster_is_steep(raster, plane->per_column, plane->per_line);
+  plane->steep =
+      facet_is_steep(&raster->grid, plane->per_column, plane->per_line);
 }
 
 bool span_fill_is_nearer(const struct raster *raster, uint32_t facet,

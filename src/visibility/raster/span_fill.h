@@ -20,7 +20,7 @@
 struct span_fill_plane {
   double z; /* at x = 0, y = 0 in frame units */
   double per_column, per_line;
-  bool steep; /* see raster_is_steep */
+  bool steep; /* see facet_is_steep */
 };
 
 /* Is the facet nearer at the pixel's centre than facet `there` (SHEET_NONE:

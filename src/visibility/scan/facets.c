@@ -196,10 +196,6 @@ void facets_fini(struct facets *facets) {
 
 /* ---- Planes -------------------------------------------------------------- */
 
-struct geom_plane facet_plane(const struct sheet *sheet, uint32_t facet) {
-  return sheet_plane(sheet, facet);
-}
-
 /* Most values fit into 64 bits, whose conversion is fast. */
 static double to_double(int128 value) {
   int64_t low = (int64_t)value;
@@ -208,7 +204,7 @@ static double to_double(int128 value) {
 
 void facet_slopes(const struct sheet *sheet, const struct scan_grid *grid,
                   uint32_t facet, double *per_column, double *per_line) {
-  struct geom_plane plane = facet_plane(sheet, facet);
+  struct geom_plane plane = sheet_plane(sheet, facet);
   double scale = 1 / ((double)plane.nz * (double)grid->den);
   *per_column = -to_double(plane.nx) * (double)grid->x_step * scale;
   *per_line = -to_double(plane.ny) * (double)grid->y_step * scale;

@@ -59,12 +59,36 @@ static inline uint32_t facet_outline(const struct facets *facets,
   return facet->count;
 }
 
-/* The plane of a triangle of the sheet that is not flat. */
-struct geom_plane facet_plane(const struct sheet *sheet, uint32_t facet);
+/* The farthest and the nearest depth of a facet's corners. */
+static inline void facet_depth_range(const struct sheet *sheet,
+                                     const uint32_t *corner, uint32_t count,
+                                     double *low, double *high) {
+  *low = INFINITY;
+  *high = -INFINITY;
+  for (uint32_t k = 0; k < count; k++) {
+    double z = (double)sheet->point.item[corner[k]].z;
+    if (z < *low)
+      *low = z;
+    if (z > *high)
+      *high = z;
+  }
+}
 
 /* By how much the depth of a facet's plane changes from one column to the next
  * on the right, and from one line to the next above. */
 void facet_slopes(const struct sheet *sheet, const struct scan_grid *grid,
                   uint32_t facet, double *per_column, double *per_line);
+
+/* A facet is steep if its plane's depth changes by more than this over the
+ * columns and lines of the frame: within one part in 256 of edge-on where the
+ * scene is as deep as the page is high.  Its depths are computed exactly at
+ * each sample, those of other facets incrementally in doubles. */
+#define FACET_DEPTH_CHANGE_MAX 0x1p48
+
+static inline bool facet_is_steep(const struct scan_grid *grid,
+                                  double per_column, double per_line) {
+  return !(fabs(per_column) * grid->columns + fabs(per_line) * grid->lines <=
+           FACET_DEPTH_CHANGE_MAX);
+}
 
 #endif

@@ -216,12 +216,12 @@ static bool classify_edges(struct tiles_work *work, size_t from,
  * or MAP_MIXED. */
 static enum map_state state_of_face(const struct tiles_work *work, uint32_t t) {
   const struct sheet *sheet = work->sheet;
-  struct geom_triangle c = sheet_corners(sheet, t);
-  int64_t low = c.p[0].z < c.p[1].z ? c.p[0].z : c.p[1].z;
+  int64_t low, high;
+  geom_depth_range(sheet_corners(sheet, t).p, &low, &high);
   return state_in_range(
       &work->tiles,
-      triangle_grid_cells(&work->tiles.grid, box2_of_triangle(sheet, t)),
-      low < c.p[2].z ? low : c.p[2].z, triangle_nearest_z(sheet, t), false);
+      triangle_grid_cells(&work->tiles.grid, box2_of_triangle(sheet, t)), low,
+      high, false);
 }
 
 /* Marks the tiles of a triangle's bounding box as wanted. */

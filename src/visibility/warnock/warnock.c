@@ -185,19 +185,10 @@ static bool process_page_window(struct warnock *w) {
 /* The smallest square window about all points of the sheet, at least 2 units
  * wide, moved to lie within the grid's range. */
 static struct box2 page_window(const struct sheet *sheet) {
-  int64_t x0 = SHEET_XY_MAX, y0 = x0, x1 = -x0, y1 = -x0, side;
-  for (size_t i = 0; i < sheet->point.count; i++) {
-    struct geom_point p = sheet->point.item[i];
-    if (p.x < x0)
-      x0 = p.x;
-    if (p.x > x1)
-      x1 = p.x;
-    if (p.y < y0)
-      y0 = p.y;
-    if (p.y > y1)
-      y1 = p.y;
-  }
-  side = x1 - x0 > y1 - y0 ? x1 - x0 : y1 - y0;
+  struct box2 all = box2_of_sheet(sheet);
+  int64_t x0 = all.x0, y0 = all.y0;
+  int64_t width = all.x1 - x0, height = all.y1 - y0;
+  int64_t side = width > height ? width : height;
   if (side < 2)
     side = 2;
   /* The square is moved where it would leave the grid's range. */

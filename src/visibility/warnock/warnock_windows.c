@@ -10,15 +10,12 @@
 /* ---- The stack ----------------------------------------------------------- */
 
 static double nearest_z(const struct warnock_windows *windows, uint32_t facet) {
-  const struct geom_point *point = windows->sheet->point.item;
   const uint32_t *corner, *side;
+  double farthest, nearest;
   uint32_t count =
       facet_outline(windows->facets, windows->sheet, facet, &corner, &side);
-  int64_t nearest = 0;
-  for (uint32_t k = 0; k < count; k++)
-    if (point[corner[k]].z > nearest)
-      nearest = point[corner[k]].z;
-  return (double)nearest;
+  facet_depth_range(windows->sheet, corner, count, &farthest, &nearest);
+  return nearest;
 }
 
 bool warnock_windows_init(struct warnock_windows *windows,

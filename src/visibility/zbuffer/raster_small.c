@@ -12,7 +12,7 @@
  *
  * Depths.  Products of differences are below 2^62, so the plane is exact in 64
  * bits.  A depth is computed from that of the highest corner over at most ROWS
- * lines, each product and sum rounded to u of at most RASTER_DEPTH_CHANGE_MAX
+ * lines, each product and sum rounded to u of at most FACET_DEPTH_CHANGE_MAX
  * and the range of depths: less than raster.c allows for.
  *
  * Speed.  The orientation of a triangle, its number of columns and which face
@@ -110,9 +110,7 @@ static bool find_small_depths(struct small_depths *depths,
   depths->per_line = -(double)ny * scale;
   depths->z = s->z + depths->per_column * (0.5 - s->column) +
               depths->per_line * (s->high - 0.5 - s->row);
-  return fabs(depths->per_column) * grid->columns +
-             fabs(depths->per_line) * grid->lines <=
-         RASTER_DEPTH_CHANGE_MAX;
+  return !facet_is_steep(grid, depths->per_column, depths->per_line);
 }
 
 /* A side that covers no line is replaced by the other short one. */

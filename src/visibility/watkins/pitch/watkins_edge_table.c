@@ -32,10 +32,6 @@ recto_status watkins_grid(struct scan_grid *grid, const struct sheet *sheet,
 
 /* ---- S ------------------------------------------------------------------- */
 
-/* A facet is steep where its plane's depth changes by more than this over the
- * page and its lines. */
-#define DEPTH_CHANGE_MAX 0x1p48
-
 /* Sets z_error, eight times the error bound of a depth (see
  * watkins_interval.c): the depth is computed incrementally over the lines, and
  * x is off by some units in the last place of the page's coordinates. */
@@ -43,9 +39,9 @@ static void set_z_error(struct watkins_facet *facet,
                         const struct scan_grid *grid) {
   double fall =
       fabs(facet->per_x) * SHEET_XY_MAX + fabs(facet->per_line) * grid->lines;
-  facet->steep = !(fall <= DEPTH_CHANGE_MAX);
+  facet->steep = !(fall <= FACET_DEPTH_CHANGE_MAX);
   if (!facet->steep)
-    fall = DEPTH_CHANGE_MAX;
+    fall = FACET_DEPTH_CHANGE_MAX;
   facet->z_error =
       8 * DBL_EPSILON * (grid->lines + 64) * (fall + (double)SHEET_Z_MAX);
 }
@@ -58,15 +54,7 @@ static void set_facet(const struct watkins *watkins, uint32_t triangle,
   memset(facet, 0, sizeof *facet);
   facet->triangle = triangle;
   facet->face = sheet->triangle.item[triangle].face;
-  facet->z_low = INFINITY;
-  facet->z_high = -INFINITY;
-  for (uint32_t k = 0; k < count; k++) {
-    double z = (double)sheet->point.item[corner[k]].z;
-    if (z < facet->z_low)
-      facet->z_low = z;
-    if (z > facet->z_high)
-      facet->z_high = z;
-  }
+  facet_depth_range(sheet, corner, count, &facet->z_low, &facet->z_high);
   facet_slopes(sheet, &watkins->table.grid, triangle, &facet->per_x, &up);
   facet->per_line = -up;
   set_z_error(facet, &watkins->table.grid);
