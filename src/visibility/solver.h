@@ -24,8 +24,8 @@ struct solver_request {
                          one sample */
 };
 
-/* The request that options make of a solver: its edges, and fragments only where
- * they fill faces; one thread. */
+/* The request that options make of a solver: edges, fragments only where faces
+ * are filled, one thread. */
 struct solver_request solver_request_of(const recto_options *options);
 
 struct solver {
