@@ -54,8 +54,8 @@ struct contour_pieces {
 
 /* ---- The visibility of a point ------------------------------------------- */
 
-static struct geom_point page_point(const struct contour_pieces *c,
-                                    const double at[3]) {
+static struct geom_point project_place(const struct contour_pieces *c,
+                                       const double at[3]) {
   return project_point(&c->projection,
                        camera_view(&c->sheet->camera,
                                    &(struct scene_point){at[0], at[1], at[2]}));
@@ -125,7 +125,7 @@ static int count_hiding(struct contour_pieces *c,
   for (int k = 0; k < 3; k++)
     at[k] =
         a->at[k] + t * (b->at[k] - a->at[k]) + off * normal[k] - near * view[k];
-  return count_occluders(c, page_point(c, at));
+  return count_occluders(c, project_place(c, at));
 }
 
 /* ---- Pieces -------------------------------------------------------------- */
@@ -211,9 +211,9 @@ static bool has_surface_left(const struct contour_pieces *c, uint32_t step,
       &c->set->segment.item[c->curves->step.item[step].segment];
   double off = s->width * side;
   struct geom_point outside =
-      page_point(c, (const double[3]){a->at[0] + off * s->normal[0],
-                                      a->at[1] + off * s->normal[1],
-                                      a->at[2] + off * s->normal[2]});
+      project_place(c, (const double[3]){a->at[0] + off * s->normal[0],
+                                         a->at[1] + off * s->normal[1],
+                                         a->at[2] + off * s->normal[2]});
   return geom_orient2d(a->page, contour_curves_node(c->curves, step + 1)->page,
                        outside) <= 0;
 }
@@ -225,7 +225,7 @@ static bool add_edges(struct contour_pieces *c,
   struct sheet *sheet = c->sheet;
   struct contour_cut at = piece->from;
   while (position(at) < position(piece->to)) {
-    struct contour_cut next = {at.step + 1, 0};
+    struct contour_cut next = {.step = at.step + 1};
     if (at.step == piece->to.step)
       next = piece->to;
     uint32_t face =
@@ -265,11 +265,11 @@ static bool divide(struct contour_pieces *c, const struct contour_curve *curve,
                    size_t *cut) {
   const struct contour_cut *all = c->curves->cut.item;
   uint32_t end = curve->step + curve->count;
-  struct contour_cut from = {curve->step, 0};
+  struct contour_cut from = {.step = curve->step};
   bool begins_with_cut = false;
   c->piece.count = 0;
   while (position(from) < end) {
-    struct contour_piece made = {.from = from, .to = {end, 0}};
+    struct contour_piece made = {.from = from, .to = {.step = end}};
     if (*cut < c->curves->cut.count && all[*cut].step < end)
       made.to = all[(*cut)++];
     from = made.to;
@@ -297,7 +297,8 @@ static bool runs_along_crease(const struct contour_pieces *c, uint32_t step) {
   return c->set->segment.item[segment].along_crease;
 }
 
-/* Makes short pieces like the two beside them, if these are alike. */
+/* Makes short pieces like the two beside them, if these are alike; not where
+ * both ends are crossings, which are known to be some. */
 static void settle_short(struct contour_pieces *c,
                          const struct contour_curve *curve) {
   size_t count = c->piece.count;
@@ -305,6 +306,7 @@ static void settle_short(struct contour_pieces *c,
     struct contour_piece *piece = &c->piece.item[i];
     if ((!curve->closed && (i == 0 || i + 1 == count)) || count < 3 ||
         runs_along_crease(c, piece->from.step) ||
+        (piece->from.crossing && piece->to.crossing) ||
         position(piece->to) - position(piece->from) > SHORT_SEGMENTS)
       continue;
     bool before = c->piece.item[(i + count - 1) % count].is_visible;

@@ -193,7 +193,7 @@ bool contour_curves_cut_at_cusps(struct contour_curves *curves) {
       bool crease = is_along_crease(curves, step);
       if (!crease && !crease_before && concave != before)
         step = turning_step(curves, curve, i);
-      struct contour_cut cut = {step, 0};
+      struct contour_cut cut = {.step = step};
       if ((crease || crease_before || concave != before) &&
           !ARRAY_PUSH(&curves->cut, cut))
         return false;

@@ -21,7 +21,8 @@ struct contour_curve {
 /* A place at which a curve is divided. */
 struct contour_cut {
   uint32_t step;
-  double t; /* along the step's segment, 0 to before 1 */
+  double t;      /* along the step's segment, 0 to before 1 */
+  bool crossing; /* something passes in front, or through, there */
 };
 
 struct contour_curves {

@@ -58,7 +58,7 @@ static bool join_edges(struct corner_moves *moves) {
   return true;
 }
 
-static bool list_contours(struct corner_moves *moves) {
+static bool list_at_points(struct corner_moves *moves) {
   size_t points = moves->sheet->scene->point.count;
   moves->start = mem_calloc(points + 1, sizeof *moves->start);
   if (moves->start == NULL)
@@ -281,7 +281,7 @@ static bool choose_moves(struct corner_moves *moves) {
 }
 
 bool corner_moves_find(struct corner_moves *moves) {
-  return join_edges(moves) && list_contours(moves) && find_moves(moves) &&
+  return join_edges(moves) && list_at_points(moves) && find_moves(moves) &&
          choose_moves(moves);
 }
 

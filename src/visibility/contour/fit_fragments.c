@@ -1,6 +1,7 @@
 /* fit_fragments.c - moves corners of visible fragments onto smooth contours,
  * and lets the sides between them follow the contours. */
 #include "visibility/contour/fit_fragments.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -42,8 +43,8 @@ static bool is_matched(const struct map *map, const struct map_half_edge *half,
 }
 
 /* Follows a contour from one moved point on an edge to another one on the last
- * edge, through an end of the first one, for no longer than `most`.  Returns the
- * length of the way; INFINITY: it does not lead there. */
+ * edge, through an end of the first one, for no longer than `most`.  Returns
+ * the length of the way; INFINITY: it does not lead there. */
 static double follow_contour(const struct fit *f,
                              const struct corner_move *from, uint32_t edge,
                              const struct corner_move *to, uint32_t last,

@@ -137,8 +137,8 @@ static bool cut_at_crossing(struct crossings *c, const struct page_segment *a,
   double s = (double)ap / ((double)ap - (double)aq);
   double t = (double)bp / ((double)bp - (double)bq);
   double depth = depth_at(b, t) - depth_at(a, s);
-  struct contour_cut of_a = {a->step, fmin(s, 1 - 0x1p-30)};
-  struct contour_cut of_b = {b->step, fmin(t, 1 - 0x1p-30)};
+  struct contour_cut of_a = {a->step, fmin(s, 1 - 0x1p-30), true};
+  struct contour_cut of_b = {b->step, fmin(t, 1 - 0x1p-30), true};
   return (!(b->touches || depth > 0) || ARRAY_PUSH(&c->curves->cut, of_a)) &&
          (b->step == SHEET_NONE || depth >= 0 ||
           ARRAY_PUSH(&c->curves->cut, of_b));
