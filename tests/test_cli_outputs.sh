@@ -107,11 +107,13 @@ claim "nor is standard output added to it" appending
 printf 'newmtl red\nKd 1 0 0\n' >m.mtl
 library_stays() {
   cp m.mtl before.mtl
-  run 2 coloured.obj --fill paint --format svg "$@" &&
+  run 2 coloured.obj --format svg "$@" &&
     says 'would replace the model' && cmp -s m.mtl before.mtl && none_left
 }
-claim "a material library that is read is not replaced" library_stays -o m.mtl
-claim "nor by the stats" library_stays -o s.svg --stats=m.mtl
+claim "a material library that is read is not replaced" \
+  library_stays --fill paint -o m.mtl
+claim "nor by the stats" library_stays --fill paint -o s.svg --stats=m.mtl
+claim "nor one that is not read, as only lines are drawn" library_stays -o m.mtl
 
 # ---- What belongs to a file -------------------------------------------------
 

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/input.h"
+#include "base/path.h"
 
 enum { LIBRARY_MAX = 100 };
 
@@ -100,6 +101,18 @@ static recto_status load_library(struct input *input, char *path,
   return other;
 }
 
+/* Notes that a library belongs to the scene, if there is one at that path or at
+ * that of load_library. */
+static recto_status note_library(struct library_reader *reader, char *path,
+                                 bool *found) {
+  struct file_identity file;
+  *found =
+      path_identity(path, &file) || path_identity(strcat(path, GZIP), &file);
+  return !*found || ARRAY_PUSH(&reader->scene->file, file)
+             ? RECTO_OK
+             : error_memory(reader->error);
+}
+
 /* Reads a library of that name beside the model; *found where there is one,
  * else `why` says what is wrong with it. */
 static recto_status try_library(struct library_reader *reader, const char *name,
@@ -115,6 +128,11 @@ static recto_status try_library(struct library_reader *reader, const char *name,
   memcpy(path, reader->model, folder);
   memcpy(path + folder, name, length);
   path[folder + length] = '\0';
+  if (!reader->scene->needs_colours) {
+    recto_status status = note_library(reader, path, found);
+    mem_free(path);
+    return status;
+  }
   struct input input;
   recto_status status = load_library(&input, path, why);
   *found = status == RECTO_OK;
@@ -135,6 +153,8 @@ static void warn_missing_material(struct library_reader *reader,
                                   const struct material_name *name,
                                   size_t length, const char *at,
                                   const recto_error *why) {
+  if (!reader->scene->needs_colours)
+    return;
   diagnostics_fault(reader->diagnostics, SCENE_FAULT_MATERIAL, name->line,
                     "material library %.*s: %s", length < 80 ? (int)length : 80,
                     at, why->text);
@@ -173,7 +193,7 @@ static recto_status read_all_libraries(struct library_reader *reader,
                                        const struct materials *materials) {
   recto_status status = RECTO_OK;
   size_t count = *reader->model != '\0' ? materials->library.count : 0;
-  if (count > LIBRARY_MAX)
+  if (count > LIBRARY_MAX && reader->scene->needs_colours)
     diagnostics_fault(reader->diagnostics, SCENE_FAULT_MATERIAL,
                       materials->library.item[LIBRARY_MAX].line,
                       "more than %d material libraries, not read", LIBRARY_MAX);

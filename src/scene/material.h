@@ -36,7 +36,8 @@ USE_RESULT recto_status materials_add_use(struct materials *materials,
 
 /* Reads the libraries, which lie where the model does, and gives the groups
  * that have no colour yet that of their material.  What is missing or makes no
- * sense is a fault, never an error.
+ * sense is a fault, never an error.  Where the scene needs no colours, the
+ * libraries are only noted as files that belong to it.
  * path    of the model
  * Errors  RECTO_ERROR_MEMORY; the scene is then as it was */
 USE_RESULT recto_status materials_colour(const struct materials *materials,

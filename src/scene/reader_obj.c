@@ -135,7 +135,7 @@ static recto_status read_name(struct obj_parser *p, enum name_kind kind,
 static recto_status read_mtllib(struct obj_parser *p, size_t keyword) {
   struct material_name name;
   recto_status status = read_rest(p, &name, keyword);
-  if (status != RECTO_OK || name.length == 0 || !p->scene->needs_colours)
+  if (status != RECTO_OK || name.length == 0)
     return status;
   return materials_add_library(&p->materials, name, p->error);
 }
@@ -428,7 +428,7 @@ static recto_status read_obj(struct scene *scene, const char *bytes,
                                    precision_estimate(&p.sample), error);
   /* The colour of a group that was there before is not taken back, so nothing
    * that may fail comes after this. */
-  if (status == RECTO_OK && scene->needs_colours)
+  if (status == RECTO_OK)
     status = materials_colour(&p.materials, scene, path, diagnostics, error);
   materials_fini(&p.materials);
   ARRAY_FREE(&p.bad);
