@@ -14,6 +14,7 @@
 #include <math.h>
 
 #include "base/tolerance.h"
+#include "scene/angle.h"
 
 #define UNITS_PER_MM 0x1p28
 #define STEP_DEN (1 << 10) /* lines are at multiples of 1 / (2 STEP_DEN) unit */
@@ -21,9 +22,11 @@
 
 void hatch_lines_init(struct hatch_lines *lines, const struct sheet *sheet,
                       double pitch, double angle_deg) {
-  double angle = angle_deg * (acos(-1.0) / 180);
-  *lines = (struct hatch_lines){
-      .sheet = sheet, .pitch = pitch, .cosine = cos(angle), .sine = sin(angle)};
+  struct angle angle = angle_of_degrees(angle_deg);
+  *lines = (struct hatch_lines){.sheet = sheet,
+                                .pitch = pitch,
+                                .cosine = angle.cosine,
+                                .sine = angle.sine};
 }
 
 void hatch_lines_fini(struct hatch_lines *lines) {
