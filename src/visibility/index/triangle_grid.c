@@ -111,8 +111,8 @@ bool triangle_grid_enlarge(struct triangle_grid *grid,
 struct filling {
   struct triangle_grid *grid;
   const struct sheet *sheet;
-  const struct footprint *print; /* NULL: computed */
-  const uint8_t *wanted;         /* per cell: it gets a list; NULL: all do */
+  const struct footprint *footprint; /* NULL: computed */
+  const uint8_t *wanted;  /* per cell: it gets a list; NULL: all do */
   const uint32_t *subset; /* the triangles that may be listed; NULL: all */
   size_t count;
 };
@@ -124,8 +124,8 @@ static void fill_triangle(const struct filling *filling, uint32_t t,
   struct triangle_grid *grid = filling->grid;
   const struct sheet *sheet = filling->sheet;
   struct cell_range r =
-      filling->print != NULL
-          ? footprint_cells(grid, sheet, t, filling->print[t])
+      filling->footprint != NULL
+          ? footprint_cells(grid, sheet, t, filling->footprint[t])
           : triangle_grid_cells(grid, box2_of_triangle(sheet, t));
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++) {
@@ -249,10 +249,10 @@ static uint8_t *dilate(const struct triangle_grid *grid,
 
 /* Collects the triangles that meet wanted cells, and maybe a few more. */
 static bool choose_subset(const struct triangle_grid *grid,
-                          const struct footprint *print, const uint8_t *dilated,
-                          triangle_list *subset) {
+                          const struct footprint *footprint,
+                          const uint8_t *dilated, triangle_list *subset) {
   for (size_t t = 0; t < grid->triangle_count; t++) {
-    struct footprint f = print[t];
+    struct footprint f = footprint[t];
     size_t cell = (size_t)f.y * (size_t)grid->columns + f.x;
     bool small = f.width <= 1 && f.height <= 1;
     if (small && !dilated[cell])
@@ -264,12 +264,13 @@ static bool choose_subset(const struct triangle_grid *grid,
 }
 
 bool triangle_grid_fill(struct triangle_grid *grid, const struct sheet *sheet,
-                        const struct footprint *print, const uint8_t *wanted) {
+                        const struct footprint *footprint,
+                        const uint8_t *wanted) {
   triangle_list subset = {0};
   uint8_t *dilated = dilate(grid, wanted);
-  bool ok = dilated != NULL && choose_subset(grid, print, dilated, &subset);
+  bool ok = dilated != NULL && choose_subset(grid, footprint, dilated, &subset);
   mem_free(dilated);
-  ok = ok && fill(&(struct filling){grid, sheet, print, wanted, subset.item,
+  ok = ok && fill(&(struct filling){grid, sheet, footprint, wanted, subset.item,
                                     subset.count});
   ARRAY_FREE(&subset);
   return ok;

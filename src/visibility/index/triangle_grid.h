@@ -27,22 +27,19 @@ USE_RESULT bool triangle_grid_init(struct triangle_grid *grid,
                                    const struct sheet *sheet);
 void triangle_grid_fini(struct triangle_grid *grid);
 
-/* The same in two steps.
- *
- * triangle_grid_shape chooses the cells: the smallest that have a triangle in
- * at most `spread` cells on average, so that memory is linear in the triangles
- * whatever their shape, and at most `cells` cells per triangle.
- *
- * triangle_grid_fill makes the lists.
- * print    the triangles' footprints
- * wanted   per cell, not 0: it gets a list; the lists of the others stay empty
- * Returns false when memory ran out. */
+/* The first of two steps: chooses the cells, the smallest that have a triangle
+ * in at most `spread` cells on average, so that memory is linear in the
+ * triangles whatever their shape, and at most `cells` cells per triangle. */
 void triangle_grid_shape(struct triangle_grid *grid, const struct sheet *sheet,
                          unsigned spread, unsigned cells);
 struct footprint;
+/* The second step: makes the lists.
+ * footprint  one a triangle
+ * wanted     per cell, not 0: it gets a list; those of the others stay empty
+ * Returns false when memory ran out. */
 USE_RESULT bool triangle_grid_fill(struct triangle_grid *grid,
                                    const struct sheet *sheet,
-                                   const struct footprint *print,
+                                   const struct footprint *footprint,
                                    const uint8_t *wanted);
 
 /* The cost of testing all pairs of a list, in pairs; each entry adds a constant

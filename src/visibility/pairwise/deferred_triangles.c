@@ -28,7 +28,7 @@
 
 /* Counts the contours of each wanted tile or, if `filling`, lists them. */
 static void visit_contours(struct deferred_triangles *deferred_triangles,
-                           const uint8_t *requested, bool filling) {
+                           const uint8_t *wanted, bool filling) {
   const struct sheet *sheet = deferred_triangles->sheet;
   const struct triangle_grid *grid = &deferred_triangles->lists->tiles->grid;
   for (size_t i = sheet->contour.count; i-- > 0;) {
@@ -41,7 +41,7 @@ static void visit_contours(struct deferred_triangles *deferred_triangles,
       triangle_grid_row(grid, p, q, r, y, &x0, &x1);
       for (int x = x0; x <= x1; x++) {
         size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
-        if (!requested[cell])
+        if (!wanted[cell])
           continue;
         if (filling)
           deferred_triangles->contour[--deferred_triangles->start[cell]] =
@@ -56,7 +56,7 @@ static void visit_contours(struct deferred_triangles *deferred_triangles,
 bool deferred_triangles_init(struct deferred_triangles *deferred_triangles,
                              const struct sheet *sheet,
                              const struct tile_candidates *lists,
-                             const uint8_t *requested, uint8_t *state) {
+                             const uint8_t *wanted, uint8_t *state) {
   size_t cells = triangle_grid_cell_count(&lists->tiles->grid);
   memset(deferred_triangles, 0, sizeof *deferred_triangles);
   deferred_triangles->sheet = sheet;
@@ -68,14 +68,14 @@ bool deferred_triangles_init(struct deferred_triangles *deferred_triangles,
   if (deferred_triangles->start == NULL ||
       !triangle_grid_query_init(&deferred_triangles->query, &lists->grid))
     return false;
-  visit_contours(deferred_triangles, requested, false);
+  visit_contours(deferred_triangles, wanted, false);
   for (size_t i = 0; i < cells; i++)
     deferred_triangles->start[i + 1] += deferred_triangles->start[i];
   deferred_triangles->contour = mem_alloc(deferred_triangles->start[cells],
                                           sizeof *deferred_triangles->contour);
   if (deferred_triangles->contour == NULL)
     return false;
-  visit_contours(deferred_triangles, requested, true);
+  visit_contours(deferred_triangles, wanted, true);
   return true;
 }
 

@@ -40,11 +40,9 @@ struct deferred_triangles {
  *         triangles that are found to be hidden are marked there
  * Returns false when memory ran out; end with deferred_triangles_fini either
  * way. */
-USE_RESULT bool
-deferred_triangles_init(struct deferred_triangles *deferred_triangles,
-                        const struct sheet *sheet,
-                        const struct tile_candidates *lists,
-                        const uint8_t *requested, uint8_t *state);
+USE_RESULT bool deferred_triangles_init(
+    struct deferred_triangles *deferred_triangles, const struct sheet *sheet,
+    const struct tile_candidates *lists, const uint8_t *wanted, uint8_t *state);
 void deferred_triangles_fini(struct deferred_triangles *deferred_triangles);
 
 /* Sorts triangles from near to far, by depth bucket.

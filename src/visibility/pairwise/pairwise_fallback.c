@@ -14,7 +14,7 @@ static bool init_faces(struct pairwise_fallback *fallback) {
     fallback->state[t] =
         sheet->triangle_flags[t] & SHEET_FLAT ? MAP_HIDDEN : MAP_MIXED;
   return deferred_triangles_init(&fallback->deferred_triangles, sheet,
-                                 &fallback->lists, fallback->requested,
+                                 &fallback->lists, fallback->wanted,
                                  fallback->state);
 }
 
@@ -27,12 +27,12 @@ bool pairwise_fallback_init(struct pairwise_fallback *fallback,
   if (!tile_classification_init(&fallback->tiles, sheet, true, fragments))
     return false;
   size_t tiles = triangle_grid_cell_count(&fallback->tiles.grid);
-  fallback->requested = mem_alloc(tiles, 1);
-  if (fallback->requested == NULL)
+  fallback->wanted = mem_alloc(tiles, 1);
+  if (fallback->wanted == NULL)
     return false;
-  memset(fallback->requested, 1, tiles);
+  memset(fallback->wanted, 1, tiles);
   if (!tile_candidates_fill(&fallback->lists, &fallback->tiles, sheet,
-                            fallback->requested) ||
+                            fallback->wanted) ||
       !edge_query_init(&fallback->edge, sheet, &fallback->lists) ||
       (fragments && !init_faces(fallback)))
     return false;
@@ -47,7 +47,7 @@ void pairwise_fallback_fini(struct pairwise_fallback *fallback) {
   edge_query_fini(&fallback->edge);
   tile_candidates_fini(&fallback->lists);
   tile_classification_fini(&fallback->tiles);
-  mem_free(fallback->requested);
+  mem_free(fallback->wanted);
   memset(fallback, 0, sizeof *fallback);
 }
 

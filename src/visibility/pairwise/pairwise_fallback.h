@@ -21,7 +21,7 @@ struct pairwise_fallback {
   struct progress *progress; /* borrowed, not owned */
   struct tile_classification tiles;
   struct tile_candidates lists; /* of all tiles */
-  uint8_t *requested;           /* one per tile: 1, as all have lists */
+  uint8_t *wanted;              /* one per tile: 1, as all have lists */
   struct edge_query edge;
   struct deferred_triangles deferred_triangles;
   uint8_t *state; /* one per triangle, as in deferred_triangles.h; NULL: the

@@ -196,11 +196,11 @@ static bool add_keys(struct tile_candidates *list, const struct sheet *sheet) {
 
 bool tile_candidates_fill(struct tile_candidates *list,
                           const struct tile_classification *tiles,
-                          const struct sheet *sheet, const uint8_t *requested) {
+                          const struct sheet *sheet, const uint8_t *wanted) {
   tile_candidates_fini(list);
   *list = (struct tile_candidates){
       .grid = tiles->grid, .cells_are_tiles = true, .tiles = tiles};
-  return triangle_grid_fill(&list->grid, sheet, tiles->footprint, requested) &&
+  return triangle_grid_fill(&list->grid, sheet, tiles->footprint, wanted) &&
          enlarge_cells(list, sheet) && triangle_grid_split(&list->grid, true) &&
          add_keys(list, sheet);
 }

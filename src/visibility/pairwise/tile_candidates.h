@@ -31,7 +31,7 @@ struct tile_candidates {
 USE_RESULT bool tile_candidates_fill(struct tile_candidates *list,
                                      const struct tile_classification *tiles,
                                      const struct sheet *sheet,
-                                     const uint8_t *requested);
+                                     const uint8_t *wanted);
 void tile_candidates_fini(struct tile_candidates *list);
 
 /* The range that the keys of a cell's list, which is not empty, are relative

@@ -34,10 +34,10 @@ struct tiles_work {
   const struct occlusion_culling *culling;
   struct tile_classification tiles;
   struct tile_candidates lists;
-  uint8_t *requested;   /* one per tile: its faces are to be listed */
+  uint8_t *wanted;      /* one per tile: its faces are to be listed */
   uint8_t *intersected; /* one per tile: visible intersections are possible;
                            NULL: they are not to be found */
-  bool more_requested;  /* a tile became wanted after the faces were listed */
+  bool more_wanted;     /* a tile became wanted after the faces were listed */
   ARRAY(uint32_t) edge; /* deferred edges, ascending */
   ARRAY(uint32_t) face; /* deferred triangles, ascending */
   uint8_t *face_state;  /* one per triangle: enum map_state; MAP_MIXED is
@@ -73,16 +73,16 @@ static bool mark_intersected_tiles(struct tiles_work *work) {
     return false;
   for (size_t i = 0; i < n; i++) {
     work->intersected[i] = work->tiles.tile[i].state == TILE_MIXED;
-    work->requested[i] |= work->intersected[i];
+    work->wanted[i] |= work->intersected[i];
   }
   return true;
 }
 
 /* Lists the faces of all wanted tiles, in place of the lists made before. */
 static bool list_faces(struct tiles_work *work) {
-  work->more_requested = false;
+  work->more_wanted = false;
   return tile_candidates_fill(&work->lists, &work->tiles, work->sheet,
-                              work->requested);
+                              work->wanted);
 }
 
 /* ---- 2. Classifying ------------------------------------------------------ */
@@ -118,8 +118,8 @@ static enum map_state state_along(struct tiles_work *work, struct geom_point p,
       size_t i = (size_t)y * (size_t)grid->columns + (size_t)x;
       int now = state_in_tile(&work->tiles.tile[i], low, high, wire);
       if (mark) {
-        work->more_requested |= !work->requested[i];
-        work->requested[i] = 1;
+        work->more_wanted |= !work->wanted[i];
+        work->wanted[i] = 1;
       } else {
         if (now == MAP_MIXED || (state >= 0 && state != now))
           return MAP_MIXED;
@@ -225,12 +225,12 @@ static enum map_state state_of_face(const struct tiles_work *work, uint32_t t) {
 }
 
 /* Marks the tiles of a triangle's bounding box as wanted. */
-static void request_face_tiles(struct tiles_work *work, uint32_t t) {
+static void want_face_tiles(struct tiles_work *work, uint32_t t) {
   const struct triangle_grid *grid = &work->tiles.grid;
   struct cell_range r =
       triangle_grid_cells(grid, box2_of_triangle(work->sheet, t));
   for (int y = r.y0; y <= r.y1; y++)
-    memset(work->requested + (size_t)y * (size_t)grid->columns + r.x0, 1,
+    memset(work->wanted + (size_t)y * (size_t)grid->columns + r.x0, 1,
            (size_t)(r.x1 - r.x0) + 1);
 }
 
@@ -260,7 +260,7 @@ static bool classify_faces(struct tiles_work *work) {
       continue;
     if (!ARRAY_PUSH(&work->face, (uint32_t)t))
       return false;
-    request_face_tiles(work, (uint32_t)t);
+    want_face_tiles(work, (uint32_t)t);
   }
   return true;
 }
@@ -394,7 +394,7 @@ static bool solve_faces(struct tiles_work *work, struct map *map) {
   struct progress progress = progress_of(work->request, "faces");
   bool ok = fragments_init(&fragments, work->sheet, &work->lists.grid, true);
   ok &= deferred_triangles_init(&deferred_triangles, work->sheet, &work->lists,
-                                work->requested, work->face_state);
+                                work->wanted, work->face_state);
   fragments.progress = deferred_triangles.subtraction.progress = &progress;
   fragments.report = work->report;
   for (size_t t = 0; ok && t < n; t++)
@@ -445,7 +445,7 @@ static bool find_intersections(struct tiles_work *work, struct map *map,
       (work->request->edges && !classify_edges(work, mesh_edges, map)))
     return false;
   end_phase(work, "intersections_cpu_s");
-  return !work->more_requested || list_faces(work);
+  return !work->more_wanted || list_faces(work);
 }
 
 /* Phases 1 to 5. */
@@ -457,8 +457,8 @@ static bool solve_all(struct tiles_work *work, struct map *map,
                                 request->fragments))
     return false;
   end_phase(work, "tiles_cpu_s");
-  work->requested = mem_calloc(triangle_grid_cell_count(&work->tiles.grid), 1);
-  if (work->requested == NULL ||
+  work->wanted = mem_calloc(triangle_grid_cell_count(&work->tiles.grid), 1);
+  if (work->wanted == NULL ||
       (request->edges && !classify_edges(work, 0, map)) ||
       (request->fragments && !classify_faces(work)))
     return false;
@@ -494,7 +494,7 @@ static void tiles_work_fini(struct tiles_work *work) {
   report_tiles(work, work->report);
   tile_candidates_fini(&work->lists);
   tile_classification_fini(&work->tiles);
-  mem_free(work->requested);
+  mem_free(work->wanted);
   mem_free(work->intersected);
   mem_free(work->face_state);
   ARRAY_FREE(&work->edge);
