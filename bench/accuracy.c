@@ -68,7 +68,7 @@ static void take_row(struct row *row, const struct scene *scene,
   row->ok = true;
   row->fragments_s = take_part(scene, options, solver, count, TRIAL_FRAGMENTS,
                                &truth[0], &row->measure, &row->ok);
-  row->strokes_s = take_part(scene, options, solver, count, TRIAL_STROKES,
+  row->strokes_s = take_part(scene, options, solver, count, TRIAL_EDGES,
                              &truth[1], &ink, &row->ok);
   row->measure.true_ink = ink.true_ink;
   row->measure.missing_ink = ink.missing_ink;
@@ -143,7 +143,7 @@ static void take_exact(struct chart *chart, const struct scene *scene,
 
 static void take_scene(struct chart *chart, const struct scene *scene,
                        const recto_options *options, const char *name) {
-  static const enum trial_part part[2] = {TRIAL_FRAGMENTS, TRIAL_STROKES};
+  static const enum trial_part part[2] = {TRIAL_FRAGMENTS, TRIAL_EDGES};
   struct trial truth[2];
   struct row against = {0};
   for (int i = 0; i < 2; i++)

@@ -1,4 +1,4 @@
-# tests/failures.mk - the rows of the list of known failures.
+# tests/failures.mk - the tests of known failures.
 failures = %D%/failures.c %D%/failures.h
 failures_libs = %D%/judge/libjudge.la %D%/scenes/libscenes.la $(LDADD)
 

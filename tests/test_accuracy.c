@@ -126,12 +126,12 @@ static void check_first_order_ink(const struct scene *scene,
                                   const recto_options *options, int lines) {
   struct trial truth;
   struct measure measure[2];
-  trial_run(&truth, scene, options, &solver_tiles, 0, TRIAL_STROKES);
+  trial_run(&truth, scene, options, &solver_tiles, 0, TRIAL_EDGES);
   assert_int_equal(truth.status, RECTO_OK);
   for (int k = 0; k < 2; k++) {
     struct trial trial;
     trial_run(&trial, scene, options, &solver_scanline_zbuffer,
-              lines << (2 * k), TRIAL_STROKES);
+              lines << (2 * k), TRIAL_EDGES);
     assert_int_equal(trial.status, RECTO_OK);
     assert_true(measure_map(&measure[k], &truth.sheet, &truth.map, &trial.sheet,
                             &trial.map));

@@ -462,8 +462,8 @@ static void assert_same_drawing(const recto_drawing *a,
   }
 }
 
-/* Row 21: from the least double to the largest.  The eye, the contact and the
- * near distance scale with the model. */
+/* From the least double to the largest.  The eye, the contact and the near
+ * distance scale with the model. */
 static void every_size_of_doubles_draws_the_same(void **state) {
   (void)state;
   recto_options options;

@@ -817,7 +817,6 @@ static void powers_of_two_change_no_bit_of_the_page(void **state) {
   }
 }
 
-/* failures.md row 21. */
 static void units_and_places_move_nothing_on_the_page(void **state) {
   (void)state;
   const double factors[] = {1e-6, 1e6, 1, 1};

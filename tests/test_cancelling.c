@@ -1,5 +1,4 @@
-/* test_cancelling.c - row 16 of the list of failures: long work can be ended
- * in each of its phases. */
+/* test_cancelling.c - long work can be ended in each of its phases. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
 #!/bin/bash
-# test_failures_compilers.sh - row 23 of the known failures: the same bytes
-# from every compiler, optimised or not.
+# test_failures_compilers.sh - the same bytes from every compiler,
+# optimised or not.
 . "$(dirname "$0")/tap.sh"
 
 # Our own models, and real meshes where they are.

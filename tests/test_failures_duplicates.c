@@ -1,5 +1,5 @@
-/* test_failures_duplicates.c - very many faces at nearly one position (rows 8
- * and 16): the solvers finish with the right drawing. */
+/* test_failures_duplicates.c - very many faces at nearly one position: the
+ * solvers finish with the right drawing. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

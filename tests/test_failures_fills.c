@@ -1,5 +1,4 @@
-/* test_failures_fills.c - row 11 of the list of failures: no hairlines between
- * fills. */
+/* test_failures_fills.c - no hairlines between fills. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,5 +1,5 @@
-/* test_failures_hiding.c - rows 1, 3, 5 to 8 of the known failures: which faces
- * hide which edges, and how much of them. */
+/* test_failures_hiding.c - which faces hide which edges, and how much of them.
+ */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -20,7 +20,7 @@ static void run(struct pipeline *pipeline, const struct scene *scene,
     fail_msg("%s", pipeline->error.text);
 }
 
-/* ---- Row 1 --------------------------------------------------------------- */
+/* ---- Convex bodies ------------------------------------------------------- */
 
 /* The cosine between a triangle's normal and the direction to the viewer. */
 static double facing(const struct pipeline *pipeline, const struct scene *scene,
@@ -84,7 +84,7 @@ static void no_face_hides_its_own_edge(void **state) {
   }
 }
 
-/* ---- Row 3 --------------------------------------------------------------- */
+/* ---- Nearly square-on ---------------------------------------------------- */
 
 static void a_corner_view_of_a_cube_has_nine_edges(void **state) {
   (void)state;
@@ -129,7 +129,7 @@ static void a_cube_seen_square_on_keeps_its_outline(void **state) {
   }
 }
 
-/* ---- Row 5 --------------------------------------------------------------- */
+/* ---- Piercing ------------------------------------------------------------ */
 
 static void pierced_scenes_have_their_exact_areas(void **state) {
   (void)state;
@@ -172,7 +172,7 @@ static void lines_where_faces_pierce_are_drawn(void **state) {
   scene_fini(&scene);
 }
 
-/* ---- Row 6 --------------------------------------------------------------- */
+/* ---- Cycles -------------------------------------------------------------- */
 
 static void count_fragments(const struct pipeline *pipeline,
                             unsigned *fragments, uint32_t faces) {
@@ -301,7 +301,7 @@ static void areas_of_1000_sticks_add_up_to_their_union(void **state) {
   scene_fini(&scene);
 }
 
-/* ---- Row 7 --------------------------------------------------------------- */
+/* ---- A large face under small ones --------------------------------------- */
 
 /* Fills the raster with the map's fragments. */
 static void raster_fragments(struct judge_raster *raster,
@@ -367,7 +367,7 @@ static void other_scenes_are_as_a_depth_buffer_sees_them(void **state) {
     check_against_raster(name[i], 512);
 }
 
-/* ---- Row 8 --------------------------------------------------------------- */
+/* ---- Coplanar and doubled faces ------------------------------------------ */
 
 static void a_doubled_mesh_is_drawn_once(void **state) {
   (void)state;

@@ -22,7 +22,7 @@ static double area_of(const struct map *map, uint32_t face) {
   return area;
 }
 
-/* ---- Row 28 -------------------------------------------------------------- */
+/* ---- Depths that few bits do not distinguish ----------------------------- */
 
 /* The near sheet covers 2.5 x 1.5 of the far one's 3 x 2. */
 enum { FAR = 2, NEAR = 3 };
@@ -70,7 +70,7 @@ static void lines_behind_a_near_sheet_are_hidden(void **state) {
       recto_options_init(&options);
       scene_init(&scene);
       scenes_near_sheets(&scene, &options, gap);
-      trial_run(&trial, &scene, &options, *s, 0, TRIAL_STROKES);
+      trial_run(&trial, &scene, &options, *s, 0, TRIAL_EDGES);
       assert_int_equal(trial.status, RECTO_OK);
       assert_true(
           measure_map(&m, &trial.sheet, &trial.map, &trial.sheet, &trial.map));
@@ -104,7 +104,7 @@ static void few_depth_bits_cause_z_fighting(void **state) {
     }
 }
 
-/* ---- Row 30 -------------------------------------------------------------- */
+/* ---- Faces between two lines --------------------------------------------- */
 
 enum { LINES = 100, BARS = 60 };
 

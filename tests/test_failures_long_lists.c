@@ -1,5 +1,5 @@
-/* test_failures_long_lists.c - many needles that overlap (rows 16 and 29): the
- * solvers finish with the right drawing, and do not test all pairs. */
+/* test_failures_long_lists.c - many needles that overlap: the solvers finish
+ * with the right drawing, and do not test all pairs. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

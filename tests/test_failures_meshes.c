@@ -1,6 +1,5 @@
-/* test_failures_meshes.c - rows 4, 9, 10, 13, 15 and 19 of the known failures:
- * meshes with common defects, and lines that must not be drawn because of
- * these. */
+/* test_failures_meshes.c - meshes with common defects, and lines that must
+ * not be drawn because of these. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -31,7 +30,7 @@ static void end(struct pipeline *pipeline, struct scene *scene) {
   scene_fini(scene);
 }
 
-/* ---- Row 4 --------------------------------------------------------------- */
+/* ---- Degenerate faces ---------------------------------------------------- */
 
 static void faces_without_area_change_nothing(void **state) {
   (void)state;
@@ -87,7 +86,7 @@ static void flawed_faces_are_drawn_as_the_judge_sees_them(void **state) {
   }
 }
 
-/* ---- Row 9 --------------------------------------------------------------- */
+/* ---- Seams --------------------------------------------------------------- */
 
 static void a_seam_with_hanging_vertices_is_drawn_once(void **state) {
   (void)state;
@@ -125,7 +124,7 @@ static void unwelded_is_drawn_as_welded(void **state) {
   end(&two, &unwelded);
 }
 
-/* ---- Row 10 -------------------------------------------------------------- */
+/* ---- Faces in pieces ----------------------------------------------------- */
 
 static void a_face_in_pieces_shows_no_line_inside(void **state) {
   (void)state;
@@ -161,7 +160,7 @@ static void no_split_is_drawn(void **state) {
   scene_fini(&scene);
 }
 
-/* ---- Rows 13 and 15 ------------------------------------------------------ */
+/* ---- Lines that coincide, or go straight on ------------------------------ */
 
 static void a_box_seen_square_on_is_one_rectangle(void **state) {
   (void)state;
@@ -280,7 +279,7 @@ static void no_stroke_has_a_point_within_a_straight(void **state) {
   }
 }
 
-/* ---- Row 19 -------------------------------------------------------------- */
+/* ---- Faulty files -------------------------------------------------------- */
 
 struct heard {
   unsigned count;

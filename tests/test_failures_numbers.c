@@ -1,5 +1,4 @@
-/* test_failures_numbers.c - rows 18, 21, 22 and 23 of the known failures:
- * memory, scale, locale, order. */
+/* test_failures_numbers.c - memory, scale, locale, order. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -20,7 +19,7 @@ static char *draw(const struct scene *scene, const recto_options *options) {
   return pipeline_draw(scene, options, &solver_newell, &length);
 }
 
-/* ---- Row 18 -------------------------------------------------------------- */
+/* ---- Memory -------------------------------------------------------------- */
 
 /* The peak memory in bytes of a process that fills a scene and solves it. */
 static double measure(void (*fill)(struct scene *, recto_options *, unsigned),
@@ -76,7 +75,7 @@ static void memory_grows_with_the_faces_and_no_faster(void **state) {
   }
 }
 
-/* ---- Row 21 -------------------------------------------------------------- */
+/* ---- Scale --------------------------------------------------------------- */
 
 /* Scenes that are seen from a direction and fitted to the page: their unit
  * must not matter.  Those whose contact is set in units are left out. */
@@ -168,7 +167,7 @@ static void a_far_origin_does_not_matter(void **state) {
     check_scaled(generic[i], 1, 1e7, 2e-5);
 }
 
-/* ---- Row 22 -------------------------------------------------------------- */
+/* ---- Locale -------------------------------------------------------------- */
 
 static void a_decimal_comma_changes_no_byte(void **state) {
   (void)state;
@@ -186,7 +185,7 @@ static void a_decimal_comma_changes_no_byte(void **state) {
   scene_fini(&scene);
 }
 
-/* ---- Row 23 -------------------------------------------------------------- */
+/* ---- Order --------------------------------------------------------------- */
 
 static void drawing_twice_gives_the_same_bytes(void **state) {
   (void)state;

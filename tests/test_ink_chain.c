@@ -70,7 +70,6 @@ static void outline_of_points_at_the_same_places_is_closed(void **state) {
   ink_fixture_end(&k);
 }
 
-/* Row 12 of the list of failures. */
 static void cube_is_a_closed_outline_and_two_strokes(void **state) {
   struct ink_fixture k;
   double hexagon[12];
@@ -385,7 +384,6 @@ static void full_fan_is_paired_straight_through(void **state) {
   }
 }
 
-/* Row 29 of the list of failures. */
 static void fan_of_100000_takes_bounded_time(void **state) {
   int spokes = is_under_valgrind() ? 500 : 100000;
   struct ink_fixture k;
@@ -454,7 +452,6 @@ static bool is_same_stroke(const struct drawing *a, size_t s,
                 p->count * sizeof *a->point.item) == 0;
 }
 
-/* Row 23 of the list of failures. */
 static void shuffled_edges_give_the_same_strokes(void **state) {
   struct ink_fixture a;
   (void)state;

@@ -113,7 +113,6 @@ static struct line random_line(struct random *random, bool closed) {
 
 /* ---- Straight lines ------------------------------------------------------ */
 
-/* Row 15 of the list of failures. */
 static void straight_edge_is_two_points(void **state) {
   struct ink_fixture k;
   const double line[] = {5, 5, 95, 65};
@@ -297,7 +296,6 @@ static void simplify_option_is_in_mm(void **state) {
 
 /* ---- Short strokes ------------------------------------------------------- */
 
-/* Row 14 of the list of failures. */
 static void strokes_below_half_a_pen_are_dropped(void **state) {
   (void)state;
   static const struct {

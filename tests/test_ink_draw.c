@@ -16,7 +16,7 @@
 
 static bool is_under_valgrind(void) { return getenv("RECTO_VALGRIND") != NULL; }
 
-/* ---- The stability list -------------------------------------------------- */
+/* ---- The shared scenes --------------------------------------------------- */
 
 struct side {
   struct drawing_point a, b;
@@ -63,7 +63,6 @@ static double overlap(const struct side *s, const struct side *t) {
   return fmin(t_high, s->length) - fmax(t_low, 0);
 }
 
-/* Rows 13 and 17 of the list of failures, on every scene of it. */
 static void no_scene_draws_a_line_twice(void **state) {
   enum { MOST = 3000 };
   (void)state;

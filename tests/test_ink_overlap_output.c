@@ -1,5 +1,5 @@
-/* test_ink_overlap_output.c - rows 12, 13 and 15 of the known failures at the
- * output's own resolution: lines that are equal in a file are in it once. */
+/* test_ink_overlap_output.c - lines that are equal at the output's resolution
+ * are in a file once. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -436,7 +436,7 @@ static void thousands_of_near_rings_take_bounded_time(void **state) {
   ink_fixture_end(&k);
 }
 
-/* ---- Rows 12, 13: scenes, turned by a little ----------------------------- */
+/* ---- Scenes, turned by a little ------------------------------------------ */
 
 static double drawn_length(const char *name, double turn_deg, double unit) {
   struct scene scene;

@@ -337,7 +337,7 @@ static void lines_run_over_many_faces(void **state) {
   }
 }
 
-/* ---- The stability list -------------------------------------------------- */
+/* ---- The shared scenes --------------------------------------------------- */
 
 static void every_scene_is_hatched_on_its_page(void **state) {
   (void)state;

@@ -242,8 +242,8 @@ static void a_window_without_a_drawable_edge_is_finished_at_once(void **state) {
   }
 }
 
-/* Row 29 of the list of failures, on a small scale: many faces at one point are
- * more than a window may hold, at every size of window. */
+/* Many faces at one point are more than a window may hold, at every size of
+ * window. */
 static void a_fan_ends_in_fewer_windows_than_faces(void **state) {
   (void)state;
   for (int k = 0; k < 2; k++) {

@@ -440,8 +440,8 @@ static void whole_edges_are_visible_from_end_to_end(void **state) {
   }
 }
 
-/* Row 30: what lies between two lines behind what the nearer one sees is not
- * drawn, whatever the other sees; one line is the page's middle. */
+/* What lies between two lines behind what the nearer one sees is not drawn,
+ * whatever the other sees; one line is the page's middle. */
 static void what_no_line_meets_is_not_drawn_where_it_is_hidden(void **state) {
   static const struct {
     double pitch;

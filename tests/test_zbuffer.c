@@ -314,8 +314,7 @@ static int face_in_the_middle(int64_t z, int64_t gap, int bits) {
   return face;
 }
 
-/* Row 28 of the list of failures: B bits distinguish sheets by 2^(40 - B) units
- * and no less. */
+/* B bits distinguish sheets by 2^(40 - B) units and no less. */
 static void integer_depths_fight_where_their_bits_say(void **state) {
   static const int bits[] = {16, 24, 32};
   (void)state;

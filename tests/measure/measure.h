@@ -26,10 +26,10 @@ struct measure {
 double measure_area_share(const struct measure *measure);
 double measure_ink_share(const struct measure *measure);
 
-/* Measures `map`, of `sheet`, against `exact`, of `exact_sheet`; what either
- * was not requested to find counts nothing.  Both sheets are of the same scene; an
- * intersection that only one of them has is hidden in the other.  False when
- * memory ran out. */
+/* Measures `map`, of `sheet`, against `exact`, of `exact_sheet`; a part that
+ * was not requested of one of them is not counted.  Both sheets are of the same
+ * scene; an intersection that only one of them has is hidden in the other.
+ * False when memory ran out. */
 USE_RESULT bool measure_map(struct measure *measure,
                             const struct sheet *exact_sheet,
                             const struct map *exact, const struct sheet *sheet,

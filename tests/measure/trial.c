@@ -10,7 +10,7 @@ static recto_status solve(struct trial *trial, const recto_options *options,
                           const struct solver *solver, int lines,
                           enum trial_part part) {
   struct solver_request request = solver_request_of(options);
-  request.edges = (part & TRIAL_STROKES) != 0;
+  request.edges = (part & TRIAL_EDGES) != 0;
   request.fragments = (part & TRIAL_FRAGMENTS) != 0;
   request.hidden = false;
   request.intersections &= request.edges;

@@ -14,7 +14,7 @@ struct trial {
   recto_status status;
 };
 
-enum trial_part { TRIAL_STROKES = 1, TRIAL_FRAGMENTS = 2, TRIAL_BOTH = 3 };
+enum trial_part { TRIAL_EDGES = 1, TRIAL_FRAGMENTS = 2, TRIAL_BOTH = 3 };
 
 /* Solves the scene; look at `status` first.  Always ends with trial_fini.
  * lines  over the page, for methods that have a number of them, and as

@@ -1,5 +1,5 @@
-/* scenes.h - the scenes that tests, bench and fuzzer share: one or more for
- * every row of the list of known failures.
+/* scenes.h - the scenes that tests, bench and fuzzer share: each shows
+ * what programs of this kind are known to fail at.
  *
  * Every generator adds to an initialised, empty scene and sets the camera,
  * page and ink options that show the failure; all else in `options` is left
@@ -10,14 +10,13 @@
 
 #include "tests/scenes/build.h"
 
-/* One entry of the stability list. */
+/* One entry of the list of scenes. */
 struct scenes_entry {
   const char *name;
-  unsigned row; /* of the list of failures; 0: contact, which has no row */
   void (*fill)(struct scene *scene, recto_options *options);
 };
 
-/* The stability list: small enough that every solver, the slowest included,
+/* The list of scenes: small enough that every solver, the slowest included,
  * takes little time for each.  Ended by an entry whose name is NULL. */
 extern const struct scenes_entry scene_list[];
 
@@ -39,7 +38,7 @@ void scenes_view_above(recto_options *options);
 void scenes_view_page(recto_options *options, double width_mm,
                       double height_mm);
 
-/* ---- Solids and contact (rows 1, 3 and contact) -------------------------- */
+/* ---- Solids and contact -------------------------------------------------- */
 
 /* The unit cube, turned about z by `radians`; seen from a generic corner. */
 void scenes_cube(struct scene *scene, recto_options *options, double radians);
@@ -60,7 +59,7 @@ void scenes_cube_stack(struct scene *scene, recto_options *options, unsigned n,
 void scenes_touching_boxes(struct scene *scene, recto_options *options,
                            double radians);
 
-/* ---- Eyes in degenerate positions (row 2) -------------------------------- */
+/* ---- Eyes in degenerate positions ---------------------------------------- */
 
 enum scenes_eye {
   SCENES_EYE_INSIDE,   /* in the middle of the room */
@@ -75,7 +74,7 @@ enum scenes_eye {
 void scenes_room(struct scene *scene, recto_options *options,
                  enum scenes_eye eye);
 
-/* ---- Degenerate faces (row 4, 30) ---------------------------------------- */
+/* ---- Degenerate faces ---------------------------------------------------- */
 
 enum scenes_flaw {
   SCENES_FLAW_EDGE_ON,
@@ -93,7 +92,7 @@ void scenes_flaw(struct scene *scene, recto_options *options,
 /* n bars, each thinner than the one before by a third. */
 void scenes_thin_bars(struct scene *scene, recto_options *options, unsigned n);
 
-/* ---- Piercing (row 5) ---------------------------------------------------- */
+/* ---- Piercing ------------------------------------------------------------ */
 
 void scenes_crossed_boxes(struct scene *scene, recto_options *options);
 void scenes_three_sheets(struct scene *scene, recto_options *options);
@@ -108,7 +107,7 @@ void scenes_crossed_in_diagonal(struct scene *scene, recto_options *options);
 /* A closed tube bent so that it runs through itself. */
 void scenes_self_intersecting(struct scene *scene, recto_options *options);
 
-/* ---- Cycles (row 6) ------------------------------------------------------ */
+/* ---- Cycles -------------------------------------------------------------- */
 
 /* n >= 3 flat bars that overlap in a ring, none of them rearmost. */
 void scenes_cycle(struct scene *scene, recto_options *options, unsigned n);
@@ -122,7 +121,7 @@ void scenes_cycle_field(struct scene *scene, recto_options *options,
 void scenes_sticks(struct scene *scene, recto_options *options, unsigned n,
                    uint64_t seed);
 
-/* ---- Large under small, coplanar, doubled (rows 7, 8) -------------------- */
+/* ---- Large under small, coplanar, doubled -------------------------------- */
 
 void scenes_large_table(struct scene *scene, recto_options *options);
 /* Overlapping faces in one plane, in three groups. */
@@ -132,7 +131,7 @@ void scenes_doubled(struct scene *scene, recto_options *options);
 /* One plane in two colours that meet along a line, as a checked board. */
 void scenes_two_colours(struct scene *scene, recto_options *options);
 
-/* ---- Meshes with common defects (rows 9, 10, 12, 13, 15) ----------------- */
+/* ---- Meshes with common defects ------------------------------------------ */
 
 /* n x n quads beside one row of quads half as wide: hanging vertices. */
 void scenes_t_junctions(struct scene *scene, recto_options *options,
@@ -149,7 +148,7 @@ void scenes_box_square_on(struct scene *scene, recto_options *options);
 void scenes_collinear_edges(struct scene *scene, recto_options *options,
                             unsigned n);
 
-/* ---- Size (rows 16, 17, 18, 29) ------------------------------------------ */
+/* ---- Size ---------------------------------------------------------------- */
 
 /* A plate with n x n hexagonal holes. */
 void scenes_honeycomb(struct scene *scene, recto_options *options, unsigned n);
@@ -195,7 +194,7 @@ void scenes_shells(struct scene *scene, recto_options *options, unsigned n,
 void scenes_soup(struct scene *scene, recto_options *options, unsigned n,
                  uint64_t seed);
 
-/* ---- Surfaces and small distances (rows 20, 21, 27, 28) ------------------ */
+/* ---- Surfaces and small distances ---------------------------------------- */
 
 /* z = x^2 + y^2 over n x n cells. */
 void scenes_paraboloid(struct scene *scene, recto_options *options, unsigned n);
@@ -207,7 +206,7 @@ void scenes_near_sheets(struct scene *scene, recto_options *options,
 /* Two plates with a slit of `width_mm` in front of a long edge; true scale. */
 void scenes_slit(struct scene *scene, recto_options *options, double width_mm);
 
-/* ---- True scale (rows 11, 24) -------------------------------------------- */
+/* ---- True scale ---------------------------------------------------------- */
 
 /* A square of 100 mm as a wire, on A4. */
 void scenes_calibration_square(struct scene *scene, recto_options *options);
@@ -231,7 +230,7 @@ void scenes_two_rectangles(struct scene *scene, recto_options *options);
  * cyclic and edge-on, from an axis or a generic camera. */
 void scenes_small(struct scene *scene, recto_options *options, uint64_t seed);
 
-/* ---- Faulty files (row 19) ----------------------------------------------- */
+/* ---- Faulty files -------------------------------------------------------- */
 
 struct scenes_faulty {
   const char *name;
