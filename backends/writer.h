@@ -1,9 +1,8 @@
 /* writer.h - the interface of all output formats.
  *
- * To add a format, write a file writer_NAME.c that defines one struct writer,
- * and add it to the table in writers.c.  A writer receives a drawing in
- * millimetres and a stream, which remembers its first error; it uses nothing
- * else of the library.  See README.md in this folder. */
+ * A writer receives a drawing in millimetres and a stream, which remembers its
+ * first error; it uses nothing else of the library.  README.md in this folder
+ * says how to add one. */
 #ifndef BACKENDS_WRITER_H
 #define BACKENDS_WRITER_H
 

@@ -23,32 +23,42 @@ enum {
   WARNOCK_PIXELS,
   SMOOTH_CONTOURS
 };
-enum { SVG = 40, HPGL, PNG, PAGES /* pdf, eps, ps */ };
+enum { SVG = 40, HPGL, PNG, VECTOR_PAGES };
 enum { STATS = 48, CHECK, BY_CHECK };
 
 #define METHODS (METHOD(COUNT) - 1)
 #define FILLS (FILL(NONE) | FILL(PAINT) | FILL(SHADE) | FILL(HATCH))
 #define FITS (FIT(PAGE) | FIT(NONE) | FIT(SCALE) | FIT(SPHERE))
-#define FORMATS (BIT(SVG) | BIT(HPGL) | BIT(PNG) | BIT(PAGES))
+#define FORMATS (BIT(SVG) | BIT(HPGL) | BIT(PNG) | BIT(VECTOR_PAGES))
 #define LINES EDGES(RECTO_EDGES_ALL)
 #define ZBUFFERS (METHOD(ZBUFFER) | METHOD(SCANLINE_ZBUFFER))
 #define PAINTERS (METHOD(PAINTER) | METHOD(PAINTER_GIVEN))
 
-static const char *name_format(const struct arguments *a) {
+/* A format that is not here uses none of the options of formats. */
+static const struct {
+  const char *name;
+  int bit;
+} format[] = {{"svg", SVG},          {"hpgl", HPGL},
+              {"png", PNG},          {"pdf", VECTOR_PAGES},
+              {"eps", VECTOR_PAGES}, {"ps", VECTOR_PAGES}};
+
+/* All formats where none is known, which is an error of its own. */
+static uint64_t find_format(const struct arguments *a) {
   const char *name = recto_output_format(a->output, a->format);
-  return name != NULL ? name : "this format";
+  if (name == NULL)
+    return FORMATS;
+  for (size_t i = 0; i < sizeof format / sizeof *format; i++)
+    if (strcmp(name, format[i].name) == 0)
+      return BIT(format[i].bit);
+  return 0;
 }
 
 static uint64_t find_requests(const struct arguments *a) {
   const recto_options *o = &a->options;
-  const char *format = name_format(a);
   uint64_t bits = BIT(o->solver.method) | BIT(16 + o->ink.fill) |
                   BIT(20 + o->camera.fit) | EDGES(o->ink.edges);
   bits |= BIT(o->camera.kind == RECTO_CAMERA_EYE ? EYE : NAMED_VIEW);
-  bits |= BIT(strcmp(format, "svg") == 0    ? SVG
-              : strcmp(format, "hpgl") == 0 ? HPGL
-              : strcmp(format, "png") == 0  ? PNG
-                                            : PAGES);
+  bits |= find_format(a);
   if (o->camera.fov_deg > 0)
     bits |= BIT(PERSPECTIVE);
   if (o->ink.light[0] == 0 && o->ink.light[1] == 0 && o->ink.light[2] == 0)
@@ -111,8 +121,8 @@ static const struct {
                        FILL(SHADE) | FILL(HATCH)},
     [USED_BY_SVG] = {"svg", BIT(SVG)},
     [USED_BY_SCREENS] = {"svg, pdf, eps, ps and png",
-                         BIT(SVG) | BIT(PNG) | BIT(PAGES)},
-    [USED_BY_CAIRO] = {"pdf, eps, ps and png", BIT(PNG) | BIT(PAGES)},
+                         BIT(SVG) | BIT(PNG) | BIT(VECTOR_PAGES)},
+    [USED_BY_CAIRO] = {"pdf, eps, ps and png", BIT(PNG) | BIT(VECTOR_PAGES)},
     [USED_BY_PNG] = {"png", BIT(PNG)},
     [USED_BY_PLOTTER] = {"hpgl and --stats", BIT(HPGL) | BIT(STATS)},
     [USED_BY_STATS] = {"the time in --stats", BIT(STATS)},
@@ -129,7 +139,7 @@ static const char *name_instead(const struct arguments *a, uint64_t bits) {
   if (bits & METHODS)
     return recto_method_name(a->options.solver.method);
   if (bits & FORMATS)
-    return name_format(a);
+    return recto_output_format(a->output, a->format);
   if (bits & LINES)
     return a->options.ink.edges == RECTO_EDGES_NONE ? "--edges none"
                                                     : "this --edges";

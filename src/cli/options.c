@@ -186,7 +186,7 @@ const struct option_entry option_table[] = {
      .offset = AT(options.solver.subpixels), .least = 1, .most = 16,
      .use = {USED_BY_PIXELS}},
     {OPTION_FLAG, "remove-backs", 0, NULL, NULL,
-     "in pixels: leave out faces seen from behind",
+     "in pixels: leave out back faces (back-face culling)",
      .offset = AT(options.solver.remove_backs), .use = {USED_BY_PIXELS}},
 
     HEADING("Camera"),
