@@ -139,10 +139,10 @@ static recto_status cut_polygon_face(struct layout *layout, uint32_t face,
 static double contact_units(const struct sheet *sheet, uint32_t face,
                             int64_t z) {
   const struct camera *camera = &sheet->camera;
-  double depth_order =
+  double inverse_depth =
       camera->perspective ? (double)z / sheet->z_scale + 1 / camera->d_max : 1;
   return coordinate_error_contact(sheet, face) * sheet->units_per_view *
-             depth_order +
+             inverse_depth +
          1;
 }
 

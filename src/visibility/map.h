@@ -7,7 +7,7 @@
 #include "geom/ratio.h"
 #include "view/sheet.h"
 
-/* ---- Strokes ------------------------------------------------------------- */
+/* ---- Edges --------------------------------------------------------------- */
 
 enum map_state {
   MAP_HIDDEN = 0, /* nowhere visible */

@@ -70,7 +70,7 @@ static void drop_duplicate_runs(struct overlap_finder *w) {
   }
 }
 
-/* ---- 2 Walk -------------------------------------------------------------- */
+/* ---- 2 Search ------------------------------------------------------------ */
 
 static uint32_t root_of(uint32_t *parent, uint32_t segment) {
   while (parent[segment]) {

@@ -3,7 +3,7 @@
  * Pens cannot overpaint.  Faces are put in painting order (newell_order.h), and
  * each keeps what no later one occludes.
  *
- * Strokes.  Of two faces that overlap, the one painted first hides nothing of
+ * Edges.  Of two faces that overlap, the one painted first hides nothing of
  * the other.  An edge is therefore tested only against faces that are painted
  * after its own, with two exceptions that the order does not decide: an edge
  * along the side of a face, as it does not overlap that face; and an
@@ -22,7 +22,7 @@
 #include "visibility/predicate/edge_intervals.h"
 #include "visibility/pairwise/pairwise_fallback.h"
 
-/* ---- Strokes ------------------------------------------------------------- */
+/* ---- Edges --------------------------------------------------------------- */
 
 struct edge_work {
   const struct sheet *sheet;

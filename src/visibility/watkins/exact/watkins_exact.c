@@ -1,6 +1,6 @@
 /* watkins_exact.c - from the sweep over exact heights to the visible map.
  *
- * Strokes    while a drawn edge is active, the sweep reports the triangles that
+ * Edges      while a drawn edge is active, the sweep reports the triangles that
  *            cover the intervals beside it; what each occludes of the edge is
  *            computed once (occlusion.h).  A triangle that never covers such an
  *            interval cannot occlude any of the edge.  Lines that are not edges
@@ -85,7 +85,7 @@ static bool add_cell(void *user, const struct sweep *sweep,
   return trapezoid_cells_add(&((struct exact *)user)->cells, sweep, cell);
 }
 
-/* ---- Strokes ------------------------------------------------------------- */
+/* ---- Edges --------------------------------------------------------------- */
 
 static bool store_edge(const struct sheet *sheet, uint32_t e,
                        const struct sort_key *pair, size_t count,

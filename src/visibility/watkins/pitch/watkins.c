@@ -5,9 +5,10 @@
  *          sample intervals; in each the visible facet is decided
  *          (watkins_interval.c).  Visible facets make spans, and spans of
  *          neighbouring lines between the same edges make trapezoids
- *          (trapezoids.h).  The ends of intervals make intervals: an edge
- *          that is drawn on one line and on the next is drawn in between.
- * Strokes  A line represents half a pitch up and down, and an edge that ends
+ *          (trapezoids.h).  The ends of sample intervals make the visible
+ *          intervals of edges: an edge that is drawn on one line and on the
+ *          next is drawn in between.
+ * Edges    A line represents half a pitch up and down, and an edge that ends
  *          between two lines is drawn to its end.  Nearly horizontal edges,
  *          wires and intersections of faces are sampled on the lines above
  *          and below (edge_sampling.h).
@@ -15,7 +16,7 @@
  *          linear in the scene and the visible spans.
  *
  * Source   [Watkins1970]; [Romney1969] for coherence; [Archuleta1972] for
- *          intervals; [Rogers1985] ch. 4.
+ *          edges from the ends of sample intervals; [Rogers1985] ch. 4.
  */
 #include "visibility/watkins/pitch/watkins.h"
 
@@ -27,7 +28,7 @@
 
 #define OPEN_NONE (-1)
 
-/* ---- Strokes ------------------------------------------------------------- */
+/* ---- Edges --------------------------------------------------------------- */
 
 /* The current run of consecutive lines on which an edge of the sheet is drawn,
  * from the top: [last, first]. */
@@ -36,8 +37,8 @@ struct open_run {
   bool from_end, to_end; /* includes the edge's own first, last line */
 };
 
-/* The visible pieces of a line. */
-struct interval_row {
+/* The spans of a line. */
+struct span_row {
   const struct watkins *watkins;
   watkins_pieces piece;
 };
@@ -48,12 +49,12 @@ struct scan {
   struct edge_sampling sampling;
   struct trapezoids trapezoids;
   struct open_run *run; /* one an edge of the sheet */
-  struct interval_row row, above;
+  struct span_row row, above;
 };
 
 /* The facet visible at x (edge_sampling_seen_fn). */
 static uint32_t facet_at_x(const void *user, double x) {
-  const struct interval_row *row = user;
+  const struct span_row *row = user;
   const struct watkins_piece *piece = row->piece.item;
   size_t i;
   LOWER_BOUND(i, 0, row->piece.count, !(piece[i].x1 > x));

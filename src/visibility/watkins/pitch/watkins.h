@@ -116,9 +116,9 @@ USE_RESULT bool watkins_init(struct watkins *watkins, const struct sheet *sheet,
                              const struct scan_grid *grid);
 void watkins_fini(struct watkins *watkins);
 
-/* Moves A to the next line with edges and makes its pieces.
+/* Moves A to the next line with edges and makes its spans.
  * more  false past the last line
- * Returns false when memory ran out. */
+ * Returns false when memory ran out or the caller cancelled. */
 USE_RESULT bool watkins_next(struct watkins *watkins, bool *more);
 
 /* ---- Depth --------------------------------------------------------------- */
@@ -135,10 +135,11 @@ int watkins_compare(struct watkins *watkins, uint32_t f, uint32_t g, double x);
 
 /* ---- Ends of intervals --------------------------------------------------- */
 
-/* Is the edge drawable and steep enough to be drawn from the ends of intervals?
+/* Is the edge drawable and upright enough to be drawn from the ends of
+ * intervals?
  * The ends of a nearly horizontal edge on consecutive lines would be much
  * further apart than the lines are. */
-bool watkins_is_steep(const struct sheet *sheet, uint32_t side);
+bool watkins_is_drawn_at_ends(const struct sheet *sheet, uint32_t side);
 
 /* Of the edges active[first..past), which are at one x, appends those that are
  * drawn there to `shown`.

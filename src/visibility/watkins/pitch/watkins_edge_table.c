@@ -106,7 +106,7 @@ static bool new_edge(struct watkins *watkins, struct edge_gathering *g,
       .lines = added->dy,
       .facet = {(uint32_t)watkins->facet.count, WATKINS_NONE},
       .side = side,
-      .drawn = watkins_is_steep(watkins->sheet, side),
+      .drawn = watkins_is_drawn_at_ends(watkins->sheet, side),
       .record = WATKINS_NONE};
   g->first[p] = e;
   return ARRAY_PUSH(&watkins->edge, edge) && ARRAY_PUSH(&g->edge, link);

@@ -5,15 +5,16 @@
 
 #include "visibility/watkins/pitch/watkins.h"
 
-/* The largest |dx / dy| of a steep edge.  On a soup of 1,000 triangles, 1 gives
+/* The largest |dx / dy| of such an edge.  On a soup of 1,000 triangles, 1 gives
  * more false ink and 4 more missing ink; their sum is least at 2. */
-#define STEEP 2
+#define SLOPE_MAX 2
 
-bool watkins_is_steep(const struct sheet *sheet, uint32_t side) {
+bool watkins_is_drawn_at_ends(const struct sheet *sheet, uint32_t side) {
   if (side == SHEET_NONE || sheet->edge.item[side].edge_class == 0)
     return false;
   struct geom_segment s = sheet_ends(sheet, sheet->edge.item[side].point);
-  return llabs((int64_t)s.q.x - s.p.x) <= STEEP * llabs((int64_t)s.q.y - s.p.y);
+  return llabs((int64_t)s.q.x - s.p.x) <=
+         SLOPE_MAX * llabs((int64_t)s.q.y - s.p.y);
 }
 
 /* Is the visible facet the background, or one of the edge's own? */
