@@ -134,7 +134,7 @@ static void a_stage_polls_in_each_of_its_loops(void **state) {
       {clipped, "sheet", 138},       {all_edges, "ink", 738},
       {painted, "faces", 252},       {painted, "ink", 53},
       {hatched, "ink", 64},          {shaded_by_pen, "ink", 253},
-      {results, "verify", 39},       {verified, "verify", 1258},
+      {results, "results", 39},       {verified, "verify", 1258},
       {newell, "solve", 38},         {watkins, "piercing", 329},
       {warnock, "subdividing", 364}, {zbuffer, "visibility", 28},
       {one_source, "ink", 2978},
@@ -356,6 +356,45 @@ static void what_cairo_draws_and_compresses_is_polled(void **state) {
   recto_scene_destroy(input.scene);
 }
 
+/* ---- The share ----------------------------------------------------------- */
+
+struct depths {
+  double from, to; /* shares of the first and of the last poll of the stage */
+  bool extra;      /* a stage was named that was not requested */
+};
+
+static bool watch_depths(void *user, double share, const char *stage) {
+  struct depths *depths = user;
+  if (strcmp(stage, "depths") == 0) {
+    depths->from = depths->from > 0 ? depths->from : share;
+    depths->to = share;
+  }
+  if (strcmp(stage, "verify") == 0 || strcmp(stage, "contours") == 0)
+    depths->extra = true;
+  return true;
+}
+
+/* The count of hiding faces takes longer than all the rest. */
+static void the_share_rises_while_hiding_faces_are_counted(void **state) {
+  (void)state;
+  recto_scene *scene = make_hills(60);
+  recto_drawing *drawing;
+  recto_options options;
+  struct depths depths = {0};
+  recto_options_init(&options);
+  options.progress = watch_depths;
+  options.user = &depths;
+  options.ink.edges = RECTO_EDGES_ALL;
+  options.results = RECTO_RESULT_INVISIBILITY;
+  options.camera.elevation_deg = 2;
+  assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
+                   RECTO_OK);
+  assert_true(depths.from > 0 && depths.to > depths.from + 0.1);
+  assert_false(depths.extra);
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(scene);
+}
+
 /* ---- Within the callback ------------------------------------------------- */
 
 /* Renders another scene, which neither asks nor cancels this one. */
@@ -408,6 +447,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_stage_polls_in_each_of_its_loops),
       cmocka_unit_test(a_render_is_cancelled_at_any_poll),
+      cmocka_unit_test(the_share_rises_while_hiding_faces_are_counted),
       cmocka_unit_test_setup_teardown(
           preparing_and_reading_are_cancelled_at_any_poll, temporary_set_up,
           temporary_tear_down),

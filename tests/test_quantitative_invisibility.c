@@ -15,11 +15,10 @@
 #include "visibility/predicate/occlusion.h"
 
 static void find(struct map *map, const struct sheet *sheet, int most) {
-  const struct solver_request request = {.threads = 1};
   map->over_limit.count = map->over_limit_interval.count = 0;
-  assert_int_equal(quantitative_invisibility_find(map, sheet, most, false,
-                                                  &request, NULL, NULL),
-                   RECTO_OK);
+  assert_int_equal(
+      quantitative_invisibility_find(map, sheet, most, false, NULL, NULL),
+      RECTO_OK);
 }
 
 /* Whether t lies inside one of the deep intervals of the edge. */
@@ -276,14 +275,13 @@ static void counting_can_be_cancelled_and_fails_cleanly(void **state) {
   struct sheet sheet;
   struct map map;
   struct polled polled;
-  const struct solver_request go = {.threads = 1};
   recto_error error;
   (void)state;
   build_stairs(&sheet, 8);
   exact_solve(&solver_brute, &sheet, &map, NULL);
   polled_begin(&polled, refuse, NULL);
   assert_int_equal(
-      quantitative_invisibility_find(&map, &sheet, 1, false, &go, NULL, &error),
+      quantitative_invisibility_find(&map, &sheet, 1, false, NULL, &error),
       RECTO_ERROR_CANCELLED);
   polled_end(&polled);
   struct memory_faults faults = {.least = 1};
@@ -291,7 +289,7 @@ static void counting_can_be_cancelled_and_fails_cleanly(void **state) {
     map.over_limit.count = map.over_limit_interval.count = 0;
     memory_faults_begin(&faults);
     memory_faults_end(&faults, quantitative_invisibility_find(
-                                   &map, &sheet, 1, true, &go, NULL, NULL));
+                                   &map, &sheet, 1, true, NULL, NULL));
   }
   map_fini(&map);
   exact_sheet_fini(&sheet);

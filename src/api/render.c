@@ -208,17 +208,21 @@ static recto_status solve_visibility(struct render *render,
   request.fragments = needs_fragments(render);
   request.hidden |= (options->results & RECTO_RESULT_EDGES) != 0;
   request.threads = parallel_threads();
-  recto_status status = choose_method(render, &request)
-                            ->solve(&render->sheet, &request, &render->map,
-                                    render->report, error);
+  return choose_method(render, &request)
+      ->solve(&render->sheet, &request, &render->map, render->report, error);
+}
+
+static recto_status find_invisibility(struct render *render,
+                                      recto_error *error) {
+  const recto_options *options = render->options;
   bool has_limit = options->ink.hidden != RECTO_HIDDEN_NONE &&
                    options->ink.hidden_by_max > 0;
-  if (status == RECTO_OK && (has_limit || keeps_invisibility(render)))
-    status = quantitative_invisibility_find(
-        &render->map, &render->sheet,
-        has_limit ? options->ink.hidden_by_max : INT_MAX,
-        keeps_invisibility(render), &request, render->report, error);
-  return status;
+  if (!has_limit && !keeps_invisibility(render))
+    return RECTO_OK;
+  return quantitative_invisibility_find(
+      &render->map, &render->sheet,
+      has_limit ? options->ink.hidden_by_max : INT_MAX,
+      keeps_invisibility(render), render->report, error);
 }
 
 static recto_status add_smooth_contours(struct render *render,
@@ -259,6 +263,25 @@ static recto_status verify(struct render *render, recto_error *error) {
   return verify_drawing(&what, render->report, render->verdict, error);
 }
 
+static recto_status keep_results(struct render *render, recto_error *error) {
+  unsigned results = render->options->results;
+  const struct result_sources sources = {
+      .sheet = &render->sheet,
+      .map = &render->map,
+      .topology = &render->topology,
+      .scene = &render->prepared->welded.scene,
+      .point = render->model->scene.point.item,
+      .options = &render->scaled,
+      .crease_deg = render->options->mesh.crease_deg,
+      .with_counts = keeps_invisibility(render)};
+  recto_status status = RECTO_OK;
+  if (results & RECTO_RESULT_EDGES && render->map.edge_state != NULL)
+    status = drawing_keep_edges(render->made, &sources, error);
+  if (status == RECTO_OK && results & RECTO_RESULT_FACES)
+    status = drawing_keep_faces(render->made, &sources, error);
+  return status;
+}
+
 static const struct stage {
   const char *name;
   const char *cpu, *wall; /* names in the report */
@@ -270,10 +293,13 @@ static const struct stage {
     {"camera", "camera_cpu_s", "camera_wall_s", SHARE_CAMERA, aim},
     {"sheet", "sheet_cpu_s", "sheet_wall_s", SHARE_SHEET, project_scene},
     {"solve", "solve_cpu_s", "solve_wall_s", SHARE_SOLVE, solve_visibility},
+    {"depths", "depths_cpu_s", "depths_wall_s", SHARE_DEPTHS,
+     find_invisibility},
     {"contours", "contours_cpu_s", "contours_wall_s", SHARE_CONTOURS,
      add_smooth_contours},
     {"ink", "ink_cpu_s", "ink_wall_s", SHARE_INK, ink},
     {"verify", "verify_cpu_s", "verify_wall_s", SHARE_VERIFY, verify},
+    {"results", "results_cpu_s", "results_wall_s", SHARE_RESULTS, keep_results},
 };
 
 static recto_status run_stages(struct render *render, recto_error *error) {
@@ -281,7 +307,8 @@ static recto_status run_stages(struct render *render, recto_error *error) {
   shares_plan(begin, render->options);
   for (size_t i = 0; i < sizeof stages / sizeof stages[0]; i++) {
     const struct stage *stage = &stages[i];
-    if (!poll_stage(begin[stage->stage], begin[stage->stage + 1], stage->name))
+    double from = begin[stage->stage], to = begin[stage->stage + 1];
+    if (to > from && !poll_stage(from, to, stage->name))
       return error_cancelled(error);
     double cpu = clock_cpu(), wall = clock_wall();
     recto_status status = stage->run(render, error);
@@ -335,7 +362,7 @@ static void warn_of_near_plane(const struct render *render) {
   o->warning(o->user, "", 0, text);
 }
 
-/* ---- The results --------------------------------------------------------- */
+/* ---- The numbers of faces ------------------------------------------------ */
 
 /* Gives faces the numbers that they have in the scene's sources, where faces
  * that were skipped are counted too. */
@@ -348,25 +375,6 @@ static void number_faces(struct drawing *drawing, const struct scene *scene) {
     uint32_t *face = &drawing->fill.item[i].face;
     *face = *face == DRAWING_NONE ? *face : scene_face_number(scene, *face);
   }
-}
-
-static recto_status keep_results(struct render *render, recto_error *error) {
-  unsigned results = render->options->results;
-  const struct result_sources sources = {
-      .sheet = &render->sheet,
-      .map = &render->map,
-      .topology = &render->topology,
-      .scene = &render->prepared->welded.scene,
-      .point = render->model->scene.point.item,
-      .options = &render->scaled,
-      .crease_deg = render->options->mesh.crease_deg,
-      .with_counts = keeps_invisibility(render)};
-  recto_status status = RECTO_OK;
-  if (results & RECTO_RESULT_EDGES && render->map.edge_state != NULL)
-    status = drawing_keep_edges(render->made, &sources, error);
-  if (status == RECTO_OK && results & RECTO_RESULT_FACES)
-    status = drawing_keep_faces(render->made, &sources, error);
-  return status;
 }
 
 /* ---- The whole render ---------------------------------------------------- */
@@ -395,9 +403,6 @@ static recto_status run_and_report(struct render *render, recto_error *error) {
   map_init(&render->map);
   render->prepared = &render->own;
   status = run_stages(render, error);
-  if (status == RECTO_OK) {
-    status = keep_results(render, error);
-  }
   if (status == RECTO_OK) {
     number_faces(render->drawing, &render->prepared->welded.scene);
     stats_add_seconds(render->report, "render_cpu_s", clock_cpu() - cpu);

@@ -16,6 +16,15 @@ static double weigh_ink(const recto_options *o) {
          (o->ink.order == RECTO_ORDER_NEAR ? 30 : 0);
 }
 
+/* Quantitative invisibility, of the hidden edges. */
+static double weigh_depths(const recto_options *o) {
+  bool has_limit =
+      o->ink.hidden != RECTO_HIDDEN_NONE && o->ink.hidden_by_max > 0;
+  bool is_kept =
+      (o->results & RECTO_RESULT_INVISIBILITY) == RECTO_RESULT_INVISIBILITY;
+  return has_limit || is_kept ? 90 : 0;
+}
+
 /* The constant part is the preparation before the first sample. */
 static double weigh_verifying(const recto_options *o) {
   const double usual = 4000;
@@ -29,9 +38,11 @@ void shares_plan(double begin[SHARE_STAGES + 1], const recto_options *options) {
       [SHARE_CAMERA] = 1,
       [SHARE_SHEET] = 12,
       [SHARE_SOLVE] = weigh_solving(options),
+      [SHARE_DEPTHS] = weigh_depths(options),
       [SHARE_CONTOURS] = options->ink.contours == RECTO_CONTOURS_SMOOTH ? 8 : 0,
       [SHARE_INK] = weigh_ink(options),
       [SHARE_VERIFY] = weigh_verifying(options),
+      [SHARE_RESULTS] = options->results != 0 ? 10 : 0,
       [SHARE_WRITE] = 5,
   };
   double sum = 0;

@@ -123,12 +123,12 @@ static bool store_intervals(struct invisibility_sweep *sweep, uint32_t edge) {
 }
 
 static recto_status find_all(struct invisibility_sweep *sweep,
-                             const struct solver_request *request,
                              recto_error *error) {
-  struct progress progress = progress_of(request, "depths");
+  struct progress progress = {.stage = "depths"};
   size_t edges = sweep->map->edge_count;
   for (size_t e = 0; e < edges; e++) {
-    if (!progress_step_at(&progress, 1 + sweep->query.found.count, e, edges))
+    if (!progress_step_at(&progress, 1 + 4 * sweep->query.found.count, e,
+                          edges))
       return error_memory(error);
     if (sweep->map->edge_state[e] != MAP_VISIBLE &&
         sheet_edge_is_drawn(sweep->sheet, e) &&
@@ -139,11 +139,11 @@ static recto_status find_all(struct invisibility_sweep *sweep,
   return RECTO_OK;
 }
 
-recto_status
-quantitative_invisibility_find(struct map *map, const struct sheet *sheet,
-                               int limit, bool counts,
-                               const struct solver_request *request,
-                               struct report *report, recto_error *error) {
+recto_status quantitative_invisibility_find(struct map *map,
+                                            const struct sheet *sheet,
+                                            int limit, bool counts,
+                                            struct report *report,
+                                            recto_error *error) {
   struct invisibility_sweep sweep = {
       .sheet = sheet, .map = map, .limit = limit, .store_counts = counts};
   if (map->edge_state == NULL)
@@ -152,7 +152,7 @@ quantitative_invisibility_find(struct map *map, const struct sheet *sheet,
     return error_memory(error);
   recto_status status = RECTO_OK;
   if (triangle_grid_query_init(&sweep.query, &sweep.grid))
-    status = find_all(&sweep, request, error);
+    status = find_all(&sweep, error);
   else
     status = error_memory(error);
   report_int(report, "quantitative_invisibility", "limit", limit);

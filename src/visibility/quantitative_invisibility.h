@@ -13,14 +13,12 @@
  * depends on the sheet alone, not on the solver: where a raster method is
  * wrong about what is visible, the count is right all the same.
  *
- * request   its progress function is called; its threads are not used
  * Errors    RECTO_ERROR_MEMORY, RECTO_ERROR_CANCELLED.
  * Cost      proportional to the pairs of a hidden edge and a triangle whose
  *           grid cells it crosses on the page
  * Source    [Appel1967] */
 USE_RESULT recto_status quantitative_invisibility_find(
     struct map *map, const struct sheet *sheet, int limit, bool counts,
-    const struct solver_request *request, struct report *report,
-    recto_error *error);
+    struct report *report, recto_error *error);
 
 #endif
