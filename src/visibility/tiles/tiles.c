@@ -116,7 +116,7 @@ static enum map_state state_along(struct tiles_work *work, struct geom_point p,
     triangle_grid_row(grid, p, q, r, y, &x0, &x1);
     for (int x = x0; x <= x1; x++) {
       size_t i = (size_t)y * (size_t)grid->columns + (size_t)x;
-      int now = state_in_tile(&work->tiles.tile[i], low, high, wire);
+      int now = (int)state_in_tile(&work->tiles.tile[i], low, high, wire);
       if (mark) {
         work->more_wanted |= !work->wanted[i];
         work->wanted[i] = 1;
@@ -139,7 +139,7 @@ static enum map_state state_in_range(const struct tile_classification *tiles,
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++) {
       size_t i = (size_t)y * (size_t)tiles->grid.columns + (size_t)x;
-      int now = state_in_tile(&tiles->tile[i], low, high, wire);
+      int now = (int)state_in_tile(&tiles->tile[i], low, high, wire);
       if (now == MAP_MIXED || (state >= 0 && state != now))
         return MAP_MIXED;
       state = now;
