@@ -20,8 +20,8 @@
  *          valid until the object is changed or destroyed.
  * Threads  No global state: different objects may be used from different
  *          threads at once; one object from one thread at a time, but for
- *          renders of a scene that was prepared (recto_scene_prepare), and for
- *          writing a drawing and its getters, recto_drawing_stats excepted.
+ *          calls that take it as const, recto_drawing_stats excepted: several
+ *          threads may render a scene at once, or write a drawing.
  * Stability  Enumerators keep their values.  Options are initialised by
  *          recto_options_init.  Structs that are handed over grow at their end
  *          or in their reserved fields; macros pass the size that the caller
@@ -528,7 +528,6 @@ RECTO_USE_RESULT recto_status recto_scene_add_polyline(recto_scene *scene,
  * and `coordinate_bits` then share the result, and with the same `crease_deg`
  * the decisions too; those with others do the work themselves.  What is added
  * to the scene later undoes it.
- * Threads  afterwards, several threads may render the scene at once
  * Errors   RECTO_ERROR_LIMIT: sizes and distances differ by too much;
  *          RECTO_ERROR_CANCELLED */
 RECTO_USE_RESULT recto_status recto_scene_prepare(recto_scene *scene,

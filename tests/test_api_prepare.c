@@ -1,5 +1,5 @@
 /* test_api_prepare.c - a scene that was prepared is drawn as one that was not,
- * also by several threads at once; and a drawing is written by several. */
+ * either by several threads at once; and a drawing is written by several. */
 #include <math.h>
 #include <pthread.h>
 #include <setjmp.h>
@@ -157,14 +157,12 @@ static void *run(void *user) {
   return NULL;
 }
 
-static void several_threads_draw_a_prepared_scene_at_once(void **state) {
-  (void)state;
-  recto_scene *plain = make_torus(), *prepared = make_torus();
+static void draw_by_threads(const recto_scene *scene) {
+  recto_scene *plain = make_torus();
   struct task task[VIEWS];
   pthread_t thread[VIEWS];
-  prepare(prepared);
   for (int i = 0; i < VIEWS; i++) {
-    task[i] = (struct task){prepared, i, NULL};
+    task[i] = (struct task){scene, i, NULL};
     assert_int_equal(pthread_create(&thread[i], NULL, run, &task[i]), 0);
   }
   for (int i = 0; i < VIEWS; i++)
@@ -172,7 +170,15 @@ static void several_threads_draw_a_prepared_scene_at_once(void **state) {
   for (int i = 0; i < VIEWS; i++)
     assert_same_text(task[i].text, draw_view(plain, i));
   recto_scene_destroy(plain);
-  recto_scene_destroy(prepared);
+}
+
+static void several_threads_draw_a_scene_at_once(void **state) {
+  (void)state;
+  recto_scene *scene = make_torus();
+  draw_by_threads(scene);
+  prepare(scene);
+  draw_by_threads(scene);
+  recto_scene_destroy(scene);
 }
 
 struct write_task {
@@ -238,7 +244,7 @@ int main(void) {
       cmocka_unit_test(a_prepared_scene_is_drawn_as_one_that_is_not),
       cmocka_unit_test(other_options_are_prepared_by_the_render),
       cmocka_unit_test(what_is_added_undoes_the_preparation),
-      cmocka_unit_test(several_threads_draw_a_prepared_scene_at_once),
+      cmocka_unit_test(several_threads_draw_a_scene_at_once),
       cmocka_unit_test(several_threads_write_a_drawing_at_once),
       cmocka_unit_test(bad_options_are_refused_and_prepare_nothing),
   };
