@@ -1,4 +1,4 @@
-/* hides.c - which face hides which mesh edge, and where: hides MODEL */
+/* hides.c - which face hides the middle of a part of an edge: hides MODEL */
 #include <stdio.h>
 
 #include "recto.h"
@@ -46,8 +46,8 @@ int main(int argc, char **argv) {
     for (size_t k = 0; k < edge.interval_count; k++) {
       const recto_interval *part = edge.intervals + k;
       if (part->hidden_by > 0 && edge.points[0] != RECTO_NONE)
-        printf("edge %u-%u: from %.4f to %.4f behind face %u\n", edge.points[0],
-               edge.points[1], part->t0, part->t1,
+        printf("edge %u-%u: %.4f to %.4f, in the middle behind face %u\n",
+               edge.points[0], edge.points[1], part->t0, part->t1,
                find_face(drawing, (part->from_mm[0] + part->to_mm[0]) / 2,
                          (part->from_mm[1] + part->to_mm[1]) / 2));
     }

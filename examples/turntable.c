@@ -29,6 +29,7 @@ int main(int argc, char **argv) {
   recto_options_init(&options);
   options.camera.fit = RECTO_FIT_SPHERE; /* the scale of all directions */
   options.camera.elevation_deg = 20;
+  options.ink.contours = RECTO_CONTOURS_SMOOTH; /* of what a mesh samples */
 
   /* What does not depend on the direction is found once, for all frames. */
   recto_scene *scene = NULL;

@@ -134,9 +134,9 @@ castle_faces() {
 }
 claim "the rings of a castle's faces are closed" castle_faces
 cat >expected <<'END2'
-edge 0-1: from 0.0000 to 1.0000 behind face 3
-edge 0-3: from 0.0000 to 1.0000 behind face 4
-edge 0-4: from 0.0000 to 1.0000 behind face 1
+edge 0-1: 0.0000 to 1.0000, in the middle behind face 3
+edge 0-3: 0.0000 to 1.0000, in the middle behind face 4
+edge 0-4: 0.0000 to 1.0000, in the middle behind face 1
 END2
 claim "each hidden edge of a cube is behind its face" eval \
   './hides cube.obj | cmp - expected'

@@ -1,7 +1,6 @@
-"""Which face hides which edge: a tower in front of a wall.
+"""Which face hides which edge, and where: a tower in front of a wall.
 
-What is seen in the middle of a hidden part of an edge is the nearest of the
-faces that hide it."""
+What is seen where an edge is hidden is the nearest of the faces that hide it."""
 
 import numpy as np
 import recto
@@ -16,22 +15,20 @@ def box(low, high):
     return [[x, y, z] for x in ends[0] for y in ends[1] for z in ends[2]]
 
 
-def crossings(ring, point):
-    """How many sides of a ring a ray from the point to the right crosses."""
-    a, b = ring, np.roll(ring, -1, axis=0)
-    astride = (a[:, 1] > point[1]) != (b[:, 1] > point[1])
-    a, b = a[astride], b[astride]
-    x = a[:, 0] + (point[1] - a[:, 1]) * (b - a)[:, 0] / (b - a)[:, 1]
-    return int((x > point[0]).sum())
-
-
-def find_face(fragments, point):
-    """The face that is seen at a point of the page; None: no face."""
-    for fragment in fragments:
-        rings = (fragment.exterior, *fragment.holes)
-        if sum(crossings(ring, point) for ring in rings) % 2 == 1:
-            return fragment.face
-    return None
+def behind(part, fragment):
+    """Where a part of an edge, from 0 to 1, lies behind a visible face: from
+    each crossing of its line with the face's sides to the next but one."""
+    start, way = part["from_mm"], part["to_mm"] - part["from_mm"]
+    at = []
+    for p in (fragment.exterior, *fragment.holes):
+        q = np.roll(p, -1, axis=0)
+        left_p, left_q = np.cross(way, p - start), np.cross(way, q - start)
+        cut = (left_p > 0) != (left_q > 0)
+        share = (left_p[cut] / (left_p - left_q)[cut])[:, None]
+        point = p[cut] + share * (q - p)[cut]
+        at.extend((point - start) @ way / (way @ way))
+    at = np.clip(np.sort(at), 0, 1)
+    return [(a, b) for a, b in zip(at[::2], at[1::2]) if b - a > 1e-6]
 
 
 scene = recto.Scene()
@@ -44,12 +41,12 @@ for name, low, high in (
     names += [name] * 6
 drawing = scene.render(azimuth=20, elevation=15, results="all")
 for edge in drawing.edges:
-    for part in edge.intervals:
-        if part["hidden_by"] > 0:
-            middle = (part["from_mm"] + part["to_mm"]) / 2
-            face = find_face(drawing.fragments, middle)
-            print(
-                f"{drawing.groups[edge.group]} edge {edge.points} from "
-                f"{part['t0']:.3f} to {part['t1']:.3f}: hidden by "
-                f"{part['hidden_by']}, first by {names[face]} face {face}"
-            )
+    for part in edge.intervals[edge.intervals["hidden_by"] > 0]:
+        for fragment in drawing.fragments:
+            for shares in behind(part, fragment):
+                a, b = part["t0"] + np.array(shares) * (part["t1"] - part["t0"])
+                print(
+                    f"{drawing.groups[edge.group]} edge {edge.points} from {a:.3f} "
+                    f"to {b:.3f}: hidden by {part['hidden_by']}, first by "
+                    f"{names[fragment.face]} face {fragment.face}"
+                )

@@ -39,7 +39,11 @@ def main(name, count):
     for i in range(count):
         # The sphere about the scene fills the page: one scale for all.
         drawing = scene.render(
-            azimuth=360 * i / count, elevation=40, fit="sphere", page=(120, 120)
+            azimuth=360 * i / count,
+            elevation=40,
+            fit="sphere",
+            page=(120, 120),
+            contours="smooth",  # of the tube that the mesh samples
         )
         drawing.write(f"{name}{i:03d}.svg")
 
