@@ -77,6 +77,8 @@ def declare(header):
 
 CALLBACKS = """
 bool recto_python_poll(void *, double, const char *);
+void recto_python_project(const recto_drawing *, size_t, const double *, double *,
+                          double *);
 extern "Python" bool recto_python_progress(void *, double, const char *);
 extern "Python" void recto_python_warning(void *, const char *, unsigned long,
                                           const char *);
@@ -88,8 +90,17 @@ extern "Python" bool recto_python_write(void *, const void *, size_t);
 # lock is to be waited for: so Python is asked anew for each call and stage, and
 # else every 10 ms.
 SOURCE = """
+#include <math.h>
 #include <time.h>
 #include "recto.h"
+
+static void recto_python_project(const recto_drawing *drawing, size_t count,
+                                 const double *point, double *page_mm,
+                                 double *depth) {
+  for (size_t i = 0; i < count; i++)
+    if (!recto_drawing_project(drawing, point + 3 * i, page_mm + 2 * i, depth + i))
+      page_mm[2 * i] = page_mm[2 * i + 1] = depth[i] = NAN;
+}
 
 static bool recto_python_progress(void *, double, const char *);
 

@@ -22,7 +22,7 @@ from ._library import (
     text_to,
     view,
 )
-from ._options import CLASS_NAMES, RESULTS, Filled, check_names
+from ._options import CLASS_NAMES, OF_OUTPUT, RESULTS, Filled, check_names
 
 SIDES = {
     "edge": lib.RECTO_SIDE_EDGE,
@@ -280,15 +280,13 @@ class Drawing:
         grow away from the viewer; not a number for points that are not in
         front of the eye."""
         given = np.asarray(points, np.float64)
+        if given.shape[-1:] != (3,):
+            raise ValueError(f"points: shape {given.shape} is not (n, 3)")
         rows = np.ascontiguousarray(given.reshape(-1, 3))
         page = np.empty((len(rows), 2))
         depth = np.empty(len(rows))
         at = [ffi.from_buffer("double[]", a) for a in (rows, page, depth)]
-        for i in range(len(rows)):
-            if not lib.recto_drawing_project(
-                self._owner, at[0] + 3 * i, at[1] + 2 * i, at[2] + i
-            ):
-                page[i] = depth[i] = np.nan
+        lib.recto_python_project(self._owner, len(rows), *at)
         return page.reshape(given.shape[:-1] + (2,)), depth.reshape(given.shape[:-1])
 
     @property
@@ -307,6 +305,9 @@ class Drawing:
 
     def _filled(self, options: Mapping[str, Any]) -> Filled:
         check_names(options)
+        late = [name for name in options if name not in OF_OUTPUT]
+        if late:
+            raise TypeError(f"{late[0]} is an option of render, not of writing")
         return Filled({**self._given, **options})
 
     def to_bytes(self, format: str, **options: Any) -> bytes:

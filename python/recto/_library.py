@@ -5,12 +5,22 @@ from __future__ import annotations
 
 import os
 import sys
+import threading
 import warnings
-from typing import Any, Callable
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any, Callable, ContextManager
 
 import numpy as np
 
 from ._recto import ffi, lib
+
+
+def _with_place(file: str, line: int, text: str) -> str:
+    place = file
+    if line:
+        place = f"{file}:{line}" if file else f"line {line}"
+    return f"{place}: {text}" if place else text
 
 
 class Error(Exception):
@@ -34,8 +44,7 @@ class Error(Exception):
         return type(self), (self.status, self.file, self.line, self.text)
 
     def __str__(self) -> str:
-        place = f"{self.file}:{self.line}" if self.line else self.file
-        return f"{place}: {self.text}" if place else self.text
+        return _with_place(self.file, self.line, self.text)
 
 
 class ArgumentError(Error, ValueError):
@@ -128,6 +137,34 @@ def index_of(number: int) -> int | None:
     return None if number == lib.RECTO_NONE else number
 
 
+class Use:
+    """Who uses an object: several that read it, or one that changes it.  What
+    does not fit raises RuntimeError, also in a callback of the other use."""
+
+    def __init__(self, what: str) -> None:
+        self._what = what
+        self._lock = threading.Lock()
+        self._users = 0  # -1: one that changes it
+
+    @contextmanager
+    def _as(self, step: int, is_free: Callable[[], bool]) -> Iterator[None]:
+        with self._lock:
+            if not is_free():
+                raise RuntimeError(f"{self._what} is in use by another call")
+            self._users += step
+        try:
+            yield
+        finally:
+            with self._lock:
+                self._users -= step
+
+    def reading(self) -> ContextManager[None]:
+        return self._as(1, lambda: self._users >= 0)
+
+    def changing(self) -> ContextManager[None]:
+        return self._as(-1, lambda: self._users == 0)
+
+
 class Call:
     """What the callbacks of one call of the library share: `user` points here.
 
@@ -188,9 +225,9 @@ def _progress(user: Any, share: float, stage: Any) -> bool:
 
 @ffi.def_extern(name="recto_python_warning", onerror=_keep)
 def _warning(user: Any, file: Any, line: int, text: Any) -> None:
-    place = text_of(file) + (f":{line}" if line else "")
-    words = text_of(text)
-    ffi.from_handle(user).warned.append(f"{place}: {words}" if place else words)
+    ffi.from_handle(user).warned.append(
+        _with_place(text_of(file), line, text_of(text))
+    )
 
 
 @ffi.def_extern(name="recto_python_write", error=False, onerror=_keep)

@@ -82,6 +82,10 @@ class Options(TypedDict, total=False):
     progress: Progress  # called with the share done, 0 to 1, and the stage
 
 
+# Options that a drawing that was made still heeds.
+OF_OUTPUT = frozenset(
+    "precision path device velocity tight dpi progress".split()
+)
 METHODS = {
     text_of(lib.recto_method_name(i)): i
     for i in range(lib.RECTO_METHOD_COUNT)
@@ -247,6 +251,8 @@ class _Setter:
     def page(self, value: Any) -> None:
         if isinstance(value, str):
             value = _word("page", value.lower(), PAGES)
+        if len(value) != 2:
+            raise ValueError(f"not {value!r}, but a name or (width, height)")
         self.options.page.width_mm, self.options.page.height_mm = value
 
     def landscape(self, value: bool) -> None:
@@ -260,6 +266,8 @@ class _Setter:
         self.options.ink.edges = _mask("edges", value, known)
 
     def hidden(self, value: Any) -> None:
+        if not isinstance(value, str) and len(value) != 2:
+            raise ValueError(f'not {value!r}, but a word or such as ("dashed", 2)')
         how, layers = (value, 0) if isinstance(value, str) else value
         self.options.ink.hidden = _word("hidden", how, _HIDDEN)
         self.options.ink.hidden_by_max = layers

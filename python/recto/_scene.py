@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, Sequence
 import numpy as np
 
 from ._drawing import Drawing
-from ._library import Call, ffi, lib, path_of, text_to
+from ._library import Call, Use, ffi, lib, path_of, text_to
 from ._options import Filled, Options
 
 try:
@@ -65,8 +65,8 @@ class Scene:
                             of trimesh
     Scene()                 an empty one, to add to
 
-    A scene may be used by one thread at a time; once it is prepared, several
-    may render it at once."""
+    Several threads may render and check a scene at once.  To change or prepare
+    it while a call uses it raises RuntimeError."""
 
     def __init__(
         self, vertices: Any = None, faces: Any = None, groups: Any = None
@@ -75,6 +75,7 @@ class Scene:
         scene = ffi.new("recto_scene **")
         call.finish(lib.recto_scene_create(scene, call.error))
         self._owner = ffi.gc(scene[0], lib.recto_scene_destroy)
+        self._use = Use("the scene")
         if vertices is not None:
             self.add_mesh(vertices, faces, groups)
 
@@ -113,7 +114,7 @@ class Scene:
         file of that name the material libraries of OBJ are looked for."""
         scene = cls()
         filled = Filled(options)
-        held = ffi.from_buffer(data)
+        held = ffi.from_buffer(memoryview(data))
         filled.call.finish(
             lib.recto_scene_read_memory(
                 scene._owner,
@@ -180,11 +181,12 @@ class Scene:
             mesh.group_names = kept[-1]
             mesh.group_count = len(names)
         call = Call()
-        call.finish(
-            lib.recto_scene_add_mesh_sized(
-                self._owner, mesh, ffi.sizeof("recto_mesh"), call.error
+        with self._use.changing():
+            call.finish(
+                lib.recto_scene_add_mesh_sized(
+                    self._owner, mesh, ffi.sizeof("recto_mesh"), call.error
+                )
             )
-        )
 
     def add_polyline(self, points: Any) -> None:
         """Adds a polyline, (n, 3) points, which is drawn with class wire."""
@@ -196,28 +198,35 @@ class Scene:
         call = Call()
         index = ffi.new("uint32_t[]", len(rows))
         at = ffi.from_buffer("double[]", rows)
-        for i in range(len(rows)):
+        with self._use.changing():
+            for i in range(len(rows)):
+                call.finish(
+                    lib.recto_scene_add_point(
+                        self._owner, at + 3 * i, index + i, call.error
+                    )
+                )
             call.finish(
-                lib.recto_scene_add_point(
-                    self._owner, at + 3 * i, index + i, call.error
+                lib.recto_scene_add_polyline(
+                    self._owner, index, len(rows), call.error
                 )
             )
-        call.finish(
-            lib.recto_scene_add_polyline(self._owner, index, len(rows), call.error)
-        )
 
     def add_group(self, name: str) -> None:
         """Starts a group, which what is added later belongs to."""
         call = Call()
-        call.finish(lib.recto_scene_add_group(self._owner, text_to(name), call.error))
+        with self._use.changing():
+            call.finish(
+                lib.recto_scene_add_group(self._owner, text_to(name), call.error)
+            )
 
     def prepare(self, **options: Unpack[Options]) -> None:
         """Does once what views of the scene share; weld, coordinate_bits and
         crease count."""
         filled = Filled(options)
-        filled.call.finish(
-            lib.recto_scene_prepare(self._owner, filled.at, filled.call.error)
-        )
+        with self._use.changing():
+            filled.call.finish(
+                lib.recto_scene_prepare(self._owner, filled.at, filled.call.error)
+            )
 
     def render(self, **options: Unpack[Options]) -> Drawing:
         """Draws the scene for SVG files, or for those of `format`."""
@@ -227,9 +236,10 @@ class Scene:
                 given[name] = tuple(value)
         filled = Filled(given)
         drawing = ffi.new("recto_drawing **")
-        status = lib.recto_scene_render(
-            self._owner, filled.at, drawing, filled.call.error
-        )
+        with self._use.reading():
+            status = lib.recto_scene_render(
+                self._owner, filled.at, drawing, filled.call.error
+            )
         owner = drawing[0]
         if owner != ffi.NULL:
             owner = ffi.gc(owner, lib.recto_drawing_destroy)
@@ -244,16 +254,17 @@ class Scene:
         options, on the file's own page."""
         filled = Filled(options)
         found = ffi.new("recto_verdict *")
-        filled.call.finish(
-            lib.recto_scene_check_sized(
-                self._owner,
-                path_of(path),
-                filled.at,
-                found,
-                ffi.sizeof("recto_verdict"),
-                filled.call.error,
+        with self._use.reading():
+            filled.call.finish(
+                lib.recto_scene_check_sized(
+                    self._owner,
+                    path_of(path),
+                    filled.at,
+                    found,
+                    ffi.sizeof("recto_verdict"),
+                    filled.call.error,
+                )
             )
-        )
         at = found.false_at_mm, found.missing_at_mm
         return Verdict(
             found.drawn_mm,

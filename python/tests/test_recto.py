@@ -242,6 +242,8 @@ def test_project():
     page, depth = near.project([[0.5, 0.5, 9], [0.5, 0.5, 0]])
     assert np.isnan(page[0]).all() and np.isnan(depth[0]) and depth[1] == 5
     assert near.project(VERTICES[0])[0].shape == (2,)
+    assert near.project(np.empty((0, 3)))[0].shape == (0, 2)
+    raised(ValueError, near.project, [[1, 2], [3, 4]])
 
 
 def test_not_asked():
@@ -304,6 +306,13 @@ def test_errors():
     raised(ValueError, recto.Scene, VERTICES[:, :2], FACES)
     raised(TypeError, recto.Scene, VERTICES, FACES + 0.5)
     raised(recto.EmptyError, recto.Scene().render)
+    error = raised(recto.FormatError, recto.Scene.from_bytes, b"", "obj")
+    assert str(error).startswith("line 1: "), str(error)
+    raised(TypeError, recto.Scene.from_bytes, "v 0 0 0", "obj")
+    for options, word in (({"page": (1, 2, 3)}, "width"),
+                          ({"hidden": ("dashed", 1, 2)}, "dashed")):
+        error = raised(ValueError, cube().render, **options)
+        assert word in str(error) and "unpack" not in str(error), error
 
 
 def test_warnings():
@@ -419,6 +428,40 @@ def test_prepared():
     [t.start() for t in threads]
     [t.join() for t in threads]
     assert [results[a] for a in angles] == expected
+
+
+def test_busy():
+    """A scene that is being drawn cannot be changed, by whatever thread"""
+    scene, held, kept = cube(), threading.Event(), threading.Event()
+
+    def hold(share, stage):
+        held.set()
+        kept.wait()
+
+    thread = threading.Thread(target=scene.render, kwargs={"progress": hold})
+    thread.start()
+    held.wait()
+    for change in (lambda: scene.add_mesh(VERTICES, FACES), scene.prepare,
+                   lambda: scene.add_group("late"),
+                   lambda: scene.add_polyline(VERTICES)):
+        error = raised(RuntimeError, change)
+        assert "in use" in str(error), error
+    assert scene.render().strokes  # reads it, as the other does
+    kept.set()
+    thread.join()
+    scene.add_group("late")
+    raised(RuntimeError, scene.render, progress=lambda *_: scene.prepare())
+    raised(RuntimeError, scene.prepare, progress=lambda *_: scene.render())
+    scene.prepare()
+
+
+def test_late_options():
+    """Options that a drawing no longer depends on are an error"""
+    drawing = cube().render()
+    assert drawing.svg(precision=1) != drawing.svg()
+    error = raised(TypeError, drawing.svg, azimuth=30)
+    assert "azimuth" in str(error) and "render" in str(error), error
+    raised(TypeError, drawing.write, "late.svg", hidden="dashed")
 
 
 def test_polyline():
