@@ -361,7 +361,10 @@ typedef struct recto_ink_options {
    */
   double min_stroke_mm;
   bool ids;       /* one source for each stroke, written with it */
-  bool exact;     /* no crease is dropped because an end is free */
+  bool exact;     /* visible lines as they are: no crease is dropped because an
+                     end is free, nor a line within half a pen of longer ones,
+                     and no gap of less is closed; nor are they where
+                     min_stroke_mm is 0 */
   char unused[6]; /* 0 */
   recto_contours contours; /* silhouettes of the mesh, or of the smooth surface
                               that it samples; not with verify */

@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "base/report.h"
-#include "ink/order/nearest.h"
+#include "ink/lines/nearest.h"
 #include "ink/order/stroke_order.h"
 #include "tests/ink_fixture.h"
 #include "tests/scenes/random.h"

@@ -4,6 +4,7 @@
 #include <stddef.h>
 #include <setjmp.h>
 #include <math.h>
+#include <time.h>
 #include <cmocka.h>
 
 #include "tests/ink_fixture.h"
@@ -196,6 +197,197 @@ static void with_ids_the_line_decides(void **state) {
   }
 }
 
+/* ---- Gaps ---------------------------------------------------------------- */
+
+/* How many strokes are drawn of a line of 20 mm that ends in the middle of the
+ * page, and one of another class from there on, shifted by dx and dy, in a
+ * direction. */
+static size_t draw_gap(double dx, double dy, double angle_deg,
+                       const unsigned of[2], bool exact, bool ids) {
+  struct ink_fixture k;
+  double angle = angle_deg / 180 * acos(-1), x = 50 + dx, y = 50 + dy;
+  start(&k);
+  k.options.ink.exact = exact;
+  k.options.ink.ids = ids;
+  ink_fixture_line(&k, 30, 50, 50, 50, of[0]);
+  ink_fixture_line(&k, x + 20 * cos(angle), y + 20 * sin(angle), x, y, of[1]);
+  ink_fixture_draw(&k);
+  size_t strokes = k.drawing.stroke.count;
+  assert_int_equal(k.drawing.gap_end.count, strokes == 1 ? 2 : 0);
+  if (strokes == 1)
+    assert_true(fabs(ink_fixture_stroke_length(&k, 0) - 40 - hypot(dx, dy)) <
+                1e-5);
+  ink_fixture_end(&k);
+  return strokes;
+}
+
+static void gaps_below_half_a_pen_are_closed(void **state) {
+  static const unsigned classes[][2] = {{CREASE, CREASE},
+                                        {SILHOUETTE, SILHOUETTE}};
+  (void)state;
+  for (size_t i = 0; i < 2; i++) {
+    assert_int_equal(draw_gap(0.14, 0, 0, classes[i], false, false), 1);
+    assert_int_equal(draw_gap(0.16, 0, 0, classes[i], false, false), 2);
+    assert_int_equal(draw_gap(0.1, 0.1, 30, classes[i], false, false), 1);
+    assert_int_equal(draw_gap(0.1, 0.12, 30, classes[i], false, false), 2);
+    assert_int_equal(draw_gap(0.14, 0, 0, classes[i], true, false), 2);
+    assert_int_equal(draw_gap(0.14, 0, 0, classes[i], false, true), 2);
+  }
+}
+
+static void only_lines_that_go_on_are_joined(void **state) {
+  static const unsigned crease[2] = {CREASE, CREASE};
+  static const unsigned others[][2] = {
+      {CREASE, SILHOUETTE}, {CREASE, GROUP}, {WIRE, WIRE}, {SMOOTH, SMOOTH}};
+  (void)state;
+  assert_int_equal(draw_gap(0, 0.1, 80, crease, false, false), 1);
+  assert_int_equal(draw_gap(0, 0.1, 100, crease, false, false), 2);
+  assert_int_equal(draw_gap(0, 0.1, 180, crease, false, false), 2);
+  for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+    assert_int_equal(draw_gap(0.1, 0, 0, others[i], false, false), 2);
+}
+
+/* Of three ends the two nearest ones are joined. */
+static void a_gap_is_closed_once(void **state) {
+  struct ink_fixture k;
+  (void)state;
+  start(&k);
+  ink_fixture_line(&k, 20, 50, 50, 50, CREASE);
+  ink_fixture_line(&k, 50.08, 50, 80, 60, CREASE);
+  ink_fixture_line(&k, 50.1, 50, 80, 40, CREASE);
+  ink_fixture_draw(&k);
+  assert_int_equal(k.drawing.gap_end.count, 0); /* these two turn back */
+  ink_fixture_line(&k, 50, 50.02, 20, 60, CREASE);
+  ink_fixture_draw(&k);
+  assert_int_equal(k.drawing.gap_end.count, 0);
+  ink_fixture_line(&k, 20, 20, 50, 20, CREASE);
+  ink_fixture_line(&k, 50.08, 20, 80, 20, CREASE);
+  ink_fixture_line(&k, 50.1, 20.1, 80, 30, CREASE);
+  ink_fixture_draw(&k);
+  assert_int_equal(k.drawing.gap_end.count, 2);
+  assert_int_equal(k.drawing.stroke.count, 6);
+  ink_fixture_end(&k);
+}
+
+/* ---- Hairs --------------------------------------------------------------- */
+
+/* Whether a line of `length` mm is drawn beside a long one of two sides, from
+ * 10, 50 to 50, 50 and 90, 60: at x, and y above it, parallel to the first. */
+static bool is_hair_drawn(double x, double y, double length,
+                          const unsigned of[2], double min_stroke_mm,
+                          bool exact) {
+  static const recto_pen_use border = CLASS_ON(RECTO_EDGE_BORDER, 2);
+  struct ink_fixture k;
+  start(&k);
+  k.options.ink.has_weights = false;
+  k.options.ink.exact = exact;
+  k.options.ink.min_stroke_mm = min_stroke_mm;
+  if (of[0] == BORDER || of[1] == BORDER)
+    ink_fixture_use(&k, &border, 1);
+  uint32_t p = ink_fixture_point(&k, 50, 50);
+  ink_fixture_edge(&k, ink_fixture_point(&k, 10, 50), p, of[0]);
+  ink_fixture_edge(&k, p, ink_fixture_point(&k, 90, 60), of[0]);
+  ink_fixture_line(&k, x, 50 + y, x + length, 50 + y, of[1]);
+  ink_fixture_draw(&k);
+  bool drawn = k.drawing.stroke.count == 2;
+  assert_int_equal(k.drawing.counts.covered, !drawn);
+  assert_int_equal(k.drawing.dropped.count, !drawn);
+  ink_fixture_end(&k);
+  return drawn;
+}
+
+static void hairs_within_half_a_pen_are_covered(void **state) {
+  static const unsigned outline[2] = {SILHOUETTE, SILHOUETTE};
+  static const unsigned lines[2] = {INTERSECTION, INTERSECTION};
+  (void)state;
+  for (int i = 0; i < 2; i++) {
+    const unsigned *of = i ? lines : outline;
+    assert_false(is_hair_drawn(20, 0.14, 2, of, -1, false));
+    assert_true(is_hair_drawn(20, 0.16, 2, of, -1, false));
+    assert_false(is_hair_drawn(20, -0.14, 2.9, of, -1, false));
+    assert_true(is_hair_drawn(20, 0.14, 3.1, of, -1, false));
+    assert_false(is_hair_drawn(20, 0.14, 3.1, of, 4, false));
+    assert_true(is_hair_drawn(20, 0.14, 2, of, 1, false));
+    assert_true(is_hair_drawn(20, 0.14, 2, of, -1, true));
+  }
+}
+
+static void a_hair_that_sticks_out_is_drawn(void **state) {
+  static const unsigned of[2] = {SILHOUETTE, SILHOUETTE};
+  (void)state;
+  assert_false(is_hair_drawn(10, 0.1, 2, of, -1, false));
+  assert_false(is_hair_drawn(9.95, 0.1, 2, of, -1, false));
+  assert_true(is_hair_drawn(9.8, 0.1, 2, of, -1, false));
+  assert_false(is_hair_drawn(48, 0.1, 2.5, of, -1, false));
+  assert_true(is_hair_drawn(49, -0.14, 2.5, of, -1, false));
+}
+
+static void what_covers_is_of_the_same_pen_and_as_wide(void **state) {
+  static const unsigned narrow[2] = {SILHOUETTE, INTERSECTION};
+  static const unsigned wide[2] = {INTERSECTION, SILHOUETTE};
+  static const unsigned pens[2] = {BORDER, INTERSECTION};
+  static const unsigned wire[2] = {SILHOUETTE, WIRE};
+  (void)state;
+  assert_false(is_hair_drawn(20, 0.1, 2, narrow, -1, false));
+  assert_true(is_hair_drawn(20, 0.1, 2, wide, -1, false));
+  assert_true(is_hair_drawn(20, 0.1, 2, pens, -1, false));
+  assert_true(is_hair_drawn(20, 0.1, 2, wire, -1, false));
+}
+
+/* Of two hairs that cover each other the longer one stays, and of a stack of
+ * them each that lies within half a pen of one that stays is left out. */
+static void something_of_a_stack_of_hairs_stays(void **state) {
+  enum { HAIRS = 20 };
+  struct ink_fixture k;
+  (void)state;
+  start(&k);
+  for (int i = 0; i < HAIRS; i++)
+    ink_fixture_line(&k, 50, 50 + 0.1 * i, 52 - 0.01 * i, 50 + 0.1 * i,
+                     SILHOUETTE);
+  ink_fixture_draw(&k);
+  assert_int_equal(k.drawing.stroke.count, HAIRS / 2);
+  for (int i = 0; i < HAIRS; i++)
+    assert_true(ink_fixture_distance(&k, 51, 50 + 0.1 * i) < 0.15);
+  ink_fixture_end(&k);
+}
+
+static void a_closed_line_beside_another_is_drawn(void **state) {
+  struct ink_fixture k;
+  (void)state;
+  start(&k);
+  ink_fixture_line(&k, 10, 50, 90, 50, SILHOUETTE);
+  uint32_t p = ink_fixture_point(&k, 50, 50.05);
+  uint32_t q = ink_fixture_point(&k, 50.08, 50.1);
+  uint32_t r = ink_fixture_point(&k, 50, 50.12);
+  ink_fixture_edge(&k, p, q, SILHOUETTE);
+  ink_fixture_edge(&k, q, r, SILHOUETTE);
+  ink_fixture_edge(&k, r, p, SILHOUETTE);
+  ink_fixture_draw(&k);
+  assert_int_equal(k.drawing.stroke.count, 2);
+  ink_fixture_end(&k);
+}
+
+/* Cost: hairs and lines by the hundred thousand in one place, and each alone. */
+static void many_hairs_take_no_longer_each(void **state) {
+  enum { HAIRS = 100000 };
+  (void)state;
+  for (int spread = 0; spread < 2; spread++) {
+    struct ink_fixture k;
+    start(&k);
+    for (int i = 0; i < HAIRS; i++) {
+      double x = spread ? 1 + i % 317 * 0.3 : 50 + i % 317 * 1e-4;
+      double y =
+          spread ? 1 + (double)(i / 317) * 0.3 : 50 + (double)(i / 317) * 1e-4;
+      ink_fixture_line(&k, x, y, x + 0.2, y + 0.05 * (i % 5), SILHOUETTE);
+    }
+    clock_t before = clock();
+    ink_fixture_draw(&k);
+    assert_true((double)(clock() - before) / CLOCKS_PER_SEC < 20);
+    assert_true(k.drawing.stroke.count < (spread ? HAIRS + 1 : HAIRS / 2));
+    ink_fixture_end(&k);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(creases_shorter_than_ten_pens_are_dropped),
@@ -207,6 +399,15 @@ int main(void) {
       cmocka_unit_test(a_line_that_goes_on_in_the_model_is_drawn),
       cmocka_unit_test(a_free_end_of_a_half_hidden_line_counts),
       cmocka_unit_test(with_ids_the_line_decides),
+      cmocka_unit_test(gaps_below_half_a_pen_are_closed),
+      cmocka_unit_test(only_lines_that_go_on_are_joined),
+      cmocka_unit_test(a_gap_is_closed_once),
+      cmocka_unit_test(hairs_within_half_a_pen_are_covered),
+      cmocka_unit_test(a_hair_that_sticks_out_is_drawn),
+      cmocka_unit_test(what_covers_is_of_the_same_pen_and_as_wide),
+      cmocka_unit_test(something_of_a_stack_of_hairs_stays),
+      cmocka_unit_test(a_closed_line_beside_another_is_drawn),
+      cmocka_unit_test(many_hairs_take_no_longer_each),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

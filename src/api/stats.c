@@ -126,6 +126,7 @@ void stats_add_drawing(struct report *report, const struct drawing *drawing,
       {"without_length", counts->without_length},
       {"drawn_twice", counts->drawn_twice},
       {"too_short", counts->too_short},
+      {"covered", counts->covered},
       {"pen_lifts", counts->pen_lifts},
       {NULL, 0},
   };

@@ -35,8 +35,14 @@ static bool add_judged_stroke(struct judge_drawing *to,
   return true;
 }
 
-/* Collects the lines of edges, but no hatching. */
+/* Collects the lines of edges, but no hatching, and the gaps that were closed.
+ */
 static bool add_drawn(struct judge_drawing *to, const struct drawing *drawing) {
+  for (size_t i = 0; i < drawing->gap_end.count; i += 2) {
+    struct drawing_stroke gap = {.count = 2};
+    if (!add_judged_stroke(to, &gap, drawing->gap_end.item + i, JUDGE_ADDED))
+      return false;
+  }
   for (size_t i = 0; i < drawing->stroke.count; i++) {
     const struct drawing_stroke *stroke = &drawing->stroke.item[i];
     if (stroke->edge_class != 0 &&
@@ -54,7 +60,8 @@ static bool add_drawn(struct judge_drawing *to, const struct drawing *drawing) {
 
 /* Collects the lines of a drawing that are not drawn or that are shorter than
  * half a pen and a length more.
- * more  mm; hidden lines are drawn as well, since lines end where these begin */
+ * more  mm; hidden lines are drawn as well, since lines end where these begin
+ */
 static bool add_short(struct judge_drawing *to, const struct drawing *drawing,
                       double more) {
   for (size_t i = 0; i < drawing->dropped.count; i++) {

@@ -18,7 +18,7 @@
  * Derivation  an end point is rounded by at most 1/2 unit in x and in y, so by
  *             0.71 across any line; of two pieces of one line, each end lies
  *             within 2 * 0.71 = 1.41 of the other piece: rounded up.
- * Users       ink/lines/isolated.c, ink/lines/nodes.c,
+ * Users       ink/lines/free_ends.c, ink/lines/isolated.c, ink/lines/nodes.c,
  *             ink/lines/overlap_collinear.c,
  *             ink/lines/overlap.c, ink/lines/overlap_output.c,
  *             ink/hatch/hatch_lines.c, ink/hatch/inset.c,

@@ -50,6 +50,7 @@ struct drawing_counts {
   size_t without_length; /* of these, points */
   size_t drawn_twice;    /* of these, removed as others cover them */
   size_t too_short;      /* lines dropped */
+  size_t covered;        /* lines dropped as others cover them */
   size_t pen_lifts;
   double travel_before_mm; /* of strokes in their first order */
 };
@@ -68,10 +69,11 @@ struct drawing {
   ARRAY(struct drawing_fill) fill;
   ARRAY(struct drawing_loop) loop;
   ARRAY(struct drawing_point) point;
-  /* Visible lines that are not drawn as they are too short, and their points:
-   * for those who judge the drawing. */
+  /* For those who judge the drawing: visible lines that are not drawn as they
+   * are too short or covered, and their points; and the ends of gaps that were
+   * closed, in pairs. */
   ARRAY(struct drawing_stroke) dropped;
-  ARRAY(struct drawing_point) dropped_point;
+  ARRAY(struct drawing_point) dropped_point, gap_end;
   ARRAY(char *) group_name; /* of the scene, owned; written if ids */
   bool ids;                 /* write faces, edges and groups of elements */
   struct drawing_counts counts;

@@ -27,6 +27,11 @@ struct ink {
 
 /* ---- Paths --------------------------------------------------------------- */
 
+/* Whether lines are drawn as a pen shows them, rather than as they are. */
+static bool is_tidied(const recto_options *options) {
+  return !options->ink.exact && options->ink.min_stroke_mm != 0;
+}
+
 /* Builds the segment graph without overlaps, its ends indexed. */
 static recto_status make_graph(struct ink *ink, struct segment_graph *graph,
                                recto_error *error) {
@@ -46,6 +51,8 @@ static recto_status make_graph(struct ink *ink, struct segment_graph *graph,
     status = segment_graph_drop_output_overlaps(graph, &rows, step, error);
   if (status == RECTO_OK)
     status = segment_graph_rejoin(graph, error);
+  if (status == RECTO_OK && is_tidied(ink->options) && !ink->options->ink.ids)
+    status = segment_graph_close_gaps(graph, ink->pens, error);
   node_rows_fini(&rows);
   counts->without_length = graph->dots;
   counts->drawn_twice = graph->doubled;
@@ -60,8 +67,8 @@ static recto_status make_paths(const struct ink *ink, struct ink_paths *paths,
                                recto_error *error) {
   double step = ink->options->output.unit_mm * SHEET_UNITS_PER_MM;
   recto_status status = paths_chain(paths, path_of_segment, graph, error);
-  if (status == RECTO_OK && !ink->options->ink.exact &&
-      ink->options->ink.min_stroke_mm != 0 &&
+  bool tidy = is_tidied(ink->options);
+  if (status == RECTO_OK && tidy &&
       !paths_find_free_ends(paths, graph, ink->sheet, step))
     status = error_memory(error);
   if (status != RECTO_OK)
@@ -70,6 +77,9 @@ static recto_status make_paths(const struct ink *ink, struct ink_paths *paths,
   if (ink->options->ink.simplify_mm > 0)
     status = paths_simplify(
         paths, ink->options->ink.simplify_mm * SHEET_UNITS_PER_MM, error);
+  if (status == RECTO_OK && tidy &&
+      !paths_find_covered(paths, ink->sheet, ink->pens))
+    status = error_memory(error);
   return status;
 }
 
@@ -98,6 +108,12 @@ static struct drawing_stroke stroke_like(const struct ink *ink,
                                  .hidden = path->hidden};
 }
 
+static struct drawing_point point_mm(const struct ink *ink,
+                                     struct ink_point p) {
+  return (struct drawing_point){sheet_x_mm(ink->sheet, p.x),
+                                sheet_y_mm(ink->sheet, p.y)};
+}
+
 static bool copy_points(const struct ink *ink, const struct ink_paths *paths,
                         const struct ink_path *path, struct stroke_line *line) {
   line->closed = path->closed;
@@ -106,8 +122,7 @@ static bool copy_points(const struct ink *ink, const struct ink_paths *paths,
     return false;
   for (uint32_t i = 0; i < path->count; i++) {
     struct ink_point p = paths->point.item[path->point + i];
-    line->point.item[line->point.count++] = (struct drawing_point){
-        sheet_x_mm(ink->sheet, p.x), sheet_y_mm(ink->sheet, p.y)};
+    line->point.item[line->point.count++] = point_mm(ink, p);
   }
   return true;
 }
@@ -116,7 +131,7 @@ static bool is_too_short(const struct ink *ink, const struct ink_path *path,
                          const struct stroke_line *line) {
   uint32_t layer = stroke_like(ink, path).layer;
   double length = stroke_line_length(line);
-  return length < pens_shortest_line_mm(ink->pens, layer) ||
+  return path->is_covered || length < pens_shortest_line_mm(ink->pens, layer) ||
          (path->is_free && length < pens_shortest_crease_mm(ink->pens, layer));
 }
 
@@ -131,12 +146,12 @@ static bool add_drawn_path(struct ink *ink, const struct ink_path *path,
                     line->closed);
 }
 
-/* Counts a path that is too short, and keeps it if it is visible. */
+/* Counts a path that is too short or covered, and keeps it if it is visible. */
 static bool drop_path(struct ink *ink, const struct ink_path *path,
                       const struct stroke_line *line) {
   struct drawing *drawing = ink->drawing;
   struct drawing_stroke stroke = stroke_like(ink, path);
-  drawing->counts.too_short++;
+  ++*(path->is_covered ? &drawing->counts.covered : &drawing->counts.too_short);
   if (path->hidden)
     return true;
   stroke.point = (uint32_t)drawing->dropped_point.count;
@@ -215,12 +230,22 @@ static recto_status drop_short_lines(struct ink *ink,
   return status;
 }
 
+static bool keep_gap_ends(struct ink *ink, const struct segment_graph *graph) {
+  for (size_t i = 0; i < graph->gap_end.count; i++)
+    if (!ARRAY_PUSH(&ink->drawing->gap_end,
+                    point_mm(ink, graph->gap_end.item[i])))
+      return false;
+  return true;
+}
+
 static recto_status draw_lines(struct ink *ink, recto_error *error) {
   bool ids = ink->options->ink.ids;
   struct segment_graph graph;
   struct ink_paths paths = {0};
   segment_graph_init(&graph);
   recto_status status = make_graph(ink, &graph, error);
+  if (status == RECTO_OK && !keep_gap_ends(ink, &graph))
+    status = error_memory(error);
   if (status == RECTO_OK && ids && ink->options->ink.min_stroke_mm != 0)
     status = drop_short_lines(ink, &graph, error);
   if (status == RECTO_OK && ids)

@@ -17,9 +17,12 @@ librecto_core_la_SOURCES += \
   %D%/hatch/tone.c %D%/hatch/tone.h \
   %D%/hatch/tone_hatch.c \
   %D%/lines/chain.c \
+  %D%/lines/covered.c \
   %D%/lines/dash.c \
   %D%/lines/free_ends.c \
+  %D%/lines/gaps.c \
   %D%/lines/isolated.c \
+  %D%/lines/nearest.c %D%/lines/nearest.h \
   %D%/lines/nodes.c \
   %D%/lines/nodes_near_segment.c %D%/lines/nodes_near_segment.h \
   %D%/lines/overlap.c %D%/lines/overlap.h \
@@ -33,6 +36,5 @@ librecto_core_la_SOURCES += \
   %D%/lines/straighten.c \
   %D%/lines/stroke.c %D%/lines/stroke.h \
   %D%/lines/vertex_snapping.c %D%/lines/vertex_snapping.h \
-  %D%/order/nearest.c %D%/order/nearest.h \
   %D%/order/stroke_order.c %D%/order/stroke_order.h \
   %D%/order/tour.c %D%/order/tour.h

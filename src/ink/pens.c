@@ -151,6 +151,10 @@ double pens_shortest_crease_mm(const struct pens *pens, uint32_t pen) {
              : pens->shortest_mm;
 }
 
+double pens_weight(const struct pens *pens, unsigned edge_class) {
+  return pens->weight[class_index(edge_class)];
+}
+
 unsigned pens_weight_priority(const struct pens *pens, unsigned edge_class) {
   unsigned first = 0, index = class_index(edge_class);
   while (pens->weight[first] != pens->weight[index])

@@ -57,11 +57,14 @@ static inline uint32_t pens_of_group(const struct pens *pens, uint32_t group) {
 
 double pens_width_mm(const struct pens *pens, uint32_t pen);
 
-/* The lengths below which strokes of the pen are dropped: any line, at most half
- * the pen; chains of creases with a free end; lines of hatching. */
+/* The lengths below which strokes of the pen are dropped: any line, at most
+ * half the pen; chains of creases with a free end; lines of hatching. */
 double pens_shortest_line_mm(const struct pens *pens, uint32_t pen);
 double pens_shortest_crease_mm(const struct pens *pens, uint32_t pen);
 double pens_shortest_hatch_mm(const struct pens *pens, uint32_t pen);
+
+/* The width of visible lines of a class, in pen widths. */
+double pens_weight(const struct pens *pens, unsigned edge_class);
 
 /* Equal for two classes of visible lines with equal weights, which may be
  * joined into one stroke. */

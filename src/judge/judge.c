@@ -216,6 +216,21 @@ static enum judge_visibility explain_ink(const struct judge_context *context,
                                                                   : best;
 }
 
+/* Whether the ink at a point closes a gap. */
+static bool is_added(const struct judge_context *context,
+                     struct judge_point2 at) {
+  const struct judge_drawing *drawing = context->drawing;
+  for (size_t i = 0; i < drawing->stroke.count; i++) {
+    const struct judge_stroke *stroke = &drawing->stroke.item[i];
+    const struct judge_point2 *p = &drawing->point.item[stroke->point];
+    if (stroke->role == JUDGE_ADDED &&
+        judge_is_within(&(struct judge_segment){p[0], p[1]}, at,
+                        context->options.lateral_mm))
+      return true;
+  }
+  return false;
+}
+
 /* Whether a point is on the page; ink elsewhere is not judged. */
 static bool is_on_page(const struct judge_context *context,
                        struct judge_point2 at) {
@@ -232,7 +247,10 @@ static void judge_ink_sample(struct judge_context *context,
     return;
   struct judge_witness witness = {.at = at, .blocker = SCENE_NONE};
   count_sample(&verdict->drawn, mm);
-  switch (explain_ink(context, stroke, &witness)) {
+  enum judge_visibility visibility = explain_ink(context, stroke, &witness);
+  if (visibility == JUDGE_BLOCKED && is_added(context, at))
+    visibility = JUDGE_UNSURE;
+  switch (visibility) {
   case JUDGE_CLEAR:
     break;
   case JUDGE_UNSURE:

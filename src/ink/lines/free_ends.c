@@ -32,9 +32,21 @@ static uint8_t *count_edges_at_vertices(const struct sheet *sheet) {
   return count;
 }
 
+/* Whether the path bounds nothing on the page and has an end to itself. */
+static bool may_end_free(const struct segment_graph *graph,
+                         const struct ink_path *path) {
+  bool alone = false;
+  for (int k = 0; k < 2 && !path->closed; k++) {
+    uint32_t end = path->end[k];
+    uint32_t node = graph->segment.item[end >> 1].node[end & 1];
+    alone = alone || graph->end_start[node + 1] - graph->end_start[node] == 1;
+  }
+  return alone && (path->classes & ~inner_classes) == 0;
+}
+
 /* Whether an end of a chain is free.
- * near  how far its node may be from the vertex, grid units
- * count of the drawable edges at each sheet point */
+ * near   how far its node may be from the vertex, grid units
+ * count  of the drawable edges at each sheet point */
 static bool is_free_end(const struct segment_graph *graph,
                         const struct sheet *sheet, uint32_t end, double near,
                         const uint8_t *count) {
@@ -56,13 +68,19 @@ bool paths_find_free_ends(struct ink_paths *paths,
                           const struct segment_graph *graph,
                           const struct sheet *sheet, double output_step) {
   double near = output_step + 2 * TOLERANCE_COINCIDENT_UNITS;
-  uint8_t *count = count_edges_at_vertices(sheet);
-  for (size_t i = 0; count != NULL && i < paths->path.count; i++) {
+  uint8_t *count = NULL;
+  bool ok = true;
+  for (size_t i = 0; ok && i < paths->path.count; i++) {
     struct ink_path *path = &paths->path.item[i];
-    path->is_free = !path->closed && (path->classes & ~inner_classes) == 0 &&
-                    (is_free_end(graph, sheet, path->end[0], near, count) ||
-                     is_free_end(graph, sheet, path->end[1], near, count));
+    if (!may_end_free(graph, path))
+      continue;
+    if (count == NULL)
+      count = count_edges_at_vertices(sheet);
+    ok = count != NULL;
+    path->is_free =
+        ok && (is_free_end(graph, sheet, path->end[0], near, count) ||
+               is_free_end(graph, sheet, path->end[1], near, count));
   }
   mem_free(count);
-  return count != NULL;
+  return ok;
 }

@@ -13,7 +13,7 @@ struct ink_path {
   uint32_t end[2]; /* its ends in the segment graph, if it is open */
   uint8_t classes; /* all classes of its segments */
   bool hidden, closed;
-  bool is_free; /* see paths_find_free_ends */
+  bool is_free, is_covered; /* see paths_find_free_ends, paths_find_covered */
 };
 
 struct ink_paths {
@@ -63,6 +63,15 @@ USE_RESULT bool paths_find_free_ends(struct ink_paths *paths,
  * the tolerance is half of `output_step` (grid units), if that is more.  Ends
  * stay. */
 void paths_straighten(struct ink_paths *paths, double output_step);
+
+/* Sets is_covered of the visible open paths of features (segment_graph.h) that
+ * are shorter than pens_shortest_crease_mm and all of which is within half a
+ * pen of longer ones of the same pen that are at least as wide.  Paths that are
+ * dropped, as too short or as covered, cover nothing.
+ * Returns false when memory ran out.  Cost: n log n. */
+USE_RESULT bool paths_find_covered(struct ink_paths *paths,
+                                   const struct sheet *sheet,
+                                   const struct pens *pens);
 
 /* Douglas-Peucker: removes points so that no part of a line moves by more than
  * `tolerance` grid units; ends stay, closed paths keep three points.

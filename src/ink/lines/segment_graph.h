@@ -13,6 +13,9 @@
  *   segment_graph_drop_output_overlaps  overlaps at the output's precision are
  *                                       drawn once (overlap_output.c)
  *   segment_graph_rejoin                all segments are together again
+ *   segment_graph_close_gaps            gaps less than half a pen are closed,
+ *                                       unless the drawing is to be exact
+ *                                       (gaps.c)
  * Invariants, from segment_graph_unite on
  *   Two nodes differ in x or in y by more than the tolerance; they are numbered
  *   by position, row by row.
@@ -29,6 +32,11 @@
 #include "visibility/map.h"
 
 #define SEGMENT_GRAPH_NONE UINT32_MAX
+
+/* The classes whose lines are tidied as a pen draws them: not the user's own
+ * lines, and not all edges of a mesh. */
+#define SEGMENT_GRAPH_FEATURES                                                 \
+  (RECTO_EDGES_ALL & ~(unsigned)(RECTO_EDGE_WIRE | RECTO_EDGE_SMOOTH))
 
 struct ink_point {
   int32_t x, y; /* grid units from the middle of the page */
@@ -66,6 +74,8 @@ struct segment_graph {
   /* The numbers of segments without length on the page and of segments that
    * were drawn twice in whole or in part. */
   size_t dots, doubled;
+  /* The ends of the segments that segment_graph_close_gaps added, in pairs. */
+  ARRAY(struct ink_point) gap_end;
 };
 
 /* Nodes by rows, which are horizontal bands, about as many as there are nodes
@@ -152,6 +162,15 @@ segment_graph_drop_collinear(struct segment_graph *graph,
 USE_RESULT recto_status segment_graph_drop_output_overlaps(
     struct segment_graph *graph, const struct node_rows *rows,
     double output_step, recto_error *error);
+
+/* Joins two visible ends of equal pen key and class by a segment where they are
+ * at most half a pen apart, each is the nearest such end to the other and the
+ * only one at its node, and the lines do not turn back there.
+ * Errors  RECTO_ERROR_MEMORY
+ * Cost    linear, and n log n in the n ends that are alone at their nodes */
+USE_RESULT recto_status segment_graph_close_gaps(struct segment_graph *graph,
+                                                 const struct pens *pens,
+                                                 recto_error *error);
 
 /* Builds end_start and end. */
 USE_RESULT recto_status segment_graph_index_ends(struct segment_graph *graph,

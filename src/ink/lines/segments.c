@@ -34,6 +34,7 @@ void segment_graph_fini(struct segment_graph *graph) {
   mem_free(graph->end_start);
   mem_free(graph->end);
   mem_free(graph->approximate);
+  ARRAY_FREE(&graph->gap_end);
   segment_graph_init(graph);
 }
 

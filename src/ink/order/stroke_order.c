@@ -13,7 +13,7 @@
 #include <string.h>
 
 #include "base/poll.h"
-#include "ink/order/nearest.h"
+#include "ink/lines/nearest.h"
 #include "ink/lines/stroke.h"
 
 /* Measured with 100,000 strokes at random over a page: with short strokes a

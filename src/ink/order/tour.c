@@ -23,7 +23,7 @@
 
 #include "base/poll.h"
 #include "base/tolerance.h"
-#include "ink/order/nearest.h"
+#include "ink/lines/nearest.h"
 #include "ink/lines/stroke.h"
 
 enum { NEIGHBOURS = 8, RUN_MAX = 3 };

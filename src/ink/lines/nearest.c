@@ -7,7 +7,7 @@
  * Robustness  A box is pruned if it is not nearer than the best points found so
  *   far.  Of points that coincide, the first one found is the result, which is
  *   deterministic. */
-#include "ink/order/nearest.h"
+#include "ink/lines/nearest.h"
 
 #include "base/poll.h"
 

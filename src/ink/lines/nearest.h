@@ -1,6 +1,6 @@
 /* nearest.h - nearest-neighbour search in a point set with deletion. */
-#ifndef INK_ORDER_NEAREST_H
-#define INK_ORDER_NEAREST_H
+#ifndef INK_LINES_NEAREST_H
+#define INK_LINES_NEAREST_H
 
 #include "drawing/drawing.h"
 
