@@ -173,15 +173,21 @@ static void include_points(struct crop_window *window,
 
 /* The page, or if `tight` the bounding box of the ink, unless there is no ink.
  * The box of the points extended by half the pen's width is exact, since caps
- * and joins are round. */
+ * and joins are round; that of a curve's control points holds the curve. */
 static struct crop_window find_window(const struct drawing *drawing,
                                       bool tight) {
   struct crop_window page = {0, 0, drawing->width_mm, drawing->height_mm};
   struct crop_window ink = {INFINITY, INFINITY, -INFINITY, -INFINITY};
   for (size_t i = 0; i < drawing->stroke.count && poll_at(i); i++) {
     const struct drawing_stroke *stroke = &drawing->stroke.item[i];
-    include_points(&ink, drawing->point.item + stroke->point, stroke->count,
-                   drawing_width_mm(drawing, stroke) / 2);
+    const struct drawing_curve *curve = drawing_curve_of(drawing, i);
+    double half_width = drawing_width_mm(drawing, stroke) / 2;
+    if (curve != NULL)
+      include_points(&ink, drawing->control.item + curve->control, curve->count,
+                     half_width);
+    else
+      include_points(&ink, drawing->point.item + stroke->point, stroke->count,
+                     half_width);
   }
   for (size_t i = 0; i < drawing->fill.count; i++) {
     const struct drawing_fill *fill = &drawing->fill.item[i];
@@ -209,6 +215,20 @@ static void add_cairo_path(cairo_t *cr, const struct drawing_point *point,
   if (closed)
     cairo_close_path(cr);
   cairo_new_sub_path(cr);
+}
+
+static void add_cairo_curve(cairo_t *cr, const struct drawing_point *control,
+                            uint32_t count, bool closed) {
+  cairo_move_to(cr, control[0].x, control[0].y);
+  for (uint32_t i = 0; i + 3 < count; i += 3) {
+    const struct drawing_point *p = control + i;
+    if (drawing_piece_is_straight(p))
+      cairo_line_to(cr, p[3].x, p[3].y);
+    else
+      cairo_curve_to(cr, p[1].x, p[1].y, p[2].x, p[2].y, p[3].x, p[3].y);
+  }
+  if (closed)
+    cairo_close_path(cr);
 }
 
 /* Draws a fill, or the stroke along its outline that closes seams. */
@@ -258,8 +278,13 @@ static void draw_layer(cairo_t *cr, const struct drawing *drawing,
       return;
     points %= POLL_POINTS;
     cairo_set_line_width(cr, drawing_width_mm(drawing, stroke));
-    add_cairo_path(cr, drawing->point.item + stroke->point, stroke->count,
-                   stroke->closed);
+    const struct drawing_curve *curve = drawing_curve_of(drawing, i);
+    if (curve != NULL)
+      add_cairo_curve(cr, drawing->control.item + curve->control, curve->count,
+                      stroke->closed);
+    else
+      add_cairo_path(cr, drawing->point.item + stroke->point, stroke->count,
+                     stroke->closed);
     cairo_stroke(cr);
   }
 }

@@ -34,6 +34,7 @@ struct plot {
   uint64_t clipped; /* the number of strokes clipped */
   double lost;      /* the length clipped off, in units */
   uint64_t folded;  /* the number of layers whose pen the device lacks */
+  struct drawing_polyline chords; /* of the current stroke's curve */
 };
 
 struct plot_point {
@@ -156,27 +157,25 @@ static struct plot_point to_device(const struct plot *plot,
 
 /* The corner at which to begin a stroke.  A loop that leaves the area begins at
  * a corner outside, so that none of its pieces inside is split in two. */
-static uint32_t choose_stroke_start(const struct plot *plot,
-                                    const struct drawing_point *point,
-                                    const struct drawing_stroke *stroke) {
-  for (uint32_t i = 0; stroke->closed && i < stroke->count; i++)
+static size_t choose_stroke_start(const struct plot *plot,
+                                  const struct drawing_point *point,
+                                  size_t count, bool closed) {
+  for (size_t i = 0; closed && i < count; i++)
     if (!is_inside(&plot->place, to_device(plot, &point[i])))
       return i;
   return 0;
 }
 
-/* Plots a stroke, clipped to the hard-clip area. */
-static void plot_stroke(struct plot *plot, const struct drawing *drawing,
-                        const struct drawing_stroke *stroke) {
+/* Plots a polyline, clipped to the hard-clip area. */
+static void plot_points(struct plot *plot, const struct drawing_point *point,
+                        size_t count, bool closed) {
   const struct device_placement *place = &plot->place;
-  const struct drawing_point *point = drawing->point.item + stroke->point;
-  uint32_t start = choose_stroke_start(plot, point, stroke);
-  uint32_t lines = stroke->count - (stroke->closed ? 0 : 1);
+  size_t start = choose_stroke_start(plot, point, count, closed);
+  size_t lines = count - (closed ? 0 : 1);
   bool whole = true;
-  for (uint32_t i = 0; i < lines; i++) {
-    struct plot_point a = to_device(plot, &point[(start + i) % stroke->count]);
-    struct plot_point b =
-        to_device(plot, &point[(start + i + 1) % stroke->count]);
+  for (size_t i = 0; i < lines; i++) {
+    struct plot_point a = to_device(plot, &point[(start + i) % count]);
+    struct plot_point b = to_device(plot, &point[(start + i + 1) % count]);
     bool a_inside = is_inside(place, a), b_inside = is_inside(place, b);
     whole = whole && a_inside && b_inside;
     double length = hypot(b.x - a.x, b.y - a.y);
@@ -195,6 +194,24 @@ static void plot_stroke(struct plot *plot, const struct drawing *drawing,
   plot->clipped += whole ? 0 : 1;
 }
 
+/* Plots a stroke, or a polyline within half a unit of its curve.  Returns false
+ * when memory ran out. */
+static bool plot_stroke(struct plot *plot, const struct drawing *drawing,
+                        size_t index) {
+  const struct drawing_stroke *stroke = &drawing->stroke.item[index];
+  const struct drawing_curve *curve = drawing_curve_of(drawing, index);
+  if (curve == NULL)
+    plot_points(plot, drawing->point.item + stroke->point, stroke->count,
+                stroke->closed);
+  else if (drawing_flatten(drawing, stroke, curve, plot->place.unit_mm / 2,
+                           &plot->chords))
+    plot_points(plot, plot->chords.point.item, plot->chords.point.count,
+                stroke->closed);
+  else
+    return false;
+  return true;
+}
+
 /* The device's pen for a layer.  Pens beyond its last one are assigned
  * cyclically, beginning with its first. */
 static unsigned find_device_pen(const struct device *device,
@@ -204,16 +221,18 @@ static unsigned find_device_pen(const struct device *device,
                                        : layer->pen;
 }
 
-static void plot_layer(struct plot *plot, const struct drawing *drawing,
+static bool plot_layer(struct plot *plot, const struct drawing *drawing,
                        uint32_t layer) {
-  for (size_t i = 0; i < drawing->stroke.count; i++) {
+  bool ok = true;
+  for (size_t i = 0; ok && i < drawing->stroke.count; i++) {
     const struct drawing_stroke *stroke = &drawing->stroke.item[i];
     if (stroke->layer != layer || stroke->count < 2)
       continue;
     if (!writer_goes_on(drawing, plot->stream, drawing->fill.count + i))
       break;
-    plot_stroke(plot, drawing, stroke);
+    ok = plot_stroke(plot, drawing, i);
   }
+  return ok;
 }
 
 /* Marks the layers that have strokes. */
@@ -226,19 +245,21 @@ static void find_layers_with_strokes(const struct drawing *drawing,
 
 /* Selects the pen of the layer `first`, and plots all pending layers of that
  * pen. */
-static void plot_pen(struct plot *plot, const struct drawing *drawing,
+static bool plot_pen(struct plot *plot, const struct drawing *drawing,
                      const struct device *device, uint32_t first,
                      bool *pending) {
   const struct drawing_layer *layer = drawing->layer.item;
   unsigned pen = find_device_pen(device, &layer[first]);
+  bool ok = true;
   select_pen(plot, pen);
-  for (uint32_t i = first; i < drawing->layer.count; i++) {
+  for (uint32_t i = first; ok && i < drawing->layer.count; i++) {
     if (!pending[i] || find_device_pen(device, &layer[i]) != pen)
       continue;
     plot->folded += pen != layer[i].pen;
-    plot_layer(plot, drawing, i);
+    ok = plot_layer(plot, drawing, i);
     pending[i] = false;
   }
+  return ok;
 }
 
 /* Plots the layers in their order, except that each pen is selected only once.
@@ -249,11 +270,12 @@ static bool plot_layers(struct plot *plot, const struct drawing *drawing,
   if (pending == NULL)
     return false;
   find_layers_with_strokes(drawing, pending);
-  for (uint32_t i = 0; i < drawing->layer.count; i++)
+  bool ok = true;
+  for (uint32_t i = 0; ok && i < drawing->layer.count; i++)
     if (pending[i])
-      plot_pen(plot, drawing, device, i, pending);
+      ok = plot_pen(plot, drawing, device, i, pending);
   mem_free(pending);
-  return true;
+  return ok;
 }
 
 /* ---- The file ------------------------------------------------------------ */
@@ -350,7 +372,9 @@ static recto_status write_hpgl(const struct drawing *drawing,
     stream_int(stream, lround(device_velocity(device, options->velocity)));
     stream_text(stream, ";\n");
   }
-  if (!plot_layers(&plot, drawing, device))
+  bool ok = plot_layers(&plot, drawing, device);
+  ARRAY_FREE(&plot.chords.point);
+  if (!ok)
     return error_memory(error);
   stream_text(stream, "PU;\nSP0;\nIN;\n");
   if (stream_status(stream) == RECTO_OK)

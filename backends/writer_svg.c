@@ -20,8 +20,9 @@ struct svg {
   const struct drawing *drawing;
   const struct writer_options *options;
   struct stream *out;
-  double scale;                  /* 10 to the power of the precision */
-  ARRAY(struct svg_point) point; /* of the current stroke or loop */
+  double scale;                   /* 10 to the power of the precision */
+  ARRAY(struct svg_point) point;  /* of the current stroke or loop */
+  struct drawing_polyline chords; /* of the current stroke's curve */
 };
 
 /* ---- Text ---------------------------------------------------------------- */
@@ -105,17 +106,21 @@ static void write_length(const struct svg *svg, double mm) {
 
 /* ---- Geometry ------------------------------------------------------------ */
 
+static struct svg_point round_point(const struct svg *svg,
+                                    struct drawing_point p) {
+  return (struct svg_point){
+      llround(p.x * svg->scale),
+      llround((svg->drawing->height_mm - p.y) * svg->scale)};
+}
+
 /* Rounds points to svg->point, without those that repeat the previous one, and
  * if `closed`, without those at the end that repeat the first.  Returns false
  * when memory ran out. */
-static bool round_points(struct svg *svg, uint32_t first, uint32_t count,
-                         bool closed) {
-  const struct drawing_point *from = svg->drawing->point.item + first;
+static bool round_points(struct svg *svg, const struct drawing_point *from,
+                         uint32_t count, bool closed) {
   svg->point.count = 0;
   for (uint32_t i = 0; i < count; i++) {
-    struct svg_point p = {
-        llround(from[i].x * svg->scale),
-        llround((svg->drawing->height_mm - from[i].y) * svg->scale)};
+    struct svg_point p = round_point(svg, from[i]);
     const struct svg_point *last = ARRAY_AT(&svg->point, svg->point.count);
     if (svg->point.count > 0 && last[-1].x == p.x && last[-1].y == p.y)
       continue;
@@ -141,6 +146,32 @@ static void write_path_data(const struct svg *svg, bool closed) {
   for (size_t i = 0; i < svg->point.count; i++) {
     stream_text(svg->out, i == 0 ? "M" : "L");
     write_point(svg, svg->point.item[i], ' ');
+  }
+  if (closed)
+    stream_text(svg->out, "Z");
+}
+
+/* Writes a curve as path data, without straight pieces that rounding has
+ * reduced to a point. */
+static void write_curve_data(const struct svg *svg,
+                             const struct drawing_curve *curve, bool closed) {
+  const struct drawing_point *control =
+      svg->drawing->control.item + curve->control;
+  struct svg_point last = round_point(svg, control[0]);
+  stream_text(svg->out, "M");
+  write_point(svg, last, ' ');
+  for (uint32_t i = 0; i + 3 < curve->count; i += 3) {
+    struct svg_point end = round_point(svg, control[i + 3]);
+    bool straight = drawing_piece_is_straight(control + i);
+    if (straight && end.x == last.x && end.y == last.y)
+      continue;
+    stream_text(svg->out, straight ? "L" : "C");
+    for (uint32_t k = straight ? 3 : 1; k <= 3; k++) {
+      write_point(svg, round_point(svg, control[i + k]), ' ');
+      if (k < 3)
+        stream_text(svg->out, " ");
+    }
+    last = end;
   }
   if (closed)
     stream_text(svg->out, "Z");
@@ -187,10 +218,26 @@ static void write_stroke_ids(const struct svg *svg,
   stream_text(svg->out, "\"");
 }
 
+/* Rounds the points of a stroke to svg->point: if elements have no curves,
+ * those of a polyline within half a step of its curve. */
+static bool round_stroke(struct svg *svg, const struct drawing_stroke *stroke,
+                         const struct drawing_curve *curve) {
+  const struct drawing *drawing = svg->drawing;
+  if (curve == NULL || !svg->options->polyline)
+    return round_points(svg, drawing->point.item + stroke->point, stroke->count,
+                        stroke->closed);
+  return drawing_flatten(drawing, stroke, curve, 0.5 / svg->scale,
+                         &svg->chords) &&
+         round_points(svg, svg->chords.point.item,
+                      (uint32_t)svg->chords.point.count, stroke->closed);
+}
+
 /* Writes a stroke, unless rounding has reduced it to one point.  Returns false
  * when memory ran out. */
-static bool write_stroke(struct svg *svg, const struct drawing_stroke *stroke) {
-  if (!round_points(svg, stroke->point, stroke->count, stroke->closed))
+static bool write_stroke(struct svg *svg, uint32_t index) {
+  const struct drawing_stroke *stroke = &svg->drawing->stroke.item[index];
+  const struct drawing_curve *curve = drawing_curve_of(svg->drawing, index);
+  if (!round_stroke(svg, stroke, curve))
     return false;
   if (svg->point.count < 2)
     return true;
@@ -202,13 +249,13 @@ static bool write_stroke(struct svg *svg, const struct drawing_stroke *stroke) {
                                   : "<polyline");
   if (svg->drawing->ids)
     write_stroke_ids(svg, stroke);
-  if (polyline) {
-    stream_text(svg->out, " points=\"");
+  stream_text(svg->out, polyline ? " points=\"" : " d=\"");
+  if (polyline)
     write_point_list(svg);
-  } else {
-    stream_text(svg->out, " d=\"");
+  else if (curve != NULL)
+    write_curve_data(svg, curve, closed);
+  else
     write_path_data(svg, closed);
-  }
   stream_text(svg->out, "\"/>\n");
   return true;
 }
@@ -236,7 +283,8 @@ static bool write_fill(struct svg *svg, const struct drawing_fill *fill,
   bool open = false;
   for (uint32_t i = 0; i < fill->loops; i++) {
     const struct drawing_loop *loop = &svg->drawing->loop.item[fill->loop + i];
-    if (!round_points(svg, loop->point, loop->count, true))
+    if (!round_points(svg, svg->drawing->point.item + loop->point, loop->count,
+                      true))
       return false;
     if (svg->point.count < 3)
       continue;
@@ -334,7 +382,7 @@ static bool write_contents(struct svg *svg, uint32_t index) {
       break;
     open_style(svg, &style, class_name(stroke),
                drawing_width_mm(drawing, stroke), width_mm);
-    ok = write_stroke(svg, stroke);
+    ok = write_stroke(svg, (uint32_t)i);
   }
   close_style(svg, &style);
   return ok;
@@ -377,7 +425,8 @@ static void write_head(const struct svg *svg) {
 static recto_status write_svg(const struct drawing *drawing,
                               const struct writer_options *options,
                               struct stream *stream, recto_error *error) {
-  struct svg svg = {drawing, options, stream, 1, {0}};
+  struct svg svg = {
+      .drawing = drawing, .options = options, .out = stream, .scale = 1};
   for (int i = 0; i < options->precision; i++)
     svg.scale *= 10;
   bool ok = true;
@@ -386,6 +435,7 @@ static recto_status write_svg(const struct drawing *drawing,
     ok = write_layer(&svg, i);
   stream_text(stream, "</svg>\n");
   ARRAY_FREE(&svg.point);
+  ARRAY_FREE(&svg.chords.point);
   return ok ? RECTO_OK : error_memory(error);
 }
 

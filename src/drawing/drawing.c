@@ -16,6 +16,8 @@ void drawing_fini(struct drawing *drawing) {
   ARRAY_FREE(&drawing->dropped);
   ARRAY_FREE(&drawing->dropped_point);
   ARRAY_FREE(&drawing->gap_end);
+  ARRAY_FREE(&drawing->curve);
+  ARRAY_FREE(&drawing->control);
   for (size_t i = 0; i < drawing->group_name.count; i++)
     mem_free(drawing->group_name.item[i]);
   ARRAY_FREE(&drawing->group_name);

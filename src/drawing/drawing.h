@@ -24,6 +24,14 @@ struct drawing_stroke {
   bool hidden; /* a hidden part of a line */
 };
 
+/* The cubic Bezier curves that stand for a stroke in formats that have curves:
+ * control points p0 c c p1 c c p2 ..., where every third is a point of the
+ * curve.  The last one of a closed stroke is the first one again.  A straight
+ * piece has its inner control points at its ends. */
+struct drawing_curve {
+  uint32_t control, count; /* 0: there is none, the stroke is its points */
+};
+
 /* A region bounded by closed loops, outer ones and holes, filled even-odd. */
 struct drawing_fill {
   uint32_t loop, loops;
@@ -74,6 +82,8 @@ struct drawing {
    * closed, in pairs. */
   ARRAY(struct drawing_stroke) dropped;
   ARRAY(struct drawing_point) dropped_point, gap_end;
+  ARRAY(struct drawing_curve) curve; /* one a stroke; or none at all */
+  ARRAY(struct drawing_point) control;
   ARRAY(char *) group_name; /* of the scene, owned; written if ids */
   bool ids;                 /* write faces, edges and groups of elements */
   struct drawing_counts counts;
@@ -90,6 +100,27 @@ double drawing_width_mm(const struct drawing *drawing,
 /* The stroke's length in mm, its closing side included. */
 double drawing_stroke_mm(const struct drawing *drawing,
                          const struct drawing_stroke *stroke);
+
+/* The curve of the stroke at `index`; NULL: it has none. */
+const struct drawing_curve *drawing_curve_of(const struct drawing *drawing,
+                                             size_t index);
+
+/* Whether the piece of a curve with these control points is straight. */
+bool drawing_piece_is_straight(const struct drawing_point control[4]);
+
+/* A polyline that is owned by its user. */
+struct drawing_polyline {
+  ARRAY(struct drawing_point) point;
+};
+
+/* Stores a polyline that is nowhere farther than `distance` mm from the curve;
+ * that of a closed stroke does not repeat its first point.
+ * Source  the number of chords: [Filip1986]
+ * Returns false when memory ran out. */
+USE_RESULT bool drawing_flatten(const struct drawing *drawing,
+                                const struct drawing_stroke *stroke,
+                                const struct drawing_curve *curve,
+                                double distance, struct drawing_polyline *line);
 
 /* The drawn length, and the pen-up travel in drawing order over all layers from
  * the lower left corner of the page.  Both in mm.
