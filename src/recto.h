@@ -368,7 +368,9 @@ typedef struct recto_ink_options {
   char unused[6]; /* 0 */
   recto_contours contours; /* silhouettes of the mesh, or of the smooth surface
                               that it samples; not with verify */
-  uint64_t reserved[7];
+  double curves_mm; /* smooth strokes become cubic Bezier curves, no point of
+                       which is farther from them; 0: polylines */
+  uint64_t reserved[6];
 } recto_ink_options;
 
 typedef struct recto_output_options {

@@ -58,6 +58,9 @@ unit_tests += %D%/test_speckles
 %C%_test_speckles_SOURCES = %D%/test_speckles.c %D%/ink_fixture.c %D%/ink_fixture.h
 unit_tests += %D%/test_smooth_contours
 %C%_test_smooth_contours_SOURCES = %D%/test_smooth_contours.c
+unit_tests += %D%/test_curves
+%C%_test_curves_SOURCES = %D%/test_curves.c %D%/drawing_fixture.c \
+  %D%/drawing_fixture.h
 unit_tests += %D%/test_verify
 %C%_test_verify_SOURCES = %D%/test_verify.c %D%/temporary.c %D%/temporary.h
 %C%_test_verify_LDADD = %D%/scenes/libscenes.la $(LDADD)
@@ -69,6 +72,7 @@ dist_check_SCRIPTS += \
   %D%/test_bootstrap.sh \
   %D%/test_cli.sh \
   %D%/test_cli_check.sh \
+  %D%/test_cli_curves.sh \
   %D%/test_cli_descriptors.sh \
   %D%/test_cli_frames.sh \
   %D%/test_cli_margins.sh \

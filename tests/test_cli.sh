@@ -84,6 +84,7 @@ pens 0 1001 1.5 x
 velocity 0 0.5 128 x
 velocity-up 0 0.5 1001 x
 simplify -1
+curves -1 x 5deg
 min-stroke -1
 precision -1 10 x 3.0
 verify 0 -1 x 1.5
@@ -106,7 +107,7 @@ for option in output format from method pitch resolution depth-bits subpixels \
   remove-backs contact view azimuth \
   elevation camera lookat up fov ortho fit no-fit scale near section page \
   landscape margin edges crease contours hidden fill hatch-pitch hatch-angle hatch-inset light pen \
-  pens pen-for pen-width pen-colour weights path order simplify min-stroke exact precision ids stats verify check threads progress quiet \
+  pens pen-for pen-width pen-colour weights path order simplify curves min-stroke exact precision ids stats verify check threads progress quiet \
   completion version help; do
   claim "--$option is there, or refused by name" offered_or_refused "$option"
 done

@@ -75,6 +75,7 @@ done <<'END_OF_ROWS'
 --weights none|a.svg|a.svg -e none --fill paint|lines; --edges none
 --weights none|a.svg|a.hpgl|svg, pdf, eps, ps and png; hpgl
 --simplify 1|a.svg|a.svg -e none --fill hatch|lines; --edges none
+--curves 1|a.svg|a.svg -e none --fill hatch|lines; --edges none
 --pen 1|a.svg -e none --fill hatch|a.svg -e none --fill paint|lines and hatching; --edges none
 --pens 2|a.svg|a.svg -e none --fill paint|lines and hatching; --edges none
 --pen-for hatch=2|a.svg --fill hatch|a.svg -e none --fill paint|lines and hatching; --edges none
@@ -133,7 +134,7 @@ claim "--progress is used by --check" check_reports_progress
 claim "--check looks with the same camera, edges and tolerances" \
   check_uses --view iso --lookat 0,0,1 --fov 20 --no-fit --margin 5 \
   -e all --crease 20 --contact 0 --pen 0.3 --min-stroke 0.1 --exact --pen-width 2=0.5 \
-  --simplify 0.1
+  --simplify 0.1 --curves 0.1
 
 claim "a tolerance is used by --check" check_uses --tolerance 1%
 

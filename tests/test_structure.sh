@@ -37,7 +37,7 @@ check_sources() {
         set_floor("visibility", 6, "brute newell scanline_zbuffer tiles warnock " \
               "watkins zbuffer")
         set_floor("ink", 1, "lines")
-        set_floor("ink", 2, "fill order")
+        set_floor("ink", 2, "curve fill order")
         set_floor("ink", 3, "hatch")
       }
       function set_floor(of, level, folders, i, name, count) {

@@ -63,6 +63,7 @@ class Options(TypedDict, total=False):
     weights: Mapping[str, float]
     order: str
     simplify: float
+    curves: float  # mm
     min_stroke: float
     exact: bool
     ids: bool
@@ -159,6 +160,7 @@ _FIELDS = {
     "pen": ("ink", "pen_mm"),
     "pens": ("ink", "pens"),
     "simplify": ("ink", "simplify_mm"),
+    "curves": ("ink", "curves_mm"),
     "min_stroke": ("ink", "min_stroke_mm"),
     "exact": ("ink", "exact"),
     "ids": ("ink", "ids"),

@@ -168,6 +168,7 @@ static recto_status check_options(const recto_options *o, recto_error *error) {
       {"the number of pens", o->ink.pens, 1, 1000},
       {"the order", o->ink.order, 0, RECTO_ORDER_AUTO},
       {"the simplification length", o->ink.simplify_mm, 0, huge},
+      {"the curves' distance", o->ink.curves_mm, 0, huge},
       {"the length of the shortest stroke", o->ink.min_stroke_mm, -huge, huge},
       {"the precision", o->output.precision, 0, 9},
       {"the resolution of PNG", o->output.dpi, 0, 10000},

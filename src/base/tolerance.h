@@ -224,6 +224,31 @@
  * Ten times   light tones lose most of their lines. */
 #define TOLERANCE_TONE_PENS 6.0
 
+/* The least distance that weights a sample of a curve.
+ * Unit        mm
+ * Derivation  two page grid units: weights, whose inverse square roots these
+ *             are, stay finite and within 1e10 of each other.
+ * Users       ink/curve/cubic_fit.c
+ * Ten times   curves pass a little farther from where lines nearly meet. */
+#define TOLERANCE_FIT_WEIGHT_MM 2e-6
+
+/* Control points of a curve that are to be exactly on a line may be off it by
+ * this.
+ * Unit        mm
+ * Derivation  doubles place a point of a page of 2 m within 1e-12 mm, after a
+ *             dozen operations.
+ * Users       ink/curve/cubic_fit.c
+ * Ten times   nothing that could be seen. */
+#define TOLERANCE_FIT_ROUNDING_MM 1e-10
+
+/* Samples whose normal equations have a smaller determinant lie on a straight
+ * line, and no parabola is fitted to them.
+ * Unit        share of the product of the diagonal
+ * Derivation  half of the digits of doubles, so that what is left has six.
+ * Users       ink/curve/curves.c
+ * Ten times   slightly fewer directions follow a parabola. */
+#define TOLERANCE_PARABOLA_SHARE 1e-6
+
 /* A page may be larger than the paper by this much.
  * Unit        mm
  * Derivation  sizes in inches are rounded, 8.5in is no binary number, and

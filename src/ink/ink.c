@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/poll.h"
+#include "ink/curve/curves.h"
 #include "ink/fill/fill.h"
 #include "ink/layers.h"
 #include "ink/order/stroke_order.h"
@@ -83,10 +84,11 @@ static recto_status make_paths(const struct ink *ink, struct ink_paths *paths,
   return status;
 }
 
-/* Each round of segment_graph_drop_output_overlaps moves a line by at most a
+/* Simplification and curves each move a line by at most their tolerance; each
+ * round of segment_graph_drop_output_overlaps moves a line by at most a
  * unit in x and in y, paths_straighten by at most half a unit. */
 double ink_deviation_mm(const recto_options *options) {
-  return options->ink.simplify_mm +
+  return options->ink.simplify_mm + options->ink.curves_mm +
          (SEGMENT_GRAPH_ROUNDS * sqrt(2) + 0.5) * options->output.unit_mm;
 }
 
@@ -314,7 +316,8 @@ static bool finish_drawing(struct ink *ink) {
       !stroke_order_improve(ink->drawing, &stroke_order_usual_effort))
     return false;
   ink->drawing->counts.pen_lifts = stroke_order_pen_lifts(ink->drawing);
-  return true;
+  return ink->options->ink.curves_mm == 0 ||
+         curves_fit(ink->drawing, ink->options->ink.curves_mm);
 }
 
 recto_status ink_draw(struct drawing *drawing, const struct sheet *sheet,

@@ -5,6 +5,11 @@ librecto_core_la_SOURCES += \
   %D%/look.c %D%/look.h \
   %D%/pens.c %D%/pens.h \
   %D%/pens_warn_unused.c \
+  %D%/curve/clearance.c %D%/curve/clearance.h \
+  %D%/curve/cubic_fit.c %D%/curve/cubic_fit.h \
+  %D%/curve/curve_samples.c %D%/curve/curve_samples.h \
+  %D%/curve/curves.c %D%/curve/curves.h \
+  %D%/curve/stroke_shape.c %D%/curve/stroke_shape.h \
   %D%/fill/fill.c %D%/fill/fill.h \
   %D%/fill/light.c %D%/fill/light.h \
   %D%/fill/merge.c %D%/fill/merge.h \

@@ -58,6 +58,7 @@ static const char *const alternatives[][MAX_ALTERNATIVES] = {
     {"--threads=1", "--threads=2"},
     {"", "--divide=box"},
     {"", "", "--contours=smooth"},
+    {"", "", "--curves=0.1", "--curves=4"},
 };
 
 /* ---- Words --------------------------------------------------------------- */

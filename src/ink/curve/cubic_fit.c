@@ -1,0 +1,167 @@
+/* cubic_fit.c - least squares over the handles of a cubic Bezier curve.
+ *
+ * Robustness  A handle that least squares make negative, or longer than the
+ *   polyline, is a third of the chord instead.  Whether a curve is accepted is
+ *   decided by its distance from the samples alone, however it was found. */
+#include "ink/curve/cubic_fit.h"
+
+#include <math.h>
+
+#include "base/tolerance.h"
+
+/* How often the parameters are improved: more rarely turns a curve that is
+ * outside the tolerance into one that is inside. */
+enum { ROUNDS = 4 };
+
+typedef struct drawing_point point;
+
+static point point_sum(point a, point b) {
+  return (point){a.x + b.x, a.y + b.y};
+}
+
+static point point_difference(point a, point b) {
+  return (point){a.x - b.x, a.y - b.y};
+}
+
+static point point_scaled(point a, double by) {
+  return (point){a.x * by, a.y * by};
+}
+
+static double point_dot(point a, point b) { return a.x * b.x + a.y * b.y; }
+
+/* ---- The curve ----------------------------------------------------------- */
+
+static point cubic_position(const point p[4], double t) {
+  double s = 1 - t;
+  return point_sum(point_sum(point_scaled(p[0], s * s * s),
+                             point_scaled(p[1], 3 * s * s * t)),
+                   point_sum(point_scaled(p[2], 3 * s * t * t),
+                             point_scaled(p[3], t * t * t)));
+}
+
+static point first_derivative(const point p[4], double t) {
+  double s = 1 - t;
+  return point_scaled(
+      point_sum(
+          point_sum(point_scaled(point_difference(p[1], p[0]), s * s),
+                    point_scaled(point_difference(p[2], p[1]), 2 * s * t)),
+          point_scaled(point_difference(p[3], p[2]), t * t)),
+      3);
+}
+
+static point second_derivative(const point p[4], double t) {
+  point a =
+      point_sum(point_difference(p[0], p[1]), point_difference(p[2], p[1]));
+  point b =
+      point_sum(point_difference(p[1], p[2]), point_difference(p[3], p[2]));
+  return point_sum(point_scaled(a, 6 * (1 - t)), point_scaled(b, 6 * t));
+}
+
+/* ---- Least squares ------------------------------------------------------- */
+
+/* Sets the handles to the lengths that minimise the weighted squares of the
+ * distances between the samples and the curve at their parameters. */
+static void set_handles(const struct fit_sample *sample, size_t samples,
+                        const double *t, point start, point end, point c[4]) {
+  double a00 = 0, a01 = 0, a11 = 0, b0 = 0, b1 = 0;
+  for (size_t i = 1; i + 1 < samples; i++) {
+    double s = 1 - t[i], u = t[i];
+    double distance =
+        fmax(fmin(sample[i].from, sample[i - 1].to), TOLERANCE_FIT_WEIGHT_MM);
+    double weight = 1 / (distance * distance);
+    double near = s * s * s + 3 * s * s * u, far = 3 * s * u * u + u * u * u;
+    point one = point_scaled(start, 3 * s * s * u),
+          two = point_scaled(end, -3 * s * u * u);
+    point rest =
+        point_difference(sample[i].at, point_sum(point_scaled(c[0], near),
+                                                 point_scaled(c[3], far)));
+    a00 += weight * point_dot(one, one);
+    a01 += weight * point_dot(one, two);
+    a11 += weight * point_dot(two, two);
+    b0 += weight * point_dot(one, rest);
+    b1 += weight * point_dot(two, rest);
+  }
+  double determinant = a00 * a11 - a01 * a01;
+  double length = sample[samples - 1].along - sample[0].along;
+  double third = sqrt(point_dot(point_difference(c[3], c[0]),
+                                point_difference(c[3], c[0]))) /
+                 3;
+  double first = (b0 * a11 - b1 * a01) / determinant;
+  double last = (b1 * a00 - b0 * a01) / determinant;
+  if (!(first > 0 && first <= length && last > 0 && last <= length))
+    first = last = third;
+  c[1] = point_sum(c[0], point_scaled(start, first));
+  c[2] = point_sum(c[3], point_scaled(end, -last));
+}
+
+/* Moves each parameter towards that of the point of the curve that is nearest
+ * to the sample, by a step of Newton's method. */
+static void improve_parameters(const struct fit_sample *sample, size_t samples,
+                               const point c[4], double *t) {
+  for (size_t i = 1; i + 1 < samples; i++) {
+    point off = point_difference(cubic_position(c, t[i]), sample[i].at);
+    point d1 = first_derivative(c, t[i]), d2 = second_derivative(c, t[i]);
+    double slope = point_dot(d1, d1) + point_dot(off, d2);
+    if (slope > 0)
+      t[i] = fmin(fmax(t[i] - point_dot(off, d1) / slope, 0), 1);
+  }
+}
+
+/* ---- The distance -------------------------------------------------------- */
+
+/* The value at s, t and u of the symmetric function that is linear in each of
+ * them and is the curve where all are equal: its blossom. */
+static point blossom(const point p[4], double s, double t, double u) {
+  point a[3], b[2];
+  for (int i = 0; i < 3; i++)
+    a[i] = point_sum(point_scaled(p[i], 1 - s), point_scaled(p[i + 1], s));
+  for (int i = 0; i < 2; i++)
+    b[i] = point_sum(point_scaled(a[i], 1 - t), point_scaled(a[i + 1], t));
+  return point_sum(point_scaled(b[0], 1 - u), point_scaled(b[1], u));
+}
+
+static double distance_to_line(point p, point a, point b) {
+  point run = point_difference(b, a), off = point_difference(p, a);
+  double length2 = point_dot(run, run);
+  double t = length2 > 0 ? fmin(fmax(point_dot(off, run) / length2, 0), 1) : 0;
+  point rest = point_difference(off, point_scaled(run, t));
+  return sqrt(point_dot(rest, rest));
+}
+
+/* Whether the curve keeps within the distances, and in the samples' order.  The
+ * distance from a line is convex.  So the curve between two parameters is as
+ * near to it as the control points of that part are. */
+static bool keeps_within(const struct fit_sample *sample, size_t samples,
+                         const double *t, const point c[4]) {
+  for (size_t i = 0; i + 1 < samples; i++) {
+    double p = t[i], q = t[i + 1];
+    if (q <= p)
+      return false;
+    const point part[4] = {blossom(c, p, p, p), blossom(c, p, p, q),
+                           blossom(c, p, q, q), blossom(c, q, q, q)};
+    for (int k = 0; k < 4; k++) {
+      double allowed =
+          sample[i].from + k / 3.0 * (sample[i].to - sample[i].from);
+      if (distance_to_line(part[k], sample[i].at, sample[i + 1].at) >
+          allowed + TOLERANCE_FIT_ROUNDING_MM)
+        return false;
+    }
+  }
+  return true;
+}
+
+bool cubic_fit(const struct fit_sample *sample, size_t samples, point start,
+               point end, double *t, point curve[4]) {
+  double from = sample[0].along, to = sample[samples - 1].along;
+  for (size_t i = 0; i < samples; i++)
+    t[i] = (sample[i].along - from) / (to - from);
+  curve[0] = sample[0].at;
+  curve[3] = sample[samples - 1].at;
+  for (int round = 0; round < ROUNDS; round++) {
+    set_handles(sample, samples, t, start, end, curve);
+    if (keeps_within(sample, samples, t, curve))
+      return true;
+    improve_parameters(sample, samples, curve, t);
+  }
+  return false;
+}

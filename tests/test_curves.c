@@ -1,0 +1,425 @@
+/* test_curves.c - curves keep to their strokes: near them, with their ends and
+ * corners, through the places where strokes meet, and without new crossings. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "ink/curve/curves.h"
+#include "tests/drawing_fixture.h"
+#include "tests/memory_faults.h"
+#include "tests/scenes/random.h"
+
+#define PAGE_MM 200.0
+#define TOLERANCE_MM 0.1
+#define FINE_MM 0.0005 /* of chords that stand for a curve */
+
+enum { POINTS_MAX = 1024 };
+
+typedef struct drawing_point point;
+
+/* ---- Strokes ------------------------------------------------------------- */
+
+static void start(struct drawing *drawing) {
+  drawing_fixture_page(drawing, PAGE_MM, PAGE_MM);
+  (void)drawing_fixture_layer(drawing, 1, 0.3, 0);
+}
+
+static void fit(struct drawing *drawing) {
+  assert_true(curves_fit(drawing, TOLERANCE_MM));
+  assert_int_equal(drawing->curve.count, drawing->stroke.count);
+}
+
+/* An arc of an ellipse about the middle of the page, by `count` points. */
+static void add_arc(struct drawing *drawing, double a, double b, double from,
+                    double to, uint32_t count, bool closed) {
+  double xy[2 * POINTS_MAX];
+  for (uint32_t i = 0; i < count; i++) {
+    double t = from + (to - from) * i / (closed ? count : count - 1);
+    xy[2 * i] = PAGE_MM / 2 + a * cos(t);
+    xy[2 * i + 1] = PAGE_MM / 2 + b * sin(t);
+  }
+  drawing_fixture_stroke(drawing, 0, xy, count, closed);
+}
+
+/* How many pieces of a stroke's curve are straight, or are not. */
+static uint32_t count_pieces(const struct drawing *drawing, size_t stroke,
+                             bool straight) {
+  const struct drawing_curve *curve = drawing_curve_of(drawing, stroke);
+  uint32_t pieces = 0;
+  assert_non_null(curve);
+  for (uint32_t i = 0; i + 3 < curve->count; i += 3)
+    pieces += drawing_piece_is_straight(drawing->control.item + curve->control +
+                                        i) == straight;
+  return pieces;
+}
+
+/* A polyline; its user frees `at`. */
+struct polyline {
+  point *at;
+  size_t count; /* a closed one repeats its first point */
+};
+
+static struct polyline close_line(const point *at, size_t count, bool closed) {
+  struct polyline line = {malloc((count + 1) * sizeof *at), count + closed};
+  assert_non_null(line.at);
+  for (size_t i = 0; i < line.count; i++)
+    line.at[i] = at[i % count];
+  return line;
+}
+
+static struct polyline stroke_line(const struct drawing *drawing, size_t i) {
+  const struct drawing_stroke *stroke = &drawing->stroke.item[i];
+  return close_line(drawing->point.item + stroke->point, stroke->count,
+                    stroke->closed);
+}
+
+/* The curve of a stroke by fine chords; the stroke, where it has none. */
+static struct polyline curve_line(const struct drawing *drawing, size_t i) {
+  const struct drawing_stroke *stroke = &drawing->stroke.item[i];
+  const struct drawing_curve *curve = drawing_curve_of(drawing, i);
+  struct drawing_polyline fine = {{NULL, 0, 0}};
+  if (curve == NULL)
+    return stroke_line(drawing, i);
+  assert_true(drawing_flatten(drawing, stroke, curve, FINE_MM, &fine));
+  struct polyline line =
+      close_line(fine.point.item, fine.point.count, stroke->closed);
+  ARRAY_FREE(&fine.point);
+  return line;
+}
+
+/* ---- Distances and crossings --------------------------------------------- */
+
+static double distance_to_side(point p, point a, point b) {
+  double dx = b.x - a.x, dy = b.y - a.y, length2 = dx * dx + dy * dy;
+  double t = length2 > 0 ? ((p.x - a.x) * dx + (p.y - a.y) * dy) / length2 : 0;
+  t = fmin(fmax(t, 0), 1);
+  return hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
+}
+
+static double distance_to_line(point p, const struct polyline *line) {
+  double nearest = INFINITY;
+  for (size_t i = 1; i < line->count; i++)
+    nearest = fmin(nearest, distance_to_side(p, line->at[i - 1], line->at[i]));
+  return nearest;
+}
+
+/* The largest distance of a point of one line from the other line. */
+static double largest_distance(const struct polyline *from,
+                               const struct polyline *to) {
+  double largest = 0;
+  for (size_t i = 0; i < from->count; i++)
+    largest = fmax(largest, distance_to_line(from->at[i], to));
+  return largest;
+}
+
+static double largest_deviation(const struct drawing *drawing, size_t i) {
+  struct polyline stroke = stroke_line(drawing, i);
+  struct polyline curve = curve_line(drawing, i);
+  double deviation = fmax(largest_distance(&stroke, &curve),
+                          largest_distance(&curve, &stroke));
+  free(stroke.at);
+  free(curve.at);
+  return deviation;
+}
+
+static double cross(point o, point a, point b) {
+  return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+}
+
+/* How often the lines cross.  One of them is moved a little, so that no point
+ * of the one is on the other. */
+static size_t count_crossings(const struct polyline *a,
+                              const struct polyline *b) {
+  size_t crossings = 0;
+  for (size_t i = 1; i < a->count; i++)
+    for (size_t k = 1; k < b->count; k++) {
+      point p = a->at[i - 1], q = a->at[i];
+      point r = {b->at[k - 1].x + 1e-7, b->at[k - 1].y + 1.7e-7};
+      point s = {b->at[k].x + 1e-7, b->at[k].y + 1.7e-7};
+      crossings += (cross(p, q, r) > 0) != (cross(p, q, s) > 0) &&
+                   (cross(r, s, p) > 0) != (cross(r, s, q) > 0);
+    }
+  return crossings;
+}
+
+/* ---- Claims -------------------------------------------------------------- */
+
+static void ellipse_becomes_a_few_curves(void **state) {
+  (void)state;
+  for (uint32_t points = 128; points <= POINTS_MAX; points *= 2) {
+    struct drawing drawing;
+    start(&drawing);
+    add_arc(&drawing, 80, 50, 0.1, 2 * M_PI + 0.1, points, true);
+    fit(&drawing);
+    assert_int_equal(count_pieces(&drawing, 0, true), 0);
+    assert_in_range(count_pieces(&drawing, 0, false), 4, 8);
+    assert_true(largest_deviation(&drawing, 0) < TOLERANCE_MM);
+    drawing_fini(&drawing);
+  }
+}
+
+static void ring_has_no_corner_where_it_begins(void **state) {
+  (void)state;
+  struct drawing drawing;
+  start(&drawing);
+  add_arc(&drawing, 60, 60, 1, 2 * M_PI + 1, 256, true);
+  fit(&drawing);
+  const struct drawing_curve *curve = drawing_curve_of(&drawing, 0);
+  const point *first = drawing.control.item + curve->control;
+  const point *last = first + curve->count - 1;
+  assert_true(first->x == last->x && first->y == last->y);
+  double turn = cross(last[-1], *first, first[1]);
+  assert_true(fabs(turn) <
+              1e-9 * hypot(first[1].x - last[-1].x, first[1].y - last[-1].y));
+  drawing_fini(&drawing);
+}
+
+static void open_arc_keeps_its_ends(void **state) {
+  (void)state;
+  struct drawing drawing;
+  start(&drawing);
+  add_arc(&drawing, 70, 40, 0.5, 3.5, 200, false);
+  fit(&drawing);
+  const struct drawing_curve *curve = drawing_curve_of(&drawing, 0);
+  const point *control = drawing.control.item + curve->control;
+  const point *own = drawing.point.item;
+  assert_true(control[0].x == own[0].x && control[0].y == own[0].y);
+  assert_true(control[curve->count - 1].x == own[199].x &&
+              control[curve->count - 1].y == own[199].y);
+  assert_in_range(count_pieces(&drawing, 0, false), 1, 4);
+  drawing_fini(&drawing);
+}
+
+static void polygon_stays_a_polygon(void **state) {
+  (void)state;
+  struct drawing drawing;
+  start(&drawing);
+  drawing_fixture_box(&drawing, 0, 20, 20, 80, 60);
+  drawing_fixture_line(&drawing, 0, 5, 5, 190, 7);
+  add_arc(&drawing, 60, 60, 0, 2 * M_PI, 16, true); /* sides of 23 mm */
+  fit(&drawing);
+  for (size_t i = 0; i < drawing.stroke.count; i++)
+    assert_null(drawing_curve_of(&drawing, i));
+  assert_int_equal(drawing.control.count, 0);
+  drawing_fini(&drawing);
+}
+
+/* Two half circles of 32 sides each, and the two sides between them. */
+static void rounded_slot_keeps_its_straight_sides(void **state) {
+  (void)state;
+  struct drawing drawing;
+  double xy[2 * 66];
+  for (int half = 0; half < 2; half++)
+    for (int i = 0; i <= 32; i++) {
+      double t = M_PI * (half + i / 32.0) - M_PI / 2;
+      xy[2 * (33 * half + i)] = (half == 0 ? 140 : 60) + 20 * cos(t);
+      xy[2 * (33 * half + i) + 1] = 100 + 20 * sin(t);
+    }
+  start(&drawing);
+  drawing_fixture_stroke(&drawing, 0, xy, 66, true);
+  fit(&drawing);
+  assert_int_equal(count_pieces(&drawing, 0, true), 2);
+  assert_in_range(count_pieces(&drawing, 0, false), 2, 6);
+  assert_true(largest_deviation(&drawing, 0) < TOLERANCE_MM);
+  drawing_fini(&drawing);
+}
+
+static void corner_between_arcs_stays(void **state) {
+  (void)state;
+  struct drawing drawing;
+  double xy[2 * 121];
+  for (int i = 0; i <= 120; i++) { /* a lens' tip at i = 60 */
+    double t = (i - 60) / 60.0;
+    xy[2 * i] = 100 + 50 * t;
+    xy[2 * i + 1] = 50 + 60 * fabs(t) - 15 * t * t;
+  }
+  start(&drawing);
+  drawing_fixture_stroke(&drawing, 0, xy, 121, false);
+  fit(&drawing);
+  struct polyline curve = curve_line(&drawing, 0);
+  double nearest = INFINITY;
+  for (size_t i = 0; i < curve.count; i++)
+    nearest = fmin(nearest, hypot(curve.at[i].x - 100, curve.at[i].y - 50));
+  assert_true(nearest == 0);
+  assert_in_range(count_pieces(&drawing, 0, false), 2, 4);
+  free(curve.at);
+  drawing_fini(&drawing);
+}
+
+/* Of strokes that end on an arc the ends stay on its curve. */
+static void curve_passes_where_strokes_meet(void **state) {
+  (void)state;
+  struct drawing drawing;
+  double ends[3] = {0.7, 1.3, 2.2};
+  start(&drawing);
+  add_arc(&drawing, 80, 50, 0.2, 2.9, 150, false);
+  for (int i = 0; i < 3; i++) {
+    const struct polyline arc = {drawing.point.item, 150};
+    point p = {100 + 80 * cos(ends[i]), 100 + 50 * sin(ends[i])};
+    size_t best = 1;
+    for (size_t k = 1; k < arc.count; k++)
+      if (distance_to_side(p, arc.at[k - 1], arc.at[k]) <
+          distance_to_side(p, arc.at[best - 1], arc.at[best]))
+        best = k;
+    point on = {(arc.at[best - 1].x + 2 * arc.at[best].x) / 3,
+                (arc.at[best - 1].y + 2 * arc.at[best].y) / 3};
+    drawing_fixture_line(&drawing, 0, 100, 90, on.x, on.y);
+  }
+  fit(&drawing);
+  struct polyline curve = curve_line(&drawing, 0);
+  for (size_t i = 1; i <= 3; i++) {
+    point end = drawing.point.item[drawing.stroke.item[i].point + 1];
+    assert_true(distance_to_line(end, &curve) < 1e-9);
+  }
+  assert_in_range(count_pieces(&drawing, 0, false), 4, 8);
+  free(curve.at);
+  drawing_fini(&drawing);
+}
+
+/* A wave across the page, with a little noise. */
+static void add_wave(struct drawing *drawing, struct random *random,
+                     double height) {
+  double xy[2 * POINTS_MAX];
+  uint32_t count = 100 + random_below(random, 200);
+  double noise = random_below(random, 2) ? 0 : random_between(random, 0, 0.05);
+  double wave = random_between(random, 1, 5);
+  double size = random_between(random, 1, 12);
+  for (uint32_t i = 0; i < count; i++) {
+    double t = i / (count - 1.0);
+    xy[2 * i] = 20 + 160 * t;
+    xy[2 * i + 1] = height + size * sin(wave * 2 * M_PI * t) +
+                    random_between(random, -noise, noise);
+  }
+  drawing_fixture_stroke(drawing, 0, xy, count, false);
+}
+
+/* Waves, some of which cross, and copies a fraction of the tolerance, or a few
+ * tolerances, above them. */
+static void add_close_waves(struct drawing *drawing, struct random *random) {
+  for (int i = 0; i < 3; i++) {
+    struct random again = *random;
+    double height = random_between(random, 80, 120);
+    again = *random;
+    add_wave(drawing, random, height);
+    add_wave(drawing, &again,
+             height + TOLERANCE_MM * random_between(random, 0.02, 4));
+  }
+}
+
+static void curves_cross_where_strokes_do(void **state) {
+  (void)state;
+  struct random random = {7};
+  size_t crossings = 0, curves = 0;
+  for (int scene = 0; scene < 12; scene++) {
+    struct drawing drawing;
+    start(&drawing);
+    add_close_waves(&drawing, &random);
+    fit(&drawing);
+    for (size_t i = 0; i < drawing.stroke.count; i++) {
+      struct polyline own = stroke_line(&drawing, i);
+      struct polyline curve = curve_line(&drawing, i);
+      assert_true(largest_deviation(&drawing, i) <= TOLERANCE_MM);
+      curves += drawing_curve_of(&drawing, i) != NULL;
+      for (size_t k = 0; k < i; k++) {
+        struct polyline other = stroke_line(&drawing, k);
+        struct polyline other_curve = curve_line(&drawing, k);
+        size_t count = count_crossings(&own, &other);
+        assert_int_equal(count_crossings(&curve, &other_curve), count);
+        crossings += count;
+        free(other.at);
+        free(other_curve.at);
+      }
+      free(own.at);
+      free(curve.at);
+    }
+    drawing_fini(&drawing);
+  }
+  assert_true(crossings > 50);
+  assert_true(curves > 40);
+}
+
+static void chords_are_as_near_as_asked(void **state) {
+  (void)state;
+  struct drawing drawing;
+  start(&drawing);
+  add_arc(&drawing, 80, 50, 0, 2 * M_PI, 512, true);
+  fit(&drawing);
+  struct polyline fine = curve_line(&drawing, 0);
+  size_t before = SIZE_MAX;
+  for (double distance = 0.01; distance < 1; distance *= 4) {
+    struct drawing_polyline line = {{NULL, 0, 0}};
+    assert_true(drawing_flatten(&drawing, &drawing.stroke.item[0],
+                                drawing_curve_of(&drawing, 0), distance,
+                                &line));
+    struct polyline chords =
+        close_line(line.point.item, line.point.count, true);
+    assert_true(largest_distance(&fine, &chords) <= distance + FINE_MM);
+    assert_true(line.point.count < before);
+    before = line.point.count;
+    free(chords.at);
+    ARRAY_FREE(&line.point);
+  }
+  free(fine.at);
+  drawing_fini(&drawing);
+}
+
+/* Any length is a tolerance, and any strokes are strokes. */
+static void odd_strokes_are_survived(void **state) {
+  (void)state;
+  static const double lengths[] = {1e-300, 1e-9, 1e-3, 10, 1e300};
+  struct random random = {3};
+  for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++) {
+    struct drawing drawing;
+    start(&drawing);
+    for (int k = 0; k < 40; k++) {
+      double xy[2 * 12];
+      uint32_t count = 1 + random_below(&random, 12);
+      for (uint32_t j = 0; j < 2 * count; j++)
+        xy[j] = random_int(&random, -3, 8) * (k % 2 ? 1e-4 : 30);
+      drawing_fixture_stroke(&drawing, 0, xy, count, k % 3 == 0 && count > 2);
+    }
+    add_arc(&drawing, 70, 40, 0.5, 3.5, 50, false);
+    assert_true(curves_fit(&drawing, lengths[i]));
+    for (size_t k = 0; k < drawing.control.count; k++)
+      assert_true(isfinite(drawing.control.item[k].x) &&
+                  isfinite(drawing.control.item[k].y));
+    drawing_fini(&drawing);
+  }
+}
+
+static void running_out_of_memory_is_reported(void **state) {
+  (void)state;
+  struct memory_faults faults = {.least = 5};
+  while (memory_faults_go_on(&faults)) {
+    struct drawing drawing;
+    start(&drawing);
+    add_arc(&drawing, 80, 50, 0, 2 * M_PI, 256, true);
+    memory_faults_begin(&faults);
+    bool ok = curves_fit(&drawing, TOLERANCE_MM);
+    memory_faults_end(&faults, memory_faults_status(ok));
+    assert_int_equal(drawing.curve.count, ok);
+    drawing_fini(&drawing);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(ellipse_becomes_a_few_curves),
+      cmocka_unit_test(ring_has_no_corner_where_it_begins),
+      cmocka_unit_test(open_arc_keeps_its_ends),
+      cmocka_unit_test(polygon_stays_a_polygon),
+      cmocka_unit_test(rounded_slot_keeps_its_straight_sides),
+      cmocka_unit_test(corner_between_arcs_stays),
+      cmocka_unit_test(curve_passes_where_strokes_meet),
+      cmocka_unit_test(curves_cross_where_strokes_do),
+      cmocka_unit_test(chords_are_as_near_as_asked),
+      cmocka_unit_test(odd_strokes_are_survived),
+      cmocka_unit_test(running_out_of_memory_is_reported),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
