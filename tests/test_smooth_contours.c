@@ -513,6 +513,59 @@ static void visible_faces_end_at_the_contour(void **state) {
   recto_scene_destroy(scene);
 }
 
+/* ---- Other lines --------------------------------------------------------- */
+
+/* The distance from a point to silhouettes, mm. */
+static double distance_to_silhouettes(const recto_drawing *drawing,
+                                      const double at[2]) {
+  double least = 1e9;
+  for (size_t s = 0; s < recto_drawing_stroke_count(drawing); s++) {
+    recto_stroke stroke;
+    assert_true(recto_drawing_stroke(drawing, s, &stroke));
+    for (size_t i = 0; stroke.edge_class == RECTO_EDGE_SILHOUETTE &&
+                       i + 1 < stroke.count + stroke.closed;
+         i++)
+      least = fmin(least, distance_to_segment(
+                              at, stroke.points + 2 * i,
+                              stroke.points + 2 * ((i + 1) % stroke.count)));
+  }
+  return least;
+}
+
+/* Two sides of a triangle pass behind a sphere. */
+static void lines_end_at_the_contour_in_front_of_them(void **state) {
+  (void)state;
+  const double point[9] = {-1.3, -0.3, -1.1, 1.3, -0.2, -1.1, -1.3, 0.6, -1.1};
+  const uint32_t corner[3] = {0, 1, 2};
+  const recto_mesh mesh = {.points = point,
+                           .point_count = 3,
+                           .corners = corner,
+                           .corner_count = 3,
+                           .face_size = 3};
+  recto_scene *scene = make_scene(sphere, true, 32, 16);
+  assert_int_equal(recto_scene_add_mesh(scene, &mesh, NULL), RECTO_OK);
+  for (int view = 0; view < VIEWS; view++) {
+    recto_options options;
+    init_view(&options, view);
+    options.camera.azimuth_deg = view - 10;
+    options.camera.elevation_deg = 2 * view - 20;
+    options.ink.edges |= RECTO_EDGE_BORDER;
+    recto_drawing *drawing = draw(scene, &options);
+    int ends = 0;
+    for (size_t s = 0; s < recto_drawing_stroke_count(drawing); s++) {
+      recto_stroke stroke;
+      assert_true(recto_drawing_stroke(drawing, s, &stroke));
+      for (size_t i = 0; i < 2 && stroke.edge_class == RECTO_EDGE_BORDER; i++)
+        ends +=
+            distance_to_silhouettes(
+                drawing, stroke.points + 2 * i * (stroke.count - 1)) < 0.002;
+    }
+    assert_int_equal(ends, 4);
+    recto_drawing_destroy(drawing);
+  }
+  recto_scene_destroy(scene);
+}
+
 /* ---- What is not smooth -------------------------------------------------- */
 
 /* From the tip down its side, which ends at three quarters of v, to the middle
@@ -626,6 +679,7 @@ int main(void) {
       cmocka_unit_test(the_contour_of_an_ellipsoid_is_one_stroke),
       cmocka_unit_test(the_contours_of_tubes_are_their_visible_pieces),
       cmocka_unit_test(visible_faces_end_at_the_contour),
+      cmocka_unit_test(lines_end_at_the_contour_in_front_of_them),
       cmocka_unit_test(the_contour_of_a_cone_starts_at_its_tip),
       cmocka_unit_test(a_part_of_creases_is_drawn_by_its_own_edges),
       cmocka_unit_test(smooth_contours_are_the_same_by_all_methods),

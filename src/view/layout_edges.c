@@ -95,6 +95,7 @@ static recto_status make_edges(struct layout *layout,
                                struct edge_ids *edge_ids) {
   const struct topology *topology = layout->topology;
   unsigned wanted = layout->options->ink.edges & face_classes;
+  unsigned silhouette = RECTO_EDGE_SILHOUETTE;
   for (uint32_t e = 0; e < topology->edge.count; e++) {
     const struct topology_edge *edge = &topology->edge.item[e];
     if (e % 64 == 0)
@@ -104,10 +105,9 @@ static recto_status make_edges(struct layout *layout,
       return error_cancelled(layout->error);
     if (class_masks != NULL)
       edge_class = lowest_bit(
-          (has_mesh_contours(coarse, edge->point[0])
-               ? class_mask_of(edge, class_masks[e], layout->sides[e])
-               : class_masks[e]) &
-          wanted);
+          class_mask_of(edge, class_masks[e], layout->sides[e]) &
+          (has_mesh_contours(coarse, edge->point[0]) ? wanted
+                                                     : wanted & ~silhouette));
     bool contour = edge->uses != 2 || layout->sides[e] != LAYOUT_PLAIN;
     if (!edge_class && !layout->outlines && !contour)
       continue;

@@ -31,7 +31,9 @@ librecto_core_la_SOURCES += \
   %D%/contour/corner_moves.c %D%/contour/corner_moves.h \
   %D%/contour/facing.c %D%/contour/facing.h \
   %D%/contour/fit_fragments.c %D%/contour/fit_fragments.h \
+  %D%/contour/line_ends.c %D%/contour/line_ends.h \
   %D%/contour/page_crossings.c %D%/contour/page_crossings.h \
+  %D%/contour/segment_grid.c %D%/contour/segment_grid.h \
   %D%/contour/zero_set.c %D%/contour/zero_set.h \
   %D%/newell/newell.c \
   %D%/newell/newell_order.c %D%/newell/newell_order.h \

@@ -11,6 +11,7 @@
 #include "base/sort.h"
 #include "view/clip.h"
 #include "visibility/contour/fit_fragments.h"
+#include "visibility/contour/line_ends.h"
 #include "visibility/contour/page_crossings.h"
 #include "visibility/index/triangle_grid.h"
 
@@ -368,6 +369,16 @@ static bool add_pieces(struct contour_pieces *c) {
   return ok;
 }
 
+/* Makes other lines and the visible fragments end at the contours, which are the
+ * sheet's edges from `first` on. */
+static bool end_at_contours(const struct sheet *sheet, struct map *map,
+                            const struct topology *topology, uint32_t first) {
+  return first == sheet->edge.count ||
+         (line_ends_move(map, sheet, first) &&
+          (map->fragment.count == 0 ||
+           fit_fragments(map, sheet, topology, first)));
+}
+
 recto_status smooth_contours_add(struct sheet *sheet, struct map *map,
                                  const struct topology *topology,
                                  double crease_deg, int hidden_max,
@@ -390,8 +401,7 @@ recto_status smooth_contours_add(struct sheet *sheet, struct map *map,
                                   .crease_deg = crease_deg,
                                   .hidden_max = hidden_max};
   if (status == RECTO_OK &&
-      !(add_pieces(&pieces) && (map->fragment.count == 0 ||
-                                fit_fragments(map, sheet, topology, first))))
+      !(add_pieces(&pieces) && end_at_contours(sheet, map, topology, first)))
     status = error_memory(error);
   *counts = (struct smooth_contours_counts){
       set.segment.count, curves.curve.count, pieces.piece_count};

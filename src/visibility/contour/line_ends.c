@@ -1,0 +1,220 @@
+/* line_ends.c - moves the ends of visible intervals to smooth contours. */
+#include "visibility/contour/line_ends.h"
+
+#include <math.h>
+
+#include "base/poll.h"
+#include "base/sort.h"
+#include "visibility/contour/segment_grid.h"
+
+/* Where an edge crosses a contour. */
+struct line_crossing {
+  uint32_t edge;
+  double t;     /* of the edge */
+  double bound; /* how far an end may be moved there, in t */
+  bool leaves;  /* from the contour's left to its right */
+  bool own;     /* the edge is one of the contour's triangle's face; else it is
+                   behind the contour */
+};
+
+struct line_ends {
+  struct map *map;
+  const struct sheet *sheet;
+  uint32_t first;
+  struct segment_grid grid;
+  ARRAY(struct line_crossing) crossing;
+};
+
+/* ---- Crossings ----------------------------------------------------------- */
+
+static bool add_lines(struct line_ends *l) {
+  const struct sheet *sheet = l->sheet;
+  for (uint32_t e = l->first; e < sheet->edge.count; e++)
+    if (l->map->edge_state[e] == MAP_VISIBLE &&
+        !segment_grid_add(
+            &l->grid, sheet_ends(sheet, sheet->edge.item[e].point), e, false))
+      return false;
+  l->grid.contours = l->grid.segment.count;
+  for (uint32_t e = 0; e < l->first; e++)
+    if (l->map->edge_state[e] != MAP_HIDDEN && sheet_edge_is_drawn(sheet, e) &&
+        !segment_grid_add(
+            &l->grid, sheet_ends(sheet, sheet->edge.item[e].point), e, false))
+      return false;
+  return true;
+}
+
+/* Whether a face is one of an edge's first two. */
+static bool has_face(const struct sheet *sheet, const struct sheet_edge *edge,
+                     uint32_t face) {
+  for (int k = 0; k < 2; k++)
+    if (edge->triangle[k] != SHEET_NONE &&
+        sheet->triangle.item[edge->triangle[k]].face == face)
+      return true;
+  return false;
+}
+
+static double diameter(const struct sheet *sheet, uint32_t triangle) {
+  struct geom_triangle t = sheet_corners(sheet, triangle);
+  double most = 0;
+  for (int k = 0; k < 3; k++) {
+    struct geom_point p = t.p[k], q = t.p[geom_next_corner(k)];
+    most = fmax(most, hypot((double)q.x - p.x, (double)q.y - p.y));
+  }
+  return most;
+}
+
+static bool add_crossing(struct line_ends *l,
+                         const struct page_segment *contour,
+                         const struct page_segment *line) {
+  const struct sheet *sheet = l->sheet;
+  const struct sheet_edge *edge = &sheet->edge.item[line->owner];
+  uint32_t triangle = sheet->edge.item[contour->owner].triangle[0];
+  double s, t;
+  if (triangle == SHEET_NONE || !page_segments_cross(contour, line, &s, &t))
+    return true;
+  struct line_crossing made = {
+      .edge = line->owner,
+      .t = t,
+      .bound = diameter(sheet, triangle) / hypot((double)line->q.x - line->p.x,
+                                                 (double)line->q.y - line->p.y),
+      .leaves = geom_orient2d(contour->p, contour->q, line->p) >= 0,
+      .own = has_face(sheet, edge, sheet->triangle.item[triangle].face)};
+  return (!made.own &&
+          page_segment_depth(contour, s) <= page_segment_depth(line, t)) ||
+         ARRAY_PUSH(&l->crossing, made);
+}
+
+static bool find_crossings(struct line_ends *l) {
+  const uint32_t *item = l->grid.cell.item, *start = l->grid.cell.start;
+  const struct page_segment *all = l->grid.segment.item;
+  size_t cells = triangle_grid_cell_count(&l->grid.cell);
+  for (size_t cell = 0; cell < cells; cell++) {
+    if (!poll_at(cell))
+      return false;
+    /* Lists descend: the contours are at the end. */
+    for (uint32_t i = start[cell + 1];
+         i-- > start[cell] && item[i] < l->grid.contours;)
+      for (uint32_t j = start[cell]; item[j] >= l->grid.contours; j++)
+        if (!add_crossing(l, &all[item[i]], &all[item[j]]))
+          return false;
+  }
+  return true;
+}
+
+/* ---- Intervals ----------------------------------------------------------- */
+
+/* The place to which the end of an interval is moved, of an edge's crossings; t
+ * where it stays.
+ * other  the interval's other end
+ * limit  where the next interval begins, or the edge ends */
+static double moved_end(const struct line_crossing *crossing, size_t count,
+                        double t, double other, double limit) {
+  bool up = t > other;
+  double best = t;
+  bool is_cut = false;
+  for (size_t i = 0; i < count; i++) {
+    const struct line_crossing *c = &crossing[i];
+    double beyond = up ? c->t - t : t - c->t;
+    if (fabs(beyond) > c->bound || c->t <= 0 || c->t >= 1)
+      continue;
+    bool leaves = c->leaves == up;
+    bool inside = beyond < 0 && (up ? c->t > other : c->t < other);
+    if (c->own && leaves && inside) {
+      if (!is_cut || (up ? c->t < best : c->t > best))
+        best = c->t;
+      is_cut = true;
+    } else if (!c->own && !is_cut && !leaves && beyond > 0 &&
+               (up ? c->t < limit : c->t > limit) &&
+               (best == t || (up ? c->t < best : c->t > best))) {
+      best = c->t;
+    }
+  }
+  return best;
+}
+
+static struct ratio ratio_near(double t) {
+  return ratio_of((int64_t)ldexp(t, 40), INT64_C(1) << 40);
+}
+
+/* Moves the ends of an edge's intervals. */
+static void move_ends(struct map_interval *interval, uint32_t count,
+                      const struct line_crossing *crossing, size_t crossings) {
+  for (uint32_t i = 0; i < count; i++) {
+    double t0 = ratio_to_double(interval[i].t0);
+    double t1 = ratio_to_double(interval[i].t1);
+    double before = i > 0 ? ratio_to_double(interval[i - 1].t1) : 0;
+    double after = i + 1 < count ? ratio_to_double(interval[i + 1].t0) : 1;
+    double from = moved_end(crossing, crossings, t0, t1, before);
+    double to = moved_end(crossing, crossings, t1, t0, after);
+    if (from >= to)
+      continue;
+    if (from != t0)
+      interval[i].t0 = ratio_near(from);
+    if (to != t1)
+      interval[i].t1 = ratio_near(to);
+  }
+}
+
+static int compare_edges(const void *a, const void *b, void *user) {
+  const struct map_mixed *p = a, *q = b;
+  (void)user;
+  return (p->edge > q->edge) - (p->edge < q->edge);
+}
+
+static int compare_crossings(const void *a, const void *b, void *user) {
+  const struct line_crossing *p = a, *q = b;
+  (void)user;
+  return (p->edge > q->edge) - (p->edge < q->edge);
+}
+
+static bool is_whole(const struct map_interval *interval) {
+  return interval->t0.num == 0 && interval->t1.num == interval->t1.den;
+}
+
+/* Moves the ends of an edge that is visible as a whole. */
+static bool cut_whole(struct map *map, const struct line_crossing *crossing,
+                      size_t crossings) {
+  struct map_interval whole = {ratio_of(0, 1), ratio_of(1, 1)};
+  struct map_mixed made = {crossing->edge, (uint32_t)map->interval.count, 1};
+  move_ends(&whole, 1, crossing, crossings);
+  if (is_whole(&whole))
+    return true;
+  map->edge_state[crossing->edge] = MAP_MIXED;
+  return ARRAY_PUSH(&map->interval, whole) && ARRAY_PUSH(&map->mixed, made);
+}
+
+static bool move_all(struct line_ends *l) {
+  struct map *map = l->map;
+  const struct line_crossing *all = l->crossing.item;
+  size_t mixed = 0, known = map->mixed.count;
+  if (!sort_stable(l->crossing.item, l->crossing.count, sizeof *all,
+                   compare_crossings, NULL))
+    return false;
+  for (size_t i = 0, j; i < l->crossing.count; i = j) {
+    for (j = i + 1; j < l->crossing.count && all[j].edge == all[i].edge;)
+      j++;
+    while (mixed < known && map->mixed.item[mixed].edge < all[i].edge)
+      mixed++;
+    if (map->edge_state[all[i].edge] == MAP_VISIBLE) {
+      if (!cut_whole(map, &all[i], j - i))
+        return false;
+    } else if (mixed < known && map->mixed.item[mixed].edge == all[i].edge) {
+      const struct map_mixed *own = &map->mixed.item[mixed];
+      move_ends(&map->interval.item[own->interval], own->count, &all[i], j - i);
+    }
+  }
+  return sort_stable(map->mixed.item, map->mixed.count, sizeof *map->mixed.item,
+                     compare_edges, NULL);
+}
+
+bool line_ends_move(struct map *map, const struct sheet *sheet,
+                    uint32_t first) {
+  struct line_ends l = {.map = map, .sheet = sheet, .first = first};
+  bool ok =
+      add_lines(&l) &&
+      (l.grid.contours == 0 || l.grid.contours == l.grid.segment.count ||
+       (segment_grid_make(&l.grid) && find_crossings(&l) && move_all(&l)));
+  segment_grid_fini(&l.grid);
+  ARRAY_FREE(&l.crossing);
+  return ok;
+}

@@ -1,0 +1,91 @@
+/* segment_grid.c - lists segments of the page by the cells of a uniform grid. */
+#include "visibility/contour/segment_grid.h"
+
+bool segment_grid_add(struct segment_grid *grid, struct geom_segment segment,
+                      uint32_t owner, bool touches) {
+  struct page_segment made = {segment.p, segment.q, owner, touches};
+  return (made.p.x == made.q.x && made.p.y == made.q.y) ||
+         ARRAY_PUSH(&grid->segment, made);
+}
+
+static struct box2 box_of_segment(const struct page_segment *s) {
+  return (struct box2){box2_min(s->p.x, s->q.x), box2_min(s->p.y, s->q.y),
+                       box2_max(s->p.x, s->q.x), box2_max(s->p.y, s->q.y)};
+}
+
+/* Counts a segment in the lists of the cells that it meets, or stores it. */
+static void list_segment(struct segment_grid *grid, uint32_t segment,
+                         bool store) {
+  struct triangle_grid *cell = &grid->cell;
+  const struct page_segment *s = &grid->segment.item[segment];
+  struct cell_range range = triangle_grid_cells(cell, box_of_segment(s));
+  for (int y = range.y0; y <= range.y1; y++) {
+    int x0, x1;
+    triangle_grid_row(cell, s->p, s->q, range, y, &x0, &x1);
+    for (int x = x0; x <= x1; x++) {
+      uint32_t *end =
+          &cell->start[(size_t)y * (size_t)cell->columns + (size_t)x];
+      if (store)
+        cell->item[--*end] = segment;
+      else
+        ++*end;
+    }
+  }
+}
+
+bool segment_grid_make(struct segment_grid *grid) {
+  struct triangle_grid *cell = &grid->cell;
+  struct box2 all = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
+  for (size_t i = 0; i < grid->contours; i++) {
+    struct box2 box = box_of_segment(&grid->segment.item[i]);
+    all = (struct box2){box2_min(all.x0, box.x0), box2_min(all.y0, box.y0),
+                        box2_max(all.x1, box.x1), box2_max(all.y1, box.y1)};
+  }
+  cell->x0 = all.x0;
+  cell->y0 = all.y0;
+  do {
+    cell->shift++;
+    cell->columns = (int)(((int64_t)all.x1 - all.x0) >> cell->shift) + 1;
+    cell->rows = (int)(((int64_t)all.y1 - all.y0) >> cell->shift) + 1;
+  } while ((uint64_t)cell->columns * (uint64_t)cell->rows >
+           2 * grid->segment.count + 16);
+  size_t cells = triangle_grid_cell_count(cell);
+  cell->start = mem_calloc(cells + 1, sizeof *cell->start);
+  if (cell->start == NULL)
+    return false;
+  for (uint32_t i = 0; i < grid->segment.count; i++)
+    list_segment(grid, i, false);
+  for (size_t i = 1; i <= cells; i++)
+    cell->start[i] += cell->start[i - 1];
+  cell->item = mem_alloc(cell->start[cells], sizeof *cell->item);
+  if (cell->item == NULL)
+    return false;
+  for (uint32_t i = 0; i < grid->segment.count; i++)
+    list_segment(grid, i, true);
+  return true;
+}
+
+void segment_grid_fini(struct segment_grid *grid) {
+  ARRAY_FREE(&grid->segment);
+  mem_free(grid->cell.start);
+  mem_free(grid->cell.item);
+}
+
+static bool is_joined(const struct page_segment *a,
+                      const struct page_segment *b) {
+  return geom_same_point(a->p, b->p) || geom_same_point(a->p, b->q) ||
+         geom_same_point(a->q, b->p) || geom_same_point(a->q, b->q);
+}
+
+bool page_segments_cross(const struct page_segment *a,
+                         const struct page_segment *b, double *s, double *t) {
+  int64_t bp = geom_orient2d(a->p, a->q, b->p),
+          bq = geom_orient2d(a->p, a->q, b->q),
+          ap = geom_orient2d(b->p, b->q, a->p),
+          aq = geom_orient2d(b->p, b->q, a->q);
+  if ((bp < 0) == (bq < 0) || (ap < 0) == (aq < 0) || is_joined(a, b))
+    return false;
+  *s = (double)ap / ((double)ap - (double)aq);
+  *t = (double)bp / ((double)bp - (double)bq);
+  return true;
+}
