@@ -150,6 +150,7 @@ static void init_view(recto_options *options, int view) {
   options->page.width_mm = options->page.height_mm = PAGE_MM;
   options->ink.edges = RECTO_EDGE_SILHOUETTE;
   options->ink.contours = RECTO_CONTOURS_SMOOTH;
+  options->ink.exact = true;
 }
 
 /* The directions on the page, and towards the viewer; up is +Y. */
