@@ -1,26 +1,11 @@
 /* zero_set.c - finds where the facing of a smooth surface changes sign. */
-#include "visibility/contour/zero_set.h"
+#include "visibility/contour/zero_finder.h"
 
 #include <string.h>
 
 #include "base/poll.h"
 #include "view/clip.h"
 #include "view/triangulate.h"
-
-/* A share of a triangle's height that is nearly nothing. */
-#define CREASE_SHARE 0x1p-10
-
-struct zero_finder {
-  struct zero_set *set;
-  const struct facing *facing;
-  struct projection projection;
-  uint32_t *edge_node; /* two a topology edge: its node, where normals are split
-                          those of its first and its second face; SHEET_NONE */
-  uint32_t *point_node;          /* one a scene point; NULL: none yet */
-  ARRAY(uint32_t) diagonal_node; /* of the current face */
-  ARRAY(uint32_t) corner;        /* of the current face, welded */
-  struct triangulation triangulation;
-};
 
 void zero_set_fini(struct zero_set *set) {
   ARRAY_FREE(&set->node);
@@ -30,14 +15,8 @@ void zero_set_fini(struct zero_set *set) {
 
 /* ---- Nodes and segments -------------------------------------------------- */
 
-static struct view_point view_of(const struct zero_finder *z,
-                                 const double at[3]) {
-  return camera_view(z->facing->camera,
-                     &(struct scene_point){at[0], at[1], at[2]});
-}
-
-static bool add_node(struct zero_finder *z, const double at[3], uint32_t front,
-                     uint32_t back, uint32_t *node) {
+bool zero_finder_add_node(struct zero_finder *z, const double at[3],
+                          uint32_t front, uint32_t back, uint32_t *node) {
   struct contour_node made = {.at = {at[0], at[1], at[2]},
                               .front = front,
                               .back = back,
@@ -68,18 +47,17 @@ static bool add_crossing(struct zero_finder *z, uint32_t c, uint32_t d,
   for (int k = 0; k < 3; k++)
     at[k] = p[k] + t * (q[k] - p[k]);
   bool a_is_back = facing_is_back(f, a);
-  return add_node(z, at, a_is_back ? b : a, a_is_back ? a : b, node);
+  return zero_finder_add_node(z, at, a_is_back ? b : a, a_is_back ? a : b,
+                              node);
 }
 
-/* Adds a segment, clipped to the page.  A node that is outside gives way to a
- * new one on the border. */
-static bool add_segment(struct zero_finder *z, struct contour_segment s) {
+bool zero_finder_add_segment(struct zero_finder *z, struct contour_segment s) {
   double at[2][3];
   struct view_point end[2];
   bool outside = false, moved[2] = {false, false};
   for (int k = 0; k < 2; k++) {
     memcpy(at[k], z->set->node.item[s.node[k]].at, sizeof at[k]);
-    end[k] = view_of(z, at[k]);
+    end[k] = zero_finder_view(z, at[k]);
     outside = outside || clip_outcode(&z->projection, end[k]) != 0;
   }
   if (outside && !clip_segment(&z->projection, end, moved))
@@ -90,7 +68,7 @@ static bool add_segment(struct zero_finder *z, struct contour_segment s) {
       for (int i = 0; i < 3; i++)
         at[k][i] = camera->eye[i] + end[k].x * camera->right[i] +
                    end[k].y * camera->up[i] - end[k].d * camera->back[i];
-      if (!add_node(z, at[k], SHEET_NONE, SHEET_NONE, &s.node[k]))
+      if (!zero_finder_add_node(z, at[k], SHEET_NONE, SHEET_NONE, &s.node[k]))
         return false;
     }
   for (int k = 0; k < 2; k++) {
@@ -194,7 +172,7 @@ static bool cross_triangle(struct zero_finder *z, uint32_t face,
   for (int k = 0; k < 2; k++)
     add_normal(f, &z->set->node.item[s.node[k]], s.normal);
   (void)vector_normalise(s.normal);
-  return add_segment(z, s);
+  return zero_finder_add_segment(z, s);
 }
 
 static bool cross_polygon(struct zero_finder *z, uint32_t face, uint32_t start,
@@ -242,147 +220,6 @@ static bool cross_face(struct zero_finder *z, uint32_t face) {
   return p == q || q == r || r == p || cross_triangle(z, face, corner, side);
 }
 
-/* ---- Creases ------------------------------------------------------------- */
-
-static bool node_of_vertex(struct zero_finder *z, uint32_t point,
-                           uint32_t *node) {
-  double at[3];
-  if (z->point_node == NULL) {
-    size_t size = z->facing->scene->point.count * sizeof *z->point_node;
-    z->point_node =
-        mem_alloc(z->facing->scene->point.count, sizeof *z->point_node);
-    if (z->point_node == NULL)
-      return false;
-    memset(z->point_node, 0xff, size);
-  }
-  *node = z->point_node[point];
-  if (*node != SHEET_NONE)
-    return true;
-  facing_position(z->facing, point, at);
-  if (!add_node(z, at, SHEET_NONE, SHEET_NONE, node))
-    return false;
-  z->point_node[point] = *node;
-  return true;
-}
-
-static bool is_front(const struct facing *f, uint32_t face) {
-  double n[3], at[3], v[3];
-  newell_normal_of_face(f->scene, face, n);
-  facing_position(f, facing_point(f, f->scene->face_start.item[face]), at);
-  facing_view(f->camera, at, v);
-  return vector_dot(n, v) < 0;
-}
-
-/* The segment along a crease from one node to another. */
-static bool add_along_crease(struct zero_finder *z, uint32_t edge,
-                             const uint32_t node[2]) {
-  const struct facing *f = z->facing;
-  const struct topology_edge *e = &f->topology->edge.item[edge];
-  struct contour_segment s = {
-      .node = {node[0], node[1]}, .face = e->first, .along_crease = true};
-  double first[3], second[3], at[3], beyond[3], along[3];
-  uint32_t c = facing_corner_of_edge(f, e->second, edge);
-  newell_normal_of_face(f->scene, e->first, first);
-  newell_normal_of_face(f->scene, e->second, second);
-  double least = fmin(vector_dot(first, first), vector_dot(second, second));
-  (void)vector_normalise(first);
-  (void)vector_normalise(second);
-  facing_position(f, e->point[0], at);
-  facing_position(f, e->point[1], along);
-  /* Convex where the other face lies behind this one. */
-  facing_position(
-      f,
-      facing_point(
-          f, scene_next_corner(f->scene, e->second,
-                               scene_next_corner(f->scene, e->second, c))),
-      beyond);
-  for (int k = 0; k < 3; k++) {
-    s.normal[k] = first[k] + (e->same_way ? -second[k] : second[k]);
-    beyond[k] -= at[k];
-    along[k] -= at[k];
-  }
-  (void)vector_normalise(s.normal);
-  s.radial = -vector_dot(beyond, first);
-  /* Where the faces themselves fold over, the mesh about it is not uneven. */
-  s.width = sqrt(least / vector_dot(along, along));
-  if ((is_front(f, e->first) == is_front(f, e->second)) == e->same_way)
-    s.width *= CREASE_SHARE;
-  return add_segment(z, s);
-}
-
-/* The segments along a crease: where its two faces have different signs. */
-static bool cross_crease(struct zero_finder *z, uint32_t edge) {
-  const struct facing *f = z->facing;
-  const struct topology_edge *e = &f->topology->edge.item[edge];
-  const uint32_t face[2] = {e->first, e->second};
-  bool differ = e->same_way;
-  uint32_t stop[4]; /* nodes from end to end */
-  int count = 1;
-  for (int k = 0; k < 2; k++) {
-    uint32_t c = facing_corner_of_edge(f, face[k], edge);
-    if (c == SHEET_NONE)
-      return true;
-    if (facing_point(f, c) != e->point[0])
-      c = scene_next_corner(f->scene, face[k], c);
-    differ = differ != facing_is_back(f, facing_slot(f, c));
-    if (z->edge_node[2 * (size_t)edge + (size_t)k] != SHEET_NONE)
-      stop[count++] = z->edge_node[2 * (size_t)edge + (size_t)k];
-  }
-  if (!differ && count == 1)
-    return true;
-  if (!node_of_vertex(z, e->point[0], &stop[0]) ||
-      !node_of_vertex(z, e->point[1], &stop[count]))
-    return false;
-  if (count == 3) { /* in order along the edge */
-    double away[2];
-    for (int k = 0; k < 2; k++) {
-      double d[3];
-      for (int i = 0; i < 3; i++)
-        d[i] = z->set->node.item[stop[k + 1]].at[i] -
-               z->set->node.item[stop[0]].at[i];
-      away[k] = vector_dot(d, d);
-    }
-    if (away[1] < away[0]) {
-      uint32_t swap = stop[1];
-      stop[1] = stop[2];
-      stop[2] = swap;
-    }
-  }
-  for (int k = 0; k < count; k++, differ = !differ)
-    if (differ && !add_along_crease(z, edge, &stop[k]))
-      return false;
-  return true;
-}
-
-/* ---- Borders ------------------------------------------------------------- */
-
-/* Whether the surface ends at an edge, or folds over at one of a part that has
- * no smooth contours. */
-static bool is_occluding(const struct facing *f, uint32_t edge) {
-  const struct topology_edge *e = &f->topology->edge.item[edge];
-  if (e->uses != 2)
-    return true;
-  return f->coarse[e->point[0]] &&
-         (is_front(f, e->first) == is_front(f, e->second)) == e->same_way;
-}
-
-static bool add_border_image(struct zero_finder *z, uint32_t edge) {
-  struct view_point end[2];
-  bool moved[2], outside = false;
-  for (int k = 0; k < 2; k++) {
-    double at[3];
-    facing_position(z->facing, z->facing->topology->edge.item[edge].point[k],
-                    at);
-    end[k] = view_of(z, at);
-    outside = outside || clip_outcode(&z->projection, end[k]) != 0;
-  }
-  if (outside && !clip_segment(&z->projection, end, moved))
-    return true;
-  struct geom_segment image = {project_point(&z->projection, end[0]),
-                               project_point(&z->projection, end[1])};
-  return ARRAY_PUSH(&z->set->border, image);
-}
-
 /* ---- The whole ----------------------------------------------------------- */
 
 static bool cross_all(struct zero_finder *z) {
@@ -399,11 +236,11 @@ static bool cross_all(struct zero_finder *z) {
     if (!poll_at(e))
       return false;
     const struct topology_edge *edge = &f->topology->edge.item[e];
-    if (is_occluding(f, e) && !add_border_image(z, e))
+    if (!zero_finder_add_border(z, e))
       return false;
     if (edge->uses == 2 && edge->first != edge->second &&
         !f->coarse[edge->point[0]] && facing_is_split(f, e) &&
-        !cross_crease(z, e))
+        !zero_finder_cross_crease(z, e))
       return false;
   }
   return true;

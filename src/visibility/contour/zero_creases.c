@@ -1,0 +1,149 @@
+/* zero_creases.c - the contour along creases, and the borders of a surface. */
+#include "visibility/contour/zero_finder.h"
+
+#include <string.h>
+
+/* A share of a triangle's height that is nearly nothing. */
+#define CREASE_SHARE 0x1p-10
+
+/* ---- Creases ------------------------------------------------------------- */
+
+static bool node_of_vertex(struct zero_finder *z, uint32_t point,
+                           uint32_t *node) {
+  double at[3];
+  if (z->point_node == NULL) {
+    size_t size = z->facing->scene->point.count * sizeof *z->point_node;
+    z->point_node =
+        mem_alloc(z->facing->scene->point.count, sizeof *z->point_node);
+    if (z->point_node == NULL)
+      return false;
+    memset(z->point_node, 0xff, size);
+  }
+  *node = z->point_node[point];
+  if (*node != SHEET_NONE)
+    return true;
+  facing_position(z->facing, point, at);
+  if (!zero_finder_add_node(z, at, SHEET_NONE, SHEET_NONE, node))
+    return false;
+  z->point_node[point] = *node;
+  return true;
+}
+
+static bool is_front(const struct facing *f, uint32_t face) {
+  double n[3], at[3], v[3];
+  newell_normal_of_face(f->scene, face, n);
+  facing_position(f, facing_point(f, f->scene->face_start.item[face]), at);
+  facing_view(f->camera, at, v);
+  return vector_dot(n, v) < 0;
+}
+
+/* The segment along a crease from one node to another. */
+static bool add_along_crease(struct zero_finder *z, uint32_t edge,
+                             const uint32_t node[2]) {
+  const struct facing *f = z->facing;
+  const struct topology_edge *e = &f->topology->edge.item[edge];
+  struct contour_segment s = {
+      .node = {node[0], node[1]}, .face = e->first, .along_crease = true};
+  double first[3], second[3], at[3], beyond[3], along[3];
+  uint32_t c = facing_corner_of_edge(f, e->second, edge);
+  newell_normal_of_face(f->scene, e->first, first);
+  newell_normal_of_face(f->scene, e->second, second);
+  double least = fmin(vector_dot(first, first), vector_dot(second, second));
+  (void)vector_normalise(first);
+  (void)vector_normalise(second);
+  facing_position(f, e->point[0], at);
+  facing_position(f, e->point[1], along);
+  /* Convex where the other face lies behind this one. */
+  facing_position(
+      f,
+      facing_point(
+          f, scene_next_corner(f->scene, e->second,
+                               scene_next_corner(f->scene, e->second, c))),
+      beyond);
+  for (int k = 0; k < 3; k++) {
+    s.normal[k] = first[k] + (e->same_way ? -second[k] : second[k]);
+    beyond[k] -= at[k];
+    along[k] -= at[k];
+  }
+  (void)vector_normalise(s.normal);
+  s.radial = -vector_dot(beyond, first);
+  /* Where the faces themselves fold over, the mesh about it is not uneven. */
+  s.width = sqrt(least / vector_dot(along, along));
+  if ((is_front(f, e->first) == is_front(f, e->second)) == e->same_way)
+    s.width *= CREASE_SHARE;
+  return zero_finder_add_segment(z, s);
+}
+
+bool zero_finder_cross_crease(struct zero_finder *z, uint32_t edge) {
+  const struct facing *f = z->facing;
+  const struct topology_edge *e = &f->topology->edge.item[edge];
+  const uint32_t face[2] = {e->first, e->second};
+  bool differ = e->same_way;
+  uint32_t stop[4]; /* nodes from end to end */
+  int count = 1;
+  for (int k = 0; k < 2; k++) {
+    uint32_t c = facing_corner_of_edge(f, face[k], edge);
+    if (c == SHEET_NONE)
+      return true;
+    if (facing_point(f, c) != e->point[0])
+      c = scene_next_corner(f->scene, face[k], c);
+    differ = differ != facing_is_back(f, facing_slot(f, c));
+    if (z->edge_node[2 * (size_t)edge + (size_t)k] != SHEET_NONE)
+      stop[count++] = z->edge_node[2 * (size_t)edge + (size_t)k];
+  }
+  if (!differ && count == 1)
+    return true;
+  if (!node_of_vertex(z, e->point[0], &stop[0]) ||
+      !node_of_vertex(z, e->point[1], &stop[count]))
+    return false;
+  if (count == 3) { /* in order along the edge */
+    double away[2];
+    for (int k = 0; k < 2; k++) {
+      double d[3];
+      for (int i = 0; i < 3; i++)
+        d[i] = z->set->node.item[stop[k + 1]].at[i] -
+               z->set->node.item[stop[0]].at[i];
+      away[k] = vector_dot(d, d);
+    }
+    if (away[1] < away[0]) {
+      uint32_t swap = stop[1];
+      stop[1] = stop[2];
+      stop[2] = swap;
+    }
+  }
+  for (int k = 0; k < count; k++, differ = !differ)
+    if (differ && !add_along_crease(z, edge, &stop[k]))
+      return false;
+  return true;
+}
+
+/* ---- Borders ------------------------------------------------------------- */
+
+/* Whether the surface ends at an edge, or folds over at one of a part that has
+ * no smooth contours. */
+static bool is_occluding(const struct facing *f, uint32_t edge) {
+  const struct topology_edge *e = &f->topology->edge.item[edge];
+  if (e->uses != 2)
+    return true;
+  return f->coarse[e->point[0]] &&
+         (is_front(f, e->first) == is_front(f, e->second)) == e->same_way;
+}
+
+bool zero_finder_add_border(struct zero_finder *z, uint32_t edge) {
+  struct view_point end[2];
+  bool moved[2], outside = false;
+  if (!is_occluding(z->facing, edge))
+    return true;
+  for (int k = 0; k < 2; k++) {
+    double at[3];
+    facing_position(z->facing, z->facing->topology->edge.item[edge].point[k],
+                    at);
+    end[k] = zero_finder_view(z, at);
+    outside = outside || clip_outcode(&z->projection, end[k]) != 0;
+  }
+  if (outside && !clip_segment(&z->projection, end, moved))
+    return true;
+  struct geom_segment image = {project_point(&z->projection, end[0]),
+                               project_point(&z->projection, end[1])};
+  return ARRAY_PUSH(&z->set->border, image);
+}

@@ -1,0 +1,50 @@
+/* zero_finder.h - what the sources that find a zero set share. */
+#ifndef VISIBILITY_CONTOUR_ZERO_FINDER_H
+#define VISIBILITY_CONTOUR_ZERO_FINDER_H
+
+#include "view/clip.h"
+#include "view/triangulate.h"
+#include "visibility/contour/zero_set.h"
+
+struct zero_finder {
+  struct zero_set *set;
+  const struct facing *facing;
+  struct projection projection;
+  uint32_t *edge_node; /* two a topology edge: its node, where normals are split
+                          those of its first and its second face; SHEET_NONE */
+  uint32_t *point_node;          /* one a scene point; NULL: none yet */
+  ARRAY(uint32_t) diagonal_node; /* of the current face */
+  ARRAY(uint32_t) corner;        /* of the current face, welded */
+  struct triangulation triangulation;
+};
+
+/* All return false when memory ran out. */
+
+/* Adds a node between two slots; SHEET_NONE: at a vertex, or where clipping
+ * cut. */
+USE_RESULT bool zero_finder_add_node(struct zero_finder *finder,
+                                     const double at[3], uint32_t front,
+                                     uint32_t back, uint32_t *node);
+
+/* Adds a segment, clipped to the page.  A node that is outside gives way to a
+ * new one on the border. */
+USE_RESULT bool zero_finder_add_segment(struct zero_finder *finder,
+                                        struct contour_segment segment);
+
+/* Adds the segments along a crease: where its two faces have different signs.
+ * The nodes on the sides of its faces are known. */
+USE_RESULT bool zero_finder_cross_crease(struct zero_finder *finder,
+                                         uint32_t edge);
+
+/* Adds the image of an edge at which the surface ends, or folds over where it
+ * has no smooth contours; of no other. */
+USE_RESULT bool zero_finder_add_border(struct zero_finder *finder,
+                                       uint32_t edge);
+
+static inline struct view_point zero_finder_view(const struct zero_finder *z,
+                                                 const double at[3]) {
+  return camera_view(z->facing->camera,
+                     &(struct scene_point){at[0], at[1], at[2]});
+}
+
+#endif
