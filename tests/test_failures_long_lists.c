@@ -23,18 +23,25 @@ static void fill_needles(struct scene *scene, recto_options *options,
 }
 
 /* The pairs tested, of edges with triangles and of triangles. */
-static int64_t count_pairs(enum scenes_needles kind, unsigned n,
-                           const struct solver *solver) {
-  struct scene scene;
-  recto_options options;
+static int64_t count_pairs_of(const struct scene *scene,
+                              const recto_options *options,
+                              const struct solver *solver) {
   struct pipeline pipeline;
-  fill_needles(&scene, &options, kind, n);
-  pipeline_run(&pipeline, &scene, &options, solver);
+  pipeline_run(&pipeline, scene, options, solver);
   assert_int_equal(pipeline.status, RECTO_OK);
   int64_t pairs =
       report_get(pipeline.report, "occlusion", "pairs", 0) +
       report_get(pipeline.report, "intersections", "pairs_tested", 0);
   pipeline_fini(&pipeline);
+  return pairs;
+}
+
+static int64_t count_pairs(enum scenes_needles kind, unsigned n,
+                           const struct solver *solver) {
+  struct scene scene;
+  recto_options options;
+  fill_needles(&scene, &options, kind, n);
+  int64_t pairs = count_pairs_of(&scene, &options, solver);
   scene_fini(&scene);
   return pairs;
 }
@@ -112,6 +119,28 @@ static void solvers_agree_on_long_lists(void **state) {
   }
 }
 
+/* Of triangles around one edge a few near ones hide most edges of the others. */
+static void what_hid_the_last_edges_is_tested_first(void **state) {
+  (void)state;
+  enum { PAGES = 4000 };
+  struct scene scene;
+  recto_options options;
+  recto_options_init(&options);
+  scene_init(&scene);
+  uint32_t a = build_point(&scene, 0, 0, -1), b = build_point(&scene, 0, 0, 1);
+  for (int i = 0; i < PAGES; i++) {
+    double angle = 2 * acos(-1) * i / PAGES;
+    build_triangle(&scene, a, b,
+                   build_point(&scene, cos(angle), sin(angle), 0));
+  }
+  options.solver.threads = 1;
+  int64_t pairs = count_pairs_of(&scene, &options, &solver_tiles);
+  assert_true(pairs < 2000 * (int64_t)PAGES);
+  options.solver.threads = 2;
+  assert_int_equal(count_pairs_of(&scene, &options, &solver_tiles), pairs);
+  scene_fini(&scene);
+}
+
 static void a_bellows_of_1300_is_the_same_by_all(void **state) {
   (void)state;
   struct scene scene;
@@ -178,6 +207,7 @@ int main(void) {
       cmocka_unit_test(pairs_grow_as_the_corners_do),
       cmocka_unit_test(a_polygon_is_not_tested_with_itself),
       cmocka_unit_test(solvers_agree_on_long_lists),
+      cmocka_unit_test(what_hid_the_last_edges_is_tested_first),
       cmocka_unit_test(a_bellows_of_1300_is_the_same_by_all),
       cmocka_unit_test(triangles_100000_on_one_vertex_finish),
       cmocka_unit_test(soups_that_pierce_are_the_same_by_all),

@@ -63,6 +63,19 @@ static bool occlude_by_triangle(struct edge_query *query, uint32_t t,
          occlude_edge(&occluder[t], query->p, query->q, part, &query->counts);
 }
 
+/* Puts triangle t before the other recent ones. */
+static void remember(struct edge_query *query, uint32_t t) {
+  size_t k = 0;
+  while (k < query->recent_count && query->recent[k] != t)
+    k++;
+  if (k == EDGE_QUERY_RECENT)
+    k--;
+  else if (k == query->recent_count)
+    query->recent_count++;
+  memmove(query->recent + 1, query->recent, k * sizeof *query->recent);
+  query->recent[0] = t;
+}
+
 /* Tests triangle t, which may overlap the edge, and adds what it occludes. */
 static bool add_triangle_occlusion(struct edge_query *query, uint32_t t) {
   struct occluded_interval part;
@@ -72,8 +85,26 @@ static bool add_triangle_occlusion(struct edge_query *query, uint32_t t) {
     return true;
   if (!edge_intervals_occlude(&query->intervals, part))
     return false;
+  double before = query->share;
   if (part.sides == OCCLUDED_BOTH && !query->intervals.occluded)
     shrink_rest(query);
+  if (query->tried_recent &&
+      (query->intervals.occluded || query->share < before))
+    remember(query, t);
+  return true;
+}
+
+/* Tests the recent triangles, once for an edge. */
+static bool test_recent(struct edge_query *query) {
+  uint32_t recent[EDGE_QUERY_RECENT];
+  size_t n = query->recent_count;
+  if (query->tried_recent)
+    return true;
+  query->tried_recent = true;
+  memcpy(recent, query->recent, n * sizeof *recent);
+  for (size_t k = 0; k < n && !query->intervals.occluded; k++)
+    if (!add_triangle_occlusion(query, recent[k]))
+      return false;
   return true;
 }
 
@@ -96,6 +127,9 @@ static void update_kdop_query(struct cell_query *at,
 
 /* Tests the triangles of a cell whose list has a BSP. */
 static bool test_bsp(struct edge_query *query, struct cell_query *at) {
+  if (!test_recent(query))
+    return false;
+  update_kdop_query(at, query);
   const struct triangle_grid *grid = &query->lists->grid;
   struct bsp_query shape = {.kind = BSP_SEGMENT,
                             .p = {query->end[0], query->end[1]}};
@@ -103,7 +137,8 @@ static bool test_bsp(struct edge_query *query, struct cell_query *at) {
       bsp_traversal_from(triangle_grid_bsp(grid, at->cell));
   const uint64_t *key = query->lists->key + grid->start[at->cell];
   const struct bsp_node *node;
-  while ((node = bsp_next(grid->bsp, &traversal, &shape)) != NULL) {
+  while (!query->intervals.occluded &&
+         (node = bsp_next(grid->bsp, &traversal, &shape)) != NULL) {
     const struct bsp_member *member = grid->bsp->member.item + node->from;
     for (uint32_t i = 0; i < node->count; i++) {
       if (!kdop8_overlaps(key[member[i].list_index], at->kdop_query))
@@ -160,6 +195,7 @@ bool edge_query_solve(struct edge_query *query, uint32_t e) {
   edge_intervals_start(&query->intervals);
   query->rest = edge_intervals_remaining(&query->intervals);
   query->share = 1;
+  query->tried_recent = false;
   query->end[0] = query->p;
   query->end[1] = query->q;
   for (int y = r.y0; y <= r.y1; y++) {

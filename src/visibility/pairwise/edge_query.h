@@ -5,12 +5,18 @@
  * 8-DOP (kdop8.h) overlaps that of the remaining part of the edge: the interval
  * outside of which the edge is known to be hidden, which shrinks as occluders
  * are found.
+ *
+ * Where a list is so long that it has a BSP, the triangles that hid much of the
+ * edges before are tested first: in a crowd the same few near ones hide most
+ * edges, and what they hide is tested against no other.
  */
 #ifndef VISIBILITY_PAIRWISE_EDGE_QUERY_H
 #define VISIBILITY_PAIRWISE_EDGE_QUERY_H
 
 #include "visibility/predicate/edge_intervals.h"
 #include "visibility/pairwise/tile_candidates.h"
+
+enum { EDGE_QUERY_RECENT = 64 };
 
 /* The state of the queries of one thread, one edge after another. */
 struct edge_query {
@@ -19,6 +25,10 @@ struct edge_query {
   struct triangle_grid_query found;
   struct edge_intervals intervals; /* the occluded ones: the result */
   struct occlusion_counts counts;
+  /* Triangles that hid much of the edges before, the latest first; 0 of them to
+   * forget them. */
+  uint32_t recent[EDGE_QUERY_RECENT];
+  size_t recent_count;
   /* The current edge. */
   const struct sheet_edge *edge;
   struct geom_point p, q;
@@ -28,6 +38,7 @@ struct edge_query {
   struct kdop8 kdop;
   struct occluded_interval rest; /* its parameters on the edge */
   double share;                  /* its share of the edge's length */
+  bool tried_recent;             /* it met a list with a BSP */
   bool several_cells; /* the edge crosses several cells, so that a triangle may
                          be found more than once */
 };

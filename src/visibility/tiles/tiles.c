@@ -282,6 +282,7 @@ static void solve_batch(const struct tiles_work *work, size_t from,
   size_t to = work->edge.count - from < BATCH_SIZE ? work->edge.count
                                                    : from + BATCH_SIZE;
   batch->done = true;
+  query->recent_count = 0; /* the counts are to be those of any thread */
   for (size_t i = from; batch->done && i < to; i++)
     batch->done = poll_edges(work, i, callers) &&
                   edge_query_solve(query, work->edge.item[i]) &&
