@@ -289,7 +289,11 @@ typedef struct recto_mesh_options {
    * where all of them are single precision numbers, else 53.  For coordinates
    * from files the precision follows from the file. */
   int coordinate_bits;
-  uint64_t reserved[8];
+  char unused[4]; /* 0 */
+  /* Creases that are joined at points are drawn if faces meet at a larger angle
+   * than this at one of them at least; 0: all are. */
+  double crease_start_deg;
+  uint64_t reserved[7];
 } recto_mesh_options;
 
 typedef struct recto_camera_options {

@@ -168,6 +168,7 @@ static void numbers_that_make_no_sense_are_refused(void **state) {
   REFUSED(page.margin_mm, 105);
   REFUSED(ink.edges, 0x80);
   REFUSED(mesh.crease_deg, 181);
+  REFUSED(mesh.crease_start_deg, 181);
   REFUSED(ink.hidden, (recto_hidden)3);
   REFUSED(ink.hidden_by_max, -1);
   REFUSED(ink.fill, (recto_fill)4);

@@ -73,7 +73,7 @@ resolution 0 65537 x
 page A7 200 200x x200 200x-100 0x100 200x100m nanx100 200x100mmx
 margin -1 x 1,5 nan 1e999mm 10furlongs
 edges x silhouette, ,crease silhouette,,crease
-crease -1 181 x
+crease -1 181 x 30,20 30,181 30, ,40 30,x 30,40,50
 contours x exact 1 smooth,mesh
 hidden x 0 -1 none,2 layer,0 dashed,x ,2 1,2
 pen 0 -1 101 x 1e-9 0.009mm

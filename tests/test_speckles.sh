@@ -130,6 +130,22 @@ fewer() {
     test "$(strokes plain.svg silhouette | wc -l)" -lt 150 &&
     test "$(strokes exact.svg silhouette | wc -l)" -gt 180
 }
+# A strong crease starts a line, weaker ones continue it; what is between the two
+# angles may or may not be drawn.
+started() {
+  local model=$RECTO_MODELS/stanford-bunny.obj
+  run 0 "$model" -q -o plain.svg &&
+    run 0 "$model" -q --crease=30,60 -o started.svg --verify=2000 &&
+    test "$(strokes started.svg crease | wc -l)" -lt \
+      "$(strokes plain.svg crease | wc -l)" &&
+    run 0 --check started.svg --crease=30,60 "$model" &&
+    run 1 --check started.svg "$model" &&
+    for model in "$models"/{castle,gears}.obj "$RECTO_MODELS/fandisk.obj"; do
+      run 0 "$model" -q -o plain.svg &&
+        run 0 "$model" -q --crease=30,35 -o started.svg &&
+        cmp plain.svg started.svg || return 1
+    done
+}
 strict() {
   run 0 --check plain.svg "$RECTO_MODELS/stanford-bunny.obj" &&
     run 1 --check plain.svg --exact "$RECTO_MODELS/stanford-bunny.obj" &&
@@ -138,6 +154,8 @@ strict() {
 if test -f "${RECTO_MODELS:-/nonexistent}/stanford-bunny.obj"; then
   claim "of the bunny half of the creases and a fifth of the outlines are left out" \
     fewer
+  claim "creases that start nowhere are left out, of solids none" started
+  fewer
   claim "--check --exact misses them" strict
 else
   skip "of the bunny half of the creases are left out" "no RECTO_MODELS"

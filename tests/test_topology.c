@@ -404,6 +404,50 @@ static void two_groups_meet_at_an_edge_of_class_group(void **state) {
   scene_fini(&scene);
 }
 
+/* Four hinges in a row along x, of which the last one is apart. */
+static void creases_need_one_that_is_strong(void **state) {
+  static const double angle_deg[] = {35, 50, 35, 35};
+  static const struct {
+    double start_deg;
+    unsigned first, last;
+  } cases[] = {{45, RECTO_EDGE_CREASE, RECTO_EDGE_SMOOTH},
+               {34, RECTO_EDGE_CREASE, RECTO_EDGE_CREASE},
+               {51, RECTO_EDGE_SMOOTH, RECTO_EDGE_SMOOTH}};
+  struct scene scene;
+  struct topology topology;
+  uint32_t hinge[5];
+  (void)state;
+  scene_init(&scene);
+  for (int i = 0; i < 5; i++)
+    hinge[i] = build_point(&scene, i, 0, 0);
+  for (int i = 0; i < 4; i++) {
+    double angle = angle_deg[i] / 180 * acos(-1), gap = i == 3 ? 0.5 : 0;
+    double y = -cos(angle), z = sin(angle);
+    uint32_t from = i == 3 ? build_point(&scene, 3.5, 0, 0) : hinge[i];
+    build_quad(&scene, from, hinge[i + 1], build_point(&scene, i + 1, 1, 0),
+               build_point(&scene, i + gap, 1, 0));
+    build_quad(&scene, hinge[i + 1], from, build_point(&scene, i + gap, y, z),
+               build_point(&scene, i + 1, y, z));
+  }
+  find(&topology, &scene);
+  for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+    uint8_t *mask = mem_alloc(topology.edge.count, 1);
+    assert_true(topology_class_masks(&topology, &scene, 30, mask));
+    assert_true(topology_drop_weak_creases(&topology, &scene,
+                                           cases[c].start_deg, mask));
+    for (size_t e = 0; e < topology.edge.count; e++) {
+      const struct topology_edge *edge = &topology.edge.item[e];
+      const struct scene_point *p = &scene.point.item[edge->point[0]];
+      const struct scene_point *q = &scene.point.item[edge->point[1]];
+      if (edge->uses == 2 && p->y == 0 && q->y == 0)
+        assert_int_equal(mask[e], p->x > 3 ? cases[c].last : cases[c].first);
+    }
+    mem_free(mask);
+  }
+  topology_fini(&topology);
+  scene_fini(&scene);
+}
+
 static void three_faces_make_a_border_whatever_their_order(void **state) {
   (void)state;
   struct scene scene;
@@ -510,6 +554,7 @@ int main(void) {
       cmocka_unit_test(a_crease_is_beyond_the_angle_and_not_at_it),
       cmocka_unit_test(a_crease_close_to_its_angle_is_decided_in_double),
       cmocka_unit_test(creases_do_not_depend_on_the_unit),
+      cmocka_unit_test(creases_need_one_that_is_strong),
       cmocka_unit_test(a_face_folded_back_is_a_crease),
       cmocka_unit_test(a_face_given_twice_is_folded_at_all_its_edges),
       cmocka_unit_test(two_groups_meet_at_an_edge_of_class_group),

@@ -46,7 +46,7 @@ class Options(TypedDict, total=False):
     margin: float
 
     edges: Union[str, Iterable[str]]
-    crease: float
+    crease: Union[float, tuple[float, float]]  # 30, or (30, 45)
     contours: str  # mesh (default), or smooth
     hidden: Union[str, tuple[str, int]]  # "dashed", or ("dashed", 2)
     fill: str
@@ -145,7 +145,6 @@ _FIELDS = {
     "remove_backs": ("solver", "remove_backs"),
     "threads": ("solver", "threads"),
     "weld": ("mesh", "weld"),
-    "crease": ("mesh", "crease_deg"),
     "coordinate_bits": ("mesh", "coordinate_bits"),
     "azimuth": ("camera", "azimuth_deg"),
     "elevation": ("camera", "elevation_deg"),
@@ -273,6 +272,12 @@ class _Setter:
         how, layers = (value, 0) if isinstance(value, str) else value
         self.options.ink.hidden = _word("hidden", how, _HIDDEN)
         self.options.ink.hidden_by_max = layers
+
+    def crease(self, value: Any) -> None:
+        pair = isinstance(value, (tuple, list))
+        angle, start = value if pair else (value, 0)
+        self.options.mesh.crease_deg = angle
+        self.options.mesh.crease_start_deg = start
 
     def contours(self, value: str) -> None:
         known = {

@@ -89,6 +89,8 @@ def test_options():
         (["--scale=20:1", "--up=0,0,1"], {"scale": 20, "up": (0, 0, 1)}),
         (["--section=0.3", "--edges=all"], {"section": 0.3, "edges": "all"}),
         (["--edges=crease,border"], {"edges": ["crease", "border"]}),
+        (["--crease=20,40"], {"crease": (20, 40)}),
+        (["--crease=20"], {"crease": 20}),
         (["--hidden=dashed,1"], {"hidden": ("dashed", 1)}),
         (["--hidden=layer", "--pen-for=hidden=2,crease=3"],
          {"hidden": "layer", "pen_for": {"hidden": 2, "crease": 3}}),

@@ -51,6 +51,7 @@ struct judge_options judge_input_options(const struct judge_input *input,
   made.origin =
       judge_point3_of(input->origin.x, input->origin.y, input->origin.z);
   made.crease_deg = options->mesh.crease_deg;
+  made.crease_start_deg = options->mesh.crease_start_deg;
   made.edges = options->ink.edges;
   made.given = input->given;
   return made;

@@ -100,6 +100,24 @@ static bool parse_edges(struct arguments *arguments, const char *text) {
   return value_edges(text, &arguments->options.ink.edges);
 }
 
+/* DEG or DEG,START. */
+static bool parse_crease(struct arguments *arguments, const char *text) {
+  char first[32];
+  size_t length = strcspn(text, ",");
+  double deg, start = 0;
+  if (length >= sizeof first)
+    return false;
+  memcpy(first, text, length);
+  first[length] = '\0';
+  if (!value_number(first, &deg) || !(deg >= 0 && deg <= 180) ||
+      (text[length] == ',' && (!value_number(text + length + 1, &start) ||
+                               !(start >= deg && start <= 180))))
+    return false;
+  arguments->options.mesh.crease_deg = deg;
+  arguments->options.mesh.crease_start_deg = start;
+  return true;
+}
+
 /* HOW, HOW,N or N, which is dashed,N. */
 static bool parse_hidden(struct arguments *arguments, const char *text) {
   static const char *const word[] = {"none", "dashed", "layer"};
@@ -254,9 +272,9 @@ const struct option_entry option_table[] = {
      "intersection, wire and smooth",
      "classes to draw (see below)", .parse = parse_edges, .words = "all none",
      .word = name_edge_class},
-    {OPTION_NUMBER, "crease", 0, "DEG", "an angle from 0 to 180",
-     "faces that meet at more make a crease (30)",
-     .offset = AT(options.mesh.crease_deg), .least = 0, .most = 180,
+    {OPTION_PARSED, "crease", 0, "DEG[,DEG]",
+     "an angle from 0 to 180, and with a comma one not below it",
+     "faces that meet at more make a crease (30)", .parse = parse_crease,
      .use = {USED_BY_CREASE}},
     {OPTION_WORD, "contours", 0, "HOW", "mesh or smooth",
      "silhouettes of the mesh (default) or smooth",

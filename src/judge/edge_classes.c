@@ -148,10 +148,11 @@ unsigned judge_class_mask_of_pair(const struct judge_facings *facings,
     return class_mask;
   double cosine = point3_dot(f->normal, g->normal);
   cosine = against ? cosine : -cosine;
-  double crease = cos(facings->options->crease_deg / 180 * acos(-1));
-  if (cosine < crease - TOLERANCE_JUDGE_ANGLE)
+  double degree = acos(-1) / 180, weak = facings->options->crease_deg;
+  double strong = fmax(weak, facings->options->crease_start_deg);
+  if (cosine < cos(strong * degree) - TOLERANCE_JUDGE_ANGLE)
     class_mask |= RECTO_EDGE_CREASE;
-  if (class_mask == 0 && cosine > crease + TOLERANCE_JUDGE_ANGLE &&
+  if (class_mask == 0 && cosine > cos(weak * degree) + TOLERANCE_JUDGE_ANGLE &&
       judge_is_sure(one, two))
     class_mask = RECTO_EDGE_SMOOTH;
   return class_mask;

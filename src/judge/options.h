@@ -18,7 +18,8 @@ struct judge_options {
   struct precision unstated;  /* of points whose precision is not stated */
   struct judge_point3 origin; /* was subtracted from all points; needed for
                                  their precision */
-  double crease_deg;
+  double crease_deg, crease_start_deg; /* between them it is undecided whether
+                                          an edge is a crease */
   unsigned edges; /* requested classes, a mask of recto_edge_class */
   const struct scene_point *given; /* the original points, where the scene's
                                       were translated; NULL: the scene's */

@@ -243,6 +243,34 @@ bool topology_class_masks(const struct topology *topology,
   return ok;
 }
 
+bool topology_drop_weak_creases(const struct topology *topology,
+                                const struct scene *scene, double start_deg,
+                                uint8_t *class_masks) {
+  size_t points = scene->point.count, edges = topology->edge.count;
+  uint32_t *line = sets_create(points); /* points that creases join */
+  uint8_t *is_strong = mem_calloc(points, sizeof *is_strong);
+  uint8_t *start = mem_alloc(edges, sizeof *start);
+  bool ok = line != NULL && is_strong != NULL && start != NULL &&
+            topology_class_masks(topology, scene, start_deg, start);
+  for (size_t e = 0; ok && e < edges; e++)
+    if (class_masks[e] & RECTO_EDGE_CREASE)
+      sets_join(line, topology->edge.item[e].point[0],
+                topology->edge.item[e].point[1]);
+  for (size_t e = 0; ok && e < edges; e++)
+    if (start[e] & RECTO_EDGE_CREASE)
+      is_strong[sets_root(line, topology->edge.item[e].point[0])] = 1;
+  for (size_t e = 0; ok && e < edges; e++) {
+    unsigned rest = class_masks[e] & ~(unsigned)RECTO_EDGE_CREASE;
+    if (rest != class_masks[e] &&
+        !is_strong[sets_root(line, topology->edge.item[e].point[0])])
+      class_masks[e] = (uint8_t)(rest ? rest : RECTO_EDGE_SMOOTH);
+  }
+  mem_free(line);
+  mem_free(is_strong);
+  mem_free(start);
+  return ok;
+}
+
 bool topology_coarse_parts(const struct topology *topology,
                            const struct scene *scene,
                            const uint8_t *class_masks, uint8_t *coarse) {

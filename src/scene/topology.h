@@ -60,6 +60,15 @@ USE_RESULT bool topology_class_masks(const struct topology *topology,
                                      const struct scene *scene,
                                      double crease_deg, uint8_t *class_masks);
 
+/* Hysteresis: of the creases that edges form which are joined at points, makes
+ * those no creases of which no edge bends by more than start_deg.
+ * class_masks  one an edge, as of topology_class_masks at a smaller angle
+ * Returns false when memory ran out. */
+USE_RESULT bool topology_drop_weak_creases(const struct topology *topology,
+                                           const struct scene *scene,
+                                           double start_deg,
+                                           uint8_t *class_masks);
+
 /* Finds the connected parts of the mesh of whose edges more than a quarter are
  * creases: such a part samples no smooth surface.
  * class_masks  one an edge

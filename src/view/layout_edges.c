@@ -188,6 +188,12 @@ recto_status layout_edges(struct layout *layout) {
         !topology_class_masks(layout->topology, layout->scene,
                               layout->options->mesh.crease_deg, class_masks))
       goto no_memory;
+    if (layout->options->mesh.crease_start_deg >
+            layout->options->mesh.crease_deg &&
+        !topology_drop_weak_creases(layout->topology, layout->scene,
+                                    layout->options->mesh.crease_start_deg,
+                                    class_masks))
+      goto no_memory;
   }
   if (layout->options->ink.contours == RECTO_CONTOURS_SMOOTH &&
       class_masks != NULL) {

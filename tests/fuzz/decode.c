@@ -43,7 +43,7 @@ static const char *const alternatives[][MAX_ALTERNATIVES] = {
      "--section=0"},
     {"", "--near=0.5", "--near=1", "--near=1.5", "--near=0.001"},
     {"", "--crease=0", "--crease=90", "--crease=180", "--crease=45",
-     "--crease=60"},
+     "--crease=60", "--crease=20,50"},
     {"", "--no-fit", "--scale=10", "--scale=100", "--fit", "--scale=1:2"},
     {"", "--page=20x20", "--page=A4 --landscape", "--page=50x200", "--margin=0",
      "--margin=3cm"},
