@@ -6,30 +6,14 @@
 
 #include "base/tolerance.h"
 
-recto_status layout_diagonal_cut(struct layout *layout,
-                                 struct layout_diagonal *diagonal,
-                                 struct layout_cut *cut) {
-  if (diagonal->cut != SHEET_NONE) {
-    *cut = layout->cut.item[diagonal->cut];
-    return RECTO_OK;
-  }
-  recto_status status =
-      layout_segment(layout, diagonal->from, diagonal->to, cut);
-  if (status != RECTO_OK)
-    return status;
-  diagonal->cut = (uint32_t)layout->cut.count;
-  return ARRAY_PUSH(&layout->cut, *cut) ? RECTO_OK
-                                        : error_memory(layout->error);
-}
-
 /* The cut of a side of a triangle, in the side's canonical direction. */
 static recto_status cut_side(struct layout *layout,
                              const struct layout_triangle *triangle, int k,
                              struct layout_cut *cut) {
   if (triangle->side[k] != SHEET_NONE)
     return layout_edge_cut(layout, triangle->side[k], cut);
-  return layout_diagonal_cut(
-      layout, &layout->diagonal.item[triangle->diagonal[k]], cut);
+  struct layout_diagonal *d = &layout->diagonal.item[triangle->diagonal[k]];
+  return layout_known_cut(layout, &d->cut, d->from, d->to, cut);
 }
 
 /* Finds the sheet point of corner i of a clipped triangle.  It is

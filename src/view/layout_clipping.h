@@ -124,9 +124,4 @@ layout_record_triangle_sides(struct layout *layout,
 USE_RESULT recto_status layout_add_clipped(
     struct layout *layout, const struct layout_triangle *triangle);
 
-/* The cut of a diagonal of the current face. */
-USE_RESULT recto_status layout_diagonal_cut(struct layout *layout,
-                                            struct layout_diagonal *diagonal,
-                                            struct layout_cut *cut);
-
 #endif

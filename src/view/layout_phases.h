@@ -143,6 +143,12 @@ USE_RESULT recto_status layout_new_point(struct layout *layout,
 USE_RESULT recto_status layout_segment(struct layout *layout, uint32_t from,
                                        uint32_t to, struct layout_cut *cut);
 
+/* The same, clipped once: *known is the number of the cut, or SHEET_NONE where
+ * it is made now. */
+USE_RESULT recto_status layout_known_cut(struct layout *layout, uint32_t *known,
+                                         uint32_t from, uint32_t to,
+                                         struct layout_cut *cut);
+
 /* Adds a contour. */
 USE_RESULT recto_status layout_contour(struct layout *layout, uint32_t from,
                                        uint32_t to);

@@ -178,28 +178,34 @@ recto_status layout_segment(struct layout *layout, uint32_t from, uint32_t to,
   return RECTO_OK;
 }
 
+recto_status layout_known_cut(struct layout *layout, uint32_t *known,
+                              uint32_t from, uint32_t to,
+                              struct layout_cut *cut) {
+  if (*known != SHEET_NONE) {
+    *cut = layout->cut.item[*known];
+    return RECTO_OK;
+  }
+  recto_status status = layout_segment(layout, from, to, cut);
+  if (status != RECTO_OK)
+    return status;
+  *known = (uint32_t)layout->cut.count;
+  return ARRAY_PUSH(&layout->cut, *cut) ? RECTO_OK
+                                        : error_memory(layout->error);
+}
+
 recto_status layout_edge_cut(struct layout *layout, uint32_t edge,
                              struct layout_cut *cut) {
-  size_t edges = layout->topology->edge.count;
+  const struct topology *topology = layout->topology;
   if (layout->edge_cut == NULL) {
+    size_t edges = topology->edge.count;
     layout->edge_cut = mem_alloc(edges, sizeof *layout->edge_cut);
     if (layout->edge_cut == NULL)
       return error_memory(layout->error);
     memset(layout->edge_cut, 0xff, edges * sizeof *layout->edge_cut);
   }
-  uint32_t *known = &layout->edge_cut[edge];
-  if (*known != SHEET_NONE) {
-    *cut = layout->cut.item[*known];
-    return RECTO_OK;
-  }
-  const struct topology_edge *e = &layout->topology->edge.item[edge];
-  recto_status status = layout_segment(layout, e->point[0], e->point[1], cut);
-  if (status != RECTO_OK)
-    return status;
-  *known = (uint32_t)layout->cut.count;
-  if (!ARRAY_PUSH(&layout->cut, *cut))
-    return error_memory(layout->error);
-  return RECTO_OK;
+  const uint32_t *point = topology->edge.item[edge].point;
+  return layout_known_cut(layout, &layout->edge_cut[edge], point[0], point[1],
+                          cut);
 }
 
 recto_status layout_contour(struct layout *layout, uint32_t from, uint32_t to) {
