@@ -47,7 +47,7 @@ static const struct device devices[] = {
 
 const struct device *device_by_name(const char *name) {
   for (size_t i = 0; i < sizeof devices / sizeof *devices; i++)
-    if (strcmp(devices[i].name, name) == 0)
+    if (name == NULL || strcmp(devices[i].name, name) == 0)
       return &devices[i];
   return NULL;
 }

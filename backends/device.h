@@ -48,7 +48,7 @@ struct device_placement {
   int32_t x0, y0, x1, y1; /* the area to clip to, in units, ends included */
 };
 
-/* The device of that name; NULL if there is none. */
+/* The device of that name, of NULL the generic one; NULL if there is none. */
 const struct device *device_by_name(const char *name);
 
 /* The name of the device at `index`, or NULL past the last. */

@@ -21,7 +21,6 @@
 #include "base/word.h"
 
 #define POINTS_PER_COMMAND 100
-#define DEFAULT_DEVICE "generic"
 #define MAX_VELOCITY 127 /* cm/s: the upper limit of VS in HPGL */
 
 struct plot {
@@ -355,10 +354,9 @@ static recto_status refuse_device(const char *name, recto_error *error) {
 static recto_status write_hpgl(const struct drawing *drawing,
                                const struct writer_options *options,
                                struct stream *stream, recto_error *error) {
-  const char *name = options->device != NULL ? options->device : DEFAULT_DEVICE;
-  const struct device *device = device_by_name(name);
+  const struct device *device = device_by_name(options->device);
   if (device == NULL)
-    return refuse_device(name, error);
+    return refuse_device(options->device, error);
   if (!(options->velocity == 0 ||
         (options->velocity >= 1 && options->velocity <= MAX_VELOCITY)))
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
@@ -386,8 +384,7 @@ static recto_status write_hpgl(const struct drawing *drawing,
  * paper, since no margin suffices. */
 static double find_margin(const struct writer_options *options, double width_mm,
                           double height_mm) {
-  const struct device *device = device_by_name(
-      options->device != NULL ? options->device : DEFAULT_DEVICE);
+  const struct device *device = device_by_name(options->device);
   if (device == NULL)
     return 0;
   struct device_placement place;
@@ -397,8 +394,7 @@ static double find_margin(const struct writer_options *options, double width_mm,
 
 /* 0 for an unknown device: write_hpgl reports the error. */
 static double hpgl_unit(const struct writer_options *options) {
-  const struct device *device = device_by_name(
-      options->device != NULL ? options->device : DEFAULT_DEVICE);
+  const struct device *device = device_by_name(options->device);
   return device != NULL ? device->unit_mm : 0;
 }
 

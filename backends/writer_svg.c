@@ -205,16 +205,19 @@ static void write_group_name(const struct svg *svg, uint32_t group) {
   stream_text(svg->out, "\"");
 }
 
+static const char *class_name(const struct drawing_stroke *stroke) {
+  return stroke->edge_class == 0
+             ? "hatch"
+             : recto_edge_class_name((recto_edge_class)stroke->edge_class);
+}
+
 static void write_stroke_ids(const struct svg *svg,
                              const struct drawing_stroke *stroke) {
   write_id(svg, " data-face=\"", stroke->face);
   write_id(svg, " data-edge=\"", stroke->edge);
   write_group_name(svg, stroke->group);
   stream_text(svg->out, " data-class=\"");
-  stream_text(svg->out, stroke->edge_class == 0
-                            ? "hatch"
-                            : recto_edge_class_name(
-                                  (recto_edge_class)stroke->edge_class));
+  stream_text(svg->out, class_name(stroke));
   stream_text(svg->out, "\"");
 }
 
@@ -330,13 +333,6 @@ struct svg_stroke_style {
   double width_mm;
 };
 
-static const char *class_name(const struct drawing_stroke *stroke) {
-  return stroke->hidden ? "hidden"
-         : stroke->edge_class == 0
-             ? "hatch"
-             : recto_edge_class_name((recto_edge_class)stroke->edge_class);
-}
-
 static void close_style(const struct svg *svg, struct svg_stroke_style *style) {
   if (style->name != NULL)
     stream_text(svg->out, "</g>\n");
@@ -380,7 +376,7 @@ static bool write_contents(struct svg *svg, uint32_t index) {
       continue;
     if (!writer_goes_on(drawing, svg->out, drawing->fill.count + i))
       break;
-    open_style(svg, &style, class_name(stroke),
+    open_style(svg, &style, stroke->hidden ? "hidden" : class_name(stroke),
                drawing_width_mm(drawing, stroke), width_mm);
     ok = write_stroke(svg, (uint32_t)i);
   }

@@ -186,7 +186,7 @@ static recto_status check_options(const recto_options *o, recto_error *error) {
       {"the number of pens with a width", (double)o->ink.pen_count, 0,
        RECTO_PEN_MAX},
   };
-  if (o->output.device != NULL && device_by_name(o->output.device) == NULL) {
+  if (device_by_name(o->output.device) == NULL) {
     char known[DEVICE_LIST_SIZE];
     device_list(known);
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,

@@ -74,6 +74,27 @@ void sort_keys(struct sort_key *item, struct sort_key *scratch, size_t count) {
     memcpy(item, from, count * sizeof *item);
 }
 
+bool sort_keys_alone(struct sort_key *item, size_t count) {
+  struct sort_key *scratch = mem_alloc(count, sizeof *scratch);
+  if (scratch == NULL)
+    return false;
+  sort_keys(item, scratch, count);
+  mem_free(scratch);
+  return true;
+}
+
+bool sort_keys_unique(struct sort_key *item, size_t *count) {
+  size_t kept = 0;
+  if (!sort_keys_alone(item, *count))
+    return false;
+  for (size_t i = 0; i < *count; i++)
+    if (kept == 0 || item[i].key != item[kept - 1].key ||
+        item[i].value != item[kept - 1].value)
+      item[kept++] = item[i];
+  *count = kept;
+  return true;
+}
+
 /* ---- Merge sort ---------------------------------------------------------- */
 
 struct sort_order {

@@ -16,6 +16,13 @@ struct sort_key {
  * passes in which all keys agree are skipped).  `scratch` holds as many. */
 void sort_keys(struct sort_key *item, struct sort_key *scratch, size_t count);
 
+/* The same with scratch of its own.  False when memory ran out. */
+USE_RESULT bool sort_keys_alone(struct sort_key *item, size_t count);
+
+/* The same, and removes items whose key and value are those of the one before.
+ * count  gets how many are left */
+USE_RESULT bool sort_keys_unique(struct sort_key *item, size_t *count);
+
 /* Stable merge sort of `count` items of `size` bytes by compare(a, b, user),
  * which returns <0, 0 or >0.  False when memory ran out. */
 USE_RESULT bool sort_stable(void *item, size_t count, size_t size,

@@ -34,20 +34,25 @@ double drawing_width_mm(const struct drawing *drawing,
   return width;
 }
 
-static double point_distance(struct drawing_point a, struct drawing_point b) {
+double drawing_distance(struct drawing_point a, struct drawing_point b) {
   double dx = b.x - a.x, dy = b.y - a.y;
   return sqrt(dx * dx + dy * dy);
 }
 
+double drawing_polyline_mm(const struct drawing_point *point, size_t count,
+                           bool closed) {
+  double length = 0;
+  for (size_t k = 1; k < count; k++)
+    length += drawing_distance(point[k - 1], point[k]);
+  if (closed && count > 0)
+    length += drawing_distance(point[count - 1], point[0]);
+  return length;
+}
+
 double drawing_stroke_mm(const struct drawing *drawing,
                          const struct drawing_stroke *stroke) {
-  const struct drawing_point *point = drawing->point.item + stroke->point;
-  double length = 0;
-  for (uint32_t k = 1; k < stroke->count; k++)
-    length += point_distance(point[k - 1], point[k]);
-  if (stroke->closed && stroke->count > 0)
-    length += point_distance(point[stroke->count - 1], point[0]);
-  return length;
+  return drawing_polyline_mm(drawing->point.item + stroke->point, stroke->count,
+                             stroke->closed);
 }
 
 double drawing_length_mm(const struct drawing *drawing) {
@@ -67,7 +72,7 @@ double drawing_travel_mm(const struct drawing *drawing) {
       if (stroke->layer != layer || stroke->count == 0)
         continue;
       const struct drawing_point *point = drawing->point.item + stroke->point;
-      travel += point_distance(pen, point[0]);
+      travel += drawing_distance(pen, point[0]);
       pen = stroke->closed ? point[0] : point[stroke->count - 1];
     }
   return travel;

@@ -97,6 +97,12 @@ void drawing_fini(struct drawing *drawing);
 double drawing_width_mm(const struct drawing *drawing,
                         const struct drawing_stroke *stroke);
 
+double drawing_distance(struct drawing_point a, struct drawing_point b);
+
+/* The length of a polyline, with the side that closes it if it is closed. */
+double drawing_polyline_mm(const struct drawing_point *point, size_t count,
+                           bool closed);
+
 /* The stroke's length in mm, its closing side included. */
 double drawing_stroke_mm(const struct drawing *drawing,
                          const struct drawing_stroke *stroke);

@@ -3,11 +3,17 @@
 #ifndef JUDGE_GRID_H
 #define JUDGE_GRID_H
 
+#include <math.h>
+
 #include "judge/point.h"
 
 struct judge_segment {
   struct judge_point2 a, b;
 };
+
+static inline double judge_segment_mm(const struct judge_segment *s) {
+  return hypot(s->b.x - s->a.x, s->b.y - s->a.y);
+}
 
 struct judge_grid {
   const struct judge_segment *segment; /* borrowed, not owned */

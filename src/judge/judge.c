@@ -102,10 +102,6 @@ static void count_sample(struct judge_count *count, double mm) {
   count->mm += mm;
 }
 
-static double length_of(const struct judge_segment *s) {
-  return hypot(s->b.x - s->a.x, s->b.y - s->a.y);
-}
-
 static struct judge_point2 point_on(const struct judge_segment *s, double t) {
   return (struct judge_point2){s->a.x + t * (s->b.x - s->a.x),
                                s->a.y + t * (s->b.y - s->a.y)};
@@ -168,7 +164,7 @@ static bool stroke_runs_along(const struct judge_context *context,
                               const struct judge_segment *edge,
                               struct judge_point2 at) {
   double lateral = context->options.lateral_mm, t;
-  double length = length_of(stroke);
+  double length = judge_segment_mm(stroke);
   bool along = length == 0;
   judge_distance(stroke, at, &t);
   for (int side = -1; !along && side <= 1; side += 2) {
@@ -266,12 +262,12 @@ static void judge_ink_sample(struct judge_context *context,
 static void judge_all_ink(struct judge_context *context) {
   double all = 0;
   for (uint32_t i = 0; i < context->inks; i++)
-    all += length_of(&context->ink[i]);
+    all += judge_segment_mm(&context->ink[i]);
   struct segment_sampler sampler = sampler_of(&context->options, all);
   context->work = 2 * all; /* the edges are estimated to take as long again */
   for (uint32_t i = 0; i < context->inks; i++) {
     double t, mm;
-    start_piece(&sampler, length_of(&context->ink[i]));
+    start_piece(&sampler, judge_segment_mm(&context->ink[i]));
     while (next_sample(&sampler, &t, &mm) && report_progress(context, mm))
       judge_ink_sample(context, &context->ink[i], point_on(&context->ink[i], t),
                        mm);
@@ -379,16 +375,17 @@ static bool visible_part(const struct judge_context *context, uint32_t edge,
     return false;
   part->a = point_on(&context->image[edge], *t0);
   part->b = point_on(&context->image[edge], *t1);
-  return length_of(part) > (context->options.shortest_crease_mm > 0
-                                ? context->options.ray_offset_mm
-                                : context->options.ink_distance_mm);
+  return judge_segment_mm(part) > (context->options.shortest_crease_mm > 0
+                                       ? context->options.ray_offset_mm
+                                       : context->options.ink_distance_mm);
 }
 
 static void judge_all_edges(struct judge_context *context) {
   struct judge_segment part;
   double t0, t1, all = 0;
   for (uint32_t i = 0; i < context->edges.edge.count && poll_at(i); i++)
-    all += visible_part(context, i, &part, &t0, &t1) ? length_of(&part) : 0;
+    all +=
+        visible_part(context, i, &part, &t0, &t1) ? judge_segment_mm(&part) : 0;
   struct segment_sampler sampler = sampler_of(&context->options, all);
   /* The strokes were the first half of the work. */
   context->work = 2 * all;
@@ -397,7 +394,7 @@ static void judge_all_edges(struct judge_context *context) {
     double t, mm;
     if (!visible_part(context, i, &part, &t0, &t1))
       continue;
-    start_piece(&sampler, length_of(&part));
+    start_piece(&sampler, judge_segment_mm(&part));
     while (next_sample(&sampler, &t, &mm) && report_progress(context, mm))
       judge_edge_sample(context, i, point_on(&part, t), t0 + (t1 - t0) * t, mm);
   }

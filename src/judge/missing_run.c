@@ -47,10 +47,6 @@ static const struct judge_segment *image_of(const struct judge_missing_run *run,
   return &run->by_image->segment[edge];
 }
 
-static double image_length(const struct judge_segment *s) {
-  return hypot(s->b.x - s->a.x, s->b.y - s->a.y);
-}
-
 static bool is_end_visible(const struct judge_missing_run *run, uint32_t number,
                            double t, enum judge_visibility *visibility) {
   const struct judge_edge *edge = &run->edges->edge.item[number];
@@ -92,7 +88,7 @@ static bool is_double(const struct fan *fan, struct judge_point2 away) {
 static bool add_fan_end(const struct judge_missing_run *run, struct fan *fan,
                         uint32_t edge, int side, bool is_first) {
   const struct judge_segment *s = image_of(run, edge);
-  double length = image_length(s), sign = (side ? -1 : 1) / length;
+  double length = judge_segment_mm(s), sign = (side ? -1 : 1) / length;
   const struct judge_point2 away = {(s->b.x - s->a.x) * sign,
                                     (s->b.y - s->a.y) * sign};
   if (!(length > 0) || is_double(fan, away))
@@ -189,7 +185,7 @@ static bool trace_edge(struct run_trace *trace, uint32_t edge, double t,
   double part[2];
   if (!judge_clip_to_page(run->sampler->camera, s->a, s->b, &part[0], &part[1]))
     return false;
-  double way = part[side] - t, mm = fabs(way) * image_length(s);
+  double way = part[side] - t, mm = fabs(way) * judge_segment_mm(s);
   double count = fmax(1, ceil(mm * SAMPLES_PER_SHORTEST / run->shortest_mm));
   for (double i = 0; i < count && !is_done(trace); i++) {
     double at = t + (i + 0.5) / count * way;

@@ -164,17 +164,16 @@ static bool follow_all(struct chain *c) {
 static bool sort_paths(struct ink_paths *paths) {
   size_t count = paths->path.count;
   struct sort_key *key = mem_alloc(count, sizeof *key);
-  struct sort_key *scratch = mem_alloc(count, sizeof *scratch);
   struct ink_path *sorted = mem_alloc(count, sizeof *sorted);
-  bool ok = key != NULL && scratch != NULL && sorted != NULL;
+  bool ok = key != NULL && sorted != NULL;
+  for (size_t i = 0; ok && i < count; i++) {
+    const struct ink_path *path = &paths->path.item[i];
+    (void)poll_at(i);
+    key[i].key = (uint64_t)path->hidden << 32 | path->edge;
+    key[i].value = (uint32_t)i;
+  }
+  ok = ok && sort_keys_alone(key, count);
   if (ok) {
-    for (size_t i = 0; i < count; i++) {
-      const struct ink_path *path = &paths->path.item[i];
-      (void)poll_at(i);
-      key[i].key = (uint64_t)path->hidden << 32 | path->edge;
-      key[i].value = (uint32_t)i;
-    }
-    sort_keys(key, scratch, count);
     for (size_t i = 0; i < count; i++) {
       (void)poll_at(i);
       sorted[i] = paths->path.item[key[i].value];
@@ -185,7 +184,6 @@ static bool sort_paths(struct ink_paths *paths) {
     sorted = NULL;
   }
   mem_free(key);
-  mem_free(scratch);
   mem_free(sorted);
   return ok;
 }

@@ -22,8 +22,8 @@ static struct drawing_point corner(const struct stroke_line *line, size_t i) {
 }
 
 static double side_length(const struct cursor *c) {
-  return stroke_distance(corner(c->line, c->side),
-                         corner(c->line, c->side + 1));
+  return drawing_distance(corner(c->line, c->side),
+                          corner(c->line, c->side + 1));
 }
 
 /* The number of sides, including the closing one. */
@@ -114,7 +114,7 @@ static bool is_line_corner(const struct stroke_line *line, size_t i) {
   struct drawing_point p = line->point.item[i > 0 ? i - 1 : count - 1];
   struct drawing_point q = line->point.item[i], r = corner(line, i + 1);
   double dot = (q.x - p.x) * (r.x - q.x) + (q.y - p.y) * (r.y - q.y);
-  return dot < CORNER_COSINE * stroke_distance(p, q) * stroke_distance(q, r);
+  return dot < CORNER_COSINE * drawing_distance(p, q) * drawing_distance(q, r);
 }
 
 /* The next corner after point i, with indices that continue past the end of a

@@ -109,24 +109,18 @@ static bool test_overlap(void *user, uint32_t segment, uint32_t k) {
 
 /* Sorts the members by cluster and removes repetitions. */
 static bool gather_members(struct overlap_finder *w) {
-  size_t count = w->member.count, kept = 0;
+  size_t count = w->member.count;
   struct sort_key *key = mem_alloc(count, sizeof *key);
-  struct sort_key *scratch = mem_alloc(count, sizeof *scratch);
-  if (key != NULL && scratch != NULL) {
-    for (size_t i = 0; i < count; i++) {
-      uint32_t segment = w->member.item[i];
-      uint64_t root = root_of(w->parent, segment);
-      key[i] = (struct sort_key){root << 32 | segment, segment};
-    }
-    sort_keys(key, scratch, count);
-    for (size_t i = 0; i < count; i++)
-      if (i == 0 || key[i].value != key[i - 1].value)
-        w->member.item[kept++] = key[i].value;
-    w->member.count = kept;
+  for (size_t i = 0; key != NULL && i < count; i++) {
+    uint32_t segment = w->member.item[i];
+    uint64_t root = root_of(w->parent, segment);
+    key[i] = (struct sort_key){root << 32 | segment, segment};
   }
-  bool ok = key != NULL && scratch != NULL;
+  bool ok = key != NULL && sort_keys_unique(key, &count);
+  for (size_t i = 0; ok && i < count; i++)
+    w->member.item[i] = key[i].value;
+  w->member.count = count;
   mem_free(key);
-  mem_free(scratch);
   return ok;
 }
 

@@ -160,22 +160,6 @@ static bool find_pairs(struct output_overlaps *r,
   return true;
 }
 
-/* Sorts and removes duplicates. */
-static bool sort_unique(struct sort_key *item, size_t *count) {
-  struct sort_key *scratch = mem_alloc(*count, sizeof *scratch);
-  if (scratch == NULL)
-    return false;
-  sort_keys(item, scratch, *count);
-  size_t kept = 0;
-  for (size_t i = 0; i < *count; i++)
-    if (i == 0 || item[i].key != item[kept - 1].key ||
-        item[i].value != item[kept - 1].value)
-      item[kept++] = item[i];
-  *count = kept;
-  mem_free(scratch);
-  return true;
-}
-
 /* ---- 3 Subtract ---------------------------------------------------------- */
 
 /* Marks a node whose lines have moved a little. */
@@ -288,18 +272,18 @@ static bool list_members(struct output_overlaps *r) {
     if (!ARRAY_PUSH(&r->member, a) || !ARRAY_PUSH(&r->member, b))
       return false;
   }
-  if (!sort_unique(r->member.item, &r->member.count))
+  if (!sort_keys_unique(r->member.item, &r->member.count))
     return false;
   for (size_t i = 0; i < r->member.count; i++) {
     uint32_t segment = (uint32_t)r->member.item[i].key;
     r->member.item[i] =
         (struct sort_key){overlap_priority(graph, segment), segment};
   }
-  return sort_unique(r->member.item, &r->member.count);
+  return sort_keys_unique(r->member.item, &r->member.count);
 }
 
 static bool resolve_members(struct output_overlaps *r) {
-  if (!sort_unique(r->pair.item, &r->pair.count) || !list_members(r))
+  if (!sort_keys_unique(r->pair.item, &r->pair.count) || !list_members(r))
     return false;
   for (size_t i = 0; i < r->member.count; i++)
     if (!poll_at(i) || !ARRAY_PUSH(&r->start, (uint32_t)r->piece.count) ||

@@ -10,10 +10,10 @@ struct stroke_line {
   bool closed;
 };
 
-double stroke_distance(struct drawing_point a, struct drawing_point b);
-
 /* Length in mm, including the closing side. */
-double stroke_line_length(const struct stroke_line *line);
+static inline double stroke_line_length(const struct stroke_line *line) {
+  return drawing_polyline_mm(line->point.item, line->point.count, line->closed);
+}
 
 /* Appends the line; all attributes except its points are those of `like`. */
 USE_RESULT bool stroke_add(struct drawing *drawing,

@@ -119,10 +119,10 @@ static void choose_loop_start(struct order_work *o, uint32_t k) {
   double shortest = -1;
   for (uint32_t i = 0; i < o->stroke[s].count; i++) {
     struct drawing_point p = stroke_corner(o, s, i);
-    double travel = stroke_distance(from, p);
+    double travel = drawing_distance(from, p);
     if (k + 1 < o->count) {
       uint32_t next = t->stroke[k + 1];
-      travel += stroke_distance(p, o->end[2 * next + t->reversed[next]]);
+      travel += drawing_distance(p, o->end[2 * next + t->reversed[next]]);
     }
     if (shortest < 0 || travel < shortest) {
       shortest = travel;
@@ -189,7 +189,7 @@ static double given_travel(const struct order_work *o) {
   for (uint32_t i = 0; i < o->count; i++) {
     uint32_t last = o->stroke[i].closed ? 0 : o->stroke[i].count - 1;
     (void)poll_at(i);
-    travel += stroke_distance(pen, stroke_corner(o, i, 0));
+    travel += drawing_distance(pen, stroke_corner(o, i, 0));
     pen = stroke_corner(o, i, last);
   }
   return travel;

@@ -50,7 +50,7 @@ double tour_travel(const struct tour *tour) {
   for (uint32_t i = 0; i < tour->count; i++) {
     uint32_t stroke = tour->stroke[i], reversed = tour->reversed[stroke];
     (void)poll_at(i);
-    travel += stroke_distance(pen, tour->end[2 * stroke + reversed]);
+    travel += drawing_distance(pen, tour->end[2 * stroke + reversed]);
     pen = tour->end[2 * stroke + !reversed];
   }
   return travel;
@@ -88,8 +88,8 @@ static double gap(const struct cyclic_tour *r, uint32_t a, uint32_t b) {
   uint32_t depot_in = 2 * (r->count - 1);
   if (a == depot_in || b == depot_in)
     return 0;
-  return stroke_distance(a > depot_in ? r->start : r->end[a],
-                         b > depot_in ? r->start : r->end[b]);
+  return drawing_distance(a > depot_in ? r->start : r->end[a],
+                          b > depot_in ? r->start : r->end[b]);
 }
 
 /* The number of stops from a to b, both included, forwards. */
