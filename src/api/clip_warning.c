@@ -77,7 +77,7 @@ void clipped_warn(const struct page_overflow *overflow, uint64_t faces,
 
 void clipped_report(const struct page_overflow *overflow,
                     struct report *report) {
-  report_int(report, "clipped", "lines", (int64_t)overflow->edges);
+  report_count(report, "clipped", "lines", overflow->edges);
   report_double(report, "clipped", "length_mm", overflow->mm);
   report_double(report, "clipped", "farthest_mm", overflow->excess_mm);
 }

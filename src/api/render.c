@@ -147,10 +147,10 @@ static recto_status find_topology(struct render *render, recto_error *error) {
   report_double(render->report, "scene", "weld",
                 ldexp(render->prepared->welded.length,
                       render->prepared->rescaled.exponent));
-  report_int(render->report, "scene", "welded_points",
-             (int64_t)render->prepared->welded.joined);
-  report_int(render->report, "scene", "welded_faces",
-             (int64_t)render->prepared->welded.lost);
+  report_count(render->report, "scene", "welded_points",
+               render->prepared->welded.joined);
+  report_count(render->report, "scene", "welded_faces",
+               render->prepared->welded.lost);
   warn_of_borders(render);
   if (render->prepared->welded.lost > 0 &&
       scene_face_count(&render->prepared->welded.scene) == 0 &&
@@ -161,8 +161,7 @@ static recto_status find_topology(struct render *render, recto_error *error) {
   render->topology.drop_after_sheet = !needs_fragments(render) &&
                                       !draws_smooth_contours(render) &&
                                       !is_shared(render);
-  report_int(render->report, "scene", "edges",
-             (int64_t)render->topology.edge.count);
+  report_count(render->report, "scene", "edges", render->topology.edge.count);
   return status;
 }
 
@@ -235,9 +234,9 @@ static recto_status add_smooth_contours(struct render *render,
       &render->sheet, &render->map, &render->topology, options->mesh.crease_deg,
       options->ink.hidden == RECTO_HIDDEN_NONE ? 0 : options->ink.hidden_by_max,
       &counts, error);
-  report_int(render->report, "contours", "segments", (int64_t)counts.segments);
-  report_int(render->report, "contours", "curves", (int64_t)counts.curves);
-  report_int(render->report, "contours", "pieces", (int64_t)counts.pieces);
+  report_count(render->report, "contours", "segments", counts.segments);
+  report_count(render->report, "contours", "curves", counts.curves);
+  report_count(render->report, "contours", "pieces", counts.pieces);
   return status;
 }
 
@@ -416,8 +415,7 @@ static recto_status run_and_report(struct render *render, recto_error *error) {
                    render->camera.margin_mm, render->options);
     stats_add_sheet(render->report, &render->sheet, render->triangles);
     stats_add_drawing(render->report, render->drawing, render->options);
-    report_int(render->report, "memory", "peak_bytes",
-               (int64_t)mem_peak_bytes());
+    report_count(render->report, "memory", "peak_bytes", mem_peak_bytes());
   }
   map_fini(&render->map);
   (void)poll_now();

@@ -4,18 +4,6 @@
 #include "backends/device.h"
 #include "base/poll.h"
 
-/* The last one has no name. */
-struct count {
-  const char *name;
-  size_t value;
-};
-
-static void add_counts(struct report *report, const char *section,
-                       const struct count *count) {
-  for (; count->name != NULL; count++)
-    report_int(report, section, count->name, (int64_t)count->value);
-}
-
 void stats_add_scene(struct report *report, const recto_scene *model) {
   const struct scene *scene = &model->scene;
   static const char *const fault[SCENE_FAULT_COUNT] = {
@@ -28,16 +16,12 @@ void stats_add_scene(struct report *report, const recto_scene *model) {
       [SCENE_FAULT_SYNTAX] = "syntax",
       [SCENE_FAULT_MATERIAL] = "material",
   };
-  const struct count counts[] = {
-      {"points", scene->point.count},
-      {"faces", scene_face_count(scene)},
-      {"polylines", scene_wire_count(scene)},
-      {"groups", scene->group.count},
-      {NULL, 0},
-  };
-  add_counts(report, "scene", counts);
+  report_count(report, "scene", "points", scene->point.count);
+  report_count(report, "scene", "faces", scene_face_count(scene));
+  report_count(report, "scene", "polylines", scene_wire_count(scene));
+  report_count(report, "scene", "groups", scene->group.count);
   for (int i = 0; i < SCENE_FAULT_COUNT; i++)
-    report_int(report, "faults", fault[i], (int64_t)model->fault[i]);
+    report_count(report, "faults", fault[i], model->fault[i]);
   stats_add_seconds(report, "read_cpu_s", model->read_cpu);
   stats_add_seconds(report, "read_wall_s", model->read_wall);
 }
@@ -57,18 +41,14 @@ void stats_add_method(struct report *report, recto_method requested,
 
 void stats_add_sheet(struct report *report, const struct sheet *sheet,
                      size_t triangles) {
-  const struct count counts[] = {
-      {"triangles", triangles},
-      {"points", sheet->point.count},
-      {"edges", sheet->edge.count},
-      {"faces_clipped_near", sheet->clipped_near},
-      {"faces_cut_near", sheet->cut_near},
-      {"faces_clipped_page", sheet->clipped_page},
-      {NULL, 0},
-  };
-  add_counts(report, "sheet", counts);
-  report_add(report, "faults", "warped", (int64_t)sheet->warped);
-  report_add(report, "faults", "zero_area", (int64_t)sheet->empty);
+  report_count(report, "sheet", "triangles", triangles);
+  report_count(report, "sheet", "points", sheet->point.count);
+  report_count(report, "sheet", "edges", sheet->edge.count);
+  report_count(report, "sheet", "faces_clipped_near", sheet->clipped_near);
+  report_count(report, "sheet", "faces_cut_near", sheet->cut_near);
+  report_count(report, "sheet", "faces_clipped_page", sheet->clipped_page);
+  report_add(report, "faults", "warped", sheet->warped);
+  report_add(report, "faults", "zero_area", sheet->empty);
 }
 
 /* The pen and the drawn length of each layer, so that the user knows which pens
@@ -95,9 +75,7 @@ static void add_layers(struct report *report, const struct drawing *drawing) {
 static void add_plotting(struct report *report, const struct drawing *drawing,
                          const recto_options *options, double length_mm,
                          double travel_mm) {
-  const char *name =
-      options->output.device != NULL ? options->output.device : "generic";
-  const struct device *device = device_by_name(name);
+  const struct device *device = device_by_name(options->output.device);
   if (device == NULL)
     return;
   double down = device_velocity(device, options->output.velocity_cm_s);
@@ -121,26 +99,18 @@ void stats_add_drawing(struct report *report, const struct drawing *drawing,
   double length = drawing_length_mm(drawing);
   double travel = drawing_travel_mm(drawing);
   const struct drawing_counts *counts = &drawing->counts;
-  const struct count ink[] = {
-      {"segments", counts->segments},
-      {"without_length", counts->without_length},
-      {"drawn_twice", counts->drawn_twice},
-      {"too_short", counts->too_short},
-      {"covered", counts->covered},
-      {"pen_lifts", counts->pen_lifts},
-      {NULL, 0},
-  };
-  const struct count elements[] = {
-      {"layers", drawing->layer.count},
-      {"strokes", drawing->stroke.count},
-      {"fills", drawing->fill.count},
-      {"points", drawing->point.count},
-      {NULL, 0},
-  };
-  add_counts(report, "ink", ink);
+  report_count(report, "ink", "segments", counts->segments);
+  report_count(report, "ink", "without_length", counts->without_length);
+  report_count(report, "ink", "drawn_twice", counts->drawn_twice);
+  report_count(report, "ink", "too_short", counts->too_short);
+  report_count(report, "ink", "covered", counts->covered);
+  report_count(report, "ink", "pen_lifts", counts->pen_lifts);
   report_double(report, "ink", "travel_before_mm", counts->travel_before_mm);
   report_double(report, "ink", "travel_mm", travel);
-  add_counts(report, "drawing", elements);
+  report_count(report, "drawing", "layers", drawing->layer.count);
+  report_count(report, "drawing", "strokes", drawing->stroke.count);
+  report_count(report, "drawing", "fills", drawing->fill.count);
+  report_count(report, "drawing", "points", drawing->point.count);
   add_layers(report, drawing);
   report_double(report, "drawing", "length_mm", length);
   report_double(report, "drawing", "travel_mm", travel);

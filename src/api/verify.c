@@ -155,14 +155,12 @@ static recto_status verdict_error(const struct verify *verify,
 
 static void report_verdict(struct report *report,
                            const struct judge_verdict *v) {
-  report_int(report, "verify", "drawn", (int64_t)v->drawn.samples);
-  report_int(report, "verify", "drawn_wrong", (int64_t)v->false_ink.samples);
-  report_int(report, "verify", "drawn_undecided",
-             (int64_t)v->undecided_ink.samples);
-  report_int(report, "verify", "not_drawn_hidden", (int64_t)v->hidden.samples);
-  report_int(report, "verify", "not_drawn_wrong", (int64_t)v->missing.samples);
-  report_int(report, "verify", "not_drawn_undecided",
-             (int64_t)v->undecided.samples);
+  report_count(report, "verify", "drawn", v->drawn.samples);
+  report_count(report, "verify", "drawn_wrong", v->false_ink.samples);
+  report_count(report, "verify", "drawn_undecided", v->undecided_ink.samples);
+  report_count(report, "verify", "not_drawn_hidden", v->hidden.samples);
+  report_count(report, "verify", "not_drawn_wrong", v->missing.samples);
+  report_count(report, "verify", "not_drawn_undecided", v->undecided.samples);
 }
 
 static recto_status judge_own_drawing(const struct verify *verify,

@@ -105,10 +105,15 @@ void report_int(struct report *report, const char *section, const char *name,
     entry->integer = value;
 }
 
+void report_count(struct report *report, const char *section, const char *name,
+                  uint64_t count) {
+  report_int(report, section, name, (int64_t)count);
+}
+
 void report_add(struct report *report, const char *section, const char *name,
-                int64_t value) {
+                uint64_t count) {
   report_int(report, section, name,
-             report_get(report, section, name, 0) + value);
+             report_get(report, section, name, 0) + (int64_t)count);
 }
 
 void report_double(struct report *report, const char *section, const char *name,

@@ -23,8 +23,10 @@ void report_unlock(struct report *report);
 
 void report_int(struct report *report, const char *section, const char *name,
                 int64_t value);
+void report_count(struct report *report, const char *section, const char *name,
+                  uint64_t count);
 void report_add(struct report *report, const char *section, const char *name,
-                int64_t value);
+                uint64_t count);
 void report_double(struct report *report, const char *section, const char *name,
                    double value);
 void report_doubles(struct report *report, const char *section,

@@ -158,13 +158,7 @@ static bool hash_large_face_sides(struct intersection_finder *finder) {
       if (!poll_at(i + 1) || !ARRAY_PUSH(&finder->side, key))
         return false;
     }
-  size_t count = finder->side.count;
-  struct sort_key *scratch = mem_alloc(count, sizeof *scratch);
-  if (scratch == NULL)
-    return false;
-  sort_keys(finder->side.item, scratch, count);
-  mem_free(scratch);
-  return true;
+  return sort_keys_alone(finder->side.item, finder->side.count);
 }
 
 static bool is_side_at(const struct scene *scene, uint32_t face, uint32_t i,

@@ -156,10 +156,10 @@ recto_status quantitative_invisibility_find(struct map *map,
   else
     status = error_memory(error);
   report_int(report, "quantitative_invisibility", "limit", limit);
-  report_int(report, "quantitative_invisibility", "pairs",
-             (int64_t)sweep.counts.pairs);
-  report_int(report, "quantitative_invisibility", "intervals_over_limit",
-             (int64_t)map->over_limit_interval.count);
+  report_count(report, "quantitative_invisibility", "pairs",
+               sweep.counts.pairs);
+  report_count(report, "quantitative_invisibility", "intervals_over_limit",
+               map->over_limit_interval.count);
   triangle_grid_query_fini(&sweep.query);
   triangle_grid_fini(&sweep.grid);
   ARRAY_FREE(&sweep.change);

@@ -250,7 +250,7 @@ static bool add_nearby(struct fragments *f, uint32_t triangle, uint8_t *done) {
     return false;
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++) {
-      size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
+      size_t cell = triangle_grid_index(grid, x, y);
       if (done[cell])
         continue;
       done[cell] = 1;
@@ -292,17 +292,17 @@ static void report_counts(const struct fragments *fragments) {
   static const char *const side[] = {"sides_of_edges", "sides_of_occluders",
                                      "sides_of_intersections",
                                      "sides_of_clipping"};
-  report_int(report, "fragments", "triangles_whole", (int64_t)c->whole);
-  report_int(report, "fragments", "triangles_cut", (int64_t)c->cut);
-  report_int(report, "fragments", "contact_pairs", (int64_t)c->contact_pairs);
-  report_int(report, "fragments", "contact_filter_failures",
-             (int64_t)c->contact_exact);
-  report_int(report, "fragments", "contacts", (int64_t)c->contacts);
-  report_int(report, "fragments", "faces_by_outline", (int64_t)c->outlines);
-  report_int(report, "fragments", "faces_united", (int64_t)c->united);
-  report_int(report, "fragments", "pieces_united", (int64_t)c->pieces);
+  report_count(report, "fragments", "triangles_whole", c->whole);
+  report_count(report, "fragments", "triangles_cut", c->cut);
+  report_count(report, "fragments", "contact_pairs", c->contact_pairs);
+  report_count(report, "fragments", "contact_filter_failures",
+               c->contact_exact);
+  report_count(report, "fragments", "contacts", c->contacts);
+  report_count(report, "fragments", "faces_by_outline", c->outlines);
+  report_count(report, "fragments", "faces_united", c->united);
+  report_count(report, "fragments", "pieces_united", c->pieces);
   for (int k = 0; k <= MAP_SIDE_CLIP; k++)
-    report_int(report, "fragments", side[k], (int64_t)c->side[k]);
+    report_count(report, "fragments", side[k], c->side[k]);
 }
 
 bool fragments_finish(struct fragments *fragments, struct map *map) {

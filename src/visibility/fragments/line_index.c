@@ -148,19 +148,10 @@ bool line_index_init(struct line_index *index, const struct sheet *sheet,
                      const uint32_t *triangle, size_t count) {
   const struct gathered_sides sides = {sheet, triangle, count};
   side_keys keys = {0};
-  struct sort_key *scratch = NULL;
-  bool ok = false;
   memset(index, 0, sizeof *index);
   choose_shape(index, &sides);
-  if (!gather_keys(index, &sides, &keys))
-    goto end;
-  scratch = mem_alloc(keys.count, sizeof *scratch);
-  if (scratch == NULL)
-    goto end;
-  sort_keys(keys.item, scratch, keys.count);
-  ok = make_lists(index, &keys);
-end:
-  mem_free(scratch);
+  bool ok = gather_keys(index, &sides, &keys) &&
+            sort_keys_alone(keys.item, keys.count) && make_lists(index, &keys);
   ARRAY_FREE(&keys);
   return ok;
 }

@@ -282,10 +282,10 @@ bool occluder_subtraction_store(struct occluder_subtraction *subtraction,
 void occluder_subtraction_report(const struct occluder_subtraction *subtraction,
                                  struct report *report) {
   const struct occluder_subtraction_counts *counts = &subtraction->counts;
-  report_add(report, "faces", "pairs", (int64_t)counts->pairs);
-  report_add(report, "faces", "overlapping", (int64_t)counts->overlapping);
-  report_add(report, "faces", "filter_failures", (int64_t)counts->exact);
-  report_add(report, "faces", "depth_crossings", (int64_t)counts->crossings);
-  report_add(report, "faces", "splits", (int64_t)counts->splits);
-  report_add(report, "faces", "subtractions", (int64_t)counts->subtractions);
+  report_add(report, "faces", "pairs", counts->pairs);
+  report_add(report, "faces", "overlapping", counts->overlapping);
+  report_add(report, "faces", "filter_failures", counts->exact);
+  report_add(report, "faces", "depth_crossings", counts->crossings);
+  report_add(report, "faces", "splits", counts->splits);
+  report_add(report, "faces", "subtractions", counts->subtractions);
 }

@@ -72,7 +72,7 @@ static double cost_of_pairs(const struct triangle_grid *grid,
         triangle_grid_cells(grid, box2_of_triangle(sheet, subset[i]));
     for (int y = r.y0; y <= r.y1; y++)
       for (int x = r.x0; x <= r.x1; x++)
-        count[(size_t)y * (size_t)grid->columns + (size_t)x]++;
+        count[triangle_grid_index(grid, x, y)]++;
   }
   for (size_t c = 0; c < cells; c++)
     cost += triangle_grid_cost_of_list(count[c]);
@@ -129,7 +129,7 @@ static void fill_triangle(const struct filling *filling, uint32_t t,
           : triangle_grid_cells(grid, box2_of_triangle(sheet, t));
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++) {
-      size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
+      size_t cell = triangle_grid_index(grid, x, y);
       uint32_t *end = &grid->start[cell];
       if (filling->wanted != NULL && !filling->wanted[cell])
         continue;
@@ -348,7 +348,7 @@ static bool visit_bsp(const struct triangle_grid *grid, uint32_t root,
 static bool visit_cell(const struct triangle_grid *grid, int x, int y,
                        const struct bsp_query *shape,
                        struct triangle_grid_query *query) {
-  size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
+  size_t cell = triangle_grid_index(grid, x, y);
   uint32_t root = triangle_grid_bsp(grid, cell);
   if (root != SHEET_NONE)
     return visit_bsp(grid, root, shape, query);

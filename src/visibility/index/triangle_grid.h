@@ -42,6 +42,12 @@ USE_RESULT bool triangle_grid_fill(struct triangle_grid *grid,
                                    const struct footprint *footprint,
                                    const uint8_t *wanted);
 
+/* The number of a cell. */
+static inline size_t triangle_grid_index(const struct triangle_grid *grid,
+                                         int x, int y) {
+  return (size_t)y * (size_t)grid->columns + (size_t)x;
+}
+
 /* The cost of testing all pairs of a list, in pairs; each entry adds a constant
  * cost of four. */
 static inline double triangle_grid_cost_of_list(uint32_t count) {

@@ -53,7 +53,7 @@ static void make_swept_triangle(const struct pair_sweep *sweep,
 /* Are both triangles listed in a cell that is selected? */
 static bool is_pair_selected(const struct pair_sweep *sweep, int x, int y) {
   const struct triangle_grid *grid = sweep->grid;
-  size_t cell = (size_t)y * (size_t)grid->columns + (size_t)x;
+  size_t cell = triangle_grid_index(grid, x, y);
   if (sweep->cells != NULL && !sweep->cells[cell])
     return false;
   return grid->start[cell] < grid->start[cell + 1];

@@ -228,15 +228,13 @@ static bool unite_searches(struct intersection_search *search,
 
 static void report_search(const struct intersection_search *search,
                           uint64_t crossings, struct report *report) {
-  report_int(report, "intersections", "pairs_tested",
-             (int64_t)search->sweep.met);
-  report_int(report, "intersections", "candidate_pairs",
-             (int64_t)search->counts.pairs);
-  report_int(report, "intersections", "straddling_pairs",
-             (int64_t)search->counts.straddle);
-  report_int(report, "intersections", "edge_crossings", (int64_t)crossings);
-  report_int(report, "intersections", "segments",
-             (int64_t)search->segment.list.count);
+  report_count(report, "intersections", "pairs_tested", search->sweep.met);
+  report_count(report, "intersections", "candidate_pairs",
+               search->counts.pairs);
+  report_count(report, "intersections", "straddling_pairs",
+               search->counts.straddle);
+  report_count(report, "intersections", "edge_crossings", crossings);
+  report_count(report, "intersections", "segments", search->segment.list.count);
 }
 
 recto_status intersection_find_all(struct sheet *sheet,
@@ -266,4 +264,19 @@ recto_status intersection_find_all(struct sheet *sheet,
   search_fini(search);
   mem_free(search);
   return ok ? RECTO_OK : error_memory(error);
+}
+
+recto_status intersection_find_everywhere(struct sheet *sheet,
+                                          const struct solver_request *request,
+                                          struct report *report,
+                                          recto_error *error) {
+  struct triangle_grid grid;
+  if (!request->intersections)
+    return RECTO_OK;
+  if (!triangle_grid_init(&grid, sheet))
+    return error_memory(error);
+  recto_status status =
+      intersection_find_all(sheet, &grid, NULL, request, report, error);
+  triangle_grid_fini(&grid);
+  return status;
 }

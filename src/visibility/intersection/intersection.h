@@ -33,4 +33,10 @@ USE_RESULT recto_status intersection_find_all(
     const struct solver_request *request, struct report *report,
     recto_error *error);
 
+/* The same with a grid of its own, everywhere, where intersections are
+ * requested. */
+USE_RESULT recto_status intersection_find_everywhere(
+    struct sheet *sheet, const struct solver_request *request,
+    struct report *report, recto_error *error);
+
 #endif

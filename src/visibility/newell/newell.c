@@ -102,11 +102,10 @@ static bool needs_fallback(const struct edge_work *work,
  * cancelled. */
 static struct edge_intervals *intervals_of(struct edge_work *work, uint32_t e) {
   const struct sheet_edge *edge = &work->sheet->edge.item[e];
-  struct geom_point p = work->sheet->point.item[edge->point[0]],
-                    q = work->sheet->point.item[edge->point[1]];
+  struct geom_segment s = sheet_ends(work->sheet, edge->point);
   if (needs_fallback(work, edge))
     return pairwise_fallback_edge(work->fallback, e);
-  return occlude_newell_edge(work, edge, p, q) &&
+  return occlude_newell_edge(work, edge, s.p, s.q) &&
                  progress_step(work->progress, work->query.found.count)
              ? &work->intervals
              : NULL;
@@ -131,8 +130,7 @@ static bool solve_edges_newell(const struct sheet *sheet,
     ok = intervals != NULL && edge_intervals_store(intervals, (uint32_t)e, map);
   }
   occlusion_report(&work.counts, report);
-  report_int(report, "newell", "pairs_decided_by_order",
-             (int64_t)work.by_order);
+  report_count(report, "newell", "pairs_decided_by_order", work.by_order);
   edge_intervals_fini(&work.intervals);
   triangle_grid_query_fini(&work.query);
   return ok;
@@ -230,17 +228,17 @@ static bool solve_fragments_newell(struct newell_order *order,
 static void report_order(const struct newell_order *order,
                          struct report *report) {
   const struct newell_counts *c = &order->counts;
-  report_int(report, "newell", "decided_by_depth", (int64_t)c->depth);
-  report_int(report, "newell", "decided_by_test_a", (int64_t)c->minimax);
-  report_int(report, "newell", "decided_by_test_b", (int64_t)c->behind);
-  report_int(report, "newell", "decided_by_test_c", (int64_t)c->before);
-  report_int(report, "newell", "decided_by_test_d", (int64_t)c->full);
-  report_int(report, "newell", "moved", (int64_t)c->moved);
-  report_int(report, "newell", "cycles", (int64_t)c->cycles);
-  report_int(report, "newell", "splits_by_cycle", (int64_t)c->split_cycle);
-  report_int(report, "newell", "splits_by_piercing", (int64_t)c->split_pierce);
-  report_int(report, "newell", "without_order", (int64_t)c->deferred);
-  report_int(report, "newell", "pieces", (int64_t)order->painted.count);
+  report_count(report, "newell", "decided_by_depth", c->depth);
+  report_count(report, "newell", "decided_by_test_a", c->minimax);
+  report_count(report, "newell", "decided_by_test_b", c->behind);
+  report_count(report, "newell", "decided_by_test_c", c->before);
+  report_count(report, "newell", "decided_by_test_d", c->full);
+  report_count(report, "newell", "moved", c->moved);
+  report_count(report, "newell", "cycles", c->cycles);
+  report_count(report, "newell", "splits_by_cycle", c->split_cycle);
+  report_count(report, "newell", "splits_by_piercing", c->split_pierce);
+  report_count(report, "newell", "without_order", c->deferred);
+  report_count(report, "newell", "pieces", order->painted.count);
 }
 
 /* Fills the map, given the order. */

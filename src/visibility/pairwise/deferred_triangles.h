@@ -40,25 +40,25 @@ struct deferred_triangles {
  *         triangles that are found to be hidden are marked there
  * Returns false when memory ran out; end with deferred_triangles_fini either
  * way. */
-USE_RESULT bool deferred_triangles_init(
-    struct deferred_triangles *deferred_triangles, const struct sheet *sheet,
-    const struct tile_candidates *lists, const uint8_t *wanted, uint8_t *state);
-void deferred_triangles_fini(struct deferred_triangles *deferred_triangles);
+USE_RESULT bool deferred_triangles_init(struct deferred_triangles *d,
+                                        const struct sheet *sheet,
+                                        const struct tile_candidates *lists,
+                                        const uint8_t *wanted, uint8_t *state);
+void deferred_triangles_fini(struct deferred_triangles *d);
 
 /* Sorts triangles from near to far, by depth bucket.
  * Returns false when memory ran out. */
-USE_RESULT bool
-deferred_triangles_sort(const struct deferred_triangles *deferred_triangles,
-                        uint32_t *triangle, size_t count);
+USE_RESULT bool deferred_triangles_sort(const struct deferred_triangles *d,
+                                        uint32_t *triangle, size_t count);
 
 /* Computes the visible pieces of a triangle, which is not flat and all of whose
  * tiles have lists, and adds them to the fragments.
  * Returns false when memory ran out or the caller cancelled. */
-USE_RESULT bool
-deferred_triangles_solve(struct deferred_triangles *deferred_triangles,
-                         uint32_t triangle, struct fragments *fragments);
+USE_RESULT bool deferred_triangles_solve(struct deferred_triangles *d,
+                                         uint32_t triangle,
+                                         struct fragments *fragments);
 
-void deferred_triangles_report(
-    const struct deferred_triangles *deferred_triangles, struct report *report);
+void deferred_triangles_report(const struct deferred_triangles *d,
+                               struct report *report);
 
 #endif

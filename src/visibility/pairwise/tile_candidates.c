@@ -107,7 +107,7 @@ struct kdop8_range tile_candidates_range(const struct tile_candidates *list,
   const struct tile_classification *tiles = list->tiles;
   uint64_t z_buckets =
       list->cells_are_tiles
-          ? tiles->tile[(size_t)y * (size_t)grid->columns + (size_t)x].z_buckets
+          ? tiles->tile[triangle_grid_index(grid, x, y)].z_buckets
           : tiles->z_buckets;
   int low = __builtin_ctzll(z_buckets),
       buckets = 64 - __builtin_clzll(z_buckets) - low;

@@ -284,10 +284,8 @@ void occlusion_counts_add(struct occlusion_counts *sum,
 
 void occlusion_report(const struct occlusion_counts *counts,
                       struct report *report) {
-  report_add(report, "occlusion", "pairs", (int64_t)counts->pairs);
-  report_add(report, "occlusion", "depth_tests", (int64_t)counts->depth_tests);
-  report_add(report, "occlusion", "filter_failures",
-             (int64_t)counts->exact_tests);
-  report_add(report, "occlusion", "depth_crossings",
-             (int64_t)counts->crossings);
+  report_add(report, "occlusion", "pairs", counts->pairs);
+  report_add(report, "occlusion", "depth_tests", counts->depth_tests);
+  report_add(report, "occlusion", "filter_failures", counts->exact_tests);
+  report_add(report, "occlusion", "depth_crossings", counts->crossings);
 }

@@ -28,12 +28,8 @@ static bool is_separated_by_side(const struct geom_point f[3],
 /* The separating axis theorem: two convex polygons with disjoint interiors are
  * separated by a side of one of them. */
 bool triangles_disjoint(const struct sheet *sheet, uint32_t f, uint32_t g) {
-  const uint32_t *i = sheet->triangle.item[f].point,
-                 *j = sheet->triangle.item[g].point;
-  const struct geom_point *point = sheet->point.item;
-  const struct geom_point p[3] = {point[i[0]], point[i[1]], point[i[2]]},
-                          q[3] = {point[j[0]], point[j[1]], point[j[2]]};
-  return is_separated_by_side(p, q) || is_separated_by_side(q, p);
+  struct geom_triangle p = sheet_corners(sheet, f), q = sheet_corners(sheet, g);
+  return is_separated_by_side(p.p, q.p) || is_separated_by_side(q.p, p.p);
 }
 
 void triangle_lines(const struct sheet *sheet, uint32_t triangle,

@@ -3,6 +3,7 @@
  * Fragments: neighbouring pixels of one scene face make a span; its sides are
  * borders of pixels, cuts of the method (MAP_SIDE_CLIP). */
 #include "visibility/raster/pixels.h"
+#include "visibility/intersection/intersection.h"
 
 #include <math.h>
 #include <string.h>
@@ -239,7 +240,7 @@ recto_status pixels_solve(struct sheet *sheet,
   int64_t covered = 0;
   int lines;
   recto_status status =
-      edge_sampling_find_intersections(sheet, request, report, error);
+      intersection_find_everywhere(sheet, request, report, error);
   if (status == RECTO_OK)
     status = subpixels_lines(request, &lines, error);
   if (status == RECTO_OK)

@@ -13,21 +13,6 @@
 
 #define EDGE_SAMPLING_HIDDEN UINT32_MAX /* no visible run is open */
 
-recto_status
-edge_sampling_find_intersections(struct sheet *sheet,
-                                 const struct solver_request *request,
-                                 struct report *report, recto_error *error) {
-  struct triangle_grid grid;
-  recto_status status;
-  if (!request->intersections)
-    return RECTO_OK;
-  if (!triangle_grid_init(&grid, sheet))
-    return error_memory(error);
-  status = intersection_find_all(sheet, &grid, NULL, request, report, error);
-  triangle_grid_fini(&grid);
-  return status;
-}
-
 /* ---- Edges and cells ----------------------------------------------------- */
 
 static double frame_of(int64_t at, int64_t den, int64_t first, int64_t step) {

@@ -74,12 +74,6 @@ struct edge_sampling {
   ARRAY(struct sampled_run) run;
 };
 
-/* Adds the intersections of faces to the sheet's drawable edges, if they are
- * requested. */
-USE_RESULT recto_status edge_sampling_find_intersections(
-    struct sheet *sheet, const struct solver_request *request,
-    struct report *report, recto_error *error);
-
 /* The contact tolerance of a face of the scene at depth z, in depth units. */
 double edge_sampling_contact(const struct sheet *sheet, uint32_t face,
                              double z);

@@ -14,7 +14,6 @@
  *
  * Invariant: phase 2 decides as a comparison of all pairs would.
  */
-#include <stdatomic.h>
 #include <string.h>
 
 #include "base/parallel.h"
@@ -45,22 +44,7 @@ struct tiles_work {
   struct occlusion_counts counts;
   struct report *report;
   double phase_start; /* CPU seconds at the start of the current phase */
-  atomic_bool *cancelled;
 };
-
-enum { POLL_INTERVAL = 16 }; /* edges between two calls of progress */
-
-/* Polls every POLL_INTERVAL edges, in the caller's thread alone.
- * callers  whether this is that thread
- * Returns false when the caller cancelled. */
-static bool poll_edges(const struct tiles_work *work, size_t done,
-                       bool callers) {
-  struct progress progress = progress_of(work->request, "edges");
-  progress.share = (double)done / (double)work->edge.count;
-  if (callers && done % POLL_INTERVAL == 0 && !progress_poll(&progress))
-    atomic_store(work->cancelled, true);
-  return !atomic_load(work->cancelled);
-}
 
 /* ---- 3, 4. Lists and intersections --------------------------------------- */
 
@@ -115,7 +99,7 @@ static enum map_state state_along(struct tiles_work *work, struct geom_point p,
     int x0, x1;
     triangle_grid_row(grid, p, q, r, y, &x0, &x1);
     for (int x = x0; x <= x1; x++) {
-      size_t i = (size_t)y * (size_t)grid->columns + (size_t)x;
+      size_t i = triangle_grid_index(grid, x, y);
       int now = (int)state_in_tile(&work->tiles.tile[i], low, high, wire);
       if (mark) {
         work->more_wanted |= !work->wanted[i];
@@ -267,66 +251,49 @@ static bool classify_faces(struct tiles_work *work) {
 
 /* ---- 5. Pairs ------------------------------------------------------------ */
 
-/* A batch of consecutive deferred edges, solved by one thread. */
-struct edge_batch {
-  struct map map; /* edge_state is shared by all batches */
-  struct occlusion_counts counts;
-  bool done;
+enum {
+  BATCH_SIZE = 1024, /* edges */
+  POLL_INTERVAL = 16 /* edges between two polls */
 };
 
-enum { BATCH_SIZE = 1024 }; /* edges */
-
-static void solve_batch(const struct tiles_work *work, size_t from,
-                        struct edge_query *query, bool callers,
-                        struct edge_batch *batch) {
-  size_t to = work->edge.count - from < BATCH_SIZE ? work->edge.count
-                                                   : from + BATCH_SIZE;
-  batch->done = true;
-  query->recent_count = 0; /* the counts are to be those of any thread */
-  for (size_t i = from; batch->done && i < to; i++)
-    batch->done = poll_edges(work, i, callers) &&
-                  edge_query_solve(query, work->edge.item[i]) &&
-                  edge_intervals_store(&query->intervals, work->edge.item[i],
-                                       &batch->map);
-  batch->counts = query->counts;
-  query->counts = (struct occlusion_counts){0};
-}
-
-/* All batches; each thread takes the next one until none is left. */
+/* Batches of consecutive deferred edges, each solved by one thread. */
 struct edge_batches {
   const struct tiles_work *work;
-  struct edge_batch *batch;
-  size_t count;
-  atomic_size_t next; /* the first that no thread has taken */
+  struct edge_query *query; /* one a worker */
+  struct map *map;          /* one a batch; all share edge_state */
 };
 
-/* Solves batches in one thread. */
-static void solve_batches(void *user, bool callers) {
-  struct edge_batches *batches = user;
+static bool solve_batch(void *user, struct parallel_range range) {
+  const struct edge_batches *batches = user;
   const struct tiles_work *work = batches->work;
-  struct edge_query query;
-  if (edge_query_init(&query, work->sheet, &work->lists)) {
-    size_t i;
-    while ((i = atomic_fetch_add(&batches->next, 1)) < batches->count)
-      solve_batch(work, i * BATCH_SIZE, &query, callers, &batches->batch[i]);
+  struct edge_query *query = &batches->query[range.worker];
+  struct map *map = &batches->map[range.begin / BATCH_SIZE];
+  struct progress progress = progress_of(work->request, "edges");
+  query->recent_count = 0; /* the counts are to be those of any thread */
+  for (size_t i = range.begin; i < range.end; i++) {
+    progress.share = (double)i / (double)work->edge.count;
+    if ((i % POLL_INTERVAL == 0 && !progress_poll(&progress)) ||
+        !edge_query_solve(query, work->edge.item[i]) ||
+        !edge_intervals_store(&query->intervals, work->edge.item[i], map))
+      return false;
   }
-  edge_query_fini(&query);
+  return true;
 }
 
 /* Appends the intervals of a batch to the map; batches come in the order of
  * their edges. */
-static bool append_batch(struct map *map, const struct edge_batch *batch) {
+static bool append_batch(struct map *map, const struct map *batch) {
   uint32_t base = (uint32_t)map->interval.count;
-  if (!ARRAY_RESERVE(&map->mixed, batch->map.mixed.count) ||
-      !ARRAY_RESERVE(&map->interval, batch->map.interval.count))
+  if (!ARRAY_RESERVE(&map->mixed, batch->mixed.count) ||
+      !ARRAY_RESERVE(&map->interval, batch->interval.count))
     return false;
-  for (size_t i = 0; i < batch->map.mixed.count; i++) {
-    struct map_mixed mixed = batch->map.mixed.item[i];
+  for (size_t i = 0; i < batch->mixed.count; i++) {
+    struct map_mixed mixed = batch->mixed.item[i];
     mixed.interval += base;
     map->mixed.item[map->mixed.count++] = mixed;
   }
-  for (size_t i = 0; i < batch->map.interval.count; i++)
-    map->interval.item[map->interval.count++] = batch->map.interval.item[i];
+  for (size_t i = 0; i < batch->interval.count; i++)
+    map->interval.item[map->interval.count++] = batch->interval.item[i];
   return true;
 }
 
@@ -366,23 +333,29 @@ static bool solve_edges_tiles(struct tiles_work *work, struct map *map) {
   bool deep = work->culling->count > 0;
   if (deep && !sort_by_tile(work))
     return false;
-  size_t n = work->edge.count, batches = (n + BATCH_SIZE - 1) / BATCH_SIZE;
-  struct edge_batch *batch = mem_calloc(batches, sizeof *batch);
-  bool ok = batch != NULL;
-  if (!ok)
-    return false;
-  for (size_t i = 0; i < batches; i++)
-    batch[i].map.edge_state = map->edge_state;
-  parallel_run(
-      batches > 1 ? work->request->threads : 1, solve_batches,
-      &(struct edge_batches){.work = work, .batch = batch, .count = batches});
-  for (size_t i = 0; i < batches; i++) {
-    ok = ok && batch[i].done && append_batch(map, &batch[i]);
-    occlusion_counts_add(&work->counts, &batch[i].counts);
-    batch[i].map.edge_state = NULL;
-    map_fini(&batch[i].map);
+  size_t count = parallel_range_count(work->edge.count, BATCH_SIZE);
+  int workers = count > 1 ? work->request->threads : 1;
+  struct edge_batches batches = {
+      work, mem_calloc((size_t)workers, sizeof *batches.query),
+      mem_calloc(count, sizeof *batches.map)};
+  bool ok = batches.query != NULL && batches.map != NULL;
+  for (int k = 0; ok && k < workers; k++)
+    ok = edge_query_init(&batches.query[k], work->sheet, &work->lists);
+  for (size_t i = 0; ok && i < count; i++)
+    batches.map[i].edge_state = map->edge_state;
+  ok = ok && parallel_ranges(workers, work->edge.count, BATCH_SIZE, solve_batch,
+                             &batches);
+  for (size_t i = 0; batches.map != NULL && i < count; i++) {
+    ok = ok && append_batch(map, &batches.map[i]);
+    batches.map[i].edge_state = NULL;
+    map_fini(&batches.map[i]);
   }
-  mem_free(batch);
+  for (int k = 0; batches.query != NULL && k < workers; k++) {
+    occlusion_counts_add(&work->counts, &batches.query[k].counts);
+    edge_query_fini(&batches.query[k]);
+  }
+  mem_free(batches.query);
+  mem_free(batches.map);
   return ok &&
          (!deep || sort_stable(map->mixed.item, map->mixed.count,
                                sizeof *map->mixed.item, compare_mixed, NULL));
@@ -417,13 +390,12 @@ static bool solve_faces(struct tiles_work *work, struct map *map) {
 /* ---- The solver ---------------------------------------------------------- */
 
 static void report_tiles(const struct tiles_work *work, struct report *report) {
-  report_int(report, "tiles", "simple", (int64_t)work->tiles.simple);
-  report_int(report, "tiles", "mixed", (int64_t)work->tiles.mixed);
-  report_int(report, "tiles", "empty", (int64_t)work->tiles.empty);
-  report_int(report, "tiles", "triangles_culled",
-             (int64_t)work->culling->count);
-  report_int(report, "tiles", "edges_deferred", (int64_t)work->edge.count);
-  report_int(report, "tiles", "triangles_deferred", (int64_t)work->face.count);
+  report_count(report, "tiles", "simple", work->tiles.simple);
+  report_count(report, "tiles", "mixed", work->tiles.mixed);
+  report_count(report, "tiles", "empty", work->tiles.empty);
+  report_count(report, "tiles", "triangles_culled", work->culling->count);
+  report_count(report, "tiles", "edges_deferred", work->edge.count);
+  report_count(report, "tiles", "triangles_deferred", work->face.count);
   occlusion_report(&work->counts, report);
 }
 
@@ -478,19 +450,6 @@ static bool solve_all(struct tiles_work *work, struct map *map,
   return true;
 }
 
-/* Phase 0: adds all intersections, hidden or not, to the edges of the sheet. */
-static recto_status find_hidden_intersections(struct tiles_work *work,
-                                              recto_error *error) {
-  struct triangle_grid grid;
-  if (!triangle_grid_init(&grid, work->sheet))
-    return error_memory(error);
-  recto_status status = intersection_find_all(
-      work->sheet, &grid, NULL, work->request, work->report, error);
-  triangle_grid_fini(&grid);
-  end_phase(work, "intersections_cpu_s");
-  return status;
-}
-
 static void tiles_work_fini(struct tiles_work *work) {
   report_tiles(work, work->report);
   tile_candidates_fini(&work->lists);
@@ -521,17 +480,17 @@ static recto_status solve_tiles(struct sheet *sheet,
                                 const struct solver_request *request,
                                 struct map *map, struct report *report,
                                 recto_error *error) {
-  atomic_bool cancelled = false;
   struct occlusion_culling culling = {.culled = NULL};
   struct tiles_work work = {.sheet = sheet,
                             .request = request,
                             .culling = &culling,
                             .report = report,
-                            .phase_start = clock_cpu(),
-                            .cancelled = &cancelled};
+                            .phase_start = clock_cpu()};
   recto_status status = RECTO_OK;
-  if (request->intersections && request->hidden)
-    status = find_hidden_intersections(&work, error);
+  if (request->intersections && request->hidden) { /* phase 0 */
+    status = intersection_find_everywhere(sheet, request, report, error);
+    end_phase(&work, "intersections_cpu_s");
+  }
   bool ok = status == RECTO_OK &&
             occlusion_culling_init(&culling, sheet, request->fragments);
   if (culling.count > 0) {

@@ -266,27 +266,26 @@ static bool subdivide_page(struct warnock *w,
 }
 
 static void report_windows(const struct warnock *w, struct report *report) {
-  report_int(report, "warnock", "windows", (int64_t)w->counts.all);
-  report_int(report, "warnock", "without_edge", (int64_t)w->counts.no_edge);
-  report_int(report, "warnock", "without_face", (int64_t)w->counts.no_face);
-  report_int(report, "warnock", "one_surrounder",
-             (int64_t)w->counts.one_surrounder);
-  report_int(report, "warnock", "few_faces", (int64_t)w->counts.few);
-  report_int(report, "warnock", "of_least_size", (int64_t)w->counts.floor);
-  report_int(report, "warnock", "deferred", (int64_t)w->counts.deferred);
-  report_int(report, "warnock", "divided", (int64_t)w->counts.divided);
+  report_count(report, "warnock", "windows", w->counts.all);
+  report_count(report, "warnock", "without_edge", w->counts.no_edge);
+  report_count(report, "warnock", "without_face", w->counts.no_face);
+  report_count(report, "warnock", "one_surrounder", w->counts.one_surrounder);
+  report_count(report, "warnock", "few_faces", w->counts.few);
+  report_count(report, "warnock", "of_least_size", w->counts.floor);
+  report_count(report, "warnock", "deferred", w->counts.deferred);
+  report_count(report, "warnock", "divided", w->counts.divided);
   report_text(report, "warnock", "division",
               w->request->divide_by_box ? "box" : "four");
-  report_int(report, "warnock", "classified_by_box",
-             (int64_t)w->windows.classified.box);
-  report_int(report, "warnock", "classified_by_sign",
-             (int64_t)w->windows.classified.sign);
-  report_int(report, "warnock", "classified_by_angle",
-             (int64_t)w->windows.classified.angle);
-  report_int(report, "warnock", "stopped_by_depth_order",
-             (int64_t)w->windows.cut_short);
-  report_int(report, "warnock", "dropped_by_corner_depths",
-             (int64_t)w->windows.dropped);
+  report_count(report, "warnock", "classified_by_box",
+               w->windows.classified.box);
+  report_count(report, "warnock", "classified_by_sign",
+               w->windows.classified.sign);
+  report_count(report, "warnock", "classified_by_angle",
+               w->windows.classified.angle);
+  report_count(report, "warnock", "stopped_by_depth_order",
+               w->windows.cut_short);
+  report_count(report, "warnock", "dropped_by_corner_depths",
+               w->windows.dropped);
   occlusion_report(&w->occlusion_counts, report);
 }
 

@@ -4,6 +4,7 @@
 #include "visibility/raster/pixels.h"
 #include "visibility/raster/subpixels.h"
 #include "visibility/warnock/warnock_raster.h"
+#include "visibility/intersection/intersection.h"
 
 /* ---- The frame ----------------------------------------------------------- */
 
@@ -59,7 +60,7 @@ static void report_frame(const struct warnock_frame *frame,
   report_text(report, "warnock", "division",
               request->divide_by_box ? "box" : "four");
   for (int rule = 0; rule < WARNOCK_RULE_COUNT; rule++)
-    report_int(report, "warnock", name[rule], (int64_t)frame->windows[rule]);
+    report_count(report, "warnock", name[rule], frame->windows[rule]);
   if (request->fragments)
     report_double(report, "warnock", "covered_share",
                   covered_frame_share(frame));
@@ -72,7 +73,7 @@ recto_status warnock_raster_solve(struct sheet *sheet,
   struct warnock_frame frame = {0};
   struct facets facets = {0};
   recto_status status =
-      edge_sampling_find_intersections(sheet, request, report, error);
+      intersection_find_everywhere(sheet, request, report, error);
   if (status == RECTO_OK)
     status = warnock_frame_init(&frame, sheet, request, error);
   if (status == RECTO_OK && !facets_init(&facets, sheet))

@@ -90,12 +90,9 @@ static bool add_edges_between(struct sweep *sweep, const struct sort_key *key,
 /* Sorts the ends of all edges in the order of events. */
 static bool sort_ends(struct sweep *sweep) {
   size_t count = sweep->edge.count;
-  struct sort_key *scratch = mem_alloc(2 * count, sizeof *scratch);
   sweep->end = mem_alloc(2 * count, sizeof *sweep->end);
-  if (scratch == NULL || sweep->end == NULL) {
-    mem_free(scratch);
+  if (sweep->end == NULL)
     return false;
-  }
   for (size_t e = 0; e < count; e++) {
     const struct sweep_edge *edge = &sweep->edge.item[e];
     (void)poll_at(e);
@@ -105,9 +102,7 @@ static bool sort_ends(struct sweep *sweep) {
         (struct sort_key){key_of_end(edge->x1, edge->y1), SWEEP_NONE};
   }
   sweep->ends = 2 * count;
-  sort_keys(sweep->end, scratch, sweep->ends);
-  mem_free(scratch);
-  return true;
+  return sort_keys_alone(sweep->end, sweep->ends);
 }
 
 bool sweep_init(struct sweep *sweep, const struct sheet *sheet,

@@ -52,19 +52,10 @@ static bool init_fallback(struct exact *exact, const struct sheet *sheet,
 
 /* Sorts the pairs and removes duplicates. */
 static bool unique_pairs(struct edge_face_pairs *pairs) {
-  size_t count = pairs->pair.count, kept = 0;
-  struct sort_key *pair = pairs->pair.item;
-  struct sort_key *scratch = mem_alloc(count, sizeof *scratch);
-  if (scratch == NULL)
+  if (!sort_keys_unique(pairs->pair.item, &pairs->pair.count))
     return false;
-  sort_keys(pair, scratch, count);
-  mem_free(scratch);
-  for (size_t i = 0; i < count; i++)
-    if (kept == 0 || pair[i].key != pair[kept - 1].key)
-      pair[kept++] = pair[i];
-  pairs->pair.count = kept;
-  pairs->limit = 2 * kept + 4096;
-  pairs->too_many = kept > PAIRS_MAX;
+  pairs->limit = 2 * pairs->pair.count + 4096;
+  pairs->too_many = pairs->pair.count > PAIRS_MAX;
   return true;
 }
 
@@ -149,7 +140,7 @@ static recto_status store_edges(struct exact *exact, const struct sheet *sheet,
            store_edge(sheet, e, own, i - first, &intervals, &counts, map);
   }
   occlusion_report(&counts, report);
-  report_int(report, "watkins", "faces_beside_lines", (int64_t)count);
+  report_count(report, "watkins", "faces_beside_lines", count);
   edge_intervals_fini(&intervals);
   return ok ? RECTO_OK : error_memory(error);
 }
@@ -167,7 +158,7 @@ store_deferred_fragments(struct exact *exact, const struct sheet *sheet,
   for (uint32_t t = 0; ok && t < sheet->triangle.count; t++)
     if (trapezoid_cells_is_deferred(&exact->cells, t))
       ok = ARRAY_PUSH(&list, t);
-  report_int(report, "watkins", "deferred", (int64_t)list.count);
+  report_count(report, "watkins", "deferred", list.count);
   if (list.count > 0)
     ok = ok && init_fallback(exact, sheet, request) &&
          pairwise_fallback_faces(&exact->fallback, list.item, list.count,
@@ -206,9 +197,8 @@ solve_fragments_watkins(struct exact *exact, const struct sheet *sheet,
                                       error);
   if (status == RECTO_OK && !fragments_finish(&fragments, map))
     status = error_memory(error);
-  report_int(report, "watkins", "visible_trapezoids", (int64_t)cells->count);
-  report_int(report, "watkins", "filter_failures",
-             (int64_t)cells->filter_failures);
+  report_count(report, "watkins", "visible_trapezoids", cells->count);
+  report_count(report, "watkins", "filter_failures", cells->filter_failures);
   sweep_fini(&sweep);
   if (ready)
     fragments_fini(&fragments);
@@ -231,11 +221,11 @@ static recto_status sweep_all(struct exact *exact, const struct sheet *sheet,
   sweep.user = exact;
   if (status == RECTO_OK)
     status = sweep_run(&sweep, request, 0, 0.5, error);
-  report_int(report, "watkins", "edges", (int64_t)sweep.edge.count);
-  report_int(report, "watkins", "events", (int64_t)sweep.events);
-  report_int(report, "watkins", "event_heights", (int64_t)sweep.height.count);
-  report_int(report, "watkins", "crossings_found", (int64_t)sweep.crossings);
-  report_int(report, "watkins", "trapezoids", (int64_t)exact->cells.count);
+  report_count(report, "watkins", "edges", sweep.edge.count);
+  report_count(report, "watkins", "events", sweep.events);
+  report_count(report, "watkins", "event_heights", sweep.height.count);
+  report_count(report, "watkins", "crossings_found", sweep.crossings);
+  report_count(report, "watkins", "trapezoids", exact->cells.count);
   sweep_fini(&sweep);
   return status;
 }

@@ -19,6 +19,7 @@
  *          edges from the ends of sample intervals; [Rogers1985] ch. 4.
  */
 #include "visibility/watkins/pitch/watkins.h"
+#include "visibility/intersection/intersection.h"
 
 #include <math.h>
 #include <string.h>
@@ -275,8 +276,8 @@ static void report_scan(const struct scan *scan, struct report *report) {
   report_int(report, "watkins", "splits_by_piercing", watkins->counts.splits);
   if (scan->request->fragments) {
     report_int(report, "watkins", "spans", scan->trapezoids.count);
-    report_int(report, "watkins", "trapezoids",
-               (int64_t)scan->trapezoids.trapezoid.count);
+    report_count(report, "watkins", "trapezoids",
+                 scan->trapezoids.trapezoid.count);
   }
 }
 
@@ -311,7 +312,7 @@ recto_status watkins_solve_at_pitch(struct sheet *sheet,
   struct facets facets = {0};
   struct scan_grid grid;
   recto_status status =
-      edge_sampling_find_intersections(sheet, request, report, error);
+      intersection_find_everywhere(sheet, request, report, error);
   if (status == RECTO_OK)
     status = watkins_grid(&grid, sheet, request->pitch_mm, error);
   if (status != RECTO_OK)
