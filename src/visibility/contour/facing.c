@@ -112,12 +112,15 @@ static unsigned signs_of_face(const struct facing *f, uint32_t face) {
   return signs;
 }
 
-/* Numbers the slots whose normals are needed: those of faces of both signs. */
-static void number_needed(struct facing *f) {
+/* Lists the faces about whose slots both signs are, and numbers these slots,
+ * whose normals are needed.  Returns false when memory ran out. */
+static bool number_needed(struct facing *f) {
   for (uint32_t face = 0; face < scene_face_count(f->scene); face++) {
     (void)poll_at(face);
     if (signs_of_face(f, face) != FACING_MIXED)
       continue;
+    if (!ARRAY_PUSH(&f->mixed, face))
+      return false;
     for (uint32_t c = f->scene->face_start.item[face];
          c < f->scene->face_start.item[face + 1]; c++) {
       uint32_t *place = &f->place[facing_slot(f, c)];
@@ -125,6 +128,7 @@ static void number_needed(struct facing *f) {
         *place = (uint32_t)f->count++;
     }
   }
+  return true;
 }
 
 /* ---- Normals ------------------------------------------------------------- */
@@ -172,8 +176,6 @@ static void set_values(struct facing *f, uint32_t face) {
        c < f->scene->face_start.item[face + 1]; c++) {
     uint32_t slot = facing_slot(f, c), place = f->place[slot];
     double at[3], v[3];
-    if (place == SHEET_NONE)
-      continue;
     facing_position(f, facing_point(f, c), at);
     facing_view(f->camera, at, v);
     double g = vector_dot(f->normal[place], v);
@@ -198,8 +200,8 @@ static bool find_normals(struct facing *f) {
   }
   for (size_t i = 0; i < f->count; i++)
     (void)vector_normalise(f->normal[i]);
-  for (uint32_t face = 0; face < faces; face++)
-    set_values(f, face);
+  for (size_t i = 0; i < f->mixed.count; i++)
+    set_values(f, f->mixed.item[i]);
   return !poll_is_cancelled();
 }
 
@@ -215,11 +217,9 @@ static bool crease_tips(struct facing *f, double crease_deg, bool *is_lost) {
   uint8_t *is_tip = mem_calloc(f->scene->point.count, 1);
   bool any = false;
   *is_lost = is_tip == NULL;
-  for (uint32_t face = 0; !*is_lost && face < scene_face_count(f->scene);
-       face++) {
+  for (size_t i = 0; !*is_lost && i < f->mixed.count; i++) {
+    uint32_t face = f->mixed.item[i];
     double n[3];
-    if (signs_of_face(f, face) != FACING_MIXED)
-      continue;
     newell_normal_of_face(f->scene, face, n);
     if (!vector_normalise(n))
       continue;
@@ -246,6 +246,7 @@ static void free_slots(struct facing *f) {
   mem_free(f->place);
   mem_free(f->normal);
   mem_free(f->value);
+  ARRAY_FREE(&f->mixed);
   f->split = f->signs = NULL;
   f->sets = f->place = NULL;
   f->normal = NULL;
@@ -267,8 +268,7 @@ static bool find_facings(struct facing *f) {
     return false;
   memset(f->place, 0xff, slots * sizeof *f->place);
   record_signs(f);
-  number_needed(f);
-  return find_normals(f);
+  return number_needed(f) && find_normals(f);
 }
 
 recto_status facing_init(struct facing *f, const struct sheet *sheet,

@@ -30,9 +30,11 @@ struct facing {
   uint32_t *sets;  /* of corners at such points: union-find; NULL: none */
   uint8_t *signs;  /* one a slot: FACING_... of the faces about it */
   uint32_t *place; /* slot -> its normal and value; SHEET_NONE: not needed */
-  double (*normal)[3]; /* unit length, or 0, 0, 0 */
-  double *value;       /* g */
-  size_t count;        /* of normals and values */
+  double (*normal)[3];   /* unit length, or 0, 0, 0 */
+  double *value;         /* g */
+  size_t count;          /* of normals and values */
+  ARRAY(uint32_t) mixed; /* the faces about whose slots both signs are, which
+                            alone the contour can cross; ascending */
 };
 
 enum { FACING_FRONT = 1, FACING_BACK = 2, FACING_MIXED = 3 };

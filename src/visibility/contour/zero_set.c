@@ -229,8 +229,8 @@ static bool cross_all(struct zero_finder *z) {
   if (z->edge_node == NULL)
     return false;
   memset(z->edge_node, 0xff, edges * 2 * sizeof *z->edge_node);
-  for (uint32_t face = 0; face < scene_face_count(f->scene); face++)
-    if (!poll_at(face) || !cross_face(z, face))
+  for (size_t i = 0; i < f->mixed.count; i++)
+    if (!poll_at(i) || !cross_face(z, f->mixed.item[i]))
       return false;
   for (uint32_t e = 0; e < edges && f->split != NULL; e++) {
     if (!poll_at(e))
