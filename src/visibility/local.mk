@@ -35,6 +35,7 @@ librecto_core_la_SOURCES += \
   %D%/contour/page_crossings.c %D%/contour/page_crossings.h \
   %D%/contour/segment_grid.c %D%/contour/segment_grid.h \
   %D%/contour/zero_creases.c %D%/contour/zero_finder.h \
+  %D%/contour/zero_segments.h \
   %D%/contour/zero_set.c %D%/contour/zero_set.h \
   %D%/newell/newell.c \
   %D%/newell/newell_order.c %D%/newell/newell_order.h \

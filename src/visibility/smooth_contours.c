@@ -369,8 +369,8 @@ static bool add_pieces(struct contour_pieces *c) {
   return ok;
 }
 
-/* Makes other lines and the visible fragments end at the contours, which are the
- * sheet's edges from `first` on. */
+/* Makes other lines and the visible fragments end at the contours, which are
+ * the sheet's edges from `first` on. */
 static bool end_at_contours(const struct sheet *sheet, struct map *map,
                             const struct topology *topology, uint32_t first) {
   return first == sheet->edge.count ||

@@ -27,7 +27,7 @@ struct line_ends {
 
 /* ---- Crossings ----------------------------------------------------------- */
 
-static bool add_lines(struct line_ends *l) {
+static bool list_drawn_lines(struct line_ends *l) {
   const struct sheet *sheet = l->sheet;
   for (uint32_t e = l->first; e < sheet->edge.count; e++)
     if (l->map->edge_state[e] == MAP_VISIBLE &&
@@ -44,8 +44,8 @@ static bool add_lines(struct line_ends *l) {
 }
 
 /* Whether a face is one of an edge's first two. */
-static bool has_face(const struct sheet *sheet, const struct sheet_edge *edge,
-                     uint32_t face) {
+static bool is_side_of_face(const struct sheet *sheet,
+                            const struct sheet_edge *edge, uint32_t face) {
   for (int k = 0; k < 2; k++)
     if (edge->triangle[k] != SHEET_NONE &&
         sheet->triangle.item[edge->triangle[k]].face == face)
@@ -63,9 +63,9 @@ static double diameter(const struct sheet *sheet, uint32_t triangle) {
   return most;
 }
 
-static bool add_crossing(struct line_ends *l,
-                         const struct page_segment *contour,
-                         const struct page_segment *line) {
+static bool add_line_crossing(struct line_ends *l,
+                              const struct page_segment *contour,
+                              const struct page_segment *line) {
   const struct sheet *sheet = l->sheet;
   const struct sheet_edge *edge = &sheet->edge.item[line->owner];
   uint32_t triangle = sheet->edge.item[contour->owner].triangle[0];
@@ -78,7 +78,7 @@ static bool add_crossing(struct line_ends *l,
       .bound = diameter(sheet, triangle) / hypot((double)line->q.x - line->p.x,
                                                  (double)line->q.y - line->p.y),
       .leaves = geom_orient2d(contour->p, contour->q, line->p) >= 0,
-      .own = has_face(sheet, edge, sheet->triangle.item[triangle].face)};
+      .own = is_side_of_face(sheet, edge, sheet->triangle.item[triangle].face)};
   return (!made.own &&
           page_segment_depth(contour, s) <= page_segment_depth(line, t)) ||
          ARRAY_PUSH(&l->crossing, made);
@@ -95,7 +95,7 @@ static bool find_crossings(struct line_ends *l) {
     for (uint32_t i = start[cell + 1];
          i-- > start[cell] && item[i] < l->grid.contours;)
       for (uint32_t j = start[cell]; item[j] >= l->grid.contours; j++)
-        if (!add_crossing(l, &all[item[i]], &all[item[j]]))
+        if (!add_line_crossing(l, &all[item[i]], &all[item[j]]))
           return false;
   }
   return true;
@@ -155,19 +155,19 @@ static void move_ends(struct map_interval *interval, uint32_t count,
   }
 }
 
-static int compare_edges(const void *a, const void *b, void *user) {
+static int compare_mixed_edges(const void *a, const void *b, void *user) {
   const struct map_mixed *p = a, *q = b;
   (void)user;
   return (p->edge > q->edge) - (p->edge < q->edge);
 }
 
-static int compare_crossings(const void *a, const void *b, void *user) {
+static int compare_line_crossings(const void *a, const void *b, void *user) {
   const struct line_crossing *p = a, *q = b;
   (void)user;
   return (p->edge > q->edge) - (p->edge < q->edge);
 }
 
-static bool is_whole(const struct map_interval *interval) {
+static bool is_unmoved(const struct map_interval *interval) {
   return interval->t0.num == 0 && interval->t1.num == interval->t1.den;
 }
 
@@ -177,7 +177,7 @@ static bool cut_whole(struct map *map, const struct line_crossing *crossing,
   struct map_interval whole = {ratio_of(0, 1), ratio_of(1, 1)};
   struct map_mixed made = {crossing->edge, (uint32_t)map->interval.count, 1};
   move_ends(&whole, 1, crossing, crossings);
-  if (is_whole(&whole))
+  if (is_unmoved(&whole))
     return true;
   map->edge_state[crossing->edge] = MAP_MIXED;
   return ARRAY_PUSH(&map->interval, whole) && ARRAY_PUSH(&map->mixed, made);
@@ -188,7 +188,7 @@ static bool move_all(struct line_ends *l) {
   const struct line_crossing *all = l->crossing.item;
   size_t mixed = 0, known = map->mixed.count;
   if (!sort_stable(l->crossing.item, l->crossing.count, sizeof *all,
-                   compare_crossings, NULL))
+                   compare_line_crossings, NULL))
     return false;
   for (size_t i = 0, j; i < l->crossing.count; i = j) {
     for (j = i + 1; j < l->crossing.count && all[j].edge == all[i].edge;)
@@ -204,14 +204,14 @@ static bool move_all(struct line_ends *l) {
     }
   }
   return sort_stable(map->mixed.item, map->mixed.count, sizeof *map->mixed.item,
-                     compare_edges, NULL);
+                     compare_mixed_edges, NULL);
 }
 
 bool line_ends_move(struct map *map, const struct sheet *sheet,
                     uint32_t first) {
   struct line_ends l = {.map = map, .sheet = sheet, .first = first};
   bool ok =
-      add_lines(&l) &&
+      list_drawn_lines(&l) &&
       (l.grid.contours == 0 || l.grid.contours == l.grid.segment.count ||
        (segment_grid_make(&l.grid) && find_crossings(&l) && move_all(&l)));
   segment_grid_fini(&l.grid);

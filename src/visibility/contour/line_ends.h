@@ -5,8 +5,8 @@
 
 #include "visibility/map.h"
 
-/* Moves ends of visible intervals along their edge to where it crosses a visible
- * contour.
+/* Moves ends of visible intervals along their edge to where it crosses a
+ * visible contour.
  *   A line that passes behind a contour is extended to it: the mesh's outline,
  *   which hides it, lies beyond.
  *   A line of the contour's own surface is cut off at it.

@@ -1,4 +1,4 @@
-/* segment_grid.c - lists segments of the page by the cells of a uniform grid. */
+/* segment_grid.c - lists segments of the page by the cells that they meet. */
 #include "visibility/contour/segment_grid.h"
 
 bool segment_grid_add(struct segment_grid *grid, struct geom_segment segment,

@@ -4,7 +4,7 @@
 
 #include "view/clip.h"
 #include "view/triangulate.h"
-#include "visibility/contour/zero_set.h"
+#include "visibility/contour/zero_segments.h"
 
 struct zero_finder {
   struct zero_set *set;

@@ -1,9 +1,10 @@
 /* zero_set.c - finds where the facing of a smooth surface changes sign. */
-#include "visibility/contour/zero_finder.h"
+#include "visibility/contour/zero_set.h"
 
 #include <string.h>
 
 #include "base/poll.h"
+#include "visibility/contour/zero_finder.h"
 #include "view/clip.h"
 #include "view/triangulate.h"
 
