@@ -18,6 +18,7 @@ EXTRA_PROGRAMS += %D%/bench %D%/dense %D%/zraster %D%/accuracy %D%/order \
 %C%_order_LDADD = tests/scenes/libscenes.la librecto_core.la -lm
 %C%_hard_SOURCES = %D%/hard.c %D%/table.c %D%/table.h
 %C%_hard_LDADD = tests/scenes/libscenes.la librecto_core.la -lm
+EXTRA_DIST += %D%/quadratic.sh
 CLEANFILES += $(EXTRA_PROGRAMS) %D%/accuracy.svg
 
 # BENCH_METHODS  the methods to measure; else newell and auto
@@ -43,5 +44,9 @@ bench-dense: recto$(EXEEXT) %D%/dense$(EXEEXT) %D%/zraster$(EXEEXT)
 bench-hard: %D%/hard$(EXEEXT)
 	$(AM_TESTS_ENVIRONMENT) %D%/hard$(EXEEXT)
 
+# Scenes in which much overlaps much; LIMIT seconds of CPU time for each.
+bench-quadratic: recto$(EXEEXT)
+	$(srcdir)/bench/quadratic.sh ./recto$(EXEEXT)
+
 .PHONY: bench bench-accuracy bench-order bench-dense \
-  bench-hard
+  bench-hard bench-quadratic
