@@ -299,7 +299,7 @@ static void merging_fails_cleanly_when_memory_runs_out(void **state) {
   options.mesh.crease_deg = 100;
   pipeline_run(&p, &scene, &options, solver_by_name("tiles"));
   assert_int_equal(p.status, RECTO_OK);
-  pipeline_starve_ink(&p, &scene, &options);
+  pipeline_fail_each_allocation(&p, &scene, &options);
   scene_fini(&scene);
   pipeline_fini(&p);
 }

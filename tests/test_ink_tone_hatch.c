@@ -379,7 +379,7 @@ static void hatching_fails_cleanly_when_memory_runs_out(void **state) {
   p.sheet.face_group = scene.face_group.item;
   for (int lit = 0; lit < 2; lit++) {
     options.ink.light[2] = lit;
-    pipeline_starve_ink(&p, &scene, &options);
+    pipeline_fail_each_allocation(&p, &scene, &options);
   }
   scene_fini(&scene);
   pipeline_fini(&p);

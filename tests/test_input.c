@@ -64,7 +64,7 @@ static void an_endless_device_is_refused(void **state) {
 /* A sparse file takes no room. */
 static void a_file_larger_than_memory_is_refused(void **state) {
   const char *path = temporary_file(state, "a.obj", "v", 1);
-  if (truncate(path, (off_t)input_most() + 1) != 0) {
+  if (truncate(path, (off_t)input_size_max() + 1) != 0) {
     print_message("no sparse files here\n");
     skip();
   }
@@ -271,7 +271,7 @@ static void compressed_data_that_were_changed_are_an_error(void **state) {
 
 /* A mebibyte of line feeds, so often that they are more than is allowed. */
 static void data_that_expand_too_much_are_an_error(void **state) {
-  enum { PART = 1 << 20, PARTS = (int)(GUNZIP_ANYWAY / PART) + 1 };
+  enum { PART = 1 << 20, PARTS = (int)(GUNZIP_SIZE_ALWAYS_ALLOWED / PART) + 1 };
   char *text = malloc(PART), *bytes = malloc((size_t)PARTS * 2000);
   assert_non_null(text);
   assert_non_null(bytes);

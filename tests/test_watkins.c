@@ -43,7 +43,7 @@ static bool next_line(struct walk *walk) {
 /* x on the line, as the scene has it. */
 static double scene_x(double x) { return x / PIXELS_UNIT + PIXELS_SIDE / 2; }
 
-static int face_of(const struct walk *walk, const struct watkins_piece *piece) {
+static int face_of(const struct walk *walk, const struct watkins_span *piece) {
   return (int)walk->watkins.facet.item[piece->facet].face;
 }
 
@@ -68,9 +68,9 @@ static int seen_at_column(const struct walk *walk, int column, int columns) {
   const struct watkins *watkins = &walk->watkins;
   double x =
       ((column + 0.5) * PIXELS_SIDE / columns - PIXELS_SIDE / 2) * PIXELS_UNIT;
-  const struct watkins_piece *seen = NULL;
+  const struct watkins_span *seen = NULL;
   for (size_t i = 0; i < watkins->piece.count; i++) {
-    const struct watkins_piece *piece = &watkins->piece.item[i];
+    const struct watkins_span *piece = &watkins->piece.item[i];
     if (x < piece->x0 - 0x1p-8 || x > piece->x1 + 0x1p-8)
       continue;
     if (seen == NULL || is_nearer(walk, piece->facet, seen->facet, x) ||
@@ -238,7 +238,7 @@ static void assert_spans(const struct walk *walk,
                          const struct listed_span *want, size_t count) {
   assert_int_equal(walk->watkins.piece.count, count);
   for (size_t i = 0; i < count; i++) {
-    const struct watkins_piece *piece = &walk->watkins.piece.item[i];
+    const struct watkins_span *piece = &walk->watkins.piece.item[i];
     assert_near(scene_x(piece->x0), want[i].x0);
     assert_near(scene_x(piece->x1), want[i].x1);
     assert_int_equal(face_of(walk, piece), want[i].face);
@@ -332,8 +332,8 @@ static void compare_coherence(const struct pixels_scene *scene, double pitch_mm,
     assert_true(next_line(&anew));
     assert_int_equal(kept.watkins.piece.count, anew.watkins.piece.count);
     for (size_t i = 0; i < kept.watkins.piece.count; i++) {
-      const struct watkins_piece *p = &kept.watkins.piece.item[i],
-                                 *q = &anew.watkins.piece.item[i];
+      const struct watkins_span *p = &kept.watkins.piece.item[i],
+                                *q = &anew.watkins.piece.item[i];
       assert_int_equal(p->facet, q->facet);
       assert_true(p->x0 == q->x0 && p->x1 == q->x1);
     }

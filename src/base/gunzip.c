@@ -26,7 +26,7 @@ struct expansion {
 
 /* The most that the data may expand to. */
 static size_t expansion_limit(size_t count, size_t most) {
-  size_t limit = (size_t)GUNZIP_ANYWAY;
+  size_t limit = (size_t)GUNZIP_SIZE_ALWAYS_ALLOWED;
   if (count > limit / GUNZIP_RATIO)
     limit = count > most / GUNZIP_RATIO ? most : count * GUNZIP_RATIO;
   return limit < most ? limit : most;

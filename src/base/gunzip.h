@@ -9,7 +9,7 @@
 /* Expanded data may have so many bytes whatever it was made from; beyond, at
  * most GUNZIP_RATIO for each compressed one.  Models are compressed to a third
  * or a tenth; a hundredth is a file made to fill the memory. */
-#define GUNZIP_ANYWAY (INT64_C(256) << 20)
+#define GUNZIP_SIZE_ALWAYS_ALLOWED (INT64_C(256) << 20)
 #define GUNZIP_RATIO 100
 
 /* Whether the bytes begin as those of a gzip file do [RFC 1952 2.3.1]. */

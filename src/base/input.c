@@ -16,7 +16,7 @@
 #include "base/parallel.h"
 #include "base/poll.h"
 
-size_t input_most(void) {
+size_t input_size_max(void) {
   static const size_t most = (size_t)1 << 36;
   long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
   if (pages <= 0 || size <= 0 || (size_t)pages / 2 > most / (size_t)size)
@@ -147,7 +147,7 @@ static recto_status slurp(const struct source *source, struct input *input,
 
 /* Standard input may be a file too, and one that was read from already. */
 static struct source describe_source(int descriptor, const char *path) {
-  struct source source = {descriptor, path, 0, input_most()};
+  struct source source = {descriptor, path, 0, input_size_max()};
   struct stat attributes;
   if (fstat(descriptor, &attributes) != 0)
     return source;
@@ -202,7 +202,7 @@ recto_status input_copy(struct input *input, const void *bytes, size_t count,
     memcpy(input->slurped.item, bytes, count);
   input->slurped.item[count] = '\0';
   input->slurped.count = count;
-  return expand_input(input, name, input_most(), error);
+  return expand_input(input, name, input_size_max(), error);
 }
 
 recto_status input_load_named(struct input *input, const char *path,

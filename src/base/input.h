@@ -19,7 +19,7 @@ struct input {
 /* How many bytes a file may have: half of the machine's memory, at most
  * 64 GiB.  More could not be read and drawn in any case, and an endless stream
  * must end somewhere. */
-size_t input_most(void);
+size_t input_size_max(void);
 
 /* The same for a character device, such as a terminal: most are endless. */
 #define INPUT_DEVICE_MAX (INT64_C(64) << 20)

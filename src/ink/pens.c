@@ -155,7 +155,7 @@ double pens_weight(const struct pens *pens, unsigned edge_class) {
   return pens->weight[class_index(edge_class)];
 }
 
-unsigned pens_weight_priority(const struct pens *pens, unsigned edge_class) {
+unsigned pens_weight_id(const struct pens *pens, unsigned edge_class) {
   unsigned first = 0, index = class_index(edge_class);
   while (pens->weight[first] != pens->weight[index])
     first++;

@@ -68,6 +68,6 @@ double pens_weight(const struct pens *pens, unsigned edge_class);
 
 /* Equal for two classes of visible lines with equal weights, which may be
  * joined into one stroke. */
-unsigned pens_weight_priority(const struct pens *pens, unsigned edge_class);
+unsigned pens_weight_id(const struct pens *pens, unsigned edge_class);
 
 #endif

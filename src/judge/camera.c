@@ -52,7 +52,8 @@ double judge_depth(const struct judge_camera *camera, struct judge_point3 p) {
   return apply_row(camera->matrix + 8, p);
 }
 
-double judge_ahead(const struct judge_camera *camera, struct judge_point3 p) {
+double judge_view_depth(const struct judge_camera *camera,
+                        struct judge_point3 p) {
   return camera->perspective
              ? judge_depth(camera, p)
              : point3_dot(camera->back, point3_sub(camera->eye, p));

@@ -27,7 +27,8 @@ void judge_camera_axes(struct judge_camera *camera, const double right[3],
                        const double middle_mm[2], const double page_mm[2]);
 
 /* The distance of a point from the eye along the view direction. */
-double judge_ahead(const struct judge_camera *camera, struct judge_point3 p);
+double judge_view_depth(const struct judge_camera *camera,
+                        struct judge_point3 p);
 /* The homogeneous coordinate: the distance above in perspective, 1 in an
  * orthographic view. */
 double judge_depth(const struct judge_camera *camera, struct judge_point3 p);

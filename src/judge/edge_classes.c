@@ -71,8 +71,8 @@ static bool is_inside_page(const struct judge_camera *camera,
   double low = camera->margin_mm;
   for (size_t i = 0; i < count; i++) {
     struct judge_point2 at = judge_project(camera, corner[i]);
-    if (!(judge_ahead(camera, corner[i]) > judge_near(camera) && at.x >= low &&
-          at.x <= camera->width_mm - low && at.y >= low &&
+    if (!(judge_view_depth(camera, corner[i]) > judge_near(camera) &&
+          at.x >= low && at.x <= camera->width_mm - low && at.y >= low &&
           at.y <= camera->height_mm - low))
       return false;
   }

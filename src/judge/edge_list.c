@@ -30,7 +30,7 @@ static bool clip_far_image(const struct judge_camera *camera,
 bool judge_edges_add(struct judge_edges *edges,
                      const struct judge_camera *camera, struct judge_point3 a,
                      struct judge_point3 b, const struct judge_source *source) {
-  double da = judge_ahead(camera, a), db = judge_ahead(camera, b);
+  double da = judge_view_depth(camera, a), db = judge_view_depth(camera, b);
   double least = judge_near(camera);
   /* A point behind the eye has no image, one just in front of it no accurate
    * one. */

@@ -278,9 +278,9 @@ bool judge_edges_init(struct judge_edges *edges,
       finder.first_at != NULL && list_scene_sides(all->scene, &sides) &&
       pair_sides(&finder, &sides, &single) &&
       locate_singles(&finder, &single) && pair_sides(&finder, &sides, NULL) &&
-      pair_singles(&finder) && judge_edges_folds(edges, &finder.facings) &&
+      pair_singles(&finder) && judge_edges_add_folds(edges, &finder.facings) &&
       add_wires(&finder) &&
-      judge_edges_intersections(edges, all, camera, options->ray_offset_mm);
+      judge_edges_add_intersections(edges, all, camera, options->ray_offset_mm);
   ARRAY_FREE(&sides.side);
   ARRAY_FREE(&single.side);
   judge_facings_fini(&finder.facings);

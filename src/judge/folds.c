@@ -30,8 +30,8 @@ static bool is_in_near_plane(const struct fold_finder *finder,
   double tolerance = judge_near_tolerance(camera);
   const uint32_t end[2] = {side_triangle->low, side_triangle->high};
   for (int k = 0; k < 2; k++)
-    if (!(fabs(judge_ahead(camera,
-                           judge_point3_at(finder->facings->scene, end[k])) -
+    if (!(fabs(judge_view_depth(
+                   camera, judge_point3_at(finder->facings->scene, end[k])) -
                camera->near_d) <= tolerance))
       return false;
   return true;
@@ -66,8 +66,8 @@ static bool test_fold(const struct fold_finder *finder,
       judge_point3_at(finder->facings->scene, side_triangle->high), &source);
 }
 
-bool judge_edges_folds(struct judge_edges *edges,
-                       const struct judge_facings *facings) {
+bool judge_edges_add_folds(struct judge_edges *edges,
+                           const struct judge_facings *facings) {
   const struct fold_finder fold_finder = {edges, facings},
                            *finder = &fold_finder;
   const struct judge_side_triangle *side_triangle =

@@ -8,7 +8,7 @@
 /* Adds the diagonals of faces that are not planar whose two triangles lie, or
  * may lie, on one side of it on the page: these are silhouettes.
  * Returns false when memory ran out. */
-USE_RESULT bool judge_edges_folds(struct judge_edges *edges,
-                                  const struct judge_facings *facings);
+USE_RESULT bool judge_edges_add_folds(struct judge_edges *edges,
+                                      const struct judge_facings *facings);
 
 #endif

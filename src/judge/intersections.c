@@ -408,10 +408,10 @@ static bool intersect_with(void *user, uint32_t other) {
          add_common(finder, &cs, &ct, point3_unit(along), other);
 }
 
-bool judge_edges_intersections(struct judge_edges *edges,
-                               const struct judge_triangles *all,
-                               const struct judge_camera *camera,
-                               double ray_offset_mm) {
+bool judge_edges_add_intersections(struct judge_edges *edges,
+                                   const struct judge_triangles *all,
+                                   const struct judge_camera *camera,
+                                   double ray_offset_mm) {
   struct intersection_finder finder = {.edges = edges,
                                        .all = all,
                                        .camera = camera,

@@ -335,7 +335,7 @@ static void judge_edge_sample(struct judge_context *context, uint32_t number,
     return;
   }
   /* Rounding may have clipped a point so close behind the near plane. */
-  if (judge_ahead(context->camera, from) <=
+  if (judge_view_depth(context->camera, from) <=
       context->camera->near_d + judge_near_tolerance(context->camera)) {
     count_sample(&verdict->undecided, mm);
     return;

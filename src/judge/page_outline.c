@@ -32,7 +32,7 @@ struct judge_outline judge_outline_on_page(const struct judge_camera *camera,
     for (unsigned i = 0; i < outline.count; i++) {
       double depth = judge_depth(camera, outline.p[i]);
       struct judge_point2 at = judge_project(camera, outline.p[i]);
-      const double inside[5] = {judge_ahead(camera, outline.p[i]) -
+      const double inside[5] = {judge_view_depth(camera, outline.p[i]) -
                                     judge_near(camera),
                                 (at.x - low) * depth, (right - at.x) * depth,
                                 (at.y - low) * depth, (top - at.y) * depth};

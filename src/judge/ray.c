@@ -76,7 +76,7 @@ static double triangle_distance(const struct judge_triangle *t,
  * ignored where contact is 0, a case that the page grid decides. */
 static enum judge_visibility
 classify_distance(const struct judge_triangle *t, struct judge_point3 from,
-                  const struct judge_margin *margin) {
+                  const struct judge_error_bound *margin) {
   double away = triangle_distance(t, from);
   if (away <= fmin(0.5 * t->contact + margin->plane_error, t->contact))
     return JUDGE_CLEAR;
@@ -104,7 +104,7 @@ static bool is_whole(const struct scene *scene,
   for (uint32_t i = 0; i < count; i++) {
     struct judge_point3 at =
         judge_point3_at(scene, scene->corner.item[start + i]);
-    if (!(judge_ahead(camera, at) > camera->near_d))
+    if (!(judge_view_depth(camera, at) > camera->near_d))
       return false;
     struct judge_point2 on = judge_project(camera, at);
     double low = camera->margin_mm;

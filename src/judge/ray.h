@@ -15,7 +15,7 @@
 enum judge_visibility { JUDGE_CLEAR, JUDGE_UNSURE, JUDGE_BLOCKED };
 
 /* Error bounds of the distance from a point to a plane, scene units. */
-struct judge_margin {
+struct judge_error_bound {
   double rounding;    /* of the point, on the page and in depth */
   double plane_error; /* a plane this close to the point may pass on either side
                          of it, or through it */
@@ -30,7 +30,7 @@ struct judge_end {
                               edge */
   bool is_cut;
   double near; /* upper bound of its rounding error */
-  struct judge_margin margin, cut_margin;
+  struct judge_error_bound margin, cut_margin;
 };
 
 struct judge_ray {
@@ -38,7 +38,7 @@ struct judge_ray {
   struct judge_point3 from, towards;
   double t_max; /* the ray is from + t towards, 0 < t < t_max */
   double sure;  /* for t above it the near plane may have clipped what is met */
-  struct judge_margin margin;
+  struct judge_error_bound margin;
   uint32_t own[2]; /* faces of the edge */
   struct judge_end end[2];
 };

@@ -60,10 +60,10 @@ static void find_sampled_ends(const struct judge_sampler *sampler,
     double rounding = judge_rounding_at(sampler->camera, sampler->ray_offset_mm,
                                         end[k].position);
     end[k].near = 4 * rounding;
-    end[k].margin = (struct judge_margin){rounding, 2 * rounding};
+    end[k].margin = (struct judge_error_bound){rounding, 2 * rounding};
     rounding =
         judge_rounding_at(sampler->camera, sampler->ray_offset_mm, end[k].cut);
-    end[k].cut_margin = (struct judge_margin){rounding, 2 * rounding};
+    end[k].cut_margin = (struct judge_error_bound){rounding, 2 * rounding};
   }
 }
 
@@ -92,8 +92,8 @@ static enum judge_visibility cast_ray(const struct judge_sampler *sampler,
     ray.sure = 1 - sure / judge_depth(camera, from);
   } else {
     ray.towards = camera->back;
-    ray.t_max = judge_ahead(camera, from) - near;
-    ray.sure = judge_ahead(camera, from) - sure;
+    ray.t_max = judge_view_depth(camera, from) - near;
+    ray.sure = judge_view_depth(camera, from) - sure;
   }
   return judge_cast_ray(sampler->all, &ray, blocker);
 }

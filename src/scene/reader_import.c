@@ -106,7 +106,8 @@ static recto_status check_child_end(const struct import_child *import,
                      "the importer took longer than %ld s", import->seconds);
   case CHILD_TOO_MUCH:
     return error_set(error, RECTO_ERROR_LIMIT, import->path, 0,
-                     "the model takes more than %zu MB", input_most() >> 20);
+                     "the model takes more than %zu MB",
+                     input_size_max() >> 20);
   case CHILD_SIGNALLED:
     if (result->code == SIGXCPU)
       return error_set(error, RECTO_ERROR_LIMIT, import->path, 0,
@@ -148,7 +149,7 @@ static recto_status run_importer(const struct import_child *import,
   struct child child = {.argument = argument,
                         .input = -1,
                         .seconds = (int)import->seconds,
-                        .most = input_most()};
+                        .most = input_size_max()};
   if (!by_path && (child.input = child_input_of(bytes, count)) < 0)
     return error_set(import->error, RECTO_ERROR_IO, import->path, 0,
                      "cannot hand it to the importer: %s", strerror(errno));
@@ -165,7 +166,8 @@ static recto_status read_import(struct scene *scene, const char *bytes,
                                 recto_error *error) {
   struct import_child import = {
       .seconds = environment_limit("RECTO_IMPORT_SECONDS", USUAL_SECONDS),
-      .mb = environment_limit("RECTO_IMPORT_MB", (long)(input_most() >> 20)),
+      .mb =
+          environment_limit("RECTO_IMPORT_MB", (long)(input_size_max() >> 20)),
       .path = path,
       .format = format,
       .error = error};

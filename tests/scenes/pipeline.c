@@ -49,9 +49,9 @@ void pipeline_fini(struct pipeline *pipeline) {
   report_destroy(pipeline->report);
 }
 
-void pipeline_starve_ink(const struct pipeline *pipeline,
-                         const struct scene *scene,
-                         const recto_options *options) {
+void pipeline_fail_each_allocation(const struct pipeline *pipeline,
+                                   const struct scene *scene,
+                                   const recto_options *options) {
   recto_status status = RECTO_ERROR_MEMORY;
   for (unsigned long n = 1; status != RECTO_OK; n++) {
     struct drawing drawing;

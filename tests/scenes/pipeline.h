@@ -27,9 +27,9 @@ void pipeline_fini(struct pipeline *pipeline);
 
 /* Runs the ink stage repeatedly, with each allocation failing in turn: all
  * attempts but the last must return an error. */
-void pipeline_starve_ink(const struct pipeline *pipeline,
-                         const struct scene *scene,
-                         const recto_options *options);
+void pipeline_fail_each_allocation(const struct pipeline *pipeline,
+                                   const struct scene *scene,
+                                   const recto_options *options);
 
 /* The drawing as SVG text, NUL-terminated; where a stage failed, the name of
  * its status.  Free with mem_free. */

@@ -81,7 +81,7 @@ static void set_pen_key(struct collector *c, uint32_t edge, bool hidden) {
           ? 2 * pens_of_hidden(c->pens, c->options, e->edge_class, e->group) + 1
           : 2 * (pens_of_line(c->pens, e->edge_class, e->group) *
                      RECTO_EDGE_CLASS_COUNT +
-                 pens_weight_priority(c->pens, e->edge_class));
+                 pens_weight_id(c->pens, e->edge_class));
 }
 
 static bool collect_segment(struct collector *c, uint32_t edge, struct ratio t0,

@@ -244,8 +244,8 @@ static bool subdivide_page(struct warnock *w,
   struct box2 page = page_window(sheet);
   w->edge_deferred = mem_calloc(sheet->edge.count, 1);
   w->triangle_deferred = mem_calloc(sheet->triangle.count, 1);
-  w->occlusion_limit = OCCLUSIONS_MIN;
-  w->piece_limit = PIECES_MIN;
+  w->occlusion_limit = WARNOCK_UNITE_FROM;
+  w->piece_limit = WARNOCK_LIMIT_FROM;
   w->floor = edge_length(sheet);
   w->windows = (struct warnock_windows){.sheet = sheet,
                                         .facets = &triangles,

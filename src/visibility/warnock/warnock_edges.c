@@ -46,7 +46,7 @@ static bool unite_occlusions(struct warnock *w) {
   mem_free(key);
   ARRAY_FREE(&w->occlusion);
   w->occlusion = united;
-  w->occlusion_limit = 2 * united.count + OCCLUSIONS_MIN;
+  w->occlusion_limit = 2 * united.count + WARNOCK_UNITE_FROM;
   return ok;
 }
 

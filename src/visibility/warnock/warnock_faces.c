@@ -44,7 +44,7 @@ static bool limit_pieces(struct warnock *w) {
   arena_fini(&w->arena);
   w->arena = arena;
   w->piece.count = kept;
-  w->piece_limit = 2 * kept + PIECES_MIN;
+  w->piece_limit = 2 * kept + WARNOCK_LIMIT_FROM;
   return ok;
 }
 

@@ -12,7 +12,7 @@
 
 /* Up to so many occluded intervals are not united, and up to so many pieces no
  * face is deferred for its pieces. */
-enum { OCCLUSIONS_MIN = 1 << 16, PIECES_MIN = 1 << 15 };
+enum { WARNOCK_UNITE_FROM = 1 << 16, WARNOCK_LIMIT_FROM = 1 << 15 };
 
 /* An occluded interval of an edge inside one window. */
 struct edge_occlusion {
@@ -36,10 +36,10 @@ struct warnock {
   struct warnock_windows windows;
   edge_occlusions occlusion; /* of all windows so far */
   size_t occlusion_limit;    /* from this count on they are united, see
-                             OCCLUSIONS_MIN */
+                             WARNOCK_UNITE_FROM */
   triangle_pieces piece;     /* of all windows so far */
   size_t piece_limit;        /* from this count on faces of many pieces are
-                             deferred, see PIECES_MIN */
+                             deferred, see WARNOCK_LIMIT_FROM */
   struct edge_intervals intervals; /* of the current edge */
   uint64_t listed, listed_max;     /* faces and edges, over all windows */
   uint8_t *edge_deferred;          /* one an edge: solved by the fallback, */

@@ -41,7 +41,7 @@ struct open_run {
 /* The spans of a line. */
 struct span_row {
   const struct watkins *watkins;
-  watkins_pieces piece;
+  watkins_spans piece;
 };
 
 struct scan {
@@ -56,7 +56,7 @@ struct scan {
 /* The facet visible at x (edge_sampling_seen_fn). */
 static uint32_t facet_at_x(const void *user, double x) {
   const struct span_row *row = user;
-  const struct watkins_piece *piece = row->piece.item;
+  const struct watkins_span *piece = row->piece.item;
   size_t i;
   LOWER_BOUND(i, 0, row->piece.count, !(piece[i].x1 > x));
   if (i == row->piece.count || piece[i].x0 > x)
@@ -195,14 +195,14 @@ static struct span_side side_of_span(const struct watkins *watkins, uint32_t e,
 }
 
 static uint32_t face_of(const struct watkins *watkins,
-                        const struct watkins_piece *piece) {
+                        const struct watkins_span *piece) {
   return watkins->facet.item[piece->facet].face;
 }
 
 /* Makes one span of touching pieces of one face. */
 static bool add_piece_spans(struct scan *scan) {
   const struct watkins *watkins = &scan->watkins;
-  const struct watkins_piece *piece = watkins->piece.item;
+  const struct watkins_span *piece = watkins->piece.item;
   size_t count = watkins->piece.count;
   for (size_t i = 0, past; i < count; i = past) {
     uint32_t face = face_of(watkins, &piece[i]);
@@ -227,12 +227,12 @@ static bool add_piece_spans(struct scan *scan) {
  * here  does any edge cross it? */
 static bool process_line(struct scan *scan, int32_t line, bool here) {
   struct watkins *watkins = &scan->watkins;
-  watkins_pieces free_pieces = scan->above.piece;
+  watkins_spans free_pieces = scan->above.piece;
   scan->above.piece = scan->row.piece;
   scan->row.piece = free_pieces;
   scan->row.piece.count = 0;
   if (here) {
-    watkins_pieces now = watkins->piece;
+    watkins_spans now = watkins->piece;
     if ((scan->request->fragments && !add_piece_spans(scan)) ||
         (scan->request->edges && !join_ends(scan)))
       return false;

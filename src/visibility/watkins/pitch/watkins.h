@@ -62,7 +62,7 @@ struct watkins_record {
 };
 
 /* A part of a line on which one facet is visible. */
-struct watkins_piece {
+struct watkins_span {
   double x0, x1;
   uint32_t facet;
   uint32_t left, right; /* the edges at its ends, of several at one x the
@@ -74,7 +74,7 @@ static inline bool watkins_borders(const struct watkins_edge *edge,
   return edge->facet[0] == facet || edge->facet[1] == facet;
 }
 
-typedef ARRAY(struct watkins_piece) watkins_pieces;
+typedef ARRAY(struct watkins_span) watkins_spans;
 typedef ARRAY(struct watkins_record) watkins_records;
 typedef ARRAY(uint32_t) watkins_list;
 
@@ -92,7 +92,7 @@ struct watkins {
   watkins_list in;           /* H */
   ARRAY(double) depth;       /* of the facets of H at an interval's middle */
   ARRAY(double) stack;       /* right ends of undecided parts of an interval */
-  watkins_pieces piece;      /* of this line */
+  watkins_spans piece;       /* of this line */
   watkins_list shown;        /* edges drawn at this line's interval ends */
   watkins_records record[2]; /* of this line and the one before, by */
   watkins_list order[2];     /* the parity of the line */

@@ -136,7 +136,7 @@ static bool find_depth_crossing(struct watkins *watkins, double x0, double x1,
 }
 
 static bool add_visible_piece(struct watkins *watkins,
-                              struct watkins_piece piece) {
+                              struct watkins_span piece) {
   return ARRAY_PUSH(&watkins->piece, piece);
 }
 
@@ -147,7 +147,7 @@ static bool add_visible_piece(struct watkins *watkins,
 static bool split_interval(struct watkins *watkins, uint32_t left,
                            uint32_t right, uint32_t *nearest) {
   const struct scan_edge *edge = watkins->table.edge.item;
-  struct watkins_piece piece = {.x0 = edge[left].x, .left = left};
+  struct watkins_span piece = {.x0 = edge[left].x, .left = left};
   bool whole = true;
   watkins->stack.count = 0;
   if (!ARRAY_PUSH(&watkins->stack, edge[right].x))
@@ -325,7 +325,7 @@ static bool find_clearly_nearest(struct watkins *watkins) {
 
 bool watkins_decide(struct watkins *watkins, uint32_t left, uint32_t right) {
   const struct scan_edge *edge = watkins->table.edge.item;
-  struct watkins_piece piece = {edge[left].x, edge[right].x, 0, left, right};
+  struct watkins_span piece = {edge[left].x, edge[right].x, 0, left, right};
   const struct watkins_record *record;
   watkins->counts.intervals++;
   if (!progress_step(watkins->progress, 1 + watkins->in.count))
