@@ -574,6 +574,8 @@ RECTO_USE_RESULT recto_status recto_scene_try_output(const recto_scene *scene,
  * A file that is there is replaced by a new one with its owner, mode, access
  * list and attributes; where it has several names, or where these cannot be
  * kept, its bytes are replaced once all of them are known.
+ * PNG is painted by cairo, whose version 1.16 may end the process if memory
+ * runs out while it does so.
  * Errors  RECTO_ERROR_IO: it cannot be written; RECTO_ERROR_UNSUPPORTED: there
  *         is no such format; RECTO_ERROR_LIMIT: it is too large for the format;
  *         RECTO_ERROR_ARGUMENT also where a file that the scene was read from
