@@ -3,6 +3,7 @@
 # from the committed corpus and from what earlier runs left in FOLDER.
 #
 # FUZZ_SECONDS  how long each runs; else 60
+# FUZZ_TIMEOUT  seconds of the clock that an input may take; else 10
 # FUZZ_TARGET   which run, separated by spaces; else all
 #
 # FOLDER/TARGET/corpus gets inputs that reach new code, FOLDER/TARGET/findings
@@ -25,7 +26,7 @@ run_target() {
   mkdir -p "$out/corpus" "$out/findings" "$corpus/$target"
   "$replay" --dictionary "$target" >"$out/dictionary" || return 1
   FUZZ_TARGET=$target "$fuzz" -max_total_time="${FUZZ_SECONDS:-60}" \
-    -max_len="$(longest "$target")" -timeout=10 -rss_limit_mb=2048 \
+    -max_len="$(longest "$target")" -timeout="${FUZZ_TIMEOUT:-10}" -rss_limit_mb=2048 \
     -dict="$out/dictionary" -artifact_prefix="$out/findings/" \
     -print_final_stats=1 "$out/corpus" "$corpus/$target" >"$out/log" 2>&1
   local status=$?
