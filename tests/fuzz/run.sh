@@ -26,7 +26,8 @@ run_target() {
   mkdir -p "$out/corpus" "$out/findings" "$corpus/$target"
   "$replay" --dictionary "$target" >"$out/dictionary" || return 1
   FUZZ_TARGET=$target "$fuzz" -max_total_time="${FUZZ_SECONDS:-60}" \
-    -max_len="$(longest "$target")" -timeout="${FUZZ_TIMEOUT:-10}" -rss_limit_mb=2048 \
+    -max_len="$(longest "$target")" -timeout="${FUZZ_TIMEOUT:-10}" \
+    -rss_limit_mb=2048 \
     -dict="$out/dictionary" -artifact_prefix="$out/findings/" \
     -print_final_stats=1 "$out/corpus" "$corpus/$target" >"$out/log" 2>&1
   local status=$?
