@@ -52,7 +52,7 @@ static recto_status make_graph(struct ink *ink, struct segment_graph *graph,
     status = segment_graph_drop_output_overlaps(graph, &rows, step, error);
   if (status == RECTO_OK)
     status = segment_graph_rejoin(graph, error);
-  if (status == RECTO_OK && is_tidied(ink->options) && !ink->options->ink.ids)
+  if (status == RECTO_OK && is_tidied(ink->options))
     status = segment_graph_close_gaps(graph, ink->pens, error);
   node_rows_fini(&rows);
   counts->without_length = graph->dots;
