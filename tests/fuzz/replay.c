@@ -1,11 +1,14 @@
 /* replay.c - runs inputs of a fuzzer without the fuzzer, shows them, makes them
  * smaller, and makes random ones.
  *
- *   replay TARGET FILE|FOLDER...        runs them; exit 1 where something is
- * found replay --print TARGET FILE          shows an input as a model and a
- * command replay --random SEED COUNT TARGET FOLDER runs random inputs, keeps
- * the findings replay --minimise TARGET FILE OUT   the least input that still
- * finds it replay --dictionary TARGET          words for libFuzzer */
+ * - `replay TARGET FILE|FOLDER...` runs them, and exits with 1 where something
+ *   is found;
+ * - `replay --print TARGET FILE` shows an input as a model and a command;
+ * - `replay --random SEED COUNT TARGET FOLDER` runs random inputs, and keeps the
+ *   findings;
+ * - `replay --minimise TARGET FILE OUT` makes the least input that still finds
+ *   it;
+ * - `replay --dictionary TARGET` prints words for libFuzzer. */
 #include <dirent.h>
 #include <stdlib.h>
 #include <string.h>

@@ -216,6 +216,44 @@ static bool meet_along(const struct sheet *sheet,
   return true;
 }
 
+/* Decides whether two faces that have a diagonal in one place meet along it.
+ * Within contact their diagonals may be in one place on the page alone: then the
+ * faces meet in the segments of their triangles, which are added.
+ * along  gets the decision
+ * Returns false when memory ran out. */
+static bool diagonals_meet_along(const struct sheet *sheet,
+                                 const struct incidences *incidences,
+                                 const struct surface_edge side[2],
+                                 struct intersection_segments *segments,
+                                 bool *along) {
+  const struct incidence *past[2],
+      *f = incidences_find(incidences, side[0], &past[0]),
+      *first = incidences_find(incidences, side[1], &past[1]);
+  struct geom_point p = sheet->point.item[side[0].i],
+                    q = sheet->point.item[side[0].j];
+  size_t before = segments->list.count;
+  bool beside = false;
+  for (; f < past[0]; f++)
+    for (const struct incidence *g = first; g < past[1]; g++) {
+      struct intersection_segment segment;
+      struct occluder hf, hg;
+      occluder_init(&hf, sheet, f->triangle);
+      occluder_init(&hg, sheet, g->triangle);
+      if (!intersection_segment_find(sheet, f->triangle, g->triangle, &hf, &hg,
+                                     &segment) ||
+          is_point(&segment))
+        continue;
+      beside |= !is_near_line(p, q, segment.end[0]) ||
+                !is_near_line(p, q, segment.end[1]);
+      if (!ARRAY_PUSH(&segments->list, segment))
+        return false;
+    }
+  *along = !beside;
+  if (*along)
+    segments->list.count = before;
+  return true;
+}
+
 /* ---- Decisions ----------------------------------------------------------- */
 
 static int compare_crossings(const void *a, const void *b, void *user) {
@@ -276,6 +314,9 @@ static bool decide_crossing(const struct sheet *sheet,
     if (!clip_to_edge(sheet, side[0], side[1], segment->end))
       return true;
     if (!edge_fans_cross(sheet, incidences, side, scratch, cross))
+      return false;
+    if (*cross && side[0].face != SHEET_NONE && side[1].face != SHEET_NONE &&
+        !diagonals_meet_along(sheet, incidences, side, segments, cross))
       return false;
   } else {
     if (passes_through(sheet, incidences, side[1 - g], side[g].i) &&
