@@ -358,7 +358,7 @@ typedef struct recto_ink_options {
   size_t weight_count;
 
   recto_order order;
-  double simplify_mm;   /* no point of a line moves by more */
+  double simplify_mm; /* no point of a line moves by more */
   /* Hatch lines that are shorter are dropped, and so are creases and group
    * borders of which an end is free; negative: half a pen, and creases 10 pens.
    * Other lines are dropped if they are shorter than that and than half a pen.

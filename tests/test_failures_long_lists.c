@@ -119,7 +119,7 @@ static void solvers_agree_on_long_lists(void **state) {
   }
 }
 
-/* Of triangles around one edge a few near ones hide most edges of the others. */
+/* Of triangles around one edge a few near ones hide most edges of others. */
 static void what_hid_the_last_edges_is_tested_first(void **state) {
   (void)state;
   enum { PAGES = 4000 };

@@ -371,7 +371,7 @@ static void a_closed_line_beside_another_is_drawn(void **state) {
   ink_fixture_end(&k);
 }
 
-/* Cost: hairs and lines by the hundred thousand in one place, and each alone. */
+/* Cost: hairs and lines by the hundred thousand in one place, or alone. */
 static void many_hairs_take_no_longer_each(void **state) {
   enum { HAIRS = 100000 };
   (void)state;

@@ -28,7 +28,7 @@
 
 enum judge_role {
   JUDGE_INK,
-  JUDGE_HIDDEN, /* a hidden line: not judged */
+  JUDGE_HIDDEN,  /* a hidden line: not judged */
   JUDGE_DROPPED, /* omitted as too short: no ink is missing there */
   JUDGE_ADDED    /* closes a gap: no ink is false there */
 };

@@ -4,8 +4,8 @@
  * - `replay TARGET FILE|FOLDER...` runs them, and exits with 1 where something
  *   is found;
  * - `replay --print TARGET FILE` shows an input as a model and a command;
- * - `replay --random SEED COUNT TARGET FOLDER` runs random inputs, and keeps the
- *   findings;
+ * - `replay --random SEED COUNT TARGET FOLDER` runs random inputs, and keeps
+ *   the findings;
  * - `replay --minimise TARGET FILE OUT` makes the least input that still finds
  *   it;
  * - `replay --dictionary TARGET` prints words for libFuzzer. */

@@ -217,8 +217,8 @@ static bool meet_along(const struct sheet *sheet,
 }
 
 /* Decides whether two faces that have a diagonal in one place meet along it.
- * Within contact their diagonals may be in one place on the page alone: then the
- * faces meet in the segments of their triangles, which are added.
+ * Within contact their diagonals may be in one place on the page alone: then
+ * the faces meet in the segments of their triangles, which are added.
  * along  gets the decision
  * Returns false when memory ran out. */
 static bool diagonals_meet_along(const struct sheet *sheet,
