@@ -75,6 +75,8 @@ static bool add_half_edge_results(recto_drawing *drawing,
 /* The half-edges of a map are stored loop by loop. */
 static bool add_loops(recto_drawing *drawing, const struct map *map) {
   for (size_t f = 0; f < map->fragment.count; f++) {
+    if (!poll_at(f))
+      return false;
     const struct map_fragment *fragment = &map->fragment.item[f];
     for (uint32_t k = 0; k < fragment->loops; k++) {
       uint32_t loop = fragment->loop + k;
