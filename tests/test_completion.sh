@@ -58,12 +58,17 @@ claim "files elsewhere" offers 'recto cu' files
 
 # ---- Zsh ------------------------------------------------------------------
 
-# zsh_offers LINE WORD... - what an interactive zsh has on its command line
-# after a tab.
+# zsh_makes LINE RESULT [COMMAND] - what an interactive zsh has on its command
+# line after a tab, with the script in its fpath, or what a command prints as one
+# that it has evaluated.
 cat >type.zsh <<'END'
 zmodload zsh/zpty
 zpty shell zsh -f -i
-zpty -w shell "fpath=($PWD \$fpath); autoload -U compinit; compinit -u -D"
+if [[ -n $2 ]]; then
+  zpty -w shell "autoload -U compinit; compinit -u -D; eval \"\$($2)\""
+else
+  zpty -w shell "fpath=($PWD \$fpath); autoload -U compinit; compinit -u -D"
+fi
 zpty -w shell "PS1=; show() { print -r -- \"<\$BUFFER>\"; BUFFER=; }"
 zpty -w shell "zle -N show; bindkey '^X' show; print ready:"
 zpty -r shell line '*ready:*ready:*'
@@ -74,7 +79,7 @@ zpty -d shell
 END
 zsh_makes() {
   local line
-  line=$(timeout 60 zsh -f type.zsh "$1" 2>&1)
+  line=$(timeout 60 zsh -f type.zsh "$1" "${3-}" 2>&1)
   test "$line" = "$2" || { say "made: $line" && false; }
 }
 if command -v zsh >/dev/null; then
@@ -84,6 +89,8 @@ if command -v zsh >/dev/null; then
   claim "zsh completes a value" zsh_makes 'recto --fill=sh' 'recto --fill=shade '
   claim "zsh completes the next item of a list" \
     zsh_makes 'recto --edges=crease,sil' 'recto --edges=crease,silhouette,'
+  claim "zsh completes after eval" zsh_makes 'recto --hatch-i' \
+    'recto --hatch-inset ' "'$recto' --completion zsh"
   claim "zsh completes a model" zsh_makes 'recto cu' 'recto cube.obj '
 else
   skip "zsh completes" "no zsh"

@@ -121,7 +121,8 @@ static void zbuffer(recto_options *o) {
 
 /* A loop over all of 100,352 triangles has 13 polls, one over their edges 19,
  * one over their corners 37.  `least` is by 3 to 6 less than what was counted
- * when this was written: where a loop goes or comes, it is to be counted again. */
+ * when this was written: where a loop goes or comes, it is to be counted
+ * again. */
 static void a_stage_polls_in_each_of_its_loops(void **state) {
   (void)state;
   static const struct {

@@ -109,10 +109,13 @@ static void print_quoted(const char *text) {
       printf("%s%c", strchr("[]:\\", *text) != NULL ? "\\" : "", *text);
 }
 
+/* The script serves both as a function that zsh loads from its fpath, and for
+ * `eval`, which is to define the function and not to call it. */
 static void print_zsh(void) {
   const struct option_entry *entry = NULL;
   printf("#compdef recto\n"
          "# zsh completion for recto, printed by recto --completion zsh\n"
+         "_recto() {\n"
          "_arguments -S \\\n");
   while ((entry = next_option(entry)) != NULL) {
     bool takes = entry->argument != NULL;
@@ -140,7 +143,13 @@ static void print_zsh(void) {
     }
     printf("' \\\n");
   }
-  printf("  '*:model:_files'\n");
+  printf("  '*:model:_files'\n"
+         "}\n"
+         "if [[ $funcstack[1] == _recto ]]; then\n"
+         "  _recto \"$@\"\n"
+         "else\n"
+         "  compdef _recto recto\n"
+         "fi\n");
 }
 
 void completion_print(enum completion_shell shell) {
