@@ -239,13 +239,16 @@ static bool diagonals_meet_along(const struct sheet *sheet,
       struct occluder hf, hg;
       occluder_init(&hf, sheet, f->triangle);
       occluder_init(&hg, sheet, g->triangle);
-      if (!intersection_segment_find(sheet, f->triangle, g->triangle, &hf, &hg,
+      if (is_same_face(sheet, f->triangle, g->triangle) ||
+          !intersection_segment_find(sheet, f->triangle, g->triangle, &hf, &hg,
                                      &segment) ||
           is_point(&segment))
         continue;
       beside |= !is_near_line(p, q, segment.end[0]) ||
                 !is_near_line(p, q, segment.end[1]);
-      if (!ARRAY_PUSH(&segments->list, segment))
+      if ((ends_on_plane(side_count_of(&hg, hf.p)) ||
+           ends_on_plane(side_count_of(&hf, hg.p))) &&
+          !ARRAY_PUSH(&segments->list, segment)) /* others are there */
         return false;
     }
   *along = !beside;
