@@ -685,7 +685,8 @@ const char *recto_drawing_group_name(const recto_drawing *drawing,
                                      size_t index);
 
 typedef struct recto_stroke {
-  const double *points; /* count pairs x, y in page mm */
+  const double *points; /* count pairs x, y in page mm, of the polyline that
+                           curves_mm > 0 lets a format draw as a curve */
   size_t count;
   bool closed; /* the last point joins the first, not repeated */
   bool hidden; /* a hidden part of a line */

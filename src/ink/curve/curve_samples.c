@@ -103,7 +103,6 @@ static void allow_distance(const struct sampling *c, size_t i) {
   sample->to = fmin(c->tolerance, CURVE_CLEARANCE_SHARE * to);
 }
 
-/* Samples the shape from one vertex to another. */
 bool curve_samples_take(struct curve_samples *samples,
                         const struct clearance *clearance,
                         const struct stroke_shape *shape, size_t from,

@@ -9,7 +9,7 @@
 
 /* A curve that is everywhere nearer to its stroke than this share of the
  * distance between the stroke and other ink meets no curve that does the same:
- * below a half, as samples are some way apart. */
+ * below a half, as strokes that meet may still be a little apart. */
 #define CURVE_CLEARANCE_SHARE 0.45
 
 /* A sample is a vertex of the stroke; or other ink is met there, so that a

@@ -65,8 +65,8 @@ static bool add_line(struct curves *c, struct drawing_point from,
   return add_curve_piece(c, (struct drawing_point[4]){from, from, to, to});
 }
 
-/* The sample `knots` knots after `from`, but not past one that is fixed, or the
- * last one. */
+/* The sample `knots` knots after `from`, but not past one where other ink is
+ * met, or the last one. */
 static size_t find_knot(const struct curves *c, size_t from, size_t knots) {
   size_t i = from, last = c->of.sample.count - 1;
   while (knots > 0 && i < last) {
