@@ -324,15 +324,16 @@ static struct segment_graph make_graph(struct ink_fixture *k, bool apart) {
                    RECTO_OK);
   assert_int_equal(segment_graph_unite(&graph, &rows, NULL), RECTO_OK);
   if (apart)
-    assert_int_equal(
-        segment_graph_set_isolated_apart(&graph, &rows, UNIT, NULL), RECTO_OK);
+    assert_int_equal(segment_graph_separate_isolated(&graph, &rows, UNIT, NULL),
+                     RECTO_OK);
   else
-    graph.crowded = mem_calloc(graph.node.count, sizeof *graph.crowded);
+    graph.near_segment =
+        mem_calloc(graph.node.count, sizeof *graph.near_segment);
   assert_int_equal(segment_graph_drop_collinear(&graph, &rows, NULL), RECTO_OK);
   assert_int_equal(
       segment_graph_drop_output_overlaps(&graph, &rows, UNIT, NULL), RECTO_OK);
   assert_true(apart || graph.isolated.count == 0);
-  assert_int_equal(segment_graph_rejoin(&graph, NULL), RECTO_OK);
+  assert_int_equal(segment_graph_merge_isolated(&graph, NULL), RECTO_OK);
   k->map.edge_state = NULL;
   pens_fini(&pens);
   node_rows_fini(&rows);

@@ -5,8 +5,9 @@
  * which no other segment has near it.  Most are.  The search that shows it
  * runs in parallel, and what looks for overlaps has the other segments alone.
  * Invariants  Nodes have their positions throughout.  Where a segment gets
- *   other ends, its new surroundings are searched (segment_graph_crowd), and
- *   those of its nodes join the others (segment_graph_recall_isolated). */
+ *   other ends, its new surroundings are searched
+ *   (segment_graph_mark_near_nodes), and isolated segments that have an end
+ *   there join the others again (segment_graph_restore_near_isolated). */
 #include "ink/lines/segment_graph.h"
 
 #include <math.h>
@@ -22,22 +23,22 @@ enum { NEAR_MARGIN = 4 * TOLERANCE_COINCIDENT_UNITS };
 
 /* What a search finds. */
 struct node_marks {
-  atomic_uchar *crowded;
+  atomic_uchar *near_segment;
   bool found;
 };
 
 static bool mark_node(void *user, uint32_t segment, uint32_t node) {
   struct node_marks *marks = user;
   (void)segment;
-  atomic_store_explicit(&marks->crowded[node], 1, memory_order_relaxed);
+  atomic_store_explicit(&marks->near_segment[node], 1, memory_order_relaxed);
   marks->found = true;
   return true;
 }
 
-bool segment_graph_crowd(struct segment_graph *graph,
-                         const struct node_rows *rows, int32_t near,
-                         uint32_t segment) {
-  struct node_marks marks = {graph->crowded, false};
+bool segment_graph_mark_near_nodes(struct segment_graph *graph,
+                                   const struct node_rows *rows, int32_t near,
+                                   uint32_t segment) {
+  struct node_marks marks = {graph->near_segment, false};
   const struct node_search search = {graph, rows, near, mark_node, &marks};
   return nodes_near_segment_visit(&search, segment) && marks.found;
 }
@@ -54,14 +55,14 @@ struct isolation {
 static bool search_range(void *user, struct parallel_range range) {
   const struct isolation *work = user;
   for (size_t i = range.begin; i < range.end; i++)
-    work->found[i] =
-        segment_graph_crowd(work->graph, work->rows, work->near, (uint32_t)i);
+    work->found[i] = segment_graph_mark_near_nodes(work->graph, work->rows,
+                                                   work->near, (uint32_t)i);
   return true;
 }
 
-static bool is_crowded(const struct segment_graph *graph,
-                       const struct graph_segment *s) {
-  return graph->crowded[s->node[0]] || graph->crowded[s->node[1]];
+static bool has_end_near_segment(const struct segment_graph *graph,
+                                 const struct graph_segment *s) {
+  return graph->near_segment[s->node[0]] || graph->near_segment[s->node[1]];
 }
 
 static bool have_same_ends(const struct graph_segment *a,
@@ -77,7 +78,8 @@ static bool set_apart(struct segment_graph *graph, const uint8_t *found) {
   bool same_before = false, ok = true;
   for (size_t i = 0; ok && i < all.count; i++) {
     bool same_after = i + 1 < all.count && have_same_ends(&s[i], &s[i + 1]);
-    if (found[i] || same_before || same_after || is_crowded(graph, &s[i]))
+    if (found[i] || same_before || same_after ||
+        has_end_near_segment(graph, &s[i]))
       ok = ARRAY_PUSH(&others, s[i]);
     else
       s[kept++] = s[i];
@@ -89,15 +91,16 @@ static bool set_apart(struct segment_graph *graph, const uint8_t *found) {
   return ok;
 }
 
-recto_status segment_graph_set_isolated_apart(struct segment_graph *graph,
-                                              const struct node_rows *rows,
-                                              double output_step,
-                                              recto_error *error) {
+recto_status segment_graph_separate_isolated(struct segment_graph *graph,
+                                             const struct node_rows *rows,
+                                             double output_step,
+                                             recto_error *error) {
   size_t count = graph->segment.count;
   int32_t near = (int32_t)ceil(output_step) + NEAR_MARGIN;
   struct isolation work = {graph, rows, near, mem_alloc(count, 1)};
-  graph->crowded = mem_calloc(graph->node.count, sizeof *graph->crowded);
-  bool ok = work.found != NULL && graph->crowded != NULL &&
+  graph->near_segment =
+      mem_calloc(graph->node.count, sizeof *graph->near_segment);
+  bool ok = work.found != NULL && graph->near_segment != NULL &&
             parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
                             PARALLEL_ITEMS, search_range, &work) &&
             set_apart(graph, work.found);
@@ -107,12 +110,12 @@ recto_status segment_graph_set_isolated_apart(struct segment_graph *graph,
 
 /* ---- Those that are isolated no more ------------------------------------- */
 
-bool segment_graph_recall_isolated(struct segment_graph *graph) {
+bool segment_graph_restore_near_isolated(struct segment_graph *graph) {
   struct graph_segments *isolated = &graph->isolated;
   size_t kept = 0;
   bool ok = true;
   for (size_t i = 0; ok && i < isolated->count; i++)
-    if (is_crowded(graph, &isolated->item[i]))
+    if (has_end_near_segment(graph, &isolated->item[i]))
       ok = ARRAY_PUSH(&graph->segment, isolated->item[i]);
     else
       isolated->item[kept++] = isolated->item[i];
@@ -127,8 +130,8 @@ static bool is_after(const struct graph_segment *a,
 }
 
 /* Merges the two sorted arrays. */
-recto_status segment_graph_rejoin(struct segment_graph *graph,
-                                  recto_error *error) {
+recto_status segment_graph_merge_isolated(struct segment_graph *graph,
+                                          recto_error *error) {
   struct graph_segments a = graph->isolated, b = graph->segment;
   size_t i = a.count, k = b.count;
   if (!ARRAY_RESERVE(&a, k))

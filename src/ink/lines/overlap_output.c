@@ -316,7 +316,7 @@ static bool add_snapped_segment(struct segment_graph *graph,
   if (!ARRAY_PUSH(&graph->segment, s))
     return false;
   if (rows != NULL)
-    segment_graph_crowd(graph, rows, snapping->output_step, last);
+    segment_graph_mark_near_nodes(graph, rows, snapping->output_step, last);
   return true;
 }
 
@@ -351,7 +351,7 @@ static bool rebuild(struct output_overlaps *r, const struct node_rows *rows) {
     else if (!add_snapped_segment(graph, snapping, rows, isolated->item[i]))
       return false;
   isolated->count = kept;
-  return segment_graph_recall_isolated(graph) &&
+  return segment_graph_restore_near_isolated(graph) &&
          segment_graph_sort_segments(graph);
 }
 

@@ -5,14 +5,14 @@
  *                                       (segments.c)
  *   segment_graph_unite                 nodes at one position are merged
  *                                       (nodes.c)
- *   segment_graph_set_isolated_apart    segments without any other node near
+ *   segment_graph_separate_isolated     segments without any other node near
  *                                       them take no part in what follows
  *                                       (isolated.c)
  *   segment_graph_drop_collinear        collinear overlaps are drawn once
  *                                       (overlap_collinear.c)
  *   segment_graph_drop_output_overlaps  overlaps at the output's precision are
  *                                       drawn once (overlap_output.c)
- *   segment_graph_rejoin                all segments are together again
+ *   segment_graph_merge_isolated        all segments are together again
  *   segment_graph_close_gaps            gaps less than half a pen are closed,
  *                                       unless the drawing is to be exact
  *                                       (gaps.c)
@@ -64,7 +64,8 @@ struct segment_graph {
   struct graph_segments segment;
   /* Those that were set apart: sorted, not in `segment`. */
   struct graph_segments isolated;
-  atomic_uchar *crowded; /* one a node: near another segment; NULL: unknown */
+  /* One a node: it is near a segment that does not end there; NULL: unknown. */
+  atomic_uchar *near_segment;
   /* The ends at node n: end[end_start[n] .. end_start[n + 1]), ascending;
    * end e is node[e & 1] of segment e >> 1. */
   uint32_t *end_start, *end;
@@ -119,23 +120,24 @@ USE_RESULT recto_status segment_graph_unite(struct segment_graph *graph,
  * output_step  as of segment_graph_drop_output_overlaps
  * Errors  RECTO_ERROR_MEMORY
  * Cost    near linear; the search runs in parallel */
-USE_RESULT recto_status segment_graph_set_isolated_apart(
+USE_RESULT recto_status segment_graph_separate_isolated(
     struct segment_graph *graph, const struct node_rows *rows,
     double output_step, recto_error *error);
 
-/* Marks the nodes near a segment as crowded, except its own; returns whether
- * there are any. */
-bool segment_graph_crowd(struct segment_graph *graph,
-                         const struct node_rows *rows, int32_t near,
-                         uint32_t segment);
+/* Marks the nodes near a segment, except its own, in near_segment; returns
+ * whether there are any. */
+bool segment_graph_mark_near_nodes(struct segment_graph *graph,
+                                   const struct node_rows *rows, int32_t near,
+                                   uint32_t segment);
 
-/* Moves isolated segments that have a crowded node back to `segment`, which is
- * then no longer sorted.  Returns false when memory ran out. */
-USE_RESULT bool segment_graph_recall_isolated(struct segment_graph *graph);
+/* Moves isolated segments with an end that is marked in near_segment back to
+ * `segment`, which is then no longer sorted.  Returns false when memory ran out. */
+USE_RESULT bool
+segment_graph_restore_near_isolated(struct segment_graph *graph);
 
 /* Moves all isolated segments back, and indexes the ends. */
-USE_RESULT recto_status segment_graph_rejoin(struct segment_graph *graph,
-                                             recto_error *error);
+USE_RESULT recto_status
+segment_graph_merge_isolated(struct segment_graph *graph, recto_error *error);
 
 /* Of collinear segments that overlap, keeps one along the overlap: visible
  * before hidden, then the lower class bit, then the lower edge.  The rest of

@@ -30,7 +30,7 @@ void segment_graph_fini(struct segment_graph *graph) {
   ARRAY_FREE(&graph->node);
   ARRAY_FREE(&graph->segment);
   ARRAY_FREE(&graph->isolated);
-  mem_free(graph->crowded);
+  mem_free(graph->near_segment);
   mem_free(graph->end_start);
   mem_free(graph->end);
   mem_free(graph->approximate);
