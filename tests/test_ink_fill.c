@@ -8,7 +8,6 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "ink/fill/fill.h"
 #include "tests/ink_fixture.h"
 #include "tests/scenes/random.h"
 

@@ -7,7 +7,6 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "ink/fill/fill.h"
 #include "ink/fill/light.h"
 #include "ink/hatch/hatch_runs.h"
 #include "ink/hatch/tone.h"

@@ -3,7 +3,7 @@
 #include "api/handle.h"
 #include "api/sized.h"
 #include "base/poll.h"
-#include "ink/look.h"
+#include "ink/shading.h"
 
 /* The class of a mesh edge in this view: as it was drawn, or for an edge of a
  * class that was not requested, by its faces.  The other face of a silhouette
@@ -100,14 +100,14 @@ static bool add_fragment_results(recto_drawing *drawing,
     const struct map_fragment *from = &s->map->fragment.item[f];
     if (!poll_at(f))
       return false;
-    struct ink_look look =
-        ink_look_of(s->scene, from->face, &s->sheet->camera, s->options);
+    struct face_shading shading =
+        face_shading_of(s->scene, from->face, &s->sheet->camera, s->options);
     const recto_fragment fragment = {
         .face = scene_face_number(s->scene, from->face),
         .group = s->scene->face_group.item[from->face],
-        .colour = look.colour,
-        .brightness = look.brightness,
-        .is_back = look.is_back,
+        .colour = shading.colour,
+        .brightness = shading.brightness,
+        .is_back = shading.is_back,
         .loop = from->loop,
         .loop_count = from->loops};
     if (!ARRAY_PUSH(&drawing->fragment, fragment))

@@ -7,6 +7,7 @@
 #include "base/poll.h"
 #include "ink/curve/curves.h"
 #include "ink/fill/fill.h"
+#include "ink/hatch/hatch.h"
 #include "ink/layers.h"
 #include "ink/order/stroke_order.h"
 #include "ink/lines/paths.h"
@@ -45,13 +46,13 @@ static recto_status make_graph(struct ink *ink, struct segment_graph *graph,
   if (status == RECTO_OK)
     status = segment_graph_unite(graph, &rows, error);
   if (status == RECTO_OK)
-    status = segment_graph_set_isolated_apart(graph, &rows, step, error);
+    status = segment_graph_separate_isolated(graph, &rows, step, error);
   if (status == RECTO_OK)
     status = segment_graph_drop_collinear(graph, &rows, error);
   if (status == RECTO_OK)
     status = segment_graph_drop_output_overlaps(graph, &rows, step, error);
   if (status == RECTO_OK)
-    status = segment_graph_rejoin(graph, error);
+    status = segment_graph_merge_isolated(graph, error);
   if (status == RECTO_OK && is_tidied(ink->options))
     status = segment_graph_close_gaps(graph, ink->pens, error);
   node_rows_fini(&rows);

@@ -2,7 +2,7 @@
 librecto_core_la_SOURCES += \
   %D%/ink.c %D%/ink.h \
   %D%/layers.c %D%/layers.h \
-  %D%/look.c %D%/look.h \
+  %D%/shading.c %D%/shading.h \
   %D%/pens.c %D%/pens.h \
   %D%/pens_warn_unused.c \
   %D%/curve/clearance.c %D%/curve/clearance.h \
@@ -14,7 +14,7 @@ librecto_core_la_SOURCES += \
   %D%/fill/light.c %D%/fill/light.h \
   %D%/fill/merge.c %D%/fill/merge.h \
   %D%/fill/outline.c %D%/fill/outline.h \
-  %D%/hatch/hatch.c \
+  %D%/hatch/hatch.c %D%/hatch/hatch.h \
   %D%/hatch/hatch_lines.c %D%/hatch/hatch_lines.h \
   %D%/hatch/hatch_regions.c %D%/hatch/hatch_regions.h \
   %D%/hatch/hatch_runs.c %D%/hatch/hatch_runs.h \

@@ -3,7 +3,7 @@
 
 #include "base/poll.h"
 #include "ink/fill/merge.h"
-#include "ink/look.h"
+#include "ink/shading.h"
 
 static uint32_t grey_of(double brightness) {
   uint32_t level = (uint32_t)(255 * brightness + 0.5);
@@ -15,10 +15,11 @@ static struct drawing_fill fill_without_loops(const struct sheet *sheet,
                                               const struct scene *scene,
                                               uint32_t face,
                                               const recto_options *options) {
-  struct ink_look look = ink_look_of(scene, face, &sheet->camera, options);
+  struct face_shading shading =
+      face_shading_of(scene, face, &sheet->camera, options);
   return (struct drawing_fill){.colour = options->ink.fill == RECTO_FILL_SHADE
-                                             ? grey_of(look.brightness)
-                                             : look.colour,
+                                             ? grey_of(shading.brightness)
+                                             : shading.colour,
                                .face = face,
                                .group = scene->face_group.item[face]};
 }

@@ -1,4 +1,4 @@
-/* fill.h - makes fills or hatching of the visible fragments. */
+/* fill.h - makes fills of the visible fragments. */
 #ifndef INK_FILL_FILL_H
 #define INK_FILL_FILL_H
 
@@ -13,27 +13,5 @@
 USE_RESULT bool fill_add(struct drawing *drawing, const struct sheet *sheet,
                          const struct scene *scene, const struct map *map,
                          const recto_options *options);
-
-/* Adds strokes of class 0 along parallel hatch lines, hatch_pitch_mm apart and
- * at hatch_angle_deg to the x axis, over every fragment.  The lines are at
- * fixed positions of the page, so the lines of neighbouring fragments meet.  A
- * stroke continues on the next hatch line, in the opposite direction, while the
- * connection stays inside the fragment and runs on the ink of sides that the
- * same pen draws.  Strokes too short for their pen are omitted.
- * Returns false when memory ran out. */
-USE_RESULT bool hatch_add(struct drawing *drawing, const struct sheet *sheet,
-                          const struct scene *scene, const struct map *map,
-                          const struct pens *pens,
-                          const recto_options *options);
-
-/* Adds strokes of class 0 along parallel lines in up to three directions, the
- * first at hatch_angle_deg, so that the ink of a pen pen_mm wide covers the
- * share of the paper that the tone of the face under options->ink.light
- * requires (tone.h).  Returns false when memory ran out. */
-USE_RESULT bool tone_hatch_add(struct drawing *drawing,
-                               const struct sheet *sheet,
-                               const struct scene *scene, const struct map *map,
-                               const struct pens *pens,
-                               const recto_options *options);
 
 #endif

@@ -17,7 +17,7 @@
 
 #include "base/poll.h"
 #include "base/tolerance.h"
-#include "ink/fill/fill.h"
+#include "ink/hatch/hatch.h"
 #include "ink/hatch/inset.h"
 #include "ink/hatch/hatch_regions.h"
 #include "ink/hatch/hatch_lines.h"

@@ -21,7 +21,7 @@
  * long ones the result is within 2 % of it, in less than 2 s.  For more strokes
  * the limits bound the time. */
 const struct tour_effort stroke_order_usual_effort = {
-    .neighbours_examined_max = 1e8, .moves = 8e8};
+    .neighbours_examined_max = 1e8, .strokes_moved_max = 8e8};
 
 /* The most corners of a loop that the greedy phase tries as starting points. */
 enum { LOOP_ENTRIES_MAX = 16 };

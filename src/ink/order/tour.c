@@ -40,8 +40,8 @@ struct cyclic_tour {
   uint32_t *queue; /* circular, of stops for which moves are to be tried */
   bool *queued;    /* of each stop: in the queue */
   uint32_t queue_head, queue_count;
-  double neighbours_left, moves; /* what is left of struct tour_effort */
-  bool back;                     /* the tour is traversed backwards */
+  double neighbours_left, strokes_left; /* what is left of struct tour_effort */
+  bool back;                            /* the tour is traversed backwards */
 };
 
 double tour_travel(const struct tour *tour) {
@@ -116,7 +116,7 @@ static void reverse_positions(struct cyclic_tour *r, uint32_t p,
     p = p + 1 < r->count ? p + 1 : 0;
     q = q > 0 ? q - 1 : r->count - 1;
   }
-  r->moves -= count;
+  r->strokes_left -= count;
 }
 
 /* Reverses the run from a to b in the current direction, or if that is less
@@ -182,7 +182,7 @@ static void move_run(struct cyclic_tour *r, uint32_t first, uint32_t count,
     set_stop(r, stop, wrap_position(r, to + i));
     r->reversed[stop] ^= reverse;
   }
-  r->moves -= count + (ahead <= behind ? ahead : behind);
+  r->strokes_left -= count + (ahead <= behind ? ahead : behind);
 }
 
 /* Appends a stop to the work queue unless it is in it. */
@@ -208,7 +208,8 @@ static bool try_two_opt(struct cyclic_tour *r, const struct tour_candidate *t) {
   uint32_t y = after(r, t->x);
   double gain = t->wide + gap(r, exit_end(r, t->x), entry_end(r, y)) - t->near -
                 gap(r, entry_end(r, t->d), entry_end(r, y));
-  if (gain <= TOLERANCE_TRAVEL_MM || reverse_cost(r, t->d, t->x) > r->moves)
+  if (gain <= TOLERANCE_TRAVEL_MM ||
+      reverse_cost(r, t->d, t->x) > r->strokes_left)
     return false;
   reverse_run(r, t->d, t->x);
   enqueue(r, t->c);
@@ -280,14 +281,14 @@ enum { MOVE_ITEMS = 32 };
 
 /* Makes moves until none gains or the limits of work are reached. */
 static void improve(struct cyclic_tour *r) {
-  while (r->queue_count > 0 && r->neighbours_left > 0 && r->moves > 0 &&
+  while (r->queue_count > 0 && r->neighbours_left > 0 && r->strokes_left > 0 &&
          poll_at((size_t)r->queue_head * MOVE_ITEMS)) {
     uint32_t c = r->queue[r->queue_head];
     r->queue_head = wrap_position(r, r->queue_head + 1);
     r->queue_count--;
     r->queued[c] = false;
     bool moved = true;
-    while (moved && r->neighbours_left > 0 && r->moves > 0) {
+    while (moved && r->neighbours_left > 0 && r->strokes_left > 0) {
       r->back = false;
       moved = try_neighbours(r, c);
       r->back = true;
@@ -349,7 +350,7 @@ bool tour_improve(struct tour *tour, const struct tour_effort *effort) {
                           .start = tour->start,
                           .count = count,
                           .neighbours_left = effort->neighbours_examined_max,
-                          .moves = effort->moves};
+                          .strokes_left = effort->strokes_moved_max};
   r.stop = mem_alloc(count, sizeof *r.stop);
   r.position = mem_alloc(count, sizeof *r.position);
   r.reversed = mem_alloc(count, sizeof *r.reversed);

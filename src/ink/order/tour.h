@@ -7,7 +7,7 @@
 /* Limits of the work done by tour_improve, in all. */
 struct tour_effort {
   double neighbours_examined_max; /* candidate neighbours examined */
-  double moves; /* strokes moved within the array that holds the tour */
+  double strokes_moved_max;       /* moved within the array of the tour */
 };
 
 /* An open tour: it starts at `start`, and its last point is free.  Stroke i has

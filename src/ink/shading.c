@@ -1,5 +1,5 @@
-/* look.c - how a face looks where it is filled. */
-#include "ink/look.h"
+/* shading.c - the colour and the brightness of a face where it is filled. */
+#include "ink/shading.h"
 
 #include "ink/fill/light.h"
 #include "scene/newell_normal.h"
@@ -34,13 +34,13 @@ static double shade(const struct scene *scene, uint32_t face,
   return light_brightness(normal, light);
 }
 
-struct ink_look ink_look_of(const struct scene *scene, uint32_t face,
-                            const struct camera *camera,
-                            const recto_options *options) {
-  struct ink_look look = {
+struct face_shading face_shading_of(const struct scene *scene, uint32_t face,
+                                    const struct camera *camera,
+                                    const recto_options *options) {
+  struct face_shading shading = {
       .colour = colour_of_group(scene, scene->face_group.item[face])};
   double light[3];
   light_direction(camera, options, light);
-  look.brightness = shade(scene, face, camera, light, &look.is_back);
-  return look;
+  shading.brightness = shade(scene, face, camera, light, &shading.is_back);
+  return shading;
 }
