@@ -15,16 +15,16 @@
 #include "visibility/contour/page_crossings.h"
 #include "visibility/index/triangle_grid.h"
 
-/* A point is asked off the surface, by so many heights of the triangles about
- * it: outwards and towards the viewer where the surface bends away from the
- * line of sight, since the mesh about it is uneven; else inwards. */
+/* Visibility is sampled off the surface, by so many heights of the triangles
+ * about it: outwards and towards the viewer where the surface bends away from
+ * the line of sight, since the mesh about it is uneven; else inwards. */
 #define OFFSET_OUT 0.1
 #define OFFSET_NEARER 1.0
 #define OFFSET_IN 0.6
 
-/* Points that are asked of a piece, at most, and segments whose heights give
- * the offset, to either side of one. */
-enum { POINTS_MAX = 31, HEIGHT_REACH = 5 };
+/* The samples of a piece, at most, and segments whose heights give the offset,
+ * to either side of one. */
+enum { SAMPLES_MAX = 31, HEIGHT_REACH = 5 };
 
 /* A piece that is not longer, between two that are alike, is like them. */
 enum { SHORT_SEGMENTS = 3 };
@@ -32,8 +32,8 @@ enum { SHORT_SEGMENTS = 3 };
 /* A part of a curve between two places. */
 struct contour_piece {
   struct contour_cut from, to;
-  uint32_t visible, asked; /* numbers of its points */
-  uint32_t occluders;      /* the sum of those that hide them */
+  uint32_t samples, visible; /* points of it that were tested, and those seen */
+  uint32_t occluders;        /* the sum of those that hide them */
   bool is_visible;
   int side; /* of the surface on which the line of sight passes: 1: the outer
                one, as normals have it; -1: the other one */
@@ -93,13 +93,13 @@ static double height_about(const struct contour_pieces *c,
                            const struct contour_curve *curve, uint32_t step) {
   double height[2 * HEIGHT_REACH + 1];
   size_t count = 0;
-  const struct contour_segment *all = c->set->segment.item, *own;
-  own = &all[c->curves->step.item[step].segment];
+  const struct contour_segment *own = contour_curves_segment(c->curves, step);
   for (int i = -HEIGHT_REACH; i <= HEIGHT_REACH; i++) {
     int64_t at = (int64_t)step + i;
     if (at < curve->step || at >= (int64_t)curve->step + curve->count)
       continue;
-    const struct contour_segment *s = &all[c->curves->step.item[at].segment];
+    const struct contour_segment *s =
+        contour_curves_segment(c->curves, (size_t)at);
     if (s == own || (!s->along_crease && !own->along_crease))
       height[count++] = s->width;
   }
@@ -109,15 +109,14 @@ static double height_about(const struct contour_pieces *c,
 
 /* How many triangles hide a point of a curve; negative when memory ran out.
  * side  1: the surface bends away from the line of sight, so that the point is
- *       asked in front of it; -1: it bends into it, which hides the point
+ *       sampled in front of it; -1: it bends into it, which hides the point
  *       unless it is the other side of the surface that is seen */
-static int count_hiding(struct contour_pieces *c,
-                        const struct contour_curve *curve, uint32_t step,
-                        double t, int side) {
+static int count_occluders_at(struct contour_pieces *c,
+                              const struct contour_curve *curve, uint32_t step,
+                              double t, int side) {
   const struct contour_node *a = contour_curves_node(c->curves, step);
   const struct contour_node *b = contour_curves_node(c->curves, step + 1);
-  const double *normal =
-      c->set->segment.item[c->curves->step.item[step].segment].normal;
+  const double *normal = contour_curves_segment(c->curves, step)->normal;
   double height = height_about(c, curve, step), at[3], view[3];
   facing_view(&c->sheet->camera, a->at, view);
   (void)vector_normalise(view);
@@ -139,26 +138,26 @@ static double position(struct contour_cut cut) { return cut.step + cut.t; }
 static int side_of_piece(const struct contour_pieces *c,
                          const struct contour_piece *piece) {
   int64_t sum = 0;
-  for (uint32_t i = piece->from.step; position(piece->to) > i; i++) {
-    uint32_t segment = c->curves->step.item[i].segment;
-    sum += c->set->segment.item[segment].radial < 0 ? -1 : 1;
-  }
+  for (uint32_t i = piece->from.step; position(piece->to) > i; i++)
+    sum += contour_curves_segment(c->curves, i)->radial < 0 ? -1 : 1;
   return sum < 0 ? -1 : 1;
 }
 
-static bool ask(struct contour_pieces *c, const struct contour_curve *curve,
-                struct contour_piece *piece) {
+static bool sample_piece(struct contour_pieces *c,
+                         const struct contour_curve *curve,
+                         struct contour_piece *piece) {
   double from = position(piece->from), to = position(piece->to);
   double last = (double)curve->step + curve->count - 1;
   piece->side = side_of_piece(c, piece);
-  uint32_t points = (uint32_t)fmin(ceil(to - from), POINTS_MAX) | 1;
-  for (uint32_t i = 0; i < points; i++) {
-    double at = from + (to - from) * ((i + 0.5) / points);
+  uint32_t samples = (uint32_t)fmin(ceil(to - from), SAMPLES_MAX) | 1;
+  for (uint32_t i = 0; i < samples; i++) {
+    double at = from + (to - from) * ((i + 0.5) / samples);
     double step = fmin(floor(at), last);
-    int count = count_hiding(c, curve, (uint32_t)step, at - step, piece->side);
+    int count =
+        count_occluders_at(c, curve, (uint32_t)step, at - step, piece->side);
     if (count < 0)
       return false;
-    piece->asked++;
+    piece->samples++;
     piece->visible += count == 0;
     piece->occluders += (uint32_t)count;
   }
@@ -208,8 +207,7 @@ static bool point_at(struct contour_pieces *c, struct contour_cut at,
 static bool has_surface_left(const struct contour_pieces *c, uint32_t step,
                              int side) {
   const struct contour_node *a = contour_curves_node(c->curves, step);
-  const struct contour_segment *s =
-      &c->set->segment.item[c->curves->step.item[step].segment];
+  const struct contour_segment *s = contour_curves_segment(c->curves, step);
   double off = s->width * side;
   struct geom_point outside =
       project_place(c, (const double[3]){a->at[0] + off * s->normal[0],
@@ -256,7 +254,7 @@ static bool add_edges(struct contour_pieces *c,
 static bool is_too_deep(const struct contour_pieces *c,
                         const struct contour_piece *piece) {
   return c->hidden_max > 0 && !piece->is_visible &&
-         piece->occluders > (uint64_t)c->hidden_max * piece->asked;
+         piece->occluders > (uint64_t)c->hidden_max * piece->samples;
 }
 
 /* ---- Curves -------------------------------------------------------------- */
@@ -276,7 +274,7 @@ static bool divide(struct contour_pieces *c, const struct contour_curve *curve,
     from = made.to;
     if (position(made.from) == position(made.to))
       begins_with_cut = true;
-    else if (!ask(c, curve, &made) || !ARRAY_PUSH(&c->piece, made))
+    else if (!sample_piece(c, curve, &made) || !ARRAY_PUSH(&c->piece, made))
       return false;
   }
   /* A closed curve's first and last piece are one. */
@@ -284,29 +282,24 @@ static bool divide(struct contour_pieces *c, const struct contour_curve *curve,
     struct contour_piece *first = &c->piece.item[0],
                          *last = &c->piece.item[c->piece.count - 1];
     first->visible = last->visible += first->visible;
-    first->asked = last->asked += first->asked;
+    first->samples = last->samples += first->samples;
     first->occluders = last->occluders += first->occluders;
   }
   for (size_t i = 0; i < c->piece.count; i++)
     c->piece.item[i].is_visible =
-        2 * c->piece.item[i].visible > c->piece.item[i].asked;
+        2 * c->piece.item[i].visible > c->piece.item[i].samples;
   return true;
-}
-
-static bool runs_along_crease(const struct contour_pieces *c, uint32_t step) {
-  uint32_t segment = c->curves->step.item[step].segment;
-  return c->set->segment.item[segment].along_crease;
 }
 
 /* Makes short pieces like the two beside them, if these are alike; not where
  * both ends are crossings, which are known to be some. */
-static void settle_short(struct contour_pieces *c,
-                         const struct contour_curve *curve) {
+static void absorb_short_pieces(struct contour_pieces *c,
+                                const struct contour_curve *curve) {
   size_t count = c->piece.count;
   for (size_t i = 0; i < count; i++) {
     struct contour_piece *piece = &c->piece.item[i];
     if ((!curve->closed && (i == 0 || i + 1 == count)) || count < 3 ||
-        runs_along_crease(c, piece->from.step) ||
+        contour_curves_segment(c->curves, piece->from.step)->along_crease ||
         (piece->from.crossing && piece->to.crossing) ||
         position(piece->to) - position(piece->from) > SHORT_SEGMENTS)
       continue;
@@ -321,7 +314,7 @@ static bool add_curve(struct contour_pieces *c,
   uint32_t point = SHEET_NONE;
   if (!divide(c, curve, cut))
     return false;
-  settle_short(c, curve);
+  absorb_short_pieces(c, curve);
   for (size_t i = 0; i < c->piece.count; i++) {
     const struct contour_piece *piece = &c->piece.item[i];
     if (point == SHEET_NONE && !point_at(c, piece->from, &point))

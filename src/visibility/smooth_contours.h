@@ -15,8 +15,8 @@ struct smooth_contours_counts {
  *
  * A curve is divided where its visibility may change: at its cusps and where
  * lines pass in front of it (contour_curves.h, page_crossings.h).  Each piece
- * is visible or hidden as a whole, as most of its points are.  A point is asked
- * a little off the surface, so that the triangles about it do not decide.
+ * is visible or hidden as a whole, as most of its samples are.  These lie a
+ * little off the surface, so that the triangles about them do not decide.
  * Visible fragments are made to end at the visible pieces (fit_fragments.h).
  * topology     of the sheet's scene, with its corners
  * crease_deg   where normals are split

@@ -129,26 +129,20 @@ static bool step_at(const struct contour_curve *curve, int64_t index,
   return index >= 0 && index < count;
 }
 
-static bool is_along_crease(const struct contour_curves *curves,
-                            uint32_t step) {
-  uint32_t segment = curves->step.item[step].segment;
-  return curves->set->segment.item[segment].along_crease;
-}
-
 /* The sign of the radial curvature about a segment of a curve. */
 static bool is_concave(const struct contour_curves *curves,
                        const struct contour_curve *curve, int64_t index) {
   int sum = 0;
   uint32_t at;
   (void)step_at(curve, index, &at);
-  bool crease = is_along_crease(curves, at);
+  bool crease = contour_curves_segment(curves, at)->along_crease;
   for (int64_t i = index - CURVATURE_REACH; i <= index + CURVATURE_REACH; i++) {
     uint32_t step;
-    if (!step_at(curve, i, &step) || is_along_crease(curves, step) != crease ||
+    if (!step_at(curve, i, &step) ||
+        contour_curves_segment(curves, step)->along_crease != crease ||
         (crease && i != index))
       continue;
-    uint32_t segment = curves->step.item[step].segment;
-    sum += curves->set->segment.item[segment].radial < 0 ? -1 : 1;
+    sum += contour_curves_segment(curves, step)->radial < 0 ? -1 : 1;
   }
   return sum < 0;
 }
@@ -167,7 +161,8 @@ static uint32_t turning_step(const struct contour_curves *curves,
   double x = (double)b.x - a.x, y = (double)b.y - a.y, most = 0;
   for (int64_t i = index - CURVATURE_REACH; i <= index + CURVATURE_REACH; i++) {
     uint32_t step;
-    if (!step_at(curve, i, &step) || is_along_crease(curves, step))
+    if (!step_at(curve, i, &step) ||
+        contour_curves_segment(curves, step)->along_crease)
       continue;
     const struct geom_point c = contour_curves_node(curves, step)->page;
     double along = ((double)c.x - b.x) * x + ((double)c.y - b.y) * y;
@@ -184,13 +179,15 @@ bool contour_curves_cut_at_cusps(struct contour_curves *curves) {
     const struct contour_curve *curve = &curves->curve.item[c];
     int64_t first = curve->closed ? curve->count - 1 : 0;
     bool before = is_concave(curves, curve, first);
-    bool crease_before = is_along_crease(curves, curve->step + (uint32_t)first);
+    bool crease_before =
+        contour_curves_segment(curves, curve->step + (uint32_t)first)
+            ->along_crease;
     if (!poll_at(c))
       return false;
     for (int64_t i = 0; i < curve->count; i++) {
       uint32_t step = curve->step + (uint32_t)i;
       bool concave = is_concave(curves, curve, i);
-      bool crease = is_along_crease(curves, step);
+      bool crease = contour_curves_segment(curves, step)->along_crease;
       if (!crease && !crease_before && concave != before)
         step = turning_step(curves, curve, i);
       struct contour_cut cut = {.step = step};

@@ -57,4 +57,10 @@ contour_curves_node(const struct contour_curves *curves, size_t step) {
   return &curves->set->node.item[curves->step.item[step].node];
 }
 
+/* The segment that starts at a step; there is one. */
+static inline const struct contour_segment *
+contour_curves_segment(const struct contour_curves *curves, size_t step) {
+  return &curves->set->segment.item[curves->step.item[step].segment];
+}
+
 #endif

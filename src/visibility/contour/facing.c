@@ -205,18 +205,18 @@ static bool find_normals(struct facing *f) {
   return !poll_is_cancelled();
 }
 
-/* ---- Tips ---------------------------------------------------------------- */
+/* ---- Apices -------------------------------------------------------------- */
 
 /* Makes creases of all edges at points about which a face bends away from the
- * mean normal by more than the crease angle: at the tip of a cone no normal is
+ * mean normal by more than the crease angle: at the apex of a cone no normal is
  * near those of its faces.
  * Returns whether there are such points; false also when memory ran out, which
  * then is_lost. */
-static bool crease_tips(struct facing *f, double crease_deg, bool *is_lost) {
+static bool crease_apices(struct facing *f, double crease_deg, bool *is_lost) {
   double cosine = angle_of_degrees(crease_deg).cosine;
-  uint8_t *is_tip = mem_calloc(f->scene->point.count, 1);
+  uint8_t *is_apex = mem_calloc(f->scene->point.count, 1);
   bool any = false;
-  *is_lost = is_tip == NULL;
+  *is_lost = is_apex == NULL;
   for (size_t i = 0; !*is_lost && i < f->mixed.count; i++) {
     uint32_t face = f->mixed.item[i];
     double n[3];
@@ -226,14 +226,14 @@ static bool crease_tips(struct facing *f, double crease_deg, bool *is_lost) {
     for (uint32_t c = f->scene->face_start.item[face];
          c < f->scene->face_start.item[face + 1]; c++)
       if (vector_dot(f->normal[f->place[facing_slot(f, c)]], n) < cosine)
-        is_tip[facing_point(f, c)] = any = true;
+        is_apex[facing_point(f, c)] = any = true;
   }
   for (uint32_t e = 0; any && e < f->topology->edge.count; e++) {
     const uint32_t *point = f->topology->edge.item[e].point;
-    if (is_tip[point[0]] || is_tip[point[1]])
+    if (is_apex[point[0]] || is_apex[point[1]])
       f->class_masks[e] |= RECTO_EDGE_CREASE;
   }
-  mem_free(is_tip);
+  mem_free(is_apex);
   return any;
 }
 
@@ -284,7 +284,7 @@ recto_status facing_init(struct facing *f, const struct sheet *sheet,
       topology_coarse_parts(topology, f->scene, f->class_masks, f->coarse) &&
       find_face_signs(f) && find_facings(f);
   bool is_lost = false;
-  if (ok && crease_tips(f, crease_deg, &is_lost)) {
+  if (ok && crease_apices(f, crease_deg, &is_lost)) {
     free_slots(f);
     ok = find_facings(f);
   }
