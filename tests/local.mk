@@ -158,6 +158,9 @@ unit_tests += %D%/test_obj
 %C%_test_obj_SOURCES = %D%/test_obj.c %D%/reading.c %D%/reading.h \
   %D%/comma_locale.c %D%/comma_locale.h
 %C%_test_obj_LDADD = %D%/scenes/libscenes.la $(LDADD)
+unit_tests += %D%/test_obj_parallel
+%C%_test_obj_parallel_SOURCES = %D%/test_obj_parallel.c \
+  %D%/reading.c %D%/reading.h
 unit_tests += %D%/test_precision
 %C%_test_precision_SOURCES = %D%/test_precision.c \
   %D%/reading.c %D%/reading.h

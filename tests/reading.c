@@ -6,12 +6,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/poll.h"
+
 static void keep_warning(void *user, const char *file, unsigned long line,
                          const char *text) {
   struct reading *reading = user;
   int i = reading->warnings++;
   (void)file;
-  if (i < (int)(sizeof reading->warning / sizeof *reading->warning))
+  if (i < READING_WARNINGS)
     snprintf(reading->warning[i], sizeof reading->warning[i], "%lu: %.250s",
              line, text);
 }
@@ -115,6 +117,18 @@ static bool same_indices(const uint32_t *a, size_t a_count, const uint32_t *b,
   same_indices((a)->array.item, (a)->array.count, (b)->array.item,             \
                (b)->array.count)
 
+static bool same_precision(const struct scene *a, const struct scene *b) {
+  const struct precision_range *p = a->precision.item, *q = b->precision.item;
+  if (a->precision.count != b->precision.count)
+    return false;
+  for (size_t i = 0; i < a->precision.count; i++)
+    if (p[i].first_point != q[i].first_point || p[i].stated != q[i].stated ||
+        p[i].precision.absolute != q[i].precision.absolute ||
+        p[i].precision.relative != q[i].precision.relative)
+      return false;
+  return true;
+}
+
 bool reading_same(const struct scene *a, const struct scene *b) {
   if (a->point.count != b->point.count || a->group.count != b->group.count)
     return false;
@@ -124,7 +138,50 @@ bool reading_same(const struct scene *a, const struct scene *b) {
   for (size_t i = 0; i < a->group.count; i++)
     if (strcmp(a->group.item[i].name, b->group.item[i].name) != 0)
       return false;
-  return SAME(a, b, face_start) && SAME(a, b, corner) &&
+  return same_precision(a, b) && SAME(a, b, face_start) && SAME(a, b, corner) &&
          SAME(a, b, face_group) && SAME(a, b, wire_start) &&
          SAME(a, b, wire_corner) && SAME(a, b, wire_group);
+}
+
+/* ---- Threads ------------------------------------------------------------- */
+
+static void read_with_threads(struct reading *reading,
+                              const struct reader *reader, const char *bytes,
+                              size_t count, int threads) {
+  recto_options options;
+  struct poll poll;
+  recto_options_init(&options);
+  options.solver.threads = threads;
+  poll_open(&poll, &options);
+  reading_init(reading);
+  (void)reading_bytes(reading, reader, bytes, count);
+  poll_close(&poll);
+}
+
+static const char *reading_difference(const struct reading *a,
+                                      const struct reading *b) {
+  if (a->status != b->status)
+    return "another status";
+  if (a->status != RECTO_OK && (a->error.line != b->error.line ||
+                                strcmp(a->error.text, b->error.text) != 0))
+    return "another error";
+  if (a->status == RECTO_OK && !reading_same(&a->scene, &b->scene))
+    return "another scene";
+  if (a->warnings != b->warnings)
+    return "another number of warnings";
+  for (int i = 0; i < a->warnings && i < READING_WARNINGS; i++)
+    if (strcmp(a->warning[i], b->warning[i]) != 0)
+      return "another warning";
+  return NULL;
+}
+
+const char *reading_parallel_fault(const struct reader *reader,
+                                   const char *bytes, size_t count) {
+  struct reading one, several;
+  read_with_threads(&one, reader, bytes, count, 1);
+  read_with_threads(&several, reader, bytes, count, 4);
+  const char *fault = reading_difference(&one, &several);
+  reading_fini(&one);
+  reading_fini(&several);
+  return fault;
 }

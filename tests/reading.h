@@ -4,13 +4,15 @@
 
 #include "scene/scene.h"
 
+enum { READING_WARNINGS = 16 };
+
 struct reading {
   struct scene scene;
   struct diagnostics diagnostics;
   recto_status status;
   recto_error error;
   int warnings;
-  char warning[16][300]; /* "LINE: text" of the first few */
+  char warning[READING_WARNINGS][300]; /* "LINE: text" of the first few */
 };
 
 /* An empty scene with diagnostics that keep the warnings. */
@@ -29,7 +31,13 @@ void reading_of(struct reading *reading, const struct reader *reader,
 /* Why the scene does not keep its invariants; NULL where it does. */
 const char *reading_fault(const struct scene *scene);
 
-/* Whether two scenes have the same points, faces, polylines and groups. */
+/* Whether two scenes have the same points, faces, polylines, groups and
+ * precision. */
 bool reading_same(const struct scene *a, const struct scene *b);
+
+/* What differs when the bytes are read by several threads; NULL: nothing, or
+ * the process has one processor. */
+const char *reading_parallel_fault(const struct reader *reader,
+                                   const char *bytes, size_t count);
 
 #endif

@@ -23,8 +23,13 @@
 
 enum {
   PLAIN_ROOM = 128, /* bytes, more than a plain statement has */
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
+  PLAIN_RUN = 4, /* so that a fuzzer's small inputs are divided */
+  PART_BYTES = 32,
+#else
   PLAIN_RUN = 4096, /* statements that room is made for */
   PART_BYTES = 1 << 16,
+#endif
   PARTS_MAX = 64 /* at once: what is counted is still in the cache when read */
 };
 

@@ -1,5 +1,6 @@
 /* target_reader.c - model files of any bytes: a scene that keeps its
- * invariants and draws, or an error with a line and a reason. */
+ * invariants and draws, or an error with a line and a reason; the same with
+ * several threads. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -57,6 +58,10 @@ static void read_with(const struct reader *reader, const uint8_t *bytes,
 
 static void run_obj(const uint8_t *bytes, size_t count,
                     struct fuzz_finding *finding) {
+  const char *fault =
+      reading_parallel_fault(&reader_obj, (const char *)bytes, count);
+  if (fault != NULL)
+    fuzz_found(finding, "obj: %s with several threads", fault);
   read_with(&reader_obj, bytes, count, finding);
 }
 

@@ -1,0 +1,161 @@
+/* test_obj_parallel.c - an OBJ file that several threads read is the scene, the
+ * warnings and the error that one thread reads.
+ *
+ * Runs of plain statements are divided at the ends of lines once they are half
+ * a megabyte long.  So the files are some megabytes of them, with a few other
+ * statements at random places. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/parallel.h"
+#include "tests/reading.h"
+#include "tests/scenes/random.h"
+
+enum { POINTS = 60000, FACES = 70000, LONGEST = 400 };
+
+static const char *const odd_points[] = {
+    "v 1 2\n",
+    "v 1e1 -0 .5\n",
+    "v nan 0 0\n",
+    "v 1 2 3 0.5 0.5 0.5\n",
+    "v  1 2 3\r\n",
+    "v 0.12345678901234567890 1 12345678901234567890\n",
+    "v 1 2 3 # text\n",
+    "# text\n",
+    "\n",
+    "vt 0 0\n",
+    "v 1 \\\n2 3\n",
+    "o thing\n"};
+
+static const char *const odd_faces[] = {
+    "f 1 2 2\n",         "f 1 2 3 4\n", "f -1 -2 -3\n",  "f 1//3 2//4 3//5\n",
+    "f 1/2/3 4/5/6 7\n", "f 1 2 x\n",   "f 7 8 12 \r\n", "f 1 2 99999999\n",
+    "g other\n",         "l 1 2 3\n",   "f 1 2\n",       "f 0 1 2\n",
+    "v 7 7 7\n",         "# text\n"};
+
+struct text {
+  char *bytes;
+  size_t count;
+};
+
+static void put(struct text *text, const char *statement) {
+  size_t length = strlen(statement);
+  memcpy(text->bytes + text->count, statement, length);
+  text->count += length;
+}
+
+/* A comment, or an index, that is longer than a part is. */
+static void put_long_line(struct text *text, struct random *random) {
+  size_t length = 1000 + random_below(random, 200000);
+  put(text, random_below(random, 2) ? "# " : "f 1/");
+  memset(text->bytes + text->count, '1', length);
+  text->count += length;
+  put(text, random_below(random, 2) ? " 2 3\n" : "\n");
+}
+
+static void put_point(struct text *text, struct random *random) {
+  char statement[LONGEST];
+  snprintf(statement, sizeof statement, "v %.*g %.*g %d\n",
+           random_int(random, 1, 12), random_between(random, -9, 9),
+           random_int(random, 1, 12), random_between(random, -9, 9),
+           random_int(random, -99, 99));
+  put(text, statement);
+}
+
+static void put_face(struct text *text, struct random *random) {
+  char statement[LONGEST];
+  int c[3];
+  for (int k = 0; k < 3; k++)
+    c[k] = random_int(random, 1, POINTS - 20);
+  snprintf(statement, sizeof statement,
+           random_below(random, 4) ? "f %d %d %d\n" : "f %d/1 %d/2 %d/3\n",
+           c[0], c[1], c[2]);
+  put(text, statement);
+}
+
+/* One statement in `rarity` is odd; 0: none is. */
+static struct text write_file(uint64_t seed, uint32_t rarity) {
+  struct random random = {seed};
+  struct text text = {malloc(((size_t)POINTS + FACES) * 64 + (1 << 22)), 0};
+  assert_non_null(text.bytes);
+  for (int i = 0; i < POINTS; i++) {
+    put_point(&text, &random);
+    if (rarity > 0 && random_below(&random, rarity) == 0)
+      put(&text, odd_points[random_below(&random, sizeof odd_points /
+                                                      sizeof *odd_points)]);
+  }
+  for (int i = 0; i < FACES; i++) {
+    put_face(&text, &random);
+    if (rarity > 0 && random_below(&random, rarity) == 0)
+      put(&text, odd_faces[random_below(&random,
+                                        sizeof odd_faces / sizeof *odd_faces)]);
+  }
+  if (rarity > 0)
+    put_long_line(&text, &random);
+  for (int i = 0; rarity > 0 && i < FACES / 4; i++)
+    put_face(&text, &random);
+  return text;
+}
+
+static void assert_same_in_parallel(uint64_t seed, uint32_t rarity) {
+  struct text text = write_file(seed, rarity);
+  const char *fault =
+      reading_parallel_fault(&reader_obj, text.bytes, text.count);
+  free(text.bytes);
+  if (fault != NULL)
+    fail_msg("seed %d, one of %d odd: %s", (int)seed, (int)rarity, fault);
+}
+
+static int rounds(int count) {
+  return getenv("RECTO_VALGRIND") ? 1 + count / 20 : count;
+}
+
+/* Where there is one processor, there is nothing to compare. */
+static void skip_without_processors(void) {
+  if (parallel_processors() < 2)
+    skip();
+}
+
+static void plain_files_are_read_alike(void **state) {
+  (void)state;
+  skip_without_processors();
+  assert_same_in_parallel(1, 0);
+  assert_same_in_parallel(2, 0);
+}
+
+static void other_statements_are_found_where_they_are(void **state) {
+  static const uint32_t rarities[] = {300, 5000, 20000, 60000};
+  (void)state;
+  skip_without_processors();
+  for (int seed = 1; seed <= rounds(40); seed++)
+    assert_same_in_parallel((uint64_t)seed, rarities[seed % 4]);
+}
+
+/* The end of the file may cut a statement of a part anywhere. */
+static void files_may_end_anywhere(void **state) {
+  struct random random = {3};
+  (void)state;
+  skip_without_processors();
+  struct text text = write_file(3, 0);
+  for (int i = 0; i < rounds(20); i++) {
+    size_t count = text.count - random_below(&random, 400000);
+    const char *fault = reading_parallel_fault(&reader_obj, text.bytes, count);
+    if (fault != NULL)
+      fail_msg("cut to %zu bytes: %s", count, fault);
+  }
+  free(text.bytes);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(plain_files_are_read_alike),
+      cmocka_unit_test(other_statements_are_found_where_they_are),
+      cmocka_unit_test(files_may_end_anywhere)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
