@@ -131,7 +131,8 @@ bool segment_graph_mark_near_nodes(struct segment_graph *graph,
                                    uint32_t segment);
 
 /* Moves isolated segments with an end that is marked in near_segment back to
- * `segment`, which is then no longer sorted.  Returns false when memory ran out. */
+ * `segment`, which is then no longer sorted.  Returns false when memory ran
+ * out. */
 USE_RESULT bool
 segment_graph_restore_near_isolated(struct segment_graph *graph);
 
