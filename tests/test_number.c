@@ -306,7 +306,7 @@ static void nothing_is_read_past_the_end(void **state) {
   }
 }
 
-#if DIGITS_WINDOWS
+#if DIGITS_CHUNKS
 static void plain_numbers_are_read_as_all_others(void **state) {
   struct random random = {7};
   int plain = 0;
@@ -556,7 +556,7 @@ int main(void) {
     cmocka_unit_test(digits_of_any_number_are_read),
     cmocka_unit_test(reading_stops_where_the_number_does),
     cmocka_unit_test(nothing_is_read_past_the_end),
-#if DIGITS_WINDOWS
+#if DIGITS_CHUNKS
     cmocka_unit_test(plain_numbers_are_read_as_all_others),
 #endif
     cmocka_unit_test(names_of_non_finite_numbers_are_read),

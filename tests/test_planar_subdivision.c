@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <cmocka.h>
 
-#include "base/sets.h"
+#include "base/union_find.h"
 #include "exact_fixture/sheet.h"
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/random.h"
@@ -95,15 +95,16 @@ static size_t count_sets(uint32_t *sets, size_t count) {
 static void assert_euler(const struct map *map) {
   const struct map_half_edge *half = map->half_edge.item;
   size_t count = map->half_edge.count, fragments = map->fragment.count;
-  uint32_t *point = sets_create(count), *part = sets_create(fragments);
+  uint32_t *point = union_find_create(count),
+           *part = union_find_create(fragments);
   long edges = 0, faces = 2 * (long)fragments - (long)map->loop.count;
   for (uint32_t h = 0; h < count; h++) {
     uint32_t twin = half[h].twin;
     edges += twin == SHEET_NONE || twin > h;
     if (twin == SHEET_NONE)
       continue;
-    sets_join(point, h, half[twin].next);
-    sets_join(part, half[h].fragment, half[twin].fragment);
+    union_find_join(point, h, half[twin].next);
+    union_find_join(part, half[h].fragment, half[twin].fragment);
   }
   long points = (long)count_sets(point, count);
   long parts = (long)count_sets(part, fragments);

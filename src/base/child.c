@@ -191,7 +191,7 @@ static bool read_output(struct child_run *run) {
   if (got <= 0)
     return got < 0 && errno == EINTR;
   result->output.count += (size_t)got;
-  if (result->output.count <= run->child->most)
+  if (result->output.count <= run->child->output_max)
     return true;
   result->end = CHILD_TOO_MUCH;
   return false;

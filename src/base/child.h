@@ -13,7 +13,7 @@ struct child {
   const char *const *argument; /* the program's path first, NULL last */
   int input;                   /* its standard input; -1: none */
   int seconds;                 /* it may take so long */
-  size_t most;                 /* it may write so many bytes */
+  size_t output_max;           /* it may write so many bytes */
 };
 
 enum child_end {

@@ -9,41 +9,41 @@
 static inline bool digits_is_one(char c) { return c >= '0' && c <= '9'; }
 
 #if defined __BYTE_ORDER__ && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-#define DIGITS_WINDOWS 1 /* eight digits can be looked at as a number */
+#define DIGITS_CHUNKS 1 /* eight bytes can be loaded as one number */
 
-/* The window of the eight bytes at `text` with each digit as its value, and
- * how many of them, from the first one on, are digits.
+/* Sets *chunk to the eight bytes at `text` with each digit as its value, and
+ * returns how many of them, from the first one on, are digits.
  *
  * A byte b is a digit where b ^ '0' <= 9; adding 0x76 then carries into its
  * top bit if it is not. */
-static inline int digits_count(const char *text, uint64_t *window) {
-  memcpy(window, text, 8);
-  *window ^= UINT64_C(0x3030303030303030);
-  uint64_t other = ((*window & UINT64_C(0x7f7f7f7f7f7f7f7f)) +
-                    UINT64_C(0x7676767676767676)) |
-                   *window;
+static inline int digits_count(const char *text, uint64_t *chunk) {
+  memcpy(chunk, text, 8);
+  *chunk ^= UINT64_C(0x3030303030303030);
+  uint64_t other =
+      ((*chunk & UINT64_C(0x7f7f7f7f7f7f7f7f)) + UINT64_C(0x7676767676767676)) |
+      *chunk;
   other &= UINT64_C(0x8080808080808080);
   return other ? __builtin_ctzll(other) / 8 : 8;
 }
 
-/* The number that the first `count` > 0 digits of a window make: shifted to
+/* The number that the first `count` > 0 digits of a chunk make: shifted to
  * its end, zeros before them, they are added up in pairs, then fours, then
  * all eight. */
-static inline uint64_t digits_sum(uint64_t window, int count) {
-  window <<= 64 - 8 * count;
-  window = window * 10 + (window >> 8);
-  uint64_t first = window & UINT64_C(0x000000ff000000ff);
-  uint64_t second = (window >> 16) & UINT64_C(0x000000ff000000ff);
-  window = first * (UINT64_C(1000000) << 32 | 100) +
-           second * (UINT64_C(10000) << 32 | 1);
-  return window >> 32;
+static inline uint64_t digits_sum(uint64_t chunk, int count) {
+  chunk <<= 64 - 8 * count;
+  chunk = chunk * 10 + (chunk >> 8);
+  uint64_t first = chunk & UINT64_C(0x000000ff000000ff);
+  uint64_t second = (chunk >> 16) & UINT64_C(0x000000ff000000ff);
+  chunk = first * (UINT64_C(1000000) << 32 | 100) +
+          second * (UINT64_C(10000) << 32 | 1);
+  return chunk >> 32;
 }
 #else
-#define DIGITS_WINDOWS 0
+#define DIGITS_CHUNKS 0
 #endif
 
-/* Appends the digits at `text` to *w, which goes round where they are too
- * many, and returns where they end.  Best where they are few. */
+/* Appends the digits at `text` to *w, modulo 2^64, and returns where they end.
+ * Fastest where they are few. */
 static inline const char *digits_gather_singly(const char *text,
                                                const char *end, uint64_t *w) {
   for (; text < end && digits_is_one(*text); text++)
@@ -55,15 +55,15 @@ static inline const char *digits_gather_singly(const char *text,
  * eight. */
 static inline const char *digits_gather(const char *text, const char *end,
                                         uint64_t *w) {
-#if DIGITS_WINDOWS
+#if DIGITS_CHUNKS
   static const uint64_t scale[9] = {1,      10,      100,      1000,     10000,
                                     100000, 1000000, 10000000, 100000000};
   while (end - text >= 8) {
-    uint64_t window;
-    int count = digits_count(text, &window);
+    uint64_t chunk;
+    int count = digits_count(text, &chunk);
     if (count == 0)
       return text;
-    *w = *w * scale[count] + digits_sum(window, count);
+    *w = *w * scale[count] + digits_sum(chunk, count);
     text += count;
     if (count < 8)
       return text;

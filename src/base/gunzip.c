@@ -18,18 +18,18 @@ bool gunzip_is_wanted(const char *bytes, size_t count) {
 struct expansion {
   z_stream stream;
   const char *bytes; /* compressed, `count` of them */
-  size_t count, taken, most;
+  size_t count, taken, size_max;
   struct byte_array to;
   const char *path;
   recto_error *error;
 };
 
 /* The most that the data may expand to. */
-static size_t expansion_limit(size_t count, size_t most) {
+static size_t expansion_limit(size_t count, size_t size_max) {
   size_t limit = (size_t)GUNZIP_SIZE_ALWAYS_ALLOWED;
   if (count > limit / GUNZIP_RATIO)
-    limit = count > most / GUNZIP_RATIO ? most : count * GUNZIP_RATIO;
-  return limit < most ? limit : most;
+    limit = count > size_max / GUNZIP_RATIO ? size_max : count * GUNZIP_RATIO;
+  return limit < size_max ? limit : size_max;
 }
 
 /* A first guess at the expanded size: the last four bytes hold it, modulo
@@ -38,7 +38,7 @@ static size_t guess_size(const struct expansion *x) {
   const unsigned char *b = (const unsigned char *)x->bytes + x->count - 4;
   size_t size =
       b[0] | (size_t)b[1] << 8 | (size_t)b[2] << 16 | (size_t)b[3] << 24;
-  size_t probable = x->count < x->most / 16 ? 16 * x->count : x->most;
+  size_t probable = x->count < x->size_max / 16 ? 16 * x->count : x->size_max;
   return (size < probable ? size : probable) + 2;
 }
 
@@ -82,10 +82,10 @@ static recto_status expand_member(struct expansion *x) {
         !ARRAY_RESERVE(&x->to, (size_t)1 << 16))
       return error_memory(x->error);
     result = expand_some(x);
-    if (x->to.count > x->most)
+    if (x->to.count > x->size_max)
       return error_set(x->error, RECTO_ERROR_LIMIT, x->path, 0,
                        "gzip data that expand to more than %zu MB",
-                       x->most >> 20);
+                       x->size_max >> 20);
   }
   return result == Z_STREAM_END ? RECTO_OK : expansion_fault(x, result);
 }
@@ -115,13 +115,13 @@ static recto_status expand(struct expansion *x) {
   return status;
 }
 
-recto_status gunzip(struct byte_array *data, const char *path, size_t most,
+recto_status gunzip(struct byte_array *data, const char *path, size_t size_max,
                     recto_error *error) {
   struct expansion x = {
       .stream = {.zalloc = gzip_allocate, .zfree = gzip_release},
       .bytes = data->item,
       .count = data->count,
-      .most = expansion_limit(data->count, most),
+      .size_max = expansion_limit(data->count, size_max),
       .path = path,
       .error = error};
   recto_status status =
@@ -138,10 +138,10 @@ recto_status gunzip(struct byte_array *data, const char *path, size_t most,
 
 #else
 
-recto_status gunzip(struct byte_array *data, const char *path, size_t most,
+recto_status gunzip(struct byte_array *data, const char *path, size_t size_max,
                     recto_error *error) {
   (void)data;
-  (void)most;
+  (void)size_max;
   return error_set(error, RECTO_ERROR_UNSUPPORTED, path, 0,
                    "compressed with gzip, and this build is without zlib");
 }

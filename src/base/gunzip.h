@@ -18,11 +18,11 @@ bool gunzip_is_wanted(const char *bytes, size_t count);
 /* Replaces gzip data by what they expand to, with a NUL behind the last byte;
  * several members are joined, zeros after the last are passed over.  On a
  * failure the data stay.
- * path    for messages
- * most    bytes that it may expand to
- * Errors  RECTO_ERROR_FORMAT (broken or cut short), RECTO_ERROR_LIMIT,
- *         RECTO_ERROR_MEMORY; RECTO_ERROR_UNSUPPORTED without zlib */
+ * path      for messages
+ * size_max  bytes that it may expand to
+ * Errors    RECTO_ERROR_FORMAT (broken or cut short), RECTO_ERROR_LIMIT,
+ *           RECTO_ERROR_MEMORY; RECTO_ERROR_UNSUPPORTED without zlib */
 USE_RESULT recto_status gunzip(struct byte_array *data, const char *path,
-                               size_t most, recto_error *error);
+                               size_t size_max, recto_error *error);
 
 #endif

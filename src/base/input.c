@@ -43,15 +43,15 @@ static void advise_large_pages(char *block, size_t size) {
 struct source {
   int descriptor;
   const char *path;
-  size_t size; /* of a file proper, from where it is read; 0: not known */
-  size_t most; /* bytes that are taken */
+  size_t size;     /* of a regular file, from where it is read; 0: not known */
+  size_t size_max; /* bytes that are taken */
 };
 
 static recto_status refuse_size(const struct source *source,
                                 recto_error *error) {
   return error_set(error, RECTO_ERROR_LIMIT, source->path, 0,
                    "larger than %zu MB, which is the most that is read here",
-                   source->most >> 20);
+                   source->size_max >> 20);
 }
 
 /* Whether a file that ended before its size says has another size by now.
@@ -62,7 +62,7 @@ static bool was_cut_short(const struct source *source, size_t count) {
          (size_t)attributes.st_size < source->size;
 }
 
-/* ---- A file proper, in parallel ------------------------------------------ */
+/* ---- A regular file, in parallel ----------------------------------------- */
 
 enum { PART = 1 << 20 }; /* bytes that a thread reads at once */
 
@@ -106,42 +106,42 @@ static void read_parts(const struct source *source, struct byte_array *data) {
 /* ---- Anything ------------------------------------------------------------ */
 
 /* Reads to the end of the source. */
-static recto_status slurp(const struct source *source, struct input *input,
-                          recto_error *error) {
+static recto_status read_all(const struct source *source, struct input *input,
+                             recto_error *error) {
   enum { CHUNK = 1 << 16 };
-  if (source->size > source->most)
+  if (source->size > source->size_max)
     return refuse_size(source, error);
   /* One byte more than there are shows that the end is reached. */
   size_t capacity = source->size > 0 ? source->size + 2 : CHUNK;
-  if (!ARRAY_RESERVE(&input->slurped, capacity))
+  if (!ARRAY_RESERVE(&input->buffer, capacity))
     return error_memory(error);
-  advise_large_pages(input->slurped.item, capacity);
-  read_parts(source, &input->slurped);
+  advise_large_pages(input->buffer.item, capacity);
+  read_parts(source, &input->buffer);
   while (poll_now()) {
-    if (input->slurped.capacity - input->slurped.count < 2 &&
-        !ARRAY_RESERVE(&input->slurped, CHUNK))
+    if (input->buffer.capacity - input->buffer.count < 2 &&
+        !ARRAY_RESERVE(&input->buffer, CHUNK))
       return error_memory(error);
-    size_t left = input->slurped.capacity - input->slurped.count - 1;
+    size_t left = input->buffer.capacity - input->buffer.count - 1;
     ssize_t got =
-        read(source->descriptor, input->slurped.item + input->slurped.count,
+        read(source->descriptor, input->buffer.item + input->buffer.count,
              left < PART ? left : PART);
     if (got < 0 && errno == EINTR)
       continue;
     if (got < 0)
       return error_set(error, RECTO_ERROR_IO, source->path, 0,
                        "cannot read: %s", strerror(errno));
-    input->slurped.count += (size_t)got;
-    if (input->slurped.count > source->most)
+    input->buffer.count += (size_t)got;
+    if (input->buffer.count > source->size_max)
       return refuse_size(source, error);
     if (got == 0)
       break;
   }
   if (poll_is_cancelled())
     return error_cancelled(error);
-  if (was_cut_short(source, input->slurped.count))
+  if (was_cut_short(source, input->buffer.count))
     return error_set(error, RECTO_ERROR_IO, source->path, 0,
                      "was cut short while it was read");
-  input->slurped.item[input->slurped.count] = '\0';
+  input->buffer.item[input->buffer.count] = '\0';
   return RECTO_OK;
 }
 
@@ -152,7 +152,7 @@ static struct source describe_source(int descriptor, const char *path) {
   if (fstat(descriptor, &attributes) != 0)
     return source;
   if (S_ISCHR(attributes.st_mode))
-    source.most = INPUT_DEVICE_MAX;
+    source.size_max = INPUT_DEVICE_MAX;
   if (!S_ISREG(attributes.st_mode) || attributes.st_size <= 0)
     return source;
   off_t at = lseek(descriptor, 0, SEEK_CUR);
@@ -163,10 +163,10 @@ static struct source describe_source(int descriptor, const char *path) {
 
 /* Expands what was loaded where it is compressed. */
 static recto_status expand_input(struct input *input, const char *path,
-                                 size_t most, recto_error *error) {
-  struct byte_array *data = &input->slurped;
+                                 size_t size_max, recto_error *error) {
+  struct byte_array *data = &input->buffer;
   recto_status status = gunzip_is_wanted(data->item, data->count)
-                            ? gunzip(data, path, most, error)
+                            ? gunzip(data, path, size_max, error)
                             : RECTO_OK;
   input->bytes = data->item;
   input->count = data->count;
@@ -186,22 +186,22 @@ recto_status input_load(struct input *input, const char *path,
                      strerror(errno));
   struct source source = describe_source(descriptor, path);
   input->is_file = path_identity_of_descriptor(descriptor, &input->file);
-  recto_status status = slurp(&source, input, error);
+  recto_status status = read_all(&source, input, error);
   if (!standard)
     close(descriptor);
-  return status == RECTO_OK ? expand_input(input, path, source.most, error)
+  return status == RECTO_OK ? expand_input(input, path, source.size_max, error)
                             : status;
 }
 
 recto_status input_copy(struct input *input, const void *bytes, size_t count,
                         const char *name, recto_error *error) {
   *input = (struct input){.bytes = NULL};
-  if (count == SIZE_MAX || !ARRAY_RESERVE(&input->slurped, count + 1))
+  if (count == SIZE_MAX || !ARRAY_RESERVE(&input->buffer, count + 1))
     return error_memory(error);
   if (count > 0)
-    memcpy(input->slurped.item, bytes, count);
-  input->slurped.item[count] = '\0';
-  input->slurped.count = count;
+    memcpy(input->buffer.item, bytes, count);
+  input->buffer.item[count] = '\0';
+  input->buffer.count = count;
   return expand_input(input, name, input_size_max(), error);
 }
 
@@ -217,16 +217,16 @@ recto_status input_load_named(struct input *input, const char *path,
   struct stat attributes;
   struct source source = describe_source(descriptor, path);
   input->is_file = path_identity_of_descriptor(descriptor, &input->file);
-  source.most = INPUT_NAMED_MAX;
+  source.size_max = INPUT_NAMED_MAX;
   if (fstat(descriptor, &attributes) != 0 || !S_ISREG(attributes.st_mode))
     status = error_set(error, RECTO_ERROR_IO, path, 0, "no file");
   else if (attributes.st_size > INPUT_NAMED_MAX)
     status = error_set(error, RECTO_ERROR_LIMIT, path, 0, "too large");
   else if (attributes.st_size > 0)
-    status = slurp(&source, input, error);
+    status = read_all(&source, input, error);
   close(descriptor);
-  return status == RECTO_OK ? expand_input(input, path, source.most, error)
+  return status == RECTO_OK ? expand_input(input, path, source.size_max, error)
                             : status;
 }
 
-void input_unload(struct input *input) { ARRAY_FREE(&input->slurped); }
+void input_unload(struct input *input) { ARRAY_FREE(&input->buffer); }

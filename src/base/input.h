@@ -11,8 +11,8 @@
 struct input {
   const char *bytes; /* a NUL stands behind the last */
   size_t count;
-  struct byte_array slurped; /* what `bytes` points to */
-  bool is_file;              /* it was a file proper, and this one */
+  struct byte_array buffer; /* what `bytes` points to */
+  bool is_file;             /* it was a regular file, and this one */
   struct file_identity file;
 };
 
@@ -41,7 +41,7 @@ USE_RESULT recto_status input_copy(struct input *input, const void *bytes,
                                    recto_error *error);
 
 /* Loads a file whose name stands in another one, which may name anything:
- * only files proper of at most INPUT_NAMED_MAX bytes are read, and gzip data
+ * only regular files of at most INPUT_NAMED_MAX bytes are read, and gzip data
  * are expanded to no more than that.
  * Errors  as of input_load */
 #define INPUT_NAMED_MAX (INT64_C(16) << 20)

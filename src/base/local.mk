@@ -15,10 +15,10 @@ librecto_core_la_SOURCES += \
   %D%/poll.c %D%/poll.h \
   %D%/report.c %D%/report.h \
   %D%/sentence.c %D%/sentence.h \
-  %D%/sets.h \
   %D%/sort.c %D%/sort.h \
   %D%/status.c %D%/status.h \
   %D%/stream.c %D%/stream.h \
   %D%/target.c %D%/target.h \
   %D%/tolerance.h \
+  %D%/union_find.h \
   %D%/word.c %D%/word.h

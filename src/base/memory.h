@@ -18,14 +18,14 @@ void *mem_resize(void *block, size_t count, size_t size);
 void mem_free(void *block);
 char *mem_copy_text(const char *text);
 
-/* Fetches into the cache what will be read soon.  A macro: calls of a function
- * that does no more are left out by compilers. */
+/* Fetches into the cache what will be read soon.  A macro: compilers remove
+ * calls of a function that does no more. */
 #if defined __GNUC__
-#define MEM_FETCH(address) __builtin_prefetch(address)
+#define MEM_PREFETCH(address) __builtin_prefetch(address)
 #else
-#define MEM_FETCH(address) ((void)(address))
+#define MEM_PREFETCH(address) ((void)(address))
 #endif
-#define MEM_FETCH_AHEAD 8 /* elements from a fetch to its use */
+#define MEM_PREFETCH_AHEAD 8 /* elements between a prefetch and the use */
 
 /* For tests: the n-th allocation from now (1-based) fails, once; 0 switches
  * this off. */

@@ -19,7 +19,7 @@
 const char *number_parse_double(const char *text, const char *end,
                                 double *value);
 
-#if DIGITS_WINDOWS
+#if DIGITS_CHUNKS
 /* So many bytes are read at once. */
 enum { NUMBER_PLAIN_ROOM = 32 };
 
@@ -34,28 +34,27 @@ extern const double number_power_of_ten[16];
  * Exact: as number_parse_double. */
 static inline const char *number_parse_plain(const char *text, double *value) {
   enum { DIGITS_MAX = 19 }; /* so many fit in 64 bits */
-  uint64_t window;
+  uint64_t chunk;
   bool negative = *text == '-';
   text += negative;
-  int whole = digits_count(text, &window), decimals = 0;
+  int whole = digits_count(text, &chunk), decimals = 0;
   if (FLT_EVAL_METHOD != 0 || whole == 0 || whole == 8)
     return NULL;
-  uint64_t sum = digits_sum(window, whole);
+  uint64_t sum = digits_sum(chunk, whole);
   text += whole;
   if (*text == '.') {
-    decimals = digits_count(++text, &window);
+    decimals = digits_count(++text, &chunk);
     if (decimals == 0)
       return NULL;
     sum = sum * (uint64_t)number_power_of_ten[decimals] +
-          digits_sum(window, decimals);
+          digits_sum(chunk, decimals);
     text += decimals;
     if (decimals == 8 && digits_is_one(*text)) {
-      int more = digits_count(text, &window);
+      int more = digits_count(text, &chunk);
       decimals += more;
       if (more == 8 || whole + decimals > DIGITS_MAX)
         return NULL;
-      sum =
-          sum * (uint64_t)number_power_of_ten[more] + digits_sum(window, more);
+      sum = sum * (uint64_t)number_power_of_ten[more] + digits_sum(chunk, more);
       text += more;
       if (sum > UINT64_C(1) << 53)
         return NULL;

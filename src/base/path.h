@@ -11,7 +11,7 @@ struct file_identity {
 };
 
 /* The identity of what is open as a descriptor, or stands at a path ("-" is
- * standard input), where that is a file proper; false: it is none, and devices
+ * standard input), where that is a regular file; false: it is none, and devices
  * and pipes, which may well be both read and written, count as different. */
 bool path_identity_of_descriptor(int descriptor, struct file_identity *it);
 bool path_identity(const char *path, struct file_identity *it);
@@ -21,7 +21,7 @@ static inline bool file_identity_is_same(struct file_identity a,
   return a.device == b.device && a.number == b.number;
 }
 
-/* Whether two paths name one file proper that is there, by whatever names and
+/* Whether two paths name one regular file that is there, by whatever names and
  * links; "-" does not count. */
 bool path_is_same(const char *a, const char *b);
 

@@ -38,8 +38,8 @@ void report_text(struct report *report, const char *section, const char *name,
 int64_t report_get(const struct report *report, const char *section,
                    const char *name, int64_t otherwise);
 
-/* The report as JSON, two-space indented, ending in a newline.  Lends until
- * the report changes; NULL when memory ran out. */
+/* The report as JSON, two-space indented, ending in a newline; borrowed
+ * until the report changes.  NULL when memory ran out. */
 const char *report_json(struct report *report);
 
 /* Seconds of CPU time of this process / of wall time, from an arbitrary

@@ -56,7 +56,7 @@ USE_RESULT recto_status stream_complete(struct stream *stream,
                                         recto_error *error);
 
 /* The bytes written so far to a memory stream, NUL-terminated (the NUL is not
- * counted).  Lends. */
+ * counted); borrowed from the stream, until it is written to or freed. */
 const char *stream_memory(const struct stream *stream, size_t *count);
 
 /* Flushes, closes and renames; on a fault removes what was written.  Frees

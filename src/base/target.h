@@ -22,7 +22,7 @@ struct target {
   char *path;      /* with links followed; NULL for what was open already */
   char *temporary; /* TARGET_NEW: its name until it is committed; NULL: it
                       has none */
-  bool existed;    /* a file proper is there, and this is what it is */
+  bool existed;    /* a regular file is there, and this is what it is */
   struct stat old;
   struct stat folder; /* TARGET_NEW: where it is to appear */
   bool committed;     /* TARGET_NEW: has its name */

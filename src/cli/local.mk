@@ -11,7 +11,7 @@ recto_SOURCES += \
   %D%/options.c \
   %D%/option_scope.c %D%/option_scope.h \
   %D%/parse.c %D%/parse.h \
-  %D%/progress.c %D%/progress.h \
+  %D%/progress_bar.c %D%/progress_bar.h \
   %D%/run.c %D%/run.h \
   %D%/signals.c %D%/signals.h \
   %D%/value.c %D%/value.h

@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/progress.h"
+#include "cli/progress_bar.h"
 
 /* ---- A line, written in one piece ---------------------------------------- */
 
@@ -98,7 +98,7 @@ void message_print(const char *file, unsigned long line, const char *text) {
     add_bytes(&whole, " ", 1);
   put_escaped_text(&whole, text);
   add_bytes(&whole, "\n", 1);
-  progress_hide();
+  progress_bar_hide();
   flush_line(&whole);
-  progress_go_on();
+  progress_bar_show();
 }

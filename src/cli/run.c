@@ -14,7 +14,7 @@
 
 #include "cli/frames.h"
 #include "cli/message.h"
-#include "cli/progress.h"
+#include "cli/progress_bar.h"
 #include "cli/signals.h"
 #include "cli/option_scope.h"
 
@@ -33,7 +33,7 @@ static void pass_warning(void *user, const char *file, unsigned long line,
 
 static bool pass_progress(void *user, double share, const char *stage) {
   const struct current_frame *frame = user;
-  progress_note((frame->number + share) / frame->count, stage);
+  progress_bar_update((frame->number + share) / frame->count, stage);
   return !signals_arrived();
 }
 
@@ -144,7 +144,7 @@ static recto_status check_drawing(const struct arguments *arguments,
     status = recto_scene_check(scene, arguments->check_file,
                                &arguments->options, &verdict, error);
   recto_scene_destroy(scene);
-  progress_end();
+  progress_bar_end();
   if (status != RECTO_OK)
     return status;
   *is_right =
@@ -162,13 +162,13 @@ static recto_status write_outputs(const struct arguments *arguments,
     message_print("", 0, recto_drawing_verdict(drawing));
   /* What goes to the terminal goes there without the bar. */
   if (isatty(STDOUT_FILENO))
-    progress_end();
+    progress_bar_end();
   find_outputs(&outputs, arguments, frame);
   recto_status status = recto_drawing_write_with_stats(
       drawing, outputs.drawing, arguments->format, outputs.stats, options,
       error);
   if (status == RECTO_OK && stats_use_stderr(arguments)) {
-    progress_end();
+    progress_bar_end();
     fputs(recto_drawing_stats(drawing), stderr);
   }
   return status;
@@ -211,7 +211,7 @@ static recto_status draw_models(const struct arguments *arguments,
     status = recto_scene_prepare(scene, &arguments->options, error);
   for (int i = 0; i < frames && status == RECTO_OK; i++)
     status = draw_frame(arguments, scene, i, error);
-  progress_end();
+  progress_bar_end();
   recto_scene_destroy(scene);
   return status;
 }
@@ -238,10 +238,10 @@ int cli_run(struct arguments *arguments) {
   }
   bool checks = arguments->check_file != NULL;
   if (!arguments->quiet)
-    progress_start(arguments->progress);
+    progress_bar_start(arguments->progress);
   recto_status status = checks ? check_drawing(arguments, &is_right, &error)
                                : draw_models(arguments, &error);
-  progress_end();
+  progress_bar_end();
   if (status != RECTO_OK && !signals_are_of_a_pipe())
     message_print(error.file, error.line, error.text);
   signals_die();

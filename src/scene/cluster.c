@@ -250,7 +250,7 @@ static bool visit_slots(struct slots *slots, const struct scene *scene,
     for (size_t i = 0; i < n; i++) {
       of[i] = find_slots(&point[member[from + i].point], length, slots->bits);
       for (int k = 0; k < of[i].count; k++)
-        MEM_FETCH(&slots->word[of[i].slot[k] / 32]);
+        MEM_PREFETCH(&slots->word[of[i].slot[k] / 32]);
     }
     for (size_t i = 0; i < n; i++)
       if (member[from + i].halvings == CLUSTER_ALONE)

@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
-#include "base/sets.h"
+#include "base/union_find.h"
 #include "base/tolerance.h"
 #include "scene/angle.h"
 #include "scene/topology.h"
@@ -247,22 +247,22 @@ bool topology_drop_weak_creases(const struct topology *topology,
                                 const struct scene *scene, double start_deg,
                                 uint8_t *class_masks) {
   size_t points = scene->point.count, edges = topology->edge.count;
-  uint32_t *line = sets_create(points); /* points that creases join */
+  uint32_t *line = union_find_create(points); /* points that creases join */
   uint8_t *is_strong = mem_calloc(points, sizeof *is_strong);
   uint8_t *start = mem_alloc(edges, sizeof *start);
   bool ok = line != NULL && is_strong != NULL && start != NULL &&
             topology_class_masks(topology, scene, start_deg, start);
   for (size_t e = 0; ok && e < edges; e++)
     if (class_masks[e] & RECTO_EDGE_CREASE)
-      sets_join(line, topology->edge.item[e].point[0],
-                topology->edge.item[e].point[1]);
+      union_find_join(line, topology->edge.item[e].point[0],
+                      topology->edge.item[e].point[1]);
   for (size_t e = 0; ok && e < edges; e++)
     if (start[e] & RECTO_EDGE_CREASE)
-      is_strong[sets_root(line, topology->edge.item[e].point[0])] = 1;
+      is_strong[union_find_root(line, topology->edge.item[e].point[0])] = 1;
   for (size_t e = 0; ok && e < edges; e++) {
     unsigned rest = class_masks[e] & ~(unsigned)RECTO_EDGE_CREASE;
     if (rest != class_masks[e] &&
-        !is_strong[sets_root(line, topology->edge.item[e].point[0])])
+        !is_strong[union_find_root(line, topology->edge.item[e].point[0])])
       class_masks[e] = (uint8_t)(rest ? rest : RECTO_EDGE_SMOOTH);
   }
   mem_free(line);
@@ -275,19 +275,19 @@ bool topology_coarse_parts(const struct topology *topology,
                            const struct scene *scene,
                            const uint8_t *class_masks, uint8_t *coarse) {
   size_t points = scene->point.count, edges = topology->edge.count;
-  uint32_t *part = sets_create(points);
+  uint32_t *part = union_find_create(points);
   uint32_t *count = mem_calloc(points, 2 * sizeof *count); /* all, creases */
   bool ok = part != NULL && count != NULL;
   for (size_t e = 0; ok && e < edges; e++)
-    sets_join(part, topology->edge.item[e].point[0],
-              topology->edge.item[e].point[1]);
+    union_find_join(part, topology->edge.item[e].point[0],
+                    topology->edge.item[e].point[1]);
   for (size_t e = 0; ok && e < edges; e++) {
-    size_t root = sets_root(part, topology->edge.item[e].point[0]);
+    size_t root = union_find_root(part, topology->edge.item[e].point[0]);
     count[2 * root]++;
     count[2 * root + 1] += (class_masks[e] & RECTO_EDGE_CREASE) != 0;
   }
   for (uint32_t p = 0; ok && p < points; p++) {
-    size_t root = sets_root(part, p);
+    size_t root = union_find_root(part, p);
     coarse[p] = 4 * (uint64_t)count[2 * root + 1] > count[2 * root];
   }
   mem_free(part);

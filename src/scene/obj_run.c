@@ -19,7 +19,7 @@
 #include "scene/exact.h"
 #include "scene/limit.h"
 
-#if DIGITS_WINDOWS
+#if DIGITS_CHUNKS
 
 enum {
   PLAIN_ROOM = 128, /* bytes, more than a plain statement has */
@@ -141,13 +141,13 @@ static bool reserve_points(struct scene *scene, size_t count) {
  * seen so far; NULL where it is something else. */
 static inline const char *read_plain_index(const struct obj_parser *p,
                                            const char *at, uint32_t *point) {
-  uint64_t window;
+  uint64_t chunk;
   if (*at != ' ')
     return NULL;
-  int count = digits_count(++at, &window);
+  int count = digits_count(++at, &chunk);
   if (count == 0 || count == 8)
     return NULL;
-  uint64_t index = digits_sum(window, count) - 1;
+  uint64_t index = digits_sum(chunk, count) - 1;
   if (index >= p->seen)
     return NULL;
   *point = (uint32_t)(p->first + index);

@@ -109,7 +109,7 @@ static inline void skip_blanks(struct ply_parser *p) {
 static inline bool next_number(struct ply_parser *p, double *value) {
   const char *stop = NULL;
   skip_blanks(p);
-#if DIGITS_WINDOWS
+#if DIGITS_CHUNKS
   if (p->end - p->at > NUMBER_PLAIN_ROOM)
     stop = number_parse_plain(p->at, value);
 #endif

@@ -149,7 +149,7 @@ static recto_status run_importer(const struct import_child *import,
   struct child child = {.argument = argument,
                         .input = -1,
                         .seconds = (int)import->seconds,
-                        .most = input_size_max()};
+                        .output_max = input_size_max()};
   if (!by_path && (child.input = child_input_of(bytes, count)) < 0)
     return error_set(import->error, RECTO_ERROR_IO, import->path, 0,
                      "cannot hand it to the importer: %s", strerror(errno));

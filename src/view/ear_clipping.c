@@ -43,7 +43,7 @@
  */
 #include "view/ear_clipping.h"
 
-#include "base/sets.h"
+#include "base/union_find.h"
 #include "view/vector.h"
 
 enum {
@@ -240,10 +240,10 @@ static bool have_same_position(const struct ear_clipper *clipper, uint32_t a,
 static void merge_sides(struct ear_clipper *clipper, uint32_t one,
                         uint32_t two) {
   uint32_t *same = clipper->triangulation->same.item;
-  one = sets_root(same, one);
-  two = sets_root(same, two);
+  one = union_find_root(same, one);
+  two = union_find_root(same, two);
   if (one >= clipper->count || two >= clipper->count)
-    sets_join(same, one, two);
+    union_find_join(same, one, two);
 }
 
 /* Removes a corner; the previous one's side now ends at the next one. */
@@ -397,7 +397,7 @@ static void number_sides(struct triangulation *t) {
   for (size_t i = 0; i < t->triangle.count; i++)
     for (int k = 0; k < 3; k++)
       t->triangle.item[i].side[k] =
-          sets_root(t->same.item, t->triangle.item[i].side[k]);
+          union_find_root(t->same.item, t->triangle.item[i].side[k]);
 }
 
 bool ear_clipping(struct triangulation *triangulation,

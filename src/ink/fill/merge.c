@@ -15,7 +15,7 @@
 #include <math.h>
 
 #include "base/poll.h"
-#include "base/sets.h"
+#include "base/union_find.h"
 #include "base/sort.h"
 #include "ink/fill/outline.h"
 
@@ -71,7 +71,7 @@ static void remove_half_edges(struct merge *merge) {
       continue;
     merge->removed[h] = merge->removed[twin] = 1;
     merge->merged[half[h].fragment] = merge->merged[half[twin].fragment] = 1;
-    sets_join(merge->root, half[h].fragment, half[twin].fragment);
+    union_find_join(merge->root, half[h].fragment, half[twin].fragment);
   }
 }
 
@@ -164,7 +164,7 @@ static bool add_merged_fills(struct merge *merge) {
   struct sort_key *fragment = mem_alloc(count, 2 * sizeof *fragment);
   bool ok = fragment != NULL;
   for (uint32_t i = 0; ok && i < count; i++)
-    fragment[i] = (struct sort_key){sets_root(merge->root, i), i};
+    fragment[i] = (struct sort_key){union_find_root(merge->root, i), i};
   if (ok)
     sort_keys(fragment, fragment + count, count);
   for (size_t i = 0, j, n = 0; ok && i < count; i = j, n++) {
@@ -187,7 +187,7 @@ bool merge_fills(struct drawing *drawing, const struct sheet *sheet,
       .map = map,
       .prototype = prototype,
       .crease_deg = options->mesh.crease_deg,
-      .root = sets_create(map->fragment.count),
+      .root = union_find_create(map->fragment.count),
       .merged = mem_calloc(map->fragment.count, sizeof *merge.merged),
       .removed = mem_calloc(map->half_edge.count, sizeof *merge.removed)};
   bool ok = merge.root != NULL && merge.merged != NULL && merge.removed != NULL;

@@ -1,9 +1,9 @@
 /* hatch_regions.c - unites fragments that no drawn line separates into regions
- * that are hatched as one (disjoint sets, base/sets.h). */
+ * that are hatched as one (base/union_find.h). */
 #include "ink/hatch/hatch_regions.h"
 
 #include "base/poll.h"
-#include "base/sets.h"
+#include "base/union_find.h"
 #include "base/sort.h"
 
 bool hatch_regions_side_is_inked(const struct hatch_regions *regions,
@@ -49,7 +49,8 @@ static void join_fragments(const struct hatch_regions *regions,
     if (half[h].twin != SHEET_NONE && half[h].twin > h &&
         is_within_region(regions, scene, map, pens, &half[h],
                          &half[half[h].twin]))
-      sets_join(regions->root, half[h].fragment, half[half[h].twin].fragment);
+      union_find_join(regions->root, half[h].fragment,
+                      half[half[h].twin].fragment);
   }
 }
 
@@ -76,7 +77,7 @@ static bool list_by_region(struct hatch_regions *regions) {
   if (key == NULL)
     return false;
   for (uint32_t f = 0; f < regions->count; f++) {
-    regions->root[f] = sets_root(regions->root, f);
+    regions->root[f] = union_find_root(regions->root, f);
     key[f] = (struct sort_key){regions->root[f], f};
   }
   sort_keys(key, key + regions->count, regions->count);
@@ -94,7 +95,7 @@ bool hatch_regions_init(struct hatch_regions *regions,
       .sheet = sheet,
       .intersections = (options->ink.edges & RECTO_EDGE_INTERSECTION) != 0,
       .count = map->fragment.count};
-  regions->root = sets_create(regions->count);
+  regions->root = union_find_create(regions->count);
   regions->fragment = mem_alloc(regions->count, sizeof *regions->fragment);
   regions->crossable = mem_alloc(map->half_edge.count, 1);
   bool ok = regions->root != NULL && regions->fragment != NULL &&

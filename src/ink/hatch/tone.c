@@ -12,7 +12,7 @@
 #include <math.h>
 
 #include "base/poll.h"
-#include "base/sets.h"
+#include "base/union_find.h"
 #include "base/tolerance.h"
 #include "ink/fill/light.h"
 #include "scene/newell_normal.h"
@@ -46,9 +46,9 @@ struct tone_work {
  * g. */
 static void join_faces(struct tone_work *w, uint32_t f, uint32_t a, uint32_t g,
                        uint32_t b) {
-  sets_join(w->face_root, f, g);
-  sets_join(w->corner_root, a, scene_next_corner(w->scene, g, b));
-  sets_join(w->corner_root, scene_next_corner(w->scene, f, a), b);
+  union_find_join(w->face_root, f, g);
+  union_find_join(w->corner_root, a, scene_next_corner(w->scene, g, b));
+  union_find_join(w->corner_root, scene_next_corner(w->scene, f, a), b);
 }
 
 /* Joins faces and corners at all smooth edges, in time linear in the number of
@@ -81,7 +81,7 @@ static void sum_normals(struct tone_work *w) {
   for (uint32_t f = 0; f < scene_face_count(w->scene) && poll_at(f); f++)
     for (uint32_t c = w->scene->face_start.item[f];
          c < w->scene->face_start.item[f + 1]; c++) {
-      double *sum = w->sum[sets_root(w->corner_root, c)].xyz;
+      double *sum = w->sum[union_find_root(w->corner_root, c)].xyz;
       for (int k = 0; k < 3; k++)
         sum[k] += w->face[f].xyz[k];
     }
@@ -89,7 +89,7 @@ static void sum_normals(struct tone_work *w) {
 
 /* away  the face is seen from its back: its normal is reversed */
 static float tone_of_corner(struct tone_work *w, uint32_t corner, bool away) {
-  struct tone_normal n = w->sum[sets_root(w->corner_root, corner)];
+  struct tone_normal n = w->sum[union_find_root(w->corner_root, corner)];
   for (int k = 0; away && k < 3; k++)
     n.xyz[k] = -n.xyz[k];
   if (!vector_normalise(n.xyz))
@@ -115,7 +115,7 @@ static struct drawing_point project_corner(const struct tone_work *w,
  * regions. */
 static void set_corners(struct tone_work *w, struct tones *tones) {
   for (uint32_t f = 0; f < scene_face_count(w->scene) && poll_at(f); f++) {
-    uint32_t region = sets_root(w->face_root, f);
+    uint32_t region = union_find_root(w->face_root, f);
     bool away =
         light_is_turned_away(w->scene, f, &w->sheet->camera, w->face[f].xyz);
     for (uint32_t c = w->scene->face_start.item[f];
@@ -134,7 +134,7 @@ static void set_corners(struct tone_work *w, struct tones *tones) {
 /* Finds the uniform regions and gives all their corners one tone. */
 static void set_regions(struct tone_work *w, struct tones *tones) {
   for (uint32_t f = 0; f < scene_face_count(w->scene) && poll_at(f); f++) {
-    uint32_t region = sets_root(w->face_root, f);
+    uint32_t region = union_find_root(w->face_root, f);
     double min = w->min[region], max = w->max[region];
     tones->uniform[f] = max - min < TOLERANCE_TONE;
     if (!tones->uniform[f])
@@ -157,8 +157,8 @@ static bool prepare_tone_work(struct tone_work *w) {
       w->sheet->topology != NULL ? w->sheet->topology->edge.count : 0;
   w->face = mem_alloc(faces, sizeof *w->face);
   w->sum = mem_calloc(corners, sizeof *w->sum);
-  w->corner_root = sets_create(corners);
-  w->face_root = sets_create(faces);
+  w->corner_root = union_find_create(corners);
+  w->face_root = union_find_create(faces);
   w->first_use = mem_alloc(edges, sizeof *w->first_use);
   w->first_face = mem_alloc(edges, sizeof *w->first_face);
   w->class_masks = mem_alloc(edges, sizeof *w->class_masks);

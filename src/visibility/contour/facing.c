@@ -45,8 +45,8 @@ static void join_corners(struct facing *f, uint32_t edge) {
   uint32_t d = facing_corner_of_edge(f, e->second, edge);
   if (c == SHEET_NONE || d == SHEET_NONE)
     return;
-  sets_join(f->sets, c, scene_next_corner(f->scene, e->second, d));
-  sets_join(f->sets, scene_next_corner(f->scene, e->first, c), d);
+  union_find_join(f->sets, c, scene_next_corner(f->scene, e->second, d));
+  union_find_join(f->sets, scene_next_corner(f->scene, e->first, c), d);
 }
 
 /* Finds the points at which normals are split, and which corners there share
@@ -65,7 +65,7 @@ static bool split_at_features(struct facing *f) {
   }
   if (f->split == NULL)
     return true;
-  f->sets = sets_create(f->scene->corner.count);
+  f->sets = union_find_create(f->scene->corner.count);
   if (f->sets == NULL)
     return false;
   for (uint32_t e = 0; e < edges; e++) {

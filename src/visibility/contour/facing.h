@@ -14,7 +14,7 @@
 #ifndef VISIBILITY_CONTOUR_FACING_H
 #define VISIBILITY_CONTOUR_FACING_H
 
-#include "base/sets.h"
+#include "base/union_find.h"
 #include "scene/newell_normal.h"
 #include "view/sheet.h"
 #include "view/vector.h"
@@ -59,7 +59,7 @@ static inline uint32_t facing_slot(const struct facing *f, uint32_t corner) {
   uint32_t point = facing_point(f, corner);
   if (f->split == NULL || !f->split[point])
     return point;
-  return (uint32_t)f->scene->point.count + sets_root(f->sets, corner);
+  return (uint32_t)f->scene->point.count + union_find_root(f->sets, corner);
 }
 
 /* Whether the surface turns away there; 0 counts as turned away. */

@@ -88,9 +88,9 @@ static inline struct scan_point raster_point(const struct raster *raster,
 
 /* Prefetches the data of a point, since the points of consecutive triangles lie
  * scattered in memory. */
-#define RASTER_FETCH(raster, at)                                               \
-  (MEM_FETCH(&(raster)->sheet->point.item[at]),                                \
-   MEM_FETCH(&(raster)->pixel_of[at]))
+#define RASTER_PREFETCH(raster, at)                                            \
+  (MEM_PREFETCH(&(raster)->sheet->point.item[at]),                             \
+   MEM_PREFETCH(&(raster)->pixel_of[at]))
 
 /* Makes an empty frame that holds all lines a ring buffer: from now on lines
  * share memory, with a distance of at least `lines` lines between two that

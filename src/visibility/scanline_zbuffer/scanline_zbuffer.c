@@ -42,11 +42,11 @@ bool scanline_enter(struct scanline *scanline, int32_t line) {
   const struct sort_key *bucket = scanline->bucket;
   size_t i = scanline->entered, count = scanline->bucket_count;
   for (; i < count && bucket[i].key == key; i++) {
-    if (i + 2 * MEM_FETCH_AHEAD < count) {
-      MEM_FETCH(&triangle[bucket[i + 2 * MEM_FETCH_AHEAD].value]);
+    if (i + 2 * MEM_PREFETCH_AHEAD < count) {
+      MEM_PREFETCH(&triangle[bucket[i + 2 * MEM_PREFETCH_AHEAD].value]);
       for (int k = 0; k < 3; k++)
-        RASTER_FETCH(raster,
-                     triangle[bucket[i + MEM_FETCH_AHEAD].value].point[k]);
+        RASTER_PREFETCH(
+            raster, triangle[bucket[i + MEM_PREFETCH_AHEAD].value].point[k]);
     }
     if (!ARRAY_RESERVE(&scanline->active, 1))
       return false;

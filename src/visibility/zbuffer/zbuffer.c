@@ -42,8 +42,8 @@ static bool draw_facets(struct raster *raster, const struct facets *facets,
                         struct progress *progress, int64_t *covered) {
   for (size_t i = 0; i < count; i++) {
     int64_t before = *covered;
-    for (int k = 0; k < 3 && i + MEM_FETCH_AHEAD < count; k++)
-      RASTER_FETCH(raster, piece[i + MEM_FETCH_AHEAD].corner[k]);
+    for (int k = 0; k < 3 && i + MEM_PREFETCH_AHEAD < count; k++)
+      RASTER_PREFETCH(raster, piece[i + MEM_PREFETCH_AHEAD].corner[k]);
     draw_facet(raster, facets, &piece[i], covered);
     if (!progress_step(progress,
                        1 + (size_t)(*covered - before) / PROGRESS_PIXELS))

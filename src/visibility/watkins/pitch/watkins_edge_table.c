@@ -143,11 +143,11 @@ static bool add_facets(struct watkins *watkins, struct edge_gathering *g,
     struct watkins_facet facet;
     bool covers = false;
     uint32_t count;
-    for (int k = 0; k < 3 && t + MEM_FETCH_AHEAD < most; k++) {
-      uint32_t p = sheet->triangle.item[t + MEM_FETCH_AHEAD].point[k];
-      MEM_FETCH(&sheet->point.item[p]);
-      MEM_FETCH(&g->point[p]);
-      MEM_FETCH(&g->first[p]);
+    for (int k = 0; k < 3 && t + MEM_PREFETCH_AHEAD < most; k++) {
+      uint32_t p = sheet->triangle.item[t + MEM_PREFETCH_AHEAD].point[k];
+      MEM_PREFETCH(&sheet->point.item[p]);
+      MEM_PREFETCH(&g->point[p]);
+      MEM_PREFETCH(&g->first[p]);
     }
     if ((sheet->triangle_flags[t] & SHEET_FLAT) || facet_of(facets, t) != t)
       continue;

@@ -1,12 +1,12 @@
-/* sets.h - items that are joined, one by one, to sets (union-find). */
-#ifndef BASE_SETS_H
-#define BASE_SETS_H
+/* union_find.h - items that are joined, one by one, to disjoint sets. */
+#ifndef BASE_UNION_FIND_H
+#define BASE_UNION_FIND_H
 
 #include "base/memory.h"
 
 /* Every item a set of its own: item i is at i; NULL when memory ran out.  To
  * be freed with mem_free. */
-static inline uint32_t *sets_create(size_t count) {
+static inline uint32_t *union_find_create(size_t count) {
   uint32_t *sets = mem_alloc(count, sizeof *sets);
   for (size_t i = 0; sets != NULL && i < count; i++)
     sets[i] = (uint32_t)i;
@@ -15,7 +15,7 @@ static inline uint32_t *sets_create(size_t count) {
 
 /* The lowest item of the set, its representative: so no set depends on the
  * order of joining. */
-static inline uint32_t sets_root(uint32_t *sets, uint32_t i) {
+static inline uint32_t union_find_root(uint32_t *sets, uint32_t i) {
   while (sets[i] != i) {
     sets[i] = sets[sets[i]];
     i = sets[i];
@@ -23,9 +23,9 @@ static inline uint32_t sets_root(uint32_t *sets, uint32_t i) {
   return i;
 }
 
-static inline void sets_join(uint32_t *sets, uint32_t a, uint32_t b) {
-  a = sets_root(sets, a);
-  b = sets_root(sets, b);
+static inline void union_find_join(uint32_t *sets, uint32_t a, uint32_t b) {
+  a = union_find_root(sets, a);
+  b = union_find_root(sets, b);
   sets[a > b ? a : b] = a > b ? b : a;
 }
 

@@ -1,9 +1,9 @@
-/* progress.c - shows the progress of the run on standard error.
+/* progress_bar.c - shows the progress of the run on standard error.
  *
  * The bar is drawn by a thread of its own, ten times a second, so that it is
  * updated while a stage reports nothing.  The lock is also held while a message
  * is written. */
-#include "cli/progress.h"
+#include "cli/progress_bar.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -147,7 +147,7 @@ static void start_thread(void) {
   pthread_sigmask(SIG_SETMASK, &before, NULL);
 }
 
-void progress_start(bool requested) {
+void progress_bar_start(bool requested) {
   now.start_s = clock_s();
   now.stage = "read";
   now.last_percent = -1;
@@ -165,7 +165,7 @@ static void print_progress_line(bool is_new) {
   now.last_percent = percent;
 }
 
-void progress_note(double share, const char *stage) {
+void progress_bar_update(double share, const char *stage) {
   if (!now.runs && !now.lines)
     return;
   pthread_mutex_lock(&now.lock);
@@ -180,14 +180,14 @@ void progress_note(double share, const char *stage) {
   pthread_mutex_unlock(&now.lock);
 }
 
-void progress_hide(void) {
+void progress_bar_hide(void) {
   pthread_mutex_lock(&now.lock);
   erase();
 }
 
-void progress_go_on(void) { pthread_mutex_unlock(&now.lock); }
+void progress_bar_show(void) { pthread_mutex_unlock(&now.lock); }
 
-void progress_end(void) {
+void progress_bar_end(void) {
   now.lines = false;
   if (!now.runs)
     return;
