@@ -34,6 +34,9 @@ struct writer {
    * NULL stands for 0. */
   double (*margin_mm)(const struct writer_options *options, double width_mm,
                       double height_mm);
+  /* The width of seams, in mm, that closes the hairlines which viewers of the
+   * format show between fills; NULL stands for 0, a format without fills. */
+  double (*seam_mm)(const struct writer_options *options);
   bool by_pens; /* a format for plotters: all lines of a pen have one width, and
                    travel with the pen up costs time */
   /* Writes the drawing.  Write errors are not returned, but kept by the
@@ -42,6 +45,10 @@ struct writer {
                         const struct writer_options *options,
                         struct stream *stream, recto_error *error);
 };
+
+/* The width of seams for a page shown on a screen: 1.5 pixels, which is what
+ * closes a hairline, where there are 96 an inch. */
+#define WRITER_SCREEN_SEAM_MM 0.4
 
 extern const struct writer writer_svg, writer_hpgl;
 #ifdef HAVE_CAIRO

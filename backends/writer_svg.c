@@ -442,8 +442,14 @@ static double svg_unit(const struct writer_options *options) {
   return unit;
 }
 
+static double svg_seam(const struct writer_options *options) {
+  (void)options;
+  return WRITER_SCREEN_SEAM_MM;
+}
+
 const struct writer writer_svg = {.name = "svg",
                                   .extensions = "svg",
                                   .compressed = "svgz svg.gz",
                                   .unit_mm = svg_unit,
+                                  .seam_mm = svg_seam,
                                   .write = write_svg};

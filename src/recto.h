@@ -332,7 +332,7 @@ typedef struct recto_ink_options {
   recto_fill fill;
   double seam_mm; /* below all fills, each is extended over its borders by half
                      of this, so that viewers show no hairlines between fills;
-                     0 to 10 */
+                     0 to 10; negative: what suits the output's format */
   double hatch_pitch_mm, hatch_angle_deg; /* at least RECTO_FINEST_MM */
   bool hatch_inset; /* without a light: hatching ends half a pen inside, so that
                        no ink lies beyond what is visible */
@@ -380,8 +380,8 @@ typedef struct recto_ink_options {
 typedef struct recto_output_options {
   /* The format that the drawing is made for, such as "svg", as of
    * recto_output_format; NULL: none.  It decides the resolution, where unit_mm
-   * is 0, and for plotters the margin, the order and the weights, where they
-   * are the defaults. */
+   * is 0, the width of seams, and for plotters the margin, the order and the
+   * weights, where they are the defaults. */
   const char *format;
   /* The output's resolution: lines that coincide at it are drawn once; 0: that
    * of the format, or without one only lines at exactly the same place. */

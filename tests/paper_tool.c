@@ -11,6 +11,9 @@
  *       Does all ink of each lie within so many pixels of the other's?
  *   paper_tool coverage PICTURE.png MARGIN
  *       Prints the share of ink in per cent, but for so many pixels around.
+ *   paper_tool seams PICTURE.png
+ *       Prints how many of a million inked pixels are lighter than both
+ *       neighbours in their row or their column.
  *
  * Exits 0 for yes, 1 for no with the reason on standard output, 77 where it
  * was built without cairo and cannot look at pictures. */
@@ -277,6 +280,29 @@ static int print_coverage(const char *path, int margin) {
   return YES;
 }
 
+/* ---- Seams --------------------------------------------------------------- */
+
+static int print_seams(const char *path) {
+  const double step = 0.008; /* two levels of 255 */
+  struct picture picture = load(path);
+  long lighter = 0, inked = 0;
+  for (int y = 1; y < picture.height - 1; y++)
+    for (int x = 1; x < picture.width - 1; x++) {
+      double ink = ink_at(&picture, x, y) + step;
+      bool in_row =
+          ink < ink_at(&picture, x - 1, y) && ink < ink_at(&picture, x + 1, y);
+      bool in_column =
+          ink < ink_at(&picture, x, y - 1) && ink < ink_at(&picture, x, y + 1);
+      inked += ink > 2 * step;
+      lighter += ink > 2 * step && (in_row || in_column);
+    }
+  free(picture.ink);
+  if (inked == 0)
+    return NO;
+  printf("%.0f\n", 1e6 * (double)lighter / (double)inked);
+  return YES;
+}
+
 #else
 
 static int measure_picture(const char *path, double dpi, double limit_mm,
@@ -292,6 +318,11 @@ static int compare(const char *one_path, const char *other_path, int reach) {
 
 static int print_coverage(const char *path, int margin) {
   (void)path, (void)margin;
+  return CANNOT;
+}
+
+static int print_seams(const char *path) {
+  (void)path;
   return CANNOT;
 }
 
@@ -315,6 +346,8 @@ int main(int argc, char **argv) {
   if (strcmp(verb, "coverage") == 0 && argc == 4 &&
       number_from_string(argv[3], &limit))
     return print_coverage(argv[2], (int)limit);
+  if (strcmp(verb, "seams") == 0 && argc == 3)
+    return print_seams(argv[2]);
   fputs("paper_tool: see the top of tests/paper_tool.c\n", stderr);
   return 2;
 }

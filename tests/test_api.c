@@ -180,7 +180,7 @@ static void numbers_that_make_no_sense_are_refused(void **state) {
   REFUSED(ink.simplify_mm, -1);
   REFUSED(ink.curves_mm, -1);
   REFUSED(ink.min_stroke_mm, (double)NAN);
-  REFUSED(ink.seam_mm, -0.1);
+  REFUSED(ink.seam_mm, NAN);
   REFUSED(ink.seam_mm, 11);
   REFUSED(output.precision, 10);
   REFUSED(output.precision, -1);

@@ -54,7 +54,7 @@ flat_tone_is_met_in_svg() {
 # same_as_shade OPTION... - hatching weighs as much as the same faces in grey.
 # Without anti-aliasing, else faces that meet leave hairlines of paper.
 same_as_shade() {
-  draw "$@" --fill shade -o shade.pdf &&
+  draw "$@" --fill shade --seam 0 -o shade.pdf &&
     pdftocairo -antialias none -r 600 -png -singlefile shade.pdf shade &&
     draw "$@" --fill hatch -o hatch.png &&
     near "$("$tool" coverage hatch.png 0)" "$("$tool" coverage shade.png 0)"

@@ -81,6 +81,8 @@ recto_status options_adapt(recto_options *options, recto_error *error) {
     options->output.unit_mm = writer->unit_mm(&how);
   if (options->page.margin_mm < 0 && writer->margin_mm != NULL)
     fit_margin(options, writer);
+  if (options->ink.seam_mm < 0)
+    options->ink.seam_mm = writer->seam_mm != NULL ? writer->seam_mm(&how) : 0;
   if (writer->by_pens) {
     options->ink.has_weights = true;
     if (options->ink.order == RECTO_ORDER_AUTO)

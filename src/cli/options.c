@@ -288,7 +288,7 @@ const struct option_entry option_table[] = {
      "faces: none (default) paint shade hatch", .offset = AT(options.ink.fill),
      .words = "none paint shade hatch", .use = {USED_BY_DRAWING}},
     {OPTION_LENGTH, "seam", 0, "LENGTH", "a length from 0 to 10 mm",
-     "paint, shade: such a stroke closes hairlines (0)",
+     "paint, shade: closes hairlines (by format; 0: off)",
      .offset = AT(options.ink.seam_mm), .least = 0, .most = 10,
      .use = {USED_BY_SEAM}},
     {OPTION_LENGTH, "hatch-pitch", 0, "LENGTH", "a length of at least 0.01 mm",

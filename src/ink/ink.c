@@ -282,7 +282,7 @@ static bool start_drawing(struct ink *ink) {
   ink->drawing->width_mm = ink->sheet->camera.page_mm[0];
   ink->drawing->height_mm = ink->sheet->camera.page_mm[1];
   ink->drawing->ids = ink->options->ink.ids;
-  ink->drawing->seam_mm = ink->options->ink.seam_mm;
+  ink->drawing->seam_mm = fmax(ink->options->ink.seam_mm, 0);
   memcpy(ink->drawing->weight, ink->pens->weight, sizeof ink->pens->weight);
   return layers_add(ink->drawing, ink->pens, ink->scene, ink->options) &&
          copy_group_names(ink);
