@@ -14,6 +14,7 @@
 
 #include "bench/chart.h"
 #include "bench/table.h"
+#include "scene/read.h"
 #include "tests/measure/trial.h"
 #include "tests/scenes/pipeline.h"
 

@@ -12,8 +12,10 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/clock.h"
 #include "base/report.h"
 #include "bench/model.h"
+#include "scene/read.h"
 
 enum { runs = 3, limit_s = 120 };
 

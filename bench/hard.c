@@ -21,6 +21,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/clock.h"
 #include "bench/table.h"
 #include "tests/scenes/exact.h"
 #include "tests/scenes/pipeline.h"

@@ -6,6 +6,7 @@
 
 #include "base/stream.h"
 #include "bench/box.h"
+#include "scene/read.h"
 #include "tests/scenes/subdivide.h"
 #include "tests/scenes/write_obj.h"
 

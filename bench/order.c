@@ -10,8 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/clock.h"
 #include "base/report.h"
 #include "ink/order/stroke_order.h"
+#include "scene/read.h"
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/random.h"
 

@@ -9,8 +9,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/clock.h"
 #include "base/report.h"
 #include "bench/box.h"
+#include "scene/read.h"
 #include "scene/scene.h"
 
 enum { side = 4096 };

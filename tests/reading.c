@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/poll.h"
+#include "scene/read.h"
 
 static void keep_warning(void *user, const char *file, unsigned long line,
                          const char *text) {

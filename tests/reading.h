@@ -2,6 +2,7 @@
 #ifndef TESTS_READING_H
 #define TESTS_READING_H
 
+#include "scene/read.h"
 #include "scene/scene.h"
 
 enum { READING_WARNINGS = 16 };

@@ -17,6 +17,7 @@
 #include <cmocka.h>
 
 #include "exact_fixture/sheet.h"
+#include "scene/read.h"
 #include "tests/scenes/pipeline.h"
 
 /* Methods with a number of lines or a pitch; those there are are tried. */

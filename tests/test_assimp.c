@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "scene/read.h"
 #include "tests/memory_faults.h"
 #include "tests/reading.h"
 #include "tests/temporary.h"

@@ -7,6 +7,7 @@
 
 #include <cmocka.h>
 
+#include "base/clock.h"
 #include "tests/polled.h"
 #include "tests/sheet_fixture.h"
 #include "tests/temporary.h"

@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "scene/read.h"
 #include "tests/failures.h"
 #include "tests/temporary.h"
 

@@ -19,6 +19,7 @@
 #include <cmocka.h>
 
 #include "scene/import_format.h"
+#include "scene/read.h"
 #include "tests/polled.h"
 #include "tests/reading.h"
 #include "tests/scenes/random.h"

@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "ink/ink.h"
+#include "scene/read.h"
 #include "scene/scene.h"
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/random.h"

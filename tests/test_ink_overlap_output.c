@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "base/clock.h"
 #include "ink/lines/segment_graph.h"
 #include "ink/pens.h"
 #include "tests/ink_fixture.h"

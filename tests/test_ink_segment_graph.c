@@ -8,6 +8,7 @@
 #include <string.h>
 #include <cmocka.h>
 
+#include "base/clock.h"
 #include "base/report.h"
 #include "tests/ink_fixture.h"
 #include "tests/scenes/random.h"

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <cmocka.h>
 
+#include "base/clock.h"
 #include "base/report.h"
 #include "ink/lines/nearest.h"
 #include "ink/order/stroke_order.h"

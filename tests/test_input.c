@@ -18,6 +18,7 @@
 
 #include "base/gunzip.h"
 #include "base/input.h"
+#include "scene/read.h"
 #include "tests/memory_faults.h"
 #include "tests/reading.h"
 #include "tests/temporary.h"

@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "scene/read.h"
 #include "tests/failures.h"
 #include "tests/scenes/judge_camera.h"
 #include "tests/temporary.h"

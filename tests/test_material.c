@@ -15,6 +15,7 @@
 #endif
 
 #include "scene/material.h"
+#include "scene/read.h"
 #include "tests/memory_faults.h"
 #include "tests/reading.h"
 #include "tests/temporary.h"

@@ -14,6 +14,7 @@
 #include <cmocka.h>
 
 #include "base/parallel.h"
+#include "scene/read.h"
 #include "tests/reading.h"
 #include "tests/scenes/random.h"
 

@@ -15,6 +15,7 @@
 #include <cmocka.h>
 
 #include "api/judge_input.h"
+#include "scene/read.h"
 #include "tests/judge/raster.h"
 #include "tests/scenes/catmull_clark.h"
 #include "tests/scenes/pipeline.h"

@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "scene/ply_colour.h"
+#include "scene/read.h"
 #include "tests/memory_faults.h"
 #include "tests/reading.h"
 #include "tests/temporary.h"

@@ -11,6 +11,7 @@
 
 #include "base/number.h"
 #include "recto.h"
+#include "scene/read.h"
 #include "scene/scene.h"
 #include "tests/reading.h"
 #include "tests/scenes/random.h"

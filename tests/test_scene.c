@@ -11,6 +11,7 @@
 
 #include "base/stream.h"
 #include "scene/bowtie.h"
+#include "scene/read.h"
 #include "scene/scene.h"
 #include "scene/name.h"
 #include "tests/memory_faults.h"

@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "scene/angle.h"
+#include "scene/edge_classes.h"
 #include "scene/topology.h"
 #include "tests/memory_faults.h"
 #include "tests/scenes/random.h"

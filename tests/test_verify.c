@@ -14,6 +14,7 @@
 #include "api/handle.h"
 #include "api/verify.h"
 #include "ink/ink.h"
+#include "scene/read.h"
 #include "tests/scenes/catmull_clark.h"
 #include "tests/scenes/pipeline.h"
 #include "tests/temporary.h"

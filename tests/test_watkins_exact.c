@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "scene/read.h"
 #include "tests/scenes/pipeline.h"
 
 static void assert_same_as_tiles(const struct scene *scene,

@@ -12,6 +12,8 @@
 
 #include "recto.h"
 #include "scene/cluster.h"
+#include "scene/edge_classes.h"
+#include "scene/read.h"
 #include "scene/weld_near.h"
 #include "tests/memory_faults.h"
 #include "tests/scenes/build.h"

@@ -5,6 +5,7 @@
  * move them (ink_deviation_mm). */
 #include "api/handle.h"
 #include "api/judge_input.h"
+#include "api/options.h"
 #include "view/camera_aim.h"
 #include "api/sized.h"
 #include "base/input.h"

@@ -1,6 +1,7 @@
 /* draw_file.c - the whole job in one call: reads a model, draws it and writes
  * the drawing. */
 #include "api/handle.h"
+#include "api/options.h"
 #include "api/output.h"
 #include "base/path.h"
 #include "base/status.h"

@@ -5,6 +5,7 @@
 #include "api/preparation.h"
 #include "api/verify.h"
 #include "drawing/drawing.h"
+#include "scene/diagnostics.h"
 #include "scene/scene.h"
 
 struct recto_scene {
@@ -41,59 +42,10 @@ struct recto_drawing {
 };
 
 /* Adds the faults of elements that were added to those of the scene. */
-void scene_keep_faults(recto_scene *scene,
-                       const struct diagnostics *diagnostics);
-
-/* Sets how points of the scene are projected to the drawing. */
-void drawing_keep_projection(recto_drawing *drawing,
-                             const struct camera *camera,
-                             const struct rescaled *rescaled);
+void scene_add_faults(recto_scene *scene,
+                      const struct diagnostics *diagnostics);
 
 /* The drawing's report as JSON; the report is locked by the caller. */
 const char *drawing_json(const recto_drawing *drawing);
-
-/* What the results of a drawing are made from. */
-struct result_sources {
-  const struct sheet *sheet;
-  const struct map *map;
-  const struct topology *topology;
-  const struct scene *scene;       /* welded */
-  const struct scene_point *point; /* of the scene, in the user's units */
-  const recto_options *options;    /* scaled as the scene */
-  double crease_deg;
-  bool with_counts; /* the map has the numbers of faces */
-};
-
-/* Stores the edges of the sheet with their visible and hidden parts.
- * Errors  RECTO_ERROR_MEMORY */
-USE_RESULT recto_status drawing_keep_edges(recto_drawing *drawing,
-                                           const struct result_sources *sources,
-                                           recto_error *error);
-
-/* Stores the visible fragments and their half-edges.
- * Errors  RECTO_ERROR_MEMORY */
-USE_RESULT recto_status drawing_keep_faces(recto_drawing *drawing,
-                                           const struct result_sources *sources,
-                                           recto_error *error);
-
-/* Copies the options, or the defaults where they are NULL.
- * Errors  RECTO_ERROR_ARGUMENT: they were not initialised;
- *         RECTO_ERROR_UNSUPPORTED: they are of a later version */
-USE_RESULT recto_status options_copy(recto_options *own,
-                                     const recto_options *options,
-                                     recto_error *error);
-
-/* The same, and checks that each of them is finite and in range, and adapts
- * them to their output. */
-USE_RESULT recto_status options_copy_valid(recto_options *own,
-                                           const recto_options *options,
-                                           recto_error *error);
-
-/* Adapts options to their output's format, if any: sets the unit, and where the
- * format is for plotters replaces defaults: the margin by the one that the
- * plotter needs, the order by RECTO_ORDER_NEAR, and the weights by none.
- * Errors  RECTO_ERROR_UNSUPPORTED: there is no such format */
-USE_RESULT recto_status options_adapt(recto_options *options,
-                                      recto_error *error);
 
 #endif

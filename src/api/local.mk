@@ -7,11 +7,11 @@ librecto_core_la_SOURCES += \
   %D%/handle.h \
   %D%/mesh.c \
   %D%/judge_input.c %D%/judge_input.h \
-  %D%/options.c \
+  %D%/options.c %D%/options.h \
   %D%/output.c %D%/output.h \
   %D%/render.c \
   %D%/preparation.c %D%/preparation.h \
-  %D%/result.c %D%/result_edges.c %D%/result_faces.c \
+  %D%/result.c %D%/result.h %D%/result_edges.c %D%/result_faces.c \
   %D%/scene.c \
   %D%/sized.c %D%/sized.h \
   %D%/shares.c %D%/shares.h \

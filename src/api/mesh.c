@@ -5,6 +5,7 @@
 
 #include "api/handle.h"
 #include "api/sized.h"
+#include "scene/diagnostics.h"
 #include "scene/limit.h"
 
 /* The corners of one face, as indices of the scene's points. */
@@ -161,6 +162,6 @@ recto_status recto_scene_add_mesh_sized(recto_scene *scene,
     return status;
   }
   scene->scene.current_group = before.current_group;
-  scene_keep_faults(scene, &diagnostics);
+  scene_add_faults(scene, &diagnostics);
   return RECTO_OK;
 }

@@ -1,10 +1,13 @@
 /* options.c - the options' defaults, and whether they make sense. */
+#include "api/options.h"
+
 #include <float.h>
 #include <limits.h>
 #include <stddef.h>
 #include <stdio.h>
 
 #include "api/handle.h"
+#include "api/output.h"
 #include "api/sized.h"
 #include "backends/device.h"
 

@@ -4,10 +4,12 @@
 #include <unistd.h>
 
 #include "api/handle.h"
+#include "api/options.h"
 #include "api/output.h"
 #include "api/shares.h"
 #include "api/stats.h"
 #include "backends/writer.h"
+#include "base/clock.h"
 #include "base/path.h"
 #include "base/poll.h"
 #include "base/target.h"

@@ -1,6 +1,8 @@
 /* preparation.c - computes once what several views of a scene share. */
 #include "api/preparation.h"
 
+#include "scene/edge_classes.h"
+
 #include <math.h>
 
 recto_status preparation_init(struct preparation *preparation,
@@ -24,9 +26,9 @@ recto_status preparation_init(struct preparation *preparation,
   status = weld_near(&preparation->welded, &preparation->topology,
                      &preparation->rescaled.scene, &request, error);
   if (status == RECTO_OK && classes &&
-      !topology_keep_class_masks(&preparation->topology,
-                                 &preparation->welded.scene,
-                                 options->mesh.crease_deg))
+      !topology_store_class_masks(&preparation->topology,
+                                  &preparation->welded.scene,
+                                  options->mesh.crease_deg))
     status = error_memory(error);
   return status;
 }

@@ -12,8 +12,11 @@
 
 #include "api/clip_warning.h"
 #include "api/handle.h"
+#include "api/options.h"
+#include "api/result.h"
 #include "api/shares.h"
 #include "api/stats.h"
+#include "base/clock.h"
 #include "base/parallel.h"
 #include "base/poll.h"
 #include "ink/ink.h"
@@ -170,8 +173,8 @@ static recto_status aim(struct render *render, recto_error *error) {
       &render->camera, &render->prepared->welded.scene, &render->scaled, error);
   if (status != RECTO_OK)
     return status;
-  drawing_keep_projection(render->made, &render->camera,
-                          &render->prepared->rescaled);
+  drawing_store_projection(render->made, &render->camera,
+                           &render->prepared->rescaled);
   report_doubles(render->report, "camera", "model_to_page_mm",
                  render->made->matrix, 12);
   report_double(
@@ -275,9 +278,9 @@ static recto_status keep_results(struct render *render, recto_error *error) {
       .with_counts = keeps_invisibility(render)};
   recto_status status = RECTO_OK;
   if (results & RECTO_RESULT_EDGES && render->map.edge_state != NULL)
-    status = drawing_keep_edges(render->made, &sources, error);
+    status = drawing_store_edges(render->made, &sources, error);
   if (status == RECTO_OK && results & RECTO_RESULT_FACES)
-    status = drawing_keep_faces(render->made, &sources, error);
+    status = drawing_store_faces(render->made, &sources, error);
   return status;
 }
 

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "api/handle.h"
+#include "api/result.h"
 #include "api/sized.h"
 
 void recto_drawing_destroy(recto_drawing *drawing) {
@@ -110,9 +111,9 @@ bool recto_drawing_stroke_sized(const recto_drawing *drawing, size_t index,
 
 /* ---- The projection ------------------------------------------------------ */
 
-void drawing_keep_projection(recto_drawing *drawing,
-                             const struct camera *camera,
-                             const struct rescaled *rescaled) {
+void drawing_store_projection(recto_drawing *drawing,
+                              const struct camera *camera,
+                              const struct rescaled *rescaled) {
   double offset = 0;
   camera_matrix(camera, drawing->matrix);
   rescale_matrix(rescaled, drawing->matrix);

@@ -8,6 +8,7 @@
 #include <math.h>
 
 #include "api/handle.h"
+#include "api/result.h"
 #include "api/sized.h"
 #include "base/poll.h"
 
@@ -205,9 +206,9 @@ static bool add_edge_result(struct edge_results *r, uint32_t e) {
   return add_parts(r, edge, e) && ARRAY_PUSH(&r->drawing->edge, result);
 }
 
-recto_status drawing_keep_edges(recto_drawing *drawing,
-                                const struct result_sources *sources,
-                                recto_error *error) {
+recto_status drawing_store_edges(recto_drawing *drawing,
+                                 const struct result_sources *sources,
+                                 recto_error *error) {
   struct edge_results r = {.drawing = drawing,
                            .sheet = sources->sheet,
                            .map = sources->map,

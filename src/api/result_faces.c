@@ -1,9 +1,11 @@
 /* result_faces.c - the visible faces of a drawing and what lies beside each of
  * their sides. */
 #include "api/handle.h"
+#include "api/result.h"
 #include "api/sized.h"
 #include "base/poll.h"
 #include "ink/shading.h"
+#include "scene/edge_classes.h"
 
 /* The class of a mesh edge in this view: as it was drawn, or for an edge of a
  * class that was not requested, by its faces.  The other face of a silhouette
@@ -116,9 +118,9 @@ static bool add_fragment_results(recto_drawing *drawing,
   return true;
 }
 
-recto_status drawing_keep_faces(recto_drawing *drawing,
-                                const struct result_sources *sources,
-                                recto_error *error) {
+recto_status drawing_store_faces(recto_drawing *drawing,
+                                 const struct result_sources *sources,
+                                 recto_error *error) {
   return add_half_edge_results(drawing, sources) &&
                  add_loops(drawing, sources->map) &&
                  add_fragment_results(drawing, sources)

@@ -4,9 +4,12 @@
 #include <string.h>
 
 #include "api/handle.h"
+#include "api/options.h"
 #include "api/shares.h"
+#include "base/clock.h"
 #include "base/report.h"
 #include "scene/limit.h"
+#include "scene/read.h"
 
 recto_status recto_scene_create(recto_scene **scene, recto_error *error) {
   if (scene == NULL)
@@ -60,8 +63,8 @@ recto_status recto_scene_prepare(recto_scene *scene,
 
 /* ---- Adding -------------------------------------------------------------- */
 
-void scene_keep_faults(recto_scene *scene,
-                       const struct diagnostics *diagnostics) {
+void scene_add_faults(recto_scene *scene,
+                      const struct diagnostics *diagnostics) {
   for (int i = 0; i < SCENE_FAULT_COUNT; i++)
     scene->fault[i] += diagnostics->count[i];
 }
@@ -108,7 +111,7 @@ static recto_status read_model(recto_scene *scene, const void *bytes,
     mem_free(kept);
     return status;
   }
-  scene_keep_faults(scene, &diagnostics);
+  scene_add_faults(scene, &diagnostics);
   keep_path(scene, kept);
   return RECTO_OK;
 }
@@ -192,7 +195,7 @@ recto_status recto_scene_add_face(recto_scene *scene, const uint32_t *corner,
     status =
         scene_add_face(&scene->scene, corner, count, 0, &diagnostics, error);
   if (status == RECTO_OK)
-    scene_keep_faults(scene, &diagnostics);
+    scene_add_faults(scene, &diagnostics);
   return status;
 }
 
@@ -207,6 +210,6 @@ recto_status recto_scene_add_polyline(recto_scene *scene,
     status =
         scene_add_wire(&scene->scene, corner, count, 0, &diagnostics, error);
   if (status == RECTO_OK)
-    scene_keep_faults(scene, &diagnostics);
+    scene_add_faults(scene, &diagnostics);
   return status;
 }

@@ -3,6 +3,7 @@
 
 #include "backends/device.h"
 #include "base/poll.h"
+#include "scene/diagnostics.h"
 
 void stats_add_scene(struct report *report, const recto_scene *model) {
   const struct scene *scene = &model->scene;

@@ -23,6 +23,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/clock.h"
 #include "base/poll.h"
 
 extern char **environ;
@@ -39,12 +40,6 @@ struct child_run {
   int output; /* the end that is read */
   double deadline;
 };
-
-static double now(void) {
-  struct timespec time;
-  clock_gettime(CLOCK_MONOTONIC, &time);
-  return (double)time.tv_sec + (double)time.tv_nsec / 1000000000;
-}
 
 /* Moves a descriptor of ours out of the way of those that a child has. */
 static int move_descriptor(int descriptor) {
@@ -164,7 +159,7 @@ static int start_child(struct child_run *run) {
 static bool may_continue(struct child_run *run) {
   if (!poll_share(0, "import"))
     run->result->end = CHILD_CANCELLED;
-  else if (now() > run->deadline)
+  else if (clock_wall() > run->deadline)
     run->result->end = CHILD_TOO_LONG;
   else
     return true;
@@ -236,8 +231,9 @@ static void await(struct child_run *run) {
 }
 
 void child_run(const struct child *child, struct child_result *result) {
-  struct child_run run = {
-      .child = child, .result = result, .deadline = now() + child->seconds};
+  struct child_run run = {.child = child,
+                          .result = result,
+                          .deadline = clock_wall() + child->seconds};
   *result = (struct child_result){.end = CHILD_EXITED};
   result->code = start_child(&run);
   if (result->code != 0) {

@@ -1,6 +1,7 @@
 # src/base/local.mk - the sources of this layer.
 librecto_core_la_SOURCES += \
   %D%/child.c %D%/child.h \
+  %D%/clock.c %D%/clock.h \
   %D%/decimal.c %D%/decimal.h \
   %D%/digits.h \
   %D%/gunzip.c %D%/gunzip.h \

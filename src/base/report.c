@@ -4,7 +4,6 @@
 #include <math.h>
 #include <pthread.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/memory.h"
 #include "base/number.h"
@@ -255,16 +254,3 @@ const char *report_json(struct report *report) {
   const char *text = stream_memory(report->json, &count);
   return stream_status(report->json) == RECTO_OK ? text : NULL;
 }
-
-/* ---- Clocks -------------------------------------------------------------- */
-
-static double read_clock(clockid_t id) {
-  struct timespec now;
-  if (clock_gettime(id, &now) != 0)
-    return 0;
-  return (double)now.tv_sec + (double)now.tv_nsec / 1e9;
-}
-
-double clock_cpu(void) { return read_clock(CLOCK_PROCESS_CPUTIME_ID); }
-
-double clock_wall(void) { return read_clock(CLOCK_MONOTONIC); }

@@ -42,9 +42,4 @@ int64_t report_get(const struct report *report, const char *section,
  * until the report changes.  NULL when memory ran out. */
 const char *report_json(struct report *report);
 
-/* Seconds of CPU time of this process / of wall time, from an arbitrary
- * start. */
-double clock_cpu(void);
-double clock_wall(void);
-
 #endif

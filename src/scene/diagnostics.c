@@ -1,6 +1,6 @@
 /* diagnostics.c - counts bad elements and passes on the first few of each
  * kind. */
-#include "scene/scene.h"
+#include "scene/diagnostics.h"
 
 #include <stdarg.h>
 #include <stdio.h>

@@ -5,6 +5,8 @@
  * so that a model far from the origin keeps its digits, and a face too small
  * or too large for its squares is scaled by a power of two first.  Angles are
  * compared by their cosines; a face without a normal makes no crease. */
+#include "scene/edge_classes.h"
+
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -13,7 +15,6 @@
 #include "base/union_find.h"
 #include "base/tolerance.h"
 #include "scene/angle.h"
-#include "scene/topology.h"
 
 struct face_normal {
   double x, y, z; /* of any length; 0, 0, 0: a face of no area */
@@ -295,8 +296,8 @@ bool topology_coarse_parts(const struct topology *topology,
   return ok;
 }
 
-bool topology_keep_class_masks(struct topology *topology,
-                               const struct scene *scene, double crease_deg) {
+bool topology_store_class_masks(struct topology *topology,
+                                const struct scene *scene, double crease_deg) {
   uint8_t *class_masks = mem_alloc(topology->edge.count, sizeof *class_masks);
   if (class_masks == NULL ||
       !topology_class_masks(topology, scene, crease_deg, class_masks)) {

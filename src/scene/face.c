@@ -8,6 +8,7 @@
 
 #include "base/sort.h"
 #include "scene/bowtie.h"
+#include "scene/diagnostics.h"
 #include "scene/exact.h"
 #include "scene/limit.h"
 

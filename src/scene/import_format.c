@@ -8,6 +8,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "scene/diagnostics.h"
 #include "scene/limit.h"
 #include "scene/unusable.h"
 

@@ -3,8 +3,8 @@ librecto_core_la_SOURCES += \
   %D%/angle.c %D%/angle.h \
   %D%/bowtie.c %D%/bowtie.h \
   %D%/cluster.c %D%/cluster.h \
-  %D%/diagnostics.c \
-  %D%/edge_classes.c \
+  %D%/diagnostics.c %D%/diagnostics.h \
+  %D%/edge_classes.c %D%/edge_classes.h \
   %D%/exact.c %D%/exact.h \
   %D%/face.c \
   %D%/import_format.c %D%/import_format.h \
@@ -20,7 +20,7 @@ librecto_core_la_SOURCES += \
   %D%/ply_value.h \
   %D%/positions.c %D%/positions.h \
   %D%/precision.c %D%/precision.h \
-  %D%/read.c \
+  %D%/read.c %D%/read.h \
   %D%/reader_import.c \
   %D%/reader_mtl.c \
   %D%/reader_obj.c \

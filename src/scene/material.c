@@ -9,6 +9,7 @@
 
 #include "base/input.h"
 #include "base/path.h"
+#include "scene/diagnostics.h"
 
 enum { LIBRARY_MAX = 100 };
 

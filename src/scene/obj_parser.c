@@ -2,6 +2,8 @@
  * what is broken. */
 #include "scene/obj_parser.h"
 
+#include "scene/diagnostics.h"
+
 #include <string.h>
 
 bool obj_pass_continuation(struct obj_parser *p, const char **at) {

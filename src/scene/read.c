@@ -3,7 +3,7 @@
  * Readers see the whole of it with a NUL behind, so that most of their
  * look-ahead needs no comparison with the end.
  */
-#include "scene/scene.h"
+#include "scene/read.h"
 
 #include <string.h>
 

@@ -25,6 +25,7 @@
 #include "base/child.h"
 #include "base/input.h"
 #include "scene/import_format.h"
+#include "scene/read.h"
 
 /* Where it is installed; configure's prefix says so. */
 #ifndef RECTO_IMPORT_PATH

@@ -7,6 +7,7 @@
 
 #include "base/number.h"
 #include "base/word.h"
+#include "scene/diagnostics.h"
 
 static const char *after_blanks(const char *at, const char *end) {
   while (at < end && is_blank(*at))

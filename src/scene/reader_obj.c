@@ -21,6 +21,7 @@
 #include "base/number.h"
 #include "base/sort.h"
 #include "scene/limit.h"
+#include "scene/read.h"
 
 enum { DIGITS_MAX = 12 }; /* of an index that may be in range */
 

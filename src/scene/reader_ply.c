@@ -20,6 +20,7 @@
 #include "scene/limit.h"
 #include "scene/ply_colour.h"
 #include "scene/ply_value.h"
+#include "scene/read.h"
 
 /* ---- What cannot be read ------------------------------------------------- */
 

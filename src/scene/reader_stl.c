@@ -17,6 +17,7 @@
 #include "base/number.h"
 #include "scene/limit.h"
 #include "scene/positions.h"
+#include "scene/read.h"
 
 enum { HEADER_SIZE = 84, RECORD_SIZE = 50, BATCH = 64 };
 

@@ -90,57 +90,11 @@ USE_RESULT bool scene_note_file(struct scene *scene, const struct input *input);
 USE_RESULT recto_status scene_use_group(struct scene *scene, const char *name,
                                         size_t length, recto_error *error);
 
-/* ---- Reading -------------------------------------------------------------
- * Warnings: a bad element is skipped, reported and counted, never fatal. */
-enum scene_fault {
-  SCENE_FAULT_NOT_FINITE,  /* NaN or infinite coordinate */
-  SCENE_FAULT_INDEX,       /* index out of range */
-  SCENE_FAULT_FEW_CORNERS, /* fewer than three distinct corners */
-  SCENE_FAULT_ZERO_AREA,   /* corners on one line */
-  SCENE_FAULT_BOW_TIE,     /* sides of a polygon cross (kept, warned) */
-  SCENE_FAULT_WARPED,      /* not planar (kept, counted, not warned) */
-  SCENE_FAULT_SYNTAX,      /* an element that cannot be parsed */
-  SCENE_FAULT_MATERIAL,    /* a colour that is not there or makes no sense */
-  SCENE_FAULT_COUNT
-};
+/* ---- Adding elements -----------------------------------------------------
+ * A bad element is skipped, reported and counted, never fatal. */
+struct diagnostics;
 
-struct diagnostics {
-  const char *file;         /* as the user wrote it, "-" for stdin */
-  recto_warning_fn warning; /* NULL: silent */
-  void *user;
-  unsigned long count[SCENE_FAULT_COUNT];
-  unsigned long settled[SCENE_FAULT_COUNT]; /* count at the last _finish */
-  const char *poll_at; /* the first byte at which progress is polled again */
-  const char *bytes;   /* what is read */
-  size_t byte_count;   /* 0: not known */
-};
-
-/* Polls where reading has come a quarter of a megabyte farther: a few
- * milliseconds.
- * at      the byte that is read next
- * Errors  RECTO_ERROR_CANCELLED */
-USE_RESULT recto_status diagnostics_poll_now(struct diagnostics *diagnostics,
-                                             const char *at,
-                                             recto_error *error);
-static inline recto_status diagnostics_poll(struct diagnostics *diagnostics,
-                                            const char *at,
-                                            recto_error *error) {
-  return diagnostics == NULL || at < diagnostics->poll_at
-             ? RECTO_OK
-             : diagnostics_poll_now(diagnostics, at, error);
-}
-
-/* Counts the fault; the first three of each kind are passed on.
- * diagnostics  NULL: not wanted
- * line         0 where there is none; in a binary file the element's number */
-void diagnostics_fault(struct diagnostics *diagnostics, enum scene_fault fault,
-                       unsigned long line, const char *format, ...)
-    PRINTF_LIKE(4, 5);
-/* Passes on "... and N more" for kinds that had more than three since it was
- * last called.  scene_read does this at the end of each file. */
-void diagnostics_finish(struct diagnostics *diagnostics);
-
-/* Adds a face after the checks above (everything but planarity).  Corners at
+/* Adds a face after the checks of enum scene_fault, but for planarity.  Corners at
  * the position of the one before them are left out.
  * corner  indices of points already in the scene, `count` of them
  * Returns RECTO_OK also for a skipped face; fails only on memory, or with
@@ -167,47 +121,6 @@ USE_RESULT recto_status scene_add_wire(struct scene *scene,
                                        unsigned long line,
                                        struct diagnostics *diagnostics,
                                        recto_error *error);
-
-/* One reader per format, each a file reader_*.c.  The whole input is handed
- * over in memory (mapped, or read from a pipe), NUL-terminated past its end.
- * path    as the user wrote it, for messages
- * format  the reader's name, or the extension it was chosen by
- * A reader states the precision of its points; where it does not, the options
- * do, as for points that were added one by one. */
-struct reader {
-  const char *name;       /* "obj" */
-  const char *extensions; /* "obj", space-separated */
-  double up[3];           /* what the format means by up */
-  recto_status (*read)(struct scene *scene, const char *bytes, size_t count,
-                       const char *path, const char *format,
-                       struct diagnostics *diagnostics, recto_error *error);
-};
-
-extern const struct reader reader_obj;
-extern const struct reader reader_ply;
-extern const struct reader reader_stl;
-extern const struct reader reader_import; /* all other formats */
-
-/* Reads `path` ("-": standard input) and adds it to the scene; the first file
- * of a scene says what up means.
- * format  a reader's name, or NULL: by extension
- * Errors  RECTO_ERROR_IO, _FORMAT (broken or truncated), _UNSUPPORTED (no
- *         reader), _LIMIT (2^31 points, corners or faces passed), _MEMORY;
- *         the scene is then as it was. */
-USE_RESULT recto_status scene_read(struct scene *scene, const char *path,
-                                   const char *format,
-                                   struct diagnostics *diagnostics,
-                                   recto_error *error);
-
-/* Reads the bytes of a model file in the same way.
- * name    for messages; an OBJ file's material libraries are looked for beside
- *         the file of that name; "": they are not read
- * Errors  as of scene_read */
-USE_RESULT recto_status scene_read_memory(struct scene *scene,
-                                          const void *bytes, size_t count,
-                                          const char *name, const char *format,
-                                          struct diagnostics *diagnostics,
-                                          recto_error *error);
 
 /* ---- The precision of the coordinates ------------------------------------ */
 

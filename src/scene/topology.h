@@ -1,4 +1,4 @@
-/* topology.h - which faces meet at which edge, and which edges are features.
+/* topology.h - which faces meet at which edge.
  *
  * An edge is an unordered pair of points.  Points of border edges that lie at
  * exactly the same position count as one (files with seams are stitched;
@@ -43,46 +43,5 @@ void topology_fini(struct topology *topology);
 
 /* Gives up corner_edge. */
 void topology_drop_corners(struct topology *topology);
-
-/* The classes of an edge that do not depend on the camera, a mask of
- * RECTO_EDGE_BORDER (one face or more than two), RECTO_EDGE_CREASE (angle
- * between the two faces' normals beyond crease_deg; where the winding of the
- * two disagrees one is turned) and RECTO_EDGE_GROUP (two groups meet);
- * RECTO_EDGE_SMOOTH alone where it has none of them. */
-unsigned topology_class_mask(const struct topology *topology,
-                             const struct scene *scene, uint32_t edge,
-                             double crease_deg);
-
-/* The same for every edge at once.
- * class_masks  one an edge
- * Returns false when memory ran out. */
-USE_RESULT bool topology_class_masks(const struct topology *topology,
-                                     const struct scene *scene,
-                                     double crease_deg, uint8_t *class_masks);
-
-/* Hysteresis: of the creases that edges form which are joined at points, makes
- * those no creases of which no edge bends by more than start_deg.
- * class_masks  one an edge, as of topology_class_masks at a smaller angle
- * Returns false when memory ran out. */
-USE_RESULT bool topology_drop_weak_creases(const struct topology *topology,
-                                           const struct scene *scene,
-                                           double start_deg,
-                                           uint8_t *class_masks);
-
-/* Finds the connected parts of the mesh of whose edges more than a quarter are
- * creases: such a part samples no smooth surface.
- * class_masks  one an edge
- * coarse       gets 1 for each point of such a part, 0 for the others
- * Returns false when memory ran out. */
-USE_RESULT bool topology_coarse_parts(const struct topology *topology,
-                                      const struct scene *scene,
-                                      const uint8_t *class_masks,
-                                      uint8_t *coarse);
-
-/* Keeps the result of topology_class_masks at that angle for later calls.
- * Returns false when memory ran out. */
-USE_RESULT bool topology_keep_class_masks(struct topology *topology,
-                                          const struct scene *scene,
-                                          double crease_deg);
 
 #endif

@@ -1,6 +1,7 @@
 /* layout_edges.c - classifies the edges of faces and makes the edges of the
  * sheet. */
 #include "base/poll.h"
+#include "scene/edge_classes.h"
 #include "view/layout_phases.h"
 
 /* The classes that an edge has by its faces. */

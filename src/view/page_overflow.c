@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/poll.h"
+#include "scene/edge_classes.h"
 #include "view/project.h"
 #include "view/vector.h"
 

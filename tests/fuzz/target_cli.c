@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/clock.h"
 #include "base/report.h"
 #include "cli/parse.h"
 #include "cli/option_scope.h"

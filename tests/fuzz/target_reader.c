@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "scene/material.h"
+#include "scene/read.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/render.h"
 #include "tests/reading.h"

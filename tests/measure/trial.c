@@ -1,6 +1,7 @@
 /* trial.c - see trial.h. */
 #include "tests/measure/trial.h"
 
+#include "base/clock.h"
 #include "view/camera_aim.h"
 #include "view/layout.h"
 

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scene/diagnostics.h"
 #include "tests/scenes/random.h"
 
 void build_require(bool ok) {

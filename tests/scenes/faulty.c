@@ -1,5 +1,6 @@
 /* faulty.c - OBJ files with one bad element each, which must not spoil the
  * rest. */
+#include "scene/diagnostics.h"
 #include "tests/scenes/scenes.h"
 
 #define SQUARE "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"

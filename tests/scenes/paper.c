@@ -1,4 +1,5 @@
 /* paper.c - scenes in true scale: calibration, seams, worked examples. */
+#include "scene/diagnostics.h"
 #include "tests/scenes/scenes.h"
 
 void scenes_calibration_square(struct scene *scene, recto_options *options) {

@@ -8,6 +8,7 @@
 #ifndef SCENES_SCENES_H
 #define SCENES_SCENES_H
 
+#include "scene/diagnostics.h"
 #include "tests/scenes/build.h"
 
 /* One entry of the list of scenes. */

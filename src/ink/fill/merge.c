@@ -18,6 +18,7 @@
 #include "base/union_find.h"
 #include "base/sort.h"
 #include "ink/fill/outline.h"
+#include "scene/edge_classes.h"
 
 struct merge {
   struct drawing *drawing;

@@ -15,6 +15,7 @@
 #include "base/union_find.h"
 #include "base/tolerance.h"
 #include "ink/fill/light.h"
+#include "scene/edge_classes.h"
 #include "scene/newell_normal.h"
 #include "view/project.h"
 #include "view/vector.h"

@@ -7,6 +7,7 @@
 
 #include "base/poll.h"
 #include "scene/angle.h"
+#include "scene/edge_classes.h"
 
 uint32_t facing_corner_of_edge(const struct facing *f, uint32_t face,
                                uint32_t edge) {

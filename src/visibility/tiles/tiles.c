@@ -16,6 +16,7 @@
  */
 #include <string.h>
 
+#include "base/clock.h"
 #include "base/parallel.h"
 #include "base/poll.h"
 #include "base/sort.h"

@@ -1,0 +1,20 @@
+/* options.h - copies and checks the caller's options. */
+#ifndef API_OPTIONS_H
+#define API_OPTIONS_H
+
+#include "base/status.h"
+
+/* Copies the options, or the defaults where they are NULL.
+ * Errors  RECTO_ERROR_ARGUMENT: they were not initialised;
+ *         RECTO_ERROR_UNSUPPORTED: they are of a later version */
+USE_RESULT recto_status options_copy(recto_options *own,
+                                     const recto_options *options,
+                                     recto_error *error);
+
+/* The same, and checks that each of them is finite and in range, and adapts
+ * them to their output. */
+USE_RESULT recto_status options_copy_valid(recto_options *own,
+                                           const recto_options *options,
+                                           recto_error *error);
+
+#endif

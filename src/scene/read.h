@@ -1,0 +1,49 @@
+/* read.h - reads models into a scene, each format by its reader. */
+#ifndef SCENE_READ_H
+#define SCENE_READ_H
+
+#include "scene/diagnostics.h"
+#include "scene/scene.h"
+
+/* One reader per format, each a file reader_*.c.  The whole input is handed
+ * over in memory (mapped, or read from a pipe), NUL-terminated past its end.
+ * path    as the user wrote it, for messages
+ * format  the reader's name, or the extension it was chosen by
+ * A reader states the precision of its points; where it does not, the options
+ * do, as for points that were added one by one. */
+struct reader {
+  const char *name;       /* "obj" */
+  const char *extensions; /* "obj", space-separated */
+  double up[3];           /* what the format means by up */
+  recto_status (*read)(struct scene *scene, const char *bytes, size_t count,
+                       const char *path, const char *format,
+                       struct diagnostics *diagnostics, recto_error *error);
+};
+
+extern const struct reader reader_obj;
+extern const struct reader reader_ply;
+extern const struct reader reader_stl;
+extern const struct reader reader_import; /* all other formats */
+
+/* Reads `path` ("-": standard input) and adds it to the scene; the first file
+ * of a scene says what up means.
+ * format  a reader's name, or NULL: by extension
+ * Errors  RECTO_ERROR_IO, _FORMAT (broken or truncated), _UNSUPPORTED (no
+ *         reader), _LIMIT (2^31 points, corners or faces passed), _MEMORY;
+ *         the scene is then as it was. */
+USE_RESULT recto_status scene_read(struct scene *scene, const char *path,
+                                   const char *format,
+                                   struct diagnostics *diagnostics,
+                                   recto_error *error);
+
+/* Reads the bytes of a model file in the same way.
+ * name    for messages; an OBJ file's material libraries are looked for beside
+ *         the file of that name; "": they are not read
+ * Errors  as of scene_read */
+USE_RESULT recto_status scene_read_memory(struct scene *scene,
+                                          const void *bytes, size_t count,
+                                          const char *name, const char *format,
+                                          struct diagnostics *diagnostics,
+                                          recto_error *error);
+
+#endif
