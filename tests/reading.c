@@ -139,7 +139,7 @@ bool reading_same(const struct scene *a, const struct scene *b) {
   for (size_t i = 0; i < a->group.count; i++)
     if (strcmp(a->group.item[i].name, b->group.item[i].name) != 0)
       return false;
-  return same_precision(a, b) && SAME(a, b, face_start) && SAME(a, b, corner) &&
+  return SAME(a, b, face_start) && SAME(a, b, corner) &&
          SAME(a, b, face_group) && SAME(a, b, wire_start) &&
          SAME(a, b, wire_corner) && SAME(a, b, wire_group);
 }
@@ -166,7 +166,8 @@ static const char *reading_difference(const struct reading *a,
   if (a->status != RECTO_OK && (a->error.line != b->error.line ||
                                 strcmp(a->error.text, b->error.text) != 0))
     return "another error";
-  if (a->status == RECTO_OK && !reading_same(&a->scene, &b->scene))
+  if (a->status == RECTO_OK && (!reading_same(&a->scene, &b->scene) ||
+                                !same_precision(&a->scene, &b->scene)))
     return "another scene";
   if (a->warnings != b->warnings)
     return "another number of warnings";
