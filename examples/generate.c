@@ -11,6 +11,9 @@ static const struct {
     {"castle", "castle: towers, walls, a gate and a keep", models_castle},
     {"gears", "gears: five spur gears on four shafts", models_gears},
     {"knot", "knot: a tube along the trefoil knot", models_knot},
+    {"star", "star: the compound of five tetrahedra", models_star},
+    {"vase", "vase: a hollow surface of revolution", models_vase},
+    {"wave", "wave: the graph of sin(r) / r", models_wave},
 };
 
 int main(int argc, char **argv) {
@@ -27,6 +30,7 @@ int main(int argc, char **argv) {
     }
     return 0;
   }
-  fputs("usage: generate castle|gears|knot > NAME.obj\n", stderr);
+  fputs("usage: generate castle|gears|knot|star|vase|wave > NAME.obj\n",
+        stderr);
   return 2;
 }

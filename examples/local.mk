@@ -1,7 +1,8 @@
 # examples/local.mk - example models and what makes them.
 noinst_PROGRAMS += %D%/generate
 %C%_generate_SOURCES = %D%/generate.c %D%/models.h \
-  %D%/castle.c %D%/gears.c %D%/knot.c %D%/shape.c %D%/shape.h
+  %D%/castle.c %D%/gears.c %D%/knot.c %D%/star.c %D%/vase.c %D%/wave.c \
+  %D%/shape.c %D%/shape.h
 %C%_generate_LDADD = -lm
 
 noinst_PROGRAMS += %D%/draw
@@ -9,7 +10,8 @@ noinst_PROGRAMS += %D%/draw
 %C%_draw_LDADD = librecto.la
 
 example_models = %D%/models/castle.obj %D%/models/gears.obj \
-  %D%/models/knot.obj
+  %D%/models/knot.obj %D%/models/star.obj %D%/models/vase.obj \
+  %D%/models/wave.obj
 EXTRA_DIST += $(example_models)
 
 # Makes the committed models anew.

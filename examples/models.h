@@ -13,4 +13,13 @@ void models_castle(struct shape *shape);
 /* A tube along the trefoil knot. */
 void models_knot(struct shape *shape);
 
+/* The compound of five tetrahedra, a group each. */
+void models_star(struct shape *shape);
+
+/* A vase with a wall and a floor. */
+void models_vase(struct shape *shape);
+
+/* The graph of sin(r) / r, an open surface. */
+void models_wave(struct shape *shape);
+
 #endif
