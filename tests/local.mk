@@ -87,6 +87,7 @@ dist_check_SCRIPTS += \
   %D%/test_examples.sh \
   %D%/test_structure.sh \
   %D%/test_options_without_effect.sh \
+  %D%/test_pages.sh \
   %D%/test_python.sh
 
 # Drawings made by hand, for the writers.
