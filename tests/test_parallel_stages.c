@@ -90,6 +90,23 @@ static void write_mixed(FILE *to) {
   }
 }
 
+/* Triangles that stand on sides of the surface come before it, so that edges of
+ * three faces are used at both ends of the file. */
+static void write_fins(FILE *to) {
+  int fins = SIDE * SIDE / 4, first = SIDE * (SIDE - SIDE / 4 - 1);
+  write_points(to, SIDE, 0.02);
+  for (int f = 0; f < fins; f++)
+    fprintf(to, "v %.7g %.7g 0.1\n", (f % SIDE + 0.5) / SIDE,
+            0.75 + 0.25 * f / fins);
+  for (int f = 0; f < fins; f++) {
+    int c[3];
+    corners_of_face(2 * (first + f), SIDE, c);
+    fprintf(to, "f %d %d %d\n", c[0], c[1], (SIDE + 1) * (SIDE + 1) + f + 1);
+  }
+  for (int f = 0; f < FACES; f++)
+    write_face(to, f, SIDE);
+}
+
 /* Triangles through one another, that share nothing. */
 static void write_soup(FILE *to) {
   struct random random = {9};
@@ -114,6 +131,7 @@ static const struct model {
 } models[] = {{"surface", "lfe", write_surface},
               {"shuffled", "lh", write_shuffled},
               {"mixed", "lfhe", write_mixed},
+              {"fins", "l", write_fins},
               {"soup", "l", write_soup}};
 
 /* ---- Drawings ------------------------------------------------------------ */

@@ -5,6 +5,7 @@ librecto_core_la_SOURCES += \
   %D%/cluster.c %D%/cluster.h \
   %D%/diagnostics.c %D%/diagnostics.h \
   %D%/edge_classes.c %D%/edge_classes.h \
+  %D%/edge_range.c %D%/edge_range.h \
   %D%/exact.c %D%/exact.h \
   %D%/face.c \
   %D%/import_format.c %D%/import_format.h \
@@ -27,6 +28,7 @@ librecto_core_la_SOURCES += \
   %D%/reader_ply.c \
   %D%/reader_stl.c \
   %D%/scene.c %D%/scene.h \
+  %D%/side_iterator.h \
   %D%/topology.c %D%/topology.h \
   %D%/unusable.c %D%/unusable.h \
   %D%/weld_equal.c %D%/weld_equal.h \

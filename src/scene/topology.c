@@ -1,275 +1,204 @@
 /* topology.c - finds the edges of a scene and the faces that meet there.
  *
  * Phases
- *   number   the sides are visited in file order.  Each is looked up among the
- *            edges of its lower point, and added where it is not there.
- * Where a point has too many for that, all is done in another way:
- *   count    the sides of all faces are counted at the lower of their points.
- *   name     where a point has many sides (a fan of a hundred thousand
- *            triangles), these are distinguished by a table by upper point:
- *            each is named by the first side in the file between its points.
- *   number   the sides are visited again, and looked up by their names too.
- *   weld     where points of border edges coincide (weld_equal.h), all is done
- *            again with those points made one.
+ *   find  the faces are divided into ranges, one a thread, and the edges of
+ *         each are found alone (edge_range.c).
+ *   join  edges that several ranges have are made one: they belong to the first
+ *         of these.  The others are numbered range by range.
+ *   weld  where points of border edges coincide (weld_equal.h), all is done
+ *         again with those points made one.
  * Invariants  Edges stand in the order in which the file first uses them.
  * Memory      beside the result, 4 bytes a point and 4 an edge: sorting all
  *             sides took 8 a side more, and most of its time to touch them.
+ *             Each range but the first takes 4 bytes a point more, and its
+ *             edges again.
  */
 #include "scene/topology.h"
 
 #include <string.h>
 
-#include "base/poll.h"
+#include "base/parallel.h"
+#include "scene/edge_range.h"
+#include "scene/side_iterator.h"
 #include "scene/weld_equal.h"
 
-/* A point with more sides than this above it is a hub, where one has so many
- * edges that a side has to pass by more than that. */
-enum { FEW_SIDES = 24, MANY_EDGES = 48 };
+/* ---- The edges of several ranges ----------------------------------------- */
 
-/* ---- The sides of all faces, in file order ------------------------------- */
+/* Ranges are looked up in all those before them: more would cost more. */
+enum { RANGES_MAX = 8 };
 
-struct side_iterator {
-  const struct scene *scene;
-  const uint32_t *weld;       /* NULL: points as they are */
-  uint32_t face, corner, end; /* the side leaves `corner` of `face` */
-  uint32_t from, to;          /* welded points */
+struct edge_join {
+  struct topology *topology;
+  size_t ranges;
+  struct edge_range range[RANGES_MAX];
+  bool with_hubs;
+  size_t at; /* the range that is joined to those before it */
+  uint32_t *number[RANGES_MAX]; /* one an edge of a range: its number among all;
+                                   of the first range NULL: the same */
+  uint32_t *first; /* the number of the first edge that no earlier range has, of
+                      every PARALLEL_ITEMS of the range; before that, how many
+                      of these there are */
 };
 
-static struct side_iterator iterate_sides(const struct scene *scene,
-                                          const uint32_t *weld) {
-  return (struct side_iterator){
-      .scene = scene, .weld = weld, .face = SCENE_NONE};
+static bool find_edges(void *user, struct parallel_range at) {
+  struct edge_join *join = user;
+  struct edge_range *range = &join->range[at.begin];
+  return edge_range_find(range, join->with_hubs) && !range->overfull;
 }
 
-static inline uint32_t welded_corner(const struct side_iterator *it,
-                                     uint32_t corner) {
-  uint32_t point = it->scene->corner.item[corner];
-  return it->weld != NULL ? it->weld[point] : point;
-}
-
-static inline bool next_side_in_file(struct side_iterator *it) {
-  if (it->corner + 1 >= it->end) {
-    uint32_t face = it->face + 1; /* SCENE_NONE + 1 is 0 */
-    if (face == scene_face_count(it->scene))
-      return false;
-    it->face = face;
-    it->corner = it->scene->face_start.item[face];
-    it->end = it->scene->face_start.item[face + 1];
-    it->from = welded_corner(it, it->corner);
-  } else {
-    it->corner++;
-    it->from = it->to;
+/* The number of an edge in the earlier ranges; SCENE_NONE: they do not have
+ * it. */
+static uint32_t find_earlier_edge(const struct edge_join *join,
+                                  const struct topology_edge *edge) {
+  for (size_t r = 0; r < join->at; r++) {
+    uint32_t found = edge_range_look_up(&join->range[r], edge->point);
+    if (found != SCENE_NONE)
+      return r == 0 ? found : join->number[r][found];
   }
-  it->to =
-      welded_corner(it, scene_next_corner(it->scene, it->face, it->corner));
+  return SCENE_NONE;
+}
+
+static bool look_up_edges(void *user, struct parallel_range edges) {
+  struct edge_join *join = user;
+  const struct topology_edge *edge = join->range[join->at].edge.item;
+  uint32_t own = 0, *number = join->number[join->at];
+  for (size_t e = edges.begin; e < edges.end; e++) {
+    number[e] = find_earlier_edge(join, &edge[e]);
+    own += number[e] == SCENE_NONE;
+  }
+  join->first[edges.begin / PARALLEL_ITEMS] = own;
   return true;
 }
 
-static inline uint32_t lower_end(const struct side_iterator *it) {
-  return it->from < it->to ? it->from : it->to;
-}
-static inline uint32_t upper_end(const struct side_iterator *it) {
-  return it->from < it->to ? it->to : it->from;
-}
-
-/* ---- Hubs ---------------------------------------------------------------- */
-
-/* A side of a hub. */
-struct topology_side {
-  uint32_t upper;
-  uint32_t corner; /* where it starts */
-};
-
-/* Distributes the sides of hubs to their hubs, in file order.
- * end  one a point: the sides it has; then where its own end */
-static void distribute_sides(const struct scene *scene, const uint32_t *weld,
-                             const uint32_t *count, uint32_t *end,
-                             struct topology_side *side) {
-  uint32_t sum = 0;
-  for (size_t p = 0; p < scene->point.count; p++) {
-    end[p] = sum;
-    sum += count[p] > FEW_SIDES ? count[p] : 0;
-  }
-  for (struct side_iterator it = iterate_sides(scene, weld);
-       next_side_in_file(&it);)
-    if (count[lower_end(&it)] > FEW_SIDES)
-      side[end[lower_end(&it)]++] =
-          (struct topology_side){upper_end(&it), it.corner};
+/* Whether the first face of an edge runs along it from its lower point to its
+ * upper one, where it first does. */
+static bool first_goes_up(const struct edge_range *range,
+                          const struct topology_edge *edge) {
+  struct side_iterator it =
+      iterate_sides(range->scene, range->weld, edge->first, edge->first + 1);
+  while (next_side(&it) &&
+         (lower_end(&it) != edge->point[0] || upper_end(&it) != edge->point[1]))
+    ;
+  return it.from < it.to;
 }
 
-/* Identifies the sides of one hub: named[corner] is the first corner whose side
- * has the same two points.
- * first  by upper point; SCENE_NONE before and after */
-static void name_sides(const struct topology_side *side, uint32_t count,
-                       uint32_t *first, uint32_t *named) {
-  for (uint32_t i = 0; i < count; i++) {
-    if (first[side[i].upper] == SCENE_NONE)
-      first[side[i].upper] = side[i].corner;
-    named[side[i].corner] = first[side[i].upper];
-  }
-  for (uint32_t i = 0; i < count; i++)
-    first[side[i].upper] = SCENE_NONE;
-}
-
-static bool name_sides_of_hubs(const struct scene *scene, const uint32_t *weld,
-                               const uint32_t *count, size_t sides,
-                               uint32_t *named) {
-  size_t points = scene->point.count;
-  uint32_t *end = mem_alloc(points, sizeof *end);
-  uint32_t *first = mem_alloc(points, sizeof *first);
-  struct topology_side *side = mem_alloc(sides, sizeof *side);
-  bool ok = end != NULL && first != NULL && side != NULL;
-  if (ok) {
-    memset(first, 0xff, points * sizeof *first);
-    distribute_sides(scene, weld, count, end, side);
-    for (size_t p = 0; p < points; p++)
-      if (count[p] > FEW_SIDES)
-        name_sides(side + end[p] - count[p], count[p], first, named);
-  }
-  mem_free(end);
-  mem_free(first);
-  mem_free(side);
-  return ok;
-}
-
-/* ---- Edges --------------------------------------------------------------- */
-
-/* Faces have numbers within these. */
-enum { FACE_BITS = (1 << 30) - 1 };
-
-/* The edges of a point that is no hub are in a list. */
-struct lists {
-  uint32_t *head; /* one a point: an edge, SCENE_NONE, or HUB */
-  uint32_t *next; /* one an edge */
-  bool overfull;  /* a list was too long: no edge is looked up any more */
-};
-
-#define HUB (SCENE_NONE - 1)
-
-static bool is_new(const struct topology *topology,
-                   const struct side_iterator *it, struct lists *lists,
-                   uint32_t *found) {
-  uint32_t e = lists->head[lower_end(it)];
-  if (e == HUB) {
-    /* A name is a corner no later than the side's own: if it is not its own,
-     * it holds its edge's number by now. */
-    uint32_t name = topology->corner_edge[it->corner];
-    *found = name == it->corner ? SCENE_NONE : topology->corner_edge[name];
-    return name == it->corner;
-  }
-  int passed = 0;
-  while (e != SCENE_NONE && topology->edge.item[e].point[1] != upper_end(it)) {
-    e = lists->next[e];
-    passed++;
-  }
-  if (passed > MANY_EDGES)
-    lists->overfull = true;
-  *found = e;
-  return e == SCENE_NONE;
-}
-
-static bool add_topology_edge(struct topology *topology,
-                              const struct side_iterator *it,
-                              struct lists *lists) {
-  struct topology_edge edge = {
-      .point = {lower_end(it), upper_end(it)},
-      .first = it->face & FACE_BITS,
-      .uses = 1,
-      .second = TOPOLOGY_NONE,
-      .same_way = it->from < it->to, /* the first face's way, until */
-  };                                 /* a second one comes */
-  uint32_t e = (uint32_t)topology->edge.count;
-  if (!ARRAY_PUSH(&topology->edge, edge))
-    return false;
-  uint32_t *head = &lists->head[edge.point[0]];
-  if (*head != HUB) {
-    lists->next[e] = *head;
-    *head = e;
-  }
-  topology->corner_edge[it->corner] = e;
-  return true;
-}
-
-static void use_edge(struct topology_edge *edge,
-                     const struct side_iterator *it) {
-  if (edge->uses == 1) {
-    edge->second = it->face & FACE_BITS;
-    edge->same_way = edge->same_way == (it->from < it->to);
-  }
-  if (edge->uses < 3)
-    edge->uses++;
-}
-
-static bool number_edges(struct topology *topology, const struct scene *scene,
-                         struct lists *lists) {
-  for (struct side_iterator it = iterate_sides(scene, topology->weld);
-       !lists->overfull && next_side_in_file(&it);) {
-    uint32_t e;
-    if (!poll_at(it.corner))
-      return false;
-    if (is_new(topology, &it, lists, &e)) {
-      if (!add_topology_edge(topology, &it, lists))
-        return false;
+/* Numbers the edges of a range, and adds them to those of the topology, or
+ * their uses. */
+static bool add_joined_edges(void *user, struct parallel_range edges) {
+  struct edge_join *join = user;
+  const struct edge_range *range = &join->range[join->at];
+  uint32_t *number = join->number[join->at];
+  uint32_t own = join->first[edges.begin / PARALLEL_ITEMS];
+  for (size_t e = edges.begin; e < edges.end; e++) {
+    const struct topology_edge *edge = &range->edge.item[e];
+    bool is_own = number[e] == SCENE_NONE;
+    if (is_own)
+      number[e] = own++;
+    struct topology_edge *to = &join->topology->edge.item[number[e]];
+    if (is_own) {
+      *to = *edge;
     } else {
-      topology->corner_edge[it.corner] = e;
-      use_edge(&topology->edge.item[e], &it);
+      topology_use_edge(to, edge->first, first_goes_up(range, edge));
+      if (edge->uses > 1)
+        to->uses = 3;
     }
   }
   return true;
 }
 
-/* Counts the sides at their lower points; returns how many are at hubs. */
-static size_t count_sides(const struct scene *scene, const uint32_t *weld,
-                          uint32_t *count) {
-  size_t at_hubs = 0;
-  for (struct side_iterator it = iterate_sides(scene, weld);
-       next_side_in_file(&it);)
-    count[lower_end(&it)]++;
-  for (size_t p = 0; p < scene->point.count; p++)
-    at_hubs += count[p] > FEW_SIDES ? count[p] : 0;
-  return at_hubs;
+/* Lets the sides of a range refer to the edges of the topology. */
+static bool renumber_sides(void *user, struct parallel_range corners) {
+  struct edge_join *join = user;
+  const struct edge_range *range = &join->range[join->at];
+  const uint32_t *number = join->number[join->at];
+  uint32_t *edge =
+      range->corner_edge + range->scene->face_start.item[range->face];
+  for (size_t c = corners.begin; c < corners.end; c++)
+    edge[c] = number[edge[c]];
+  return true;
 }
 
-/* Distinguishes hubs from other points, and identifies their sides. */
-static bool find_hubs(struct topology *topology, const struct scene *scene,
-                      struct lists *lists) {
-  size_t points = scene->point.count;
-  memset(lists->head, 0, points * sizeof *lists->head);
-  size_t at_hubs = count_sides(scene, topology->weld, lists->head);
-  if (at_hubs > 0 && !name_sides_of_hubs(scene, topology->weld, lists->head,
-                                         at_hubs, topology->corner_edge))
+/* Joins a range to the earlier ones. */
+static bool join_range(struct edge_join *join, size_t at, int workers) {
+  struct edge_range *range = &join->range[at];
+  struct topology *topology = join->topology;
+  size_t edges = range->edge.count, corners = edge_range_corners(range);
+  size_t parts = parallel_range_count(edges, PARALLEL_ITEMS);
+  join->at = at;
+  join->number[at] = mem_alloc(edges, sizeof *join->number[at]);
+  join->first = mem_alloc(parts, sizeof *join->first);
+  bool ok =
+      join->number[at] != NULL && join->first != NULL &&
+      parallel_ranges(workers, edges, PARALLEL_ITEMS, look_up_edges, join);
+  for (size_t i = 0; ok && i < parts; i++) {
+    uint32_t own = join->first[i];
+    join->first[i] = (uint32_t)topology->edge.count;
+    topology->edge.count += own;
+  }
+  ok =
+      ok &&
+      parallel_ranges(workers, edges, PARALLEL_ITEMS, add_joined_edges, join) &&
+      parallel_ranges(workers, corners, PARALLEL_ITEMS, renumber_sides, join);
+  mem_free(join->first);
+  return ok;
+}
+
+/* Makes the edges of all ranges the topology's. */
+static bool join_ranges(struct edge_join *join, int workers) {
+  struct topology *topology = join->topology;
+  size_t more = 0;
+  for (size_t r = 1; r < join->ranges; r++)
+    more += join->range[r].edge.count;
+  if (!ARRAY_RESERVE(&join->range[0].edge, more))
     return false;
-  for (size_t p = 0; p < points; p++)
-    lists->head[p] = lists->head[p] > FEW_SIDES ? HUB : SCENE_NONE;
-  return true;
+  topology->edge.item = join->range[0].edge.item;
+  topology->edge.count = join->range[0].edge.count;
+  topology->edge.capacity = join->range[0].edge.capacity;
+  bool ok = true;
+  for (size_t r = 1; ok && r < join->ranges; r++)
+    ok = join_range(join, r, workers);
+  for (size_t r = 1; r < join->ranges; r++)
+    mem_free(join->number[r]);
+  join->range[0].edge.item = NULL;
+  return ok;
+}
+
+/* Divides the faces into ranges, and finds the edges of each.
+ * overfull  gets whether one of them has too many at a point */
+static bool find_in_ranges(struct topology *topology, const struct scene *scene,
+                           int workers, bool with_hubs, bool *overfull) {
+  struct edge_join join = {.topology = topology, .with_hubs = with_hubs};
+  uint32_t faces = scene_face_count(scene);
+  size_t ranges = (size_t)(workers < RANGES_MAX ? workers : RANGES_MAX);
+  for (size_t r = 0; r < ranges; r++)
+    join.range[r] = (struct edge_range){
+        .scene = scene,
+        .weld = topology->weld,
+        .corner_edge = topology->corner_edge,
+        .face = (uint32_t)((uint64_t)faces * r / ranges),
+        .end_face = (uint32_t)((uint64_t)faces * (r + 1) / ranges),
+    };
+  join.ranges = ranges;
+  bool ok = parallel_ranges(workers, ranges, 1, find_edges, &join) &&
+            join_ranges(&join, workers);
+  *overfull = false;
+  for (size_t r = 0; r < ranges; r++) {
+    *overfull |= join.range[r].overfull;
+    edge_range_fini(&join.range[r]);
+  }
+  return ok;
 }
 
 /* Builds corner_edge and the edges with the points as they are welded. */
 static bool build_edges(struct topology *topology, const struct scene *scene) {
-  size_t points = scene->point.count, corners = scene->corner.count;
-  struct lists lists = {0};
-  bool ok = false;
-  topology->edge.count = 0;
-  /* Of next no more is ever touched than there are edges: half of the corners
-   * in a closed mesh. */
-  lists.head = mem_alloc(points, sizeof *lists.head);
-  lists.next = mem_alloc(corners, sizeof *lists.next);
-  if (lists.head == NULL || lists.next == NULL ||
-      !ARRAY_RESERVE(&topology->edge, corners / 2 + corners / 8))
-    goto end;
-  memset(lists.head, 0xff, points * sizeof *lists.head);
-  ok = number_edges(topology, scene, &lists);
-  if (ok && lists.overfull) {
-    lists.overfull = false;
-    topology->edge.count = 0;
-    ok = find_hubs(topology, scene, &lists) &&
-         number_edges(topology, scene, &lists);
-  }
-end:
-  mem_free(lists.head);
-  mem_free(lists.next);
-  return ok;
+  int workers = parallel_workers(scene_face_count(scene), PARALLEL_ITEMS);
+  bool overfull;
+  ARRAY_FREE(&topology->edge);
+  return find_in_ranges(topology, scene, workers, false, &overfull) ||
+         (overfull && find_in_ranges(topology, scene, 1, true, &overfull));
 }
+
+/* ---- Borders ------------------------------------------------------------- */
 
 /* Marks the points of border edges; returns how many there are. */
 static size_t mark_border(const struct topology *topology, uint8_t *marked) {

@@ -20,7 +20,19 @@ struct topology_edge {
                             so their windings disagree */
 };
 
-enum { TOPOLOGY_NONE = 0x7fffffff };
+enum { TOPOLOGY_NONE = 0x7fffffff, TOPOLOGY_FACE_BITS = (1 << 30) - 1 };
+
+/* Adds a face to an edge that has one.
+ * forward  it runs along it from its lower point to its upper one */
+static inline void topology_use_edge(struct topology_edge *edge, uint32_t face,
+                                     bool forward) {
+  if (edge->uses == 1) {
+    edge->second = face & TOPOLOGY_FACE_BITS;
+    edge->same_way = edge->same_way == forward;
+  }
+  if (edge->uses < 3)
+    edge->uses++;
+}
 
 struct topology {
   ARRAY(struct topology_edge) edge; /* in order of first use by a face */

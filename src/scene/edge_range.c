@@ -1,0 +1,196 @@
+/* edge_range.c - finds the edges of a range of the scene's faces.
+ *
+ * The sides are visited in file order.  Each is looked up among the edges of
+ * its lower point, and added where it is not there.
+ * Where a point has too many for that, all is done in another way:
+ *   count    the sides of all faces are counted at the lower of their points.
+ *   name     where a point has many sides (a fan of a hundred thousand
+ *            triangles), these are distinguished by a table by upper point:
+ *            each is named by the first side in the file between its points.
+ *   number   the sides are visited again, and looked up by their names too.
+ */
+#include "scene/edge_range.h"
+
+#include <string.h>
+
+#include "base/poll.h"
+#include "scene/side_iterator.h"
+
+/* A point with more sides than this above it is a hub, where one has so many
+ * edges that a side has to pass by more than that. */
+enum { FEW_SIDES = 24, MANY_EDGES = 48 };
+
+/* ---- Hubs ---------------------------------------------------------------- */
+
+/* A side of a hub. */
+struct topology_side {
+  uint32_t upper;
+  uint32_t corner; /* where it starts */
+};
+
+/* Distributes the sides of hubs to their hubs, in file order.
+ * end  one a point: the sides it has; then where its own end */
+static void distribute_sides(const struct scene *scene, const uint32_t *weld,
+                             const uint32_t *count, uint32_t *end,
+                             struct topology_side *side) {
+  uint32_t sum = 0;
+  for (size_t p = 0; p < scene->point.count; p++) {
+    end[p] = sum;
+    sum += count[p] > FEW_SIDES ? count[p] : 0;
+  }
+  for (struct side_iterator it = iterate_all_sides(scene, weld);
+       next_side(&it);)
+    if (count[lower_end(&it)] > FEW_SIDES)
+      side[end[lower_end(&it)]++] =
+          (struct topology_side){upper_end(&it), it.corner};
+}
+
+/* Identifies the sides of one hub: named[corner] is the first corner whose side
+ * has the same two points.
+ * first  by upper point; SCENE_NONE before and after */
+static void name_sides(const struct topology_side *side, uint32_t count,
+                       uint32_t *first, uint32_t *named) {
+  for (uint32_t i = 0; i < count; i++) {
+    if (first[side[i].upper] == SCENE_NONE)
+      first[side[i].upper] = side[i].corner;
+    named[side[i].corner] = first[side[i].upper];
+  }
+  for (uint32_t i = 0; i < count; i++)
+    first[side[i].upper] = SCENE_NONE;
+}
+
+static bool name_sides_of_hubs(const struct scene *scene, const uint32_t *weld,
+                               const uint32_t *count, size_t sides,
+                               uint32_t *named) {
+  size_t points = scene->point.count;
+  uint32_t *end = mem_alloc(points, sizeof *end);
+  uint32_t *first = mem_alloc(points, sizeof *first);
+  struct topology_side *side = mem_alloc(sides, sizeof *side);
+  bool ok = end != NULL && first != NULL && side != NULL;
+  if (ok) {
+    memset(first, 0xff, points * sizeof *first);
+    distribute_sides(scene, weld, count, end, side);
+    for (size_t p = 0; p < points; p++)
+      if (count[p] > FEW_SIDES)
+        name_sides(side + end[p] - count[p], count[p], first, named);
+  }
+  mem_free(end);
+  mem_free(first);
+  mem_free(side);
+  return ok;
+}
+
+/* Counts the sides at their lower points; returns how many are at hubs. */
+static size_t count_sides(const struct scene *scene, const uint32_t *weld,
+                          uint32_t *count) {
+  size_t at_hubs = 0;
+  for (struct side_iterator it = iterate_all_sides(scene, weld);
+       next_side(&it);)
+    count[lower_end(&it)]++;
+  for (size_t p = 0; p < scene->point.count; p++)
+    at_hubs += count[p] > FEW_SIDES ? count[p] : 0;
+  return at_hubs;
+}
+
+/* Distinguishes hubs from other points, and identifies their sides. */
+static bool find_hubs(struct edge_range *range) {
+  const struct scene *scene = range->scene;
+  uint32_t *head = range->head;
+  size_t points = scene->point.count;
+  memset(head, 0, points * sizeof *head);
+  size_t at_hubs = count_sides(scene, range->weld, head);
+  if (at_hubs > 0 && !name_sides_of_hubs(scene, range->weld, head, at_hubs,
+                                         range->corner_edge))
+    return false;
+  for (size_t p = 0; p < points; p++)
+    head[p] = head[p] > FEW_SIDES ? EDGE_RANGE_HUB : SCENE_NONE;
+  return true;
+}
+
+/* ---- Edges --------------------------------------------------------------- */
+
+static bool is_new(struct edge_range *range, const struct side_iterator *it,
+                   uint32_t *found) {
+  uint32_t e = range->head[lower_end(it)];
+  if (e == EDGE_RANGE_HUB) {
+    /* A name is a corner no later than the side's own: if it is not its own,
+     * it holds its edge's number by now. */
+    uint32_t name = range->corner_edge[it->corner];
+    *found = name == it->corner ? SCENE_NONE : range->corner_edge[name];
+    return name == it->corner;
+  }
+  int passed = 0;
+  while (e != SCENE_NONE && range->edge.item[e].point[1] != upper_end(it)) {
+    e = range->next[e];
+    passed++;
+  }
+  if (passed > MANY_EDGES)
+    range->overfull = true;
+  *found = e;
+  return e == SCENE_NONE;
+}
+
+static bool add_edge_of_side(struct edge_range *range,
+                             const struct side_iterator *it) {
+  struct topology_edge edge = {
+      .point = {lower_end(it), upper_end(it)},
+      .first = it->face & TOPOLOGY_FACE_BITS,
+      .uses = 1,
+      .second = TOPOLOGY_NONE,
+      .same_way = it->from < it->to, /* the first face's way, until */
+  };                                 /* a second one comes */
+  uint32_t e = (uint32_t)range->edge.count;
+  if (!ARRAY_PUSH(&range->edge, edge))
+    return false;
+  uint32_t *head = &range->head[edge.point[0]];
+  if (*head != EDGE_RANGE_HUB) {
+    range->next[e] = *head;
+    *head = e;
+  }
+  range->corner_edge[it->corner] = e;
+  return true;
+}
+
+static bool number_edges(struct edge_range *range) {
+  for (struct side_iterator it = iterate_sides(range->scene, range->weld,
+                                               range->face, range->end_face);
+       !range->overfull && next_side(&it);) {
+    uint32_t e;
+    if (!poll_at(it.corner))
+      return false;
+    if (is_new(range, &it, &e)) {
+      if (!add_edge_of_side(range, &it))
+        return false;
+    } else {
+      range->corner_edge[it.corner] = e;
+      topology_use_edge(&range->edge.item[e], it.face, it.from < it.to);
+    }
+  }
+  return true;
+}
+
+bool edge_range_find(struct edge_range *range, bool with_hubs) {
+  const struct scene *scene = range->scene;
+  size_t points = scene->point.count;
+  size_t corners = edge_range_corners(range);
+  /* The edges of later ranges are added to those of the first. */
+  size_t reserved = range->face == 0 ? scene->corner.count : corners;
+  /* Of next no more is ever touched than there are edges: half of the corners
+   * in a closed mesh. */
+  range->head = mem_alloc(points, sizeof *range->head);
+  range->next = mem_alloc(corners, sizeof *range->next);
+  if (range->head == NULL || range->next == NULL ||
+      !ARRAY_RESERVE(&range->edge, reserved / 2 + reserved / 8))
+    return false;
+  if (with_hubs && !find_hubs(range))
+    return false;
+  if (!with_hubs)
+    memset(range->head, 0xff, points * sizeof *range->head);
+  return number_edges(range);
+}
+
+void edge_range_fini(struct edge_range *range) {
+  ARRAY_FREE(&range->edge);
+  mem_free(range->head);
+  mem_free(range->next);
+}
