@@ -23,7 +23,8 @@ unit_tests += %D%/test_judged
 %C%_test_judged_SOURCES = %D%/test_judged.c $(failures) \
   %D%/temporary.c %D%/temporary.h
 %C%_test_judged_LDADD = $(failures_libs)
-dist_check_SCRIPTS += %D%/test_failures_compilers.sh
+dist_check_SCRIPTS += %D%/test_failures_compilers.sh \
+  %D%/test_failures_matrix.sh
 unit_tests += %D%/test_ink_overlap_output
 %C%_test_ink_overlap_output_SOURCES = %D%/test_ink_overlap_output.c %D%/ink_fixture.c %D%/ink_fixture.h
 %C%_test_ink_overlap_output_LDADD = $(failures_libs)
@@ -37,3 +38,19 @@ unit_tests += %D%/test_intersections
 %C%_test_intersections_SOURCES = %D%/test_intersections.c %D%/sheet_fixture.c \
   %D%/sheet_fixture.h
 %C%_test_intersections_LDADD = $(failures_libs)
+
+# The tables of doc/failures.md, which test_failures_matrix.sh compares.
+check_PROGRAMS += %D%/failures_matrix
+%C%_failures_matrix_SOURCES = %D%/failures_matrix.c
+%C%_failures_matrix_LDADD = %D%/measure/libmeasure.la \
+  %D%/scenes/libscenes.la librecto_core.la -lm
+
+# The tables and the pictures of doc/failures.md, as they are now.
+failures: %D%/failures_matrix$(EXEEXT)
+	{ sed '/^### Lines/,$$d' '$(srcdir)/doc/failures.md' && \
+	  %D%/failures_matrix && echo && \
+	  sed -n '/^## Pictures/,$$p' '$(srcdir)/doc/failures.md'; } \
+	  >failures.new && mv failures.new '$(srcdir)/doc/failures.md'
+	%D%/failures_matrix '$(srcdir)/doc/images/failures'
+.PHONY: failures
+EXTRA_DIST += doc/failures.md doc/images/failures
