@@ -16,8 +16,7 @@ struct writer_options {
   recto_warning_fn warning; /* NULL: no warnings */
   void *user;               /* passed to `warning` */
   double dpi;               /* PNG: pixels per inch; 0: 150 */
-  bool tight;         /* PDF, EPS, PS, PNG: the page is the bounding box of the
-                         ink */
+  bool tight; /* all but HPGL: the page is the bounding box of the ink */
   const char *device; /* HPGL: a device's name (device.h); NULL: "generic" */
   double velocity;    /* HPGL: speed with the pen down, cm/s; 0: the plotter's
                          default */

@@ -153,53 +153,6 @@ static cairo_status_t pass_png(void *closure, const unsigned char *bytes,
   return sink_status(sink);
 }
 
-/* ---- What of the page is shown ------------------------------------------- */
-
-/* The rectangle of the page that becomes the page of the file. */
-struct crop_window {
-  double x0, y0, x1, y1; /* page mm */
-};
-
-static void include_points(struct crop_window *window,
-                           const struct drawing_point *point, uint32_t count,
-                           double half_width) {
-  for (uint32_t i = 0; i < count; i++) {
-    window->x0 = fmin(window->x0, point[i].x - half_width);
-    window->y0 = fmin(window->y0, point[i].y - half_width);
-    window->x1 = fmax(window->x1, point[i].x + half_width);
-    window->y1 = fmax(window->y1, point[i].y + half_width);
-  }
-}
-
-/* The page, or if `tight` the bounding box of the ink, unless there is no ink.
- * The box of the points extended by half the pen's width is exact, since caps
- * and joins are round; that of a curve's control points holds the curve. */
-static struct crop_window find_window(const struct drawing *drawing,
-                                      bool tight) {
-  struct crop_window page = {0, 0, drawing->width_mm, drawing->height_mm};
-  struct crop_window ink = {INFINITY, INFINITY, -INFINITY, -INFINITY};
-  for (size_t i = 0; i < drawing->stroke.count && poll_at(i); i++) {
-    const struct drawing_stroke *stroke = &drawing->stroke.item[i];
-    const struct drawing_curve *curve = drawing_curve_of(drawing, i);
-    double half_width = drawing_width_mm(drawing, stroke) / 2;
-    if (curve != NULL)
-      include_points(&ink, drawing->control.item + curve->control, curve->count,
-                     half_width);
-    else
-      include_points(&ink, drawing->point.item + stroke->point, stroke->count,
-                     half_width);
-  }
-  for (size_t i = 0; i < drawing->fill.count; i++) {
-    const struct drawing_fill *fill = &drawing->fill.item[i];
-    for (uint32_t j = 0; j < fill->loops; j++) {
-      const struct drawing_loop *loop = &drawing->loop.item[fill->loop + j];
-      include_points(&ink, drawing->point.item + loop->point, loop->count,
-                     drawing->seam_mm / 2);
-    }
-  }
-  return tight && ink.x0 < ink.x1 && ink.y0 < ink.y1 ? ink : page;
-}
-
 /* ---- Drawing ------------------------------------------------------------- */
 
 static void set_colour(cairo_t *cr, uint32_t colour) {
@@ -293,7 +246,7 @@ static void draw_layer(cairo_t *cr, const struct drawing *drawing,
  * its lower left corner at (0, foot). */
 static cairo_status_t draw_window(cairo_surface_t *surface,
                                   const struct drawing *drawing,
-                                  const struct crop_window *window,
+                                  const struct drawing_window *window,
                                   double scale, double foot, bool on_white) {
   cairo_t *cr = cairo_create(surface);
   cairo_matrix_t matrix;
@@ -353,7 +306,7 @@ static recto_status write_vector(const struct drawing *drawing,
                                  struct stream *stream, recto_error *error,
                                  open_surface *open) {
   const double scale = POINTS_PER_INCH / MM_PER_INCH;
-  struct crop_window window = find_window(drawing, options->tight);
+  struct drawing_window window = drawing_window(drawing, options->tight);
   struct sink sink = {.stream = stream,
                       .in_header = true,
                       .width_pt = mm_to_points(window.x1 - window.x0),
@@ -432,7 +385,7 @@ static recto_status write_png(const struct drawing *drawing,
   if (!(dpi > 0 && dpi < INFINITY))
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
                      "a resolution is more than 0 dots per inch");
-  struct crop_window window = find_window(drawing, options->tight);
+  struct drawing_window window = drawing_window(drawing, options->tight);
   double width = pixels(window.x1 - window.x0, dpi, options->tight);
   double height = pixels(window.y1 - window.y0, dpi, options->tight);
   if (width > MAX_PIXELS_A_SIDE || height > MAX_PIXELS_A_SIDE ||

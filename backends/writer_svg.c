@@ -402,19 +402,26 @@ static bool write_layer(struct svg *svg, uint32_t index) {
   return true;
 }
 
+/* Lengths of the page, which has its origin at the upper left corner also where
+ * only the box of the ink is shown: the coordinates are the same then. */
 static void write_head(const struct svg *svg) {
   struct stream *out = svg->out;
+  struct drawing_window window =
+      drawing_window(svg->drawing, svg->options->tight);
+  const double box[] = {window.x0, svg->drawing->height_mm - window.y1,
+                        window.x1 - window.x0, window.y1 - window.y0};
   stream_text(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
                    "<svg xmlns=\"http://www.w3.org/2000/svg\" "
                    "xmlns:inkscape=\"http://www.inkscape.org/namespaces/"
                    "inkscape\" width=\"");
-  write_length(svg, svg->drawing->width_mm);
+  write_length(svg, box[2]);
   stream_text(out, "mm\" height=\"");
-  write_length(svg, svg->drawing->height_mm);
-  stream_text(out, "mm\" viewBox=\"0 0 ");
-  write_length(svg, svg->drawing->width_mm);
-  stream_text(out, " ");
-  write_length(svg, svg->drawing->height_mm);
+  write_length(svg, box[3]);
+  stream_text(out, "mm\" viewBox=\"");
+  for (int i = 0; i < 4; i++) {
+    stream_text(out, i > 0 ? " " : "");
+    write_length(svg, box[i]);
+  }
   stream_text(out, "\">\n");
 }
 

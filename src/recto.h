@@ -321,7 +321,10 @@ typedef struct recto_page_options {
                        RECTO_USUAL_MARGIN_MM or, if that is less, a quarter of
                        the shorter side; as much more as the plotter of the
                        output's format needs */
-  uint64_t reserved[8];
+  bool may_turn;    /* the page is turned by a quarter where RECTO_FIT_PAGE then
+                       draws the scene larger, or RECTO_FIT_SCALE more of it */
+  char unused[7];   /* 0 */
+  uint64_t reserved[7];
 } recto_page_options;
 
 typedef struct recto_ink_options {
@@ -388,7 +391,8 @@ typedef struct recto_output_options {
   double unit_mm;
   int precision;        /* decimals of a millimetre in text formats, 0 to 9 */
   bool polyline;        /* SVG: <polyline> elements instead of <path> */
-  bool tight;           /* PDF, EPS, PS, PNG: the page is the ink's box */
+  bool tight;           /* all but HPGL: the page is the ink's box; of a drawing
+                           to check, it is */
   double dpi;           /* PNG: pixels per inch; 0: 150 */
   const char *device;   /* HPGL: the plotter's name; NULL: "generic" */
   double velocity_cm_s; /* HPGL: pen speed; 0: the plotter's own */
@@ -418,7 +422,7 @@ typedef struct recto_options {
   void *user;
 } recto_options;
 
-/* Fills `options` with the defaults: auto, isometric, A4 portrait with a 10 mm
+/* Fills `options` with the defaults: auto, isometric, A4 upright with a 10 mm
  * margin, a 0.3 mm pen, every class of edge but the smooth ones. */
 #define recto_options_init(options)                                            \
   recto_options_init_sized((options), sizeof *(options))

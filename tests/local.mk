@@ -104,7 +104,7 @@ endif
 %C%_test_cairo_SOURCES = %D%/test_cairo.c %D%/drawing_fixture.c %D%/drawing_fixture.h
 check_PROGRAMS += %D%/paper_tool
 %C%_paper_tool_SOURCES = %D%/paper_tool.c %D%/drawing_fixture.c %D%/drawing_fixture.h
-dist_check_SCRIPTS += %D%/test_paper.sh %D%/test_same_picture.sh %D%/test_seams.sh \
+dist_check_SCRIPTS += %D%/test_cli_page.sh %D%/test_paper.sh %D%/test_same_picture.sh %D%/test_seams.sh \
   %D%/test_speckles.sh %D%/test_tone.sh %D%/test_verify_rounding.sh %D%/test_viewers.sh
 
 # Layer 0.

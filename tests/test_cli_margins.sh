@@ -85,7 +85,7 @@ claim "--quiet clips in silence" eval \
 claim "--fit and --page help with --scale" eval \
   'run 0 square.obj -o a.svg ${large[@]} && warned ".*--fit .*--scale .*--page"'
 claim "--landscape may help" eval \
-  'run 0 wide.obj -o a.svg --view front --scale 1:1 && warned ".*--landscape" &&
+  'run 0 wide.obj -o a.svg --view front --scale 1:1 --portrait && warned ".*--landscape" &&
    run 0 wide.obj -o a.svg --view front --scale 1:1 --landscape && silent'
 claim "what is in the margins alone is on the page itself" eval \
   'run 0 close.obj -o a.svg ${large[@]} && warned ".*--margin 0" &&

@@ -45,7 +45,7 @@ has_cairo() { grep -q -- '--dpi' help.txt; }
 # What is used with FILE and OPTIONS, and not with FILE and OPTIONS, and who
 # says so.
 while IFS='|' read -r option used unused line; do
-  case $option in --tight | --dpi*) has_cairo || continue ;; esac
+  case $option in --dpi*) has_cairo || continue ;; esac
   # shellcheck disable=SC2086 # words of options
   claim "$option is used by $used" is_used $used $option
   # What is said later wins.
@@ -97,7 +97,7 @@ done <<'END_OF_ROWS'
 --device drum|a.svg --stats|a.svg|hpgl and --stats; svg
 --velocity 3|a.hpgl|a.svg|hpgl and --stats; svg
 --velocity-up 3|a.svg --stats|a.hpgl|the time in --stats; a run without --stats
---tight|a.pdf|a.svg|pdf, eps, ps and png; svg
+--tight|a.svg|a.hpgl|svg, pdf, eps, ps and png; hpgl
 --dpi 30|a.png|a.pdf|png; pdf
 END_OF_ROWS
 
@@ -117,8 +117,8 @@ while IFS='|' read -r option line; do
   claim "$option is not used by --check" check_tells $option
 done <<'END_OF_ROWS'
 --method newell|drawings
---page A5|drawings
---landscape|drawings
+--page A5|drawings and --tight
+--landscape|drawings and --tight
 --threads 1|drawings
 --fill paint|drawings
 --hidden layer|lines
@@ -136,6 +136,9 @@ claim "--check looks with the same camera, edges and tolerances" \
   -e all --crease 20 --contact 0 --pen 0.3 --min-stroke 0.1 --exact --pen-width 2=0.5 \
   --simplify 0.1 --curves 0.1
 
+claim "and at the page of a tight drawing" \
+  check_uses --tight -p A4 --portrait
+
 claim "a tolerance is used by --check" check_uses --tolerance 1%
 
 all_are_quiet() {
@@ -150,7 +153,7 @@ claim "the drawing is the same, a line an option" draws_the_same
 
 # Those that always do something, or that refuse what they do not go with.
 always='--output --format --from --method --view --turntable --azimuth --elevation --camera
---up --ortho --fit --no-fit --near --section --page --landscape --margin --edges
+--up --ortho --fit --no-fit --near --section --page --landscape --portrait --margin --edges
 --weld --fill --stats --verify --check --tolerance --threads --progress --quiet --completion --version --help'
 every_option_has_its_row() {
   grep -oE -- '^ +(-.,)? *--[a-z-]+' help.txt | grep -oE -- '--[a-z-]+' |

@@ -14,7 +14,7 @@ done
 
 # draw NAME MODEL OPTION... - NAME.svg, A4 upright.
 draw() {
-  "$recto" "$models/$2.obj" -o "$1.svg" "${@:3}"
+  "$recto" "$models/$2.obj" --portrait -o "$1.svg" "${@:3}"
 }
 
 # count NAME XPATH - how many of them there are in the file.

@@ -43,6 +43,7 @@ class Options(TypedDict, total=False):
 
     page: Union[str, Sequence[float]]  # "A4", or (width, height)
     landscape: bool
+    portrait: bool
     margin: float
 
     edges: Union[str, Iterable[str]]
@@ -250,6 +251,7 @@ class _Setter:
         self.options.camera.has_section = True
 
     def page(self, value: Any) -> None:
+        self.options.page.may_turn = isinstance(value, str)
         if isinstance(value, str):
             value = _word("page", value.lower(), PAGES)
         if len(value) != 2:
@@ -261,6 +263,14 @@ class _Setter:
         sides = sorted([page.width_mm, page.height_mm])
         if value:
             page.height_mm, page.width_mm = sides
+            page.may_turn = False
+
+    def portrait(self, value: bool) -> None:
+        page = self.options.page
+        sides = sorted([page.width_mm, page.height_mm])
+        if value:
+            page.width_mm, page.height_mm = sides
+            page.may_turn = False
 
     def edges(self, value: Any) -> None:
         known = {"none": 0, "all": lib.RECTO_EDGES_ALL, **EDGE_CLASSES}
@@ -387,13 +397,14 @@ class Filled:
         self.call = Call(given.get("progress"))
         self.at = ffi.new("recto_options *")
         lib.recto_options_init_sized(self.at, ffi.sizeof("recto_options"))
+        self.at.page.may_turn = True
         self.at.progress = ffi.addressof(lib, "recto_python_poll")
         self.at.warning = lib.recto_python_warning
         self.at.user = self.call.user
         self._setter = _Setter(self.at)
         # A view sets both angles, which may be given too; a page is turned
         # once its size is known.
-        first, last = ("view", "page"), ("landscape",)
+        first, last = ("view", "page"), ("landscape", "portrait")
         names = [n for n in first if n in given]
         names += [n for n in given if n not in first + last]
         names += [n for n in last if n in given]

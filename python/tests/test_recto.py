@@ -85,6 +85,8 @@ def test_options():
          {"camera": np.array([3, 4, 5]), "lookat": [0, 0, 1]}),
         (["--fov", "60"], {"fov": 60}),
         (["--page=A3", "--landscape"], {"landscape": True, "page": "A3"}),
+        (["--portrait"], {"portrait": True}),
+        (["--page=A5"], {"page": "A5"}),
         (["--page=80x60"], {"page": (80, 60), "margin": -1}),
         (["--scale=20:1", "--up=0,0,1"], {"scale": 20, "up": (0, 0, 1)}),
         (["--section=0.3", "--edges=all"], {"section": 0.3, "edges": "all"}),

@@ -62,11 +62,21 @@ static recto_status find_shortest(struct judge_options *options,
   return status;
 }
 
+/* Moves a drawing whose page was cropped to the place that its coordinates had
+ * on a page of that height. */
+static void undo_cropping(struct judge_drawing *drawing, double height_mm) {
+  double up = height_mm - drawing->height_mm - drawing->top_mm;
+  for (size_t i = 0; i < drawing->point.count; i++) {
+    drawing->point.item[i].x += drawing->left_mm;
+    drawing->point.item[i].y += up;
+  }
+}
+
 /* Checks a drawing.
  * o  its lengths are scaled as the scene is */
 static recto_status judge_file_drawing(const struct scene *scene,
                                        const recto_options *o,
-                                       const struct judge_drawing *drawing,
+                                       struct judge_drawing *drawing,
                                        struct judge_verdict *verdict,
                                        recto_error *error) {
   struct camera camera;
@@ -74,6 +84,8 @@ static recto_status judge_file_drawing(const struct scene *scene,
   recto_status status = camera_aim(&camera, scene, o, error);
   if (status != RECTO_OK)
     return status;
+  if (o->output.tight)
+    undo_cropping(drawing, camera.page_mm[1]);
   if (!judge_input_init(&input, scene))
     return error_memory(error);
   struct judge_camera seen = judge_input_camera(&input, &camera, o);
@@ -112,8 +124,11 @@ recto_status recto_scene_check_sized(const recto_scene *scene, const char *path,
                                      : error_cancelled(error);
   if (status == RECTO_OK) {
     struct preparation prepared;
-    checked.page.width_mm = drawing.width_mm;
-    checked.page.height_mm = drawing.height_mm;
+    if (!checked.output.tight) {
+      checked.page.width_mm = drawing.width_mm;
+      checked.page.height_mm = drawing.height_mm;
+      checked.page.may_turn = false;
+    }
     status = preparation_init(&prepared, &scene->scene, &checked, false, error);
     topology_fini(&prepared.topology); /* the judge has its own */
     if (status == RECTO_OK)

@@ -38,6 +38,7 @@ static void say_help(struct sentence *words,
                      const struct page_overflow *overflow, double margin_mm,
                      const recto_options *options) {
   bool narrow = overflow->axis[0] && !overflow->axis[1] &&
+                !options->page.may_turn &&
                 options->page.width_mm < options->page.height_mm;
   sentence_add(words, ": ");
   switch (options->camera.fit) {

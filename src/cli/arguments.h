@@ -35,7 +35,7 @@ struct arguments {
 
   /* Which options were given, for rules that depend on several. */
   bool view_given, direction_given, eye_given, fov_given;
-  bool ortho, landscape;
+  bool ortho, landscape, portrait;
   bool seen[MAX_OPTIONS]; /* by the option's index in the table */
 
   /* What the options' arrays refer to. */
@@ -86,7 +86,8 @@ enum option_use {
   USED_BY_LIGHT,
   USED_BY_SVG,
   USED_BY_SCREENS,
-  USED_BY_CAIRO,
+  USED_BY_TIGHT,
+  USED_BY_PAGE,
   USED_BY_PNG,
   USED_BY_PLOTTER,
   USED_BY_STATS,

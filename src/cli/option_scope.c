@@ -122,7 +122,10 @@ static const struct {
     [USED_BY_SVG] = {"svg", BIT(SVG)},
     [USED_BY_SCREENS] = {"svg, pdf, eps, ps and png",
                          BIT(SVG) | BIT(PNG) | BIT(VECTOR_PAGES)},
-    [USED_BY_CAIRO] = {"pdf, eps, ps and png", BIT(PNG) | BIT(VECTOR_PAGES)},
+    [USED_BY_TIGHT] = {"svg, pdf, eps, ps and png",
+                       BIT(SVG) | BIT(PNG) | BIT(VECTOR_PAGES) | BIT(BY_CHECK)},
+    /* A drawing that is checked brings its page, unless that was cropped. */
+    [USED_BY_PAGE] = {"drawings and --tight", ~BIT(BY_CHECK)},
     [USED_BY_PNG] = {"png", BIT(PNG)},
     [USED_BY_PLOTTER] = {"hpgl and --stats", BIT(HPGL) | BIT(STATS)},
     [USED_BY_STATS] = {"the time in --stats", BIT(STATS)},
@@ -159,7 +162,10 @@ void option_scope_warn(const struct arguments *arguments,
     const struct option_entry *entry = &option_table[i];
     for (int k = 0; arguments->seen[i] && k < OPTION_USES; k++) {
       uint64_t bits = condition[entry->use[k]].bits;
-      bool checks = requests & BIT(CHECK) && !(bits & BIT(BY_CHECK));
+      bool by_page =
+          entry->use[k] == USED_BY_PAGE && arguments->options.output.tight;
+      bool checks =
+          requests & BIT(CHECK) && !(bits & BIT(BY_CHECK)) && !by_page;
       if (entry->use[k] == USED_ALWAYS || (!checks && bits & requests))
         continue;
       char text[MESSAGE_SIZE];

@@ -70,7 +70,8 @@ static bool parse_scale(struct arguments *arguments, const char *text) {
 
 static bool parse_page(struct arguments *arguments, const char *text) {
   return value_page(text, &arguments->options.page.width_mm,
-                    &arguments->options.page.height_mm);
+                    &arguments->options.page.height_mm,
+                    &arguments->options.page.may_turn);
 }
 
 static bool parse_depth_bits(struct arguments *arguments, const char *text) {
@@ -259,9 +260,12 @@ const struct option_entry option_table[] = {
     {OPTION_PARSED, "page", 'p', "SIZE",
      "A0 to A6, letter, legal or a size such as 200x100mm",
      "A0 to A6, letter, legal, WxH (A4)", .parse = parse_page,
-     .word = name_page, .use = {USED_BY_DRAWING}},
-    {OPTION_FLAG, "landscape", 0, NULL, NULL, "the page's long side lies",
-     .offset = AT(landscape), .use = {USED_BY_DRAWING}},
+     .word = name_page, .use = {USED_BY_PAGE}},
+    {OPTION_FLAG, "landscape", 0, NULL, NULL,
+     "the page's long side lies (whichever draws larger)",
+     .offset = AT(landscape), .use = {USED_BY_PAGE}},
+    {OPTION_FLAG, "portrait", 0, NULL, NULL, "the page's long side stands",
+     .offset = AT(portrait), .use = {USED_BY_PAGE}},
     {OPTION_LENGTH, "margin", 0, "LENGTH", "a length, 0 or more",
      "left free on every side (10mm; a plotter: its own)",
      .offset = AT(options.page.margin_mm), .least = 0, .most = DBL_MAX},
@@ -369,15 +373,14 @@ const struct option_entry option_table[] = {
      "pen up, for the time in --stats",
      .offset = AT(options.output.velocity_up_cm_s), .least = 1, .most = 1000,
      .use = {USED_BY_STATS}},
-#ifdef HAVE_CAIRO
     {OPTION_FLAG, "tight", 0, NULL, NULL,
-     "PDF, EPS, PS, PNG: crop the page to the ink",
-     .offset = AT(options.output.tight), .use = {USED_BY_CAIRO}},
+     "crop the page to the ink; not for HPGL",
+     .offset = AT(options.output.tight), .use = {USED_BY_TIGHT}},
+#ifdef HAVE_CAIRO
     {OPTION_NUMBER, "dpi", 0, "N", "a number from 1 to 10000",
      "PNG: pixels per inch (150)", .offset = AT(options.output.dpi), .least = 1,
      .most = 10000, .use = {USED_BY_PNG}},
 #else
-    ABSENT("tight", NULL),
     ABSENT("dpi", "N"),
 #endif
 

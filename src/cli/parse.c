@@ -227,12 +227,23 @@ static bool settle_files(struct arguments *a, char message[MESSAGE_SIZE]) {
   return true;
 }
 
-static void settle_page(struct arguments *a) {
-  double width = a->options.page.width_mm;
-  if (a->landscape && width < a->options.page.height_mm) {
-    a->options.page.width_mm = a->options.page.height_mm;
-    a->options.page.height_mm = width;
+static bool settle_page(struct arguments *a, char message[MESSAGE_SIZE]) {
+  recto_page_options *page = &a->options.page;
+  double width = page->width_mm;
+  if (a->landscape && a->portrait) {
+    snprintf(message, MESSAGE_SIZE,
+             "--landscape and --portrait exclude each other");
+    return false;
   }
+  /* The page of a turntable is the same all around. */
+  if (a->landscape || a->portrait || a->turntable > 0)
+    page->may_turn = false;
+  if (a->landscape ? width < page->height_mm
+                   : a->portrait && width > page->height_mm) {
+    page->width_mm = page->height_mm;
+    page->height_mm = width;
+  }
+  return true;
 }
 
 void arguments_fini(struct arguments *arguments) {
@@ -247,6 +258,7 @@ bool arguments_parse(struct arguments *arguments, int argc, char **argv,
   fill_getopt(longs, letters);
   *arguments = (struct arguments){0};
   recto_options_init(&arguments->options);
+  arguments->options.page.may_turn = true;
   opterr = 0;
   int code;
   while ((code = getopt_long(argc, argv, letters, longs, NULL)) != -1) {
@@ -261,6 +273,6 @@ bool arguments_parse(struct arguments *arguments, int argc, char **argv,
   arguments->model_count = argc - optind;
   if (arguments->help || arguments->version || arguments->completes)
     return true;
-  settle_page(arguments);
-  return settle_camera(arguments, message) && settle_files(arguments, message);
+  return settle_page(arguments, message) && settle_camera(arguments, message) &&
+         settle_files(arguments, message);
 }

@@ -98,7 +98,8 @@ bool value_vector(const char *text, double vector[3]) {
 
 /* ---- Pages --------------------------------------------------------------- */
 
-bool value_page(const char *text, double *width_mm, double *height_mm) {
+bool value_page(const char *text, double *width_mm, double *height_mm,
+                bool *is_named) {
   const char *name;
   double size_mm[2], unit_mm[2];
   for (size_t i = 0;
@@ -106,6 +107,7 @@ bool value_page(const char *text, double *width_mm, double *height_mm) {
     if (strcasecmp(text, name) == 0) {
       *width_mm = size_mm[0];
       *height_mm = size_mm[1];
+      *is_named = true;
       return true;
     }
   const char *cross = read_length(text, 0, &size_mm[0], &unit_mm[0]);
@@ -116,6 +118,7 @@ bool value_page(const char *text, double *width_mm, double *height_mm) {
     return false;
   *width_mm = size_mm[0] * (unit_mm[0] > 0 ? unit_mm[0] : unit_mm[1]);
   *height_mm = size_mm[1] * unit_mm[1];
+  *is_named = false;
   return true;
 }
 

@@ -27,7 +27,8 @@ bool value_vector(const char *text, double vector[3]);
 
 /* A page: A0 to A6, letter or legal, upright, in any case; or WxH, two
  * lengths above 0, where a unit of the second serves the first too. */
-bool value_page(const char *text, double *width_mm, double *height_mm);
+bool value_page(const char *text, double *width_mm, double *height_mm,
+                bool *is_named);
 
 /* A scale above 0: page to scene, such as 1:2, or its quotient. */
 bool value_scale(const char *text, double *scale);

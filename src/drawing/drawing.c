@@ -77,3 +77,40 @@ double drawing_travel_mm(const struct drawing *drawing) {
     }
   return travel;
 }
+
+static void include_points(struct drawing_window *window,
+                           const struct drawing_point *point, uint32_t count,
+                           double half_width) {
+  for (uint32_t i = 0; i < count; i++) {
+    window->x0 = fmin(window->x0, point[i].x - half_width);
+    window->y0 = fmin(window->y0, point[i].y - half_width);
+    window->x1 = fmax(window->x1, point[i].x + half_width);
+    window->y1 = fmax(window->y1, point[i].y + half_width);
+  }
+}
+
+struct drawing_window drawing_window(const struct drawing *drawing,
+                                     bool tight) {
+  struct drawing_window page = {0, 0, drawing->width_mm, drawing->height_mm};
+  struct drawing_window ink = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+  for (size_t i = 0; i < drawing->stroke.count && poll_at(i); i++) {
+    const struct drawing_stroke *stroke = &drawing->stroke.item[i];
+    const struct drawing_curve *curve = drawing_curve_of(drawing, i);
+    double half_width = drawing_width_mm(drawing, stroke) / 2;
+    if (curve != NULL)
+      include_points(&ink, drawing->control.item + curve->control, curve->count,
+                     half_width);
+    else
+      include_points(&ink, drawing->point.item + stroke->point, stroke->count,
+                     half_width);
+  }
+  for (size_t i = 0; i < drawing->fill.count; i++) {
+    const struct drawing_fill *fill = &drawing->fill.item[i];
+    for (uint32_t j = 0; j < fill->loops; j++) {
+      const struct drawing_loop *loop = &drawing->loop.item[fill->loop + j];
+      include_points(&ink, drawing->point.item + loop->point, loop->count,
+                     drawing->seam_mm / 2);
+    }
+  }
+  return tight && ink.x0 < ink.x1 && ink.y0 < ink.y1 ? ink : page;
+}

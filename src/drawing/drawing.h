@@ -128,6 +128,16 @@ USE_RESULT bool drawing_flatten(const struct drawing *drawing,
                                 const struct drawing_curve *curve,
                                 double distance, struct drawing_polyline *line);
 
+/* A rectangle of the page. */
+struct drawing_window {
+  double x0, y0, x1, y1; /* page mm */
+};
+
+/* The page, or if `tight` the bounding box of the ink, unless there is no ink.
+ * The box of the points extended by half the pen's width is exact, since caps
+ * and joins are round; that of a curve's control points holds the curve. */
+struct drawing_window drawing_window(const struct drawing *drawing, bool tight);
+
 /* The drawn length, and the pen-up travel in drawing order over all layers from
  * the lower left corner of the page.  Both in mm.
  * Cost  linear; the travel takes a pass over all strokes for every layer. */

@@ -40,6 +40,7 @@ struct judge_stroke {
 
 struct judge_drawing {
   double width_mm, height_mm;
+  double left_mm, top_mm; /* where the page begins in the file's coordinates */
   ARRAY(struct judge_point2) point; /* mm, y up from the lower left corner */
   ARRAY(struct judge_stroke) stroke;
 };

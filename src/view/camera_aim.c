@@ -300,26 +300,53 @@ static recto_status set_depth_range(struct aim *aim) {
 
 /* ---- Fit ----------------------------------------------------------------- */
 
-/* Scales the drawing to fill the page inside the margins.  An extent that is
- * rounding error only is ignored; where both are, the scene's size is used. */
-static void fit_page(struct aim *aim) {
-  struct camera *camera = aim->camera;
-  struct extent e = extent_of_drawing(camera, aim->scene, aim->used,
-                                      aim->options->camera.has_section ||
-                                          !camera->perspective);
+/* The scale at which the extent fills a page inside its margins.  An extent
+ * that is rounding error only is ignored; where both are, the scene's size is
+ * used. */
+static double scale_to_fit(const struct aim *aim, const struct extent *e,
+                           double width_mm, double height_mm) {
+  const struct camera *camera = aim->camera;
   double size =
       camera->perspective ? camera->size / camera->d_max : camera->size;
-  camera->s = INFINITY;
-  double least_printable = INFINITY;
+  double margins = 2 * margin_of(aim->options), scale = INFINITY;
+  const double printable[2] = {width_mm - margins, height_mm - margins};
   for (int k = 0; k < 2; k++) {
-    double printable = camera->page_mm[k] - 2 * margin_of(aim->options);
-    double extent = e.high[k] - e.low[k];
-    least_printable = fmin(least_printable, printable);
+    double extent = e->high[k] - e->low[k];
     if (extent > size * TOLERANCE_EXTENT_SHARE)
-      camera->s = fmin(camera->s, printable / extent);
+      scale = fmin(scale, printable[k] / extent);
   }
-  if (camera->s == INFINITY)
-    camera->s = least_printable / (size > 0 ? size : 1);
+  return scale < INFINITY
+             ? scale
+             : fmin(printable[0], printable[1]) / (size > 0 ? size : 1);
+}
+
+static struct extent extent_of_scene(const struct aim *aim) {
+  return extent_of_drawing(aim->camera, aim->scene, aim->used,
+                           aim->options->camera.has_section ||
+                               !aim->camera->perspective);
+}
+
+/* Turns the page by a quarter, if that is allowed, where the drawing fits it at
+ * a larger scale.
+ * enough  a scale that need not be exceeded */
+static void choose_orientation(struct aim *aim, const struct extent *e,
+                               double enough) {
+  double *page = aim->camera->page_mm;
+  double upright = scale_to_fit(aim, e, page[0], page[1]);
+  double turned = scale_to_fit(aim, e, page[1], page[0]);
+  if (aim->options->page.may_turn && upright < enough && turned > upright) {
+    double width = page[0];
+    page[0] = page[1];
+    page[1] = width;
+  }
+}
+
+/* Scales the drawing to fill the page inside the margins. */
+static void fit_page(struct aim *aim) {
+  struct camera *camera = aim->camera;
+  struct extent e = extent_of_scene(aim);
+  choose_orientation(aim, &e, INFINITY);
+  camera->s = scale_to_fit(aim, &e, camera->page_mm[0], camera->page_mm[1]);
   for (int k = 0; k < 2; k++)
     camera->middle_mm[k] =
         camera->page_mm[k] / 2 - camera->s * (e.low[k] / 2 + e.high[k] / 2);
@@ -368,6 +395,8 @@ static void set_scale(struct aim *aim) {
       camera->s *= view_of_aim(aim, aim->target).d;
     else if (aim->far)
       camera->s *= aim->target_d / aim->centre_d;
+    struct extent e = extent_of_scene(aim);
+    choose_orientation(aim, &e, camera->s);
   } else if (camera->perspective || aim->far) {
     struct angle half = angle_of_degrees(o->camera.fov_deg / 2);
     camera->s = (o->page.height_mm - 2 * margin_of(o)) /

@@ -122,8 +122,10 @@ static bool is_ink(const struct svg_reader *reader,
 
 /* Sets the matrix that fits the viewBox into the page, scaled evenly and
  * centred, which is the default of SVG, or stretched; flips y. */
-static const char *fit_view(const struct svg_tag *tag, double width,
-                            double height, struct svg_matrix *to_page) {
+static const char *fit_view(const struct svg_tag *tag,
+                            struct judge_drawing *drawing,
+                            struct svg_matrix *to_page) {
+  double width = drawing->width_mm, height = drawing->height_mm;
   struct svg_text box, aspect;
   const double px = 25.4 / 96;
   double v[4] = {0, 0, width / px, height / px};
@@ -141,6 +143,8 @@ static const char *fit_view(const struct svg_tag *tag, double width,
   double x = (width - sx * v[2]) / 2 - sx * v[0];
   double y = (height - sy * v[3]) / 2 - sy * v[1];
   *to_page = (struct svg_matrix){sx, 0, 0, -sy, x, height - y};
+  drawing->left_mm = -x;
+  drawing->top_mm = -y;
   return NULL;
 }
 
@@ -157,7 +161,7 @@ static const char *read_root(struct svg_reader *reader,
       !svg_length_mm(height, &drawing->height_mm))
     return "a page without a width and a height";
   reader->root = true;
-  return fit_view(tag, drawing->width_mm, drawing->height_mm, &style->to_page);
+  return fit_view(tag, drawing, &style->to_page);
 }
 
 /* ---- Shapes -------------------------------------------------------------- */
