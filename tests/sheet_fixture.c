@@ -102,8 +102,7 @@ static void check_triangles(const struct sheet_fixture *fixture) {
       assert_true(one->face >= one[-1].face);
     int64_t area = area_of(sheet, t);
     assert_true(area >= 0);
-    assert_int_equal(sheet->triangle_flags[t] & SHEET_FLAT,
-                     area == 0 ? SHEET_FLAT : 0);
+    assert_int_equal(sheet_is_edge_on(sheet, t), area == 0);
     for (int k = 0; k < 3; k++)
       assert_true(!sheet_is_inner_side(sheet, (uint32_t)t, k) ||
                   one->side[k] == SHEET_NONE ||
@@ -228,12 +227,12 @@ static struct side *list_sides(const struct sheet *sheet) {
     for (size_t k = 0; k < 3; k++) {
       const struct sheet_triangle *one = &sheet->triangle.item[t];
       uint32_t a = one->point[k], b = one->point[(k + 1) % 3];
-      bool flat = sheet->triangle_flags[t] & SHEET_FLAT;
+      bool edge_on = sheet_is_edge_on(sheet, t);
       side[3 * t + k] = (struct side){a < b ? a : b, a < b ? b : a,
                                       one->side[k] == SHEET_NONE
                                           ? UINT64_C(1) << 32 | one->face
                                           : one->side[k],
-                                      flat    ? 0
+                                      edge_on ? 0
                                       : a < b ? 1
                                               : -1};
     }

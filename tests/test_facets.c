@@ -186,7 +186,7 @@ static void flat_triangles_stay_alone(void **state) {
   add_grid(&sheet, 1);
   sheet.point.item[2].x = 10;
   sheet.point.item[2].y = 20;
-  sheet.triangle_flags[1] = SHEET_FLAT;
+  sheet.triangle_flags[1] = SHEET_EDGE_ON;
   assert_true(facets_init(&facets, &sheet));
   assert_int_equal(facet_outline(&facets, &sheet, 0, &corner, &side), 3);
   assert_int_equal(facet_of(&facets, 1), 1);

@@ -150,11 +150,11 @@ static void solve_in_pieces(const struct sheet *sheet, int cuts, uint64_t *r,
   assert_true(fragments_init(&fragments, sheet, &grid, true));
   occluder_subtraction_init(&subtraction, sheet);
   for (uint32_t f = n; f-- > 0;) {
-    if (sheet->triangle_flags[f] & SHEET_FLAT)
+    if (sheet_is_edge_on(sheet, f))
       continue;
     assert_true(occluder_subtraction_start(&subtraction, f, NULL));
     for (uint32_t g = 0; g < n; g++)
-      if (g != f && !(sheet->triangle_flags[g] & SHEET_FLAT))
+      if (g != f && !sheet_is_edge_on(sheet, g))
         assert_true(occluder_subtraction_subtract_nearer(&subtraction, g));
     for (int k = 0; k < cuts; k++) {
       struct geom_point p = sheet->point.item[exact_random_below(r, points)],

@@ -85,7 +85,7 @@ static void crossed_sheets_have_a_line(void **state) {
   exact_sheet_fini(&sheet);
   /* One seen edge-on pierces too. */
   init_two_triangles(&sheet, across, table);
-  assert_int_equal(sheet.triangle_flags[0], SHEET_FLAT);
+  assert_int_equal(sheet.triangle_flags[0], SHEET_EDGE_ON);
   assert_int_equal(pierce(&sheet), 1);
   assert_true(has_line(&sheet, (struct geom_point){2, 2, 8},
                        (struct geom_point){6, 6, 8}));
@@ -152,7 +152,7 @@ static void tilt(struct sheet *sheet) {
     const struct geom_point *p = sheet->point.item;
     int64_t area =
         geom_orient2d(p[at->point[0]], p[at->point[1]], p[at->point[2]]);
-    sheet->triangle_flags[t] = area == 0 ? SHEET_FLAT : 0;
+    sheet->triangle_flags[t] = area == 0 ? SHEET_EDGE_ON : 0;
     if (area < 0) {
       uint32_t swap = at->point[1];
       at->point[1] = at->point[2];
@@ -464,8 +464,8 @@ static void check_pair(struct sheet *sheet, int *pierced, int *within) {
     shared += geom_same_point(p[0][k / 3], p[1][k % 3]);
   want = shared < 2 && straddles(sheet, p[0], 1) && straddles(sheet, p[1], 0) &&
          common_segment(p[0], p[1], end);
-  if (want &&
-      !((sheet->triangle_flags[0] | sheet->triangle_flags[1]) & SHEET_FLAT)) {
+  if (want && !((sheet->triangle_flags[0] | sheet->triangle_flags[1]) &
+                SHEET_EDGE_ON)) {
     long double share = overlap_share(contact_grid_units(sheet), p);
     if (fabsl(share - 1) < 1e-9L)
       return;

@@ -307,7 +307,7 @@ static void check_tiling(const struct newell_order *order, const char *what) {
   mpq_init(sum);
   for (uint32_t t = 0; t < n; t++) {
     struct geom_point p[3];
-    if (order->sheet->triangle_flags[t] & SHEET_FLAT)
+    if (sheet_is_edge_on(order->sheet, t))
       continue;
     corners_of(order->sheet, t, p);
     mpq_set_si(sum, -geom_orient2d(p[0], p[1], p[2]), 1);

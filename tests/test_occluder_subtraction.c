@@ -12,17 +12,13 @@
 
 #include <cmocka.h>
 
-static bool is_flat(const struct sheet *sheet, size_t t) {
-  return sheet->triangle_flags[t] & SHEET_FLAT;
-}
-
 /* Subtracts all other triangles, one after another or all at once. */
 static void take_all(struct occluder_subtraction *subtraction, uint32_t t,
                      bool at_once) {
   const struct sheet *sheet = subtraction->sheet;
   assert_true(occluder_subtraction_start(subtraction, t, NULL));
   for (uint32_t g = 0; g < sheet->triangle.count; g++)
-    if (g != t && !is_flat(sheet, g))
+    if (g != t && !sheet_is_edge_on(sheet, g))
       assert_true(at_once
                       ? occluder_subtraction_collect(subtraction, g)
                       : occluder_subtraction_subtract_nearer(subtraction, g));
@@ -55,7 +51,7 @@ static void compare_all(const struct sheet *sheet,
   struct brute_pieces oracle = {0};
   occluder_subtraction_init(&subtraction, sheet);
   for (uint32_t t = 0; t < sheet->triangle.count; t++) {
-    if (is_flat(sheet, t))
+    if (sheet_is_edge_on(sheet, t))
       continue;
     assert_true(brute_subtract_all(&oracle, sheet, t, NULL));
     for (int at_once = 0; at_once < 2; at_once++) {

@@ -215,7 +215,7 @@ static void a_triangle_does_not_hide_its_own_sides(void **state) {
     struct sheet sheet;
     enum exact_kind kind = (enum exact_kind)(i % EXACT_KINDS);
     exact_random_sheet(&sheet, kind, 1, &r);
-    if (sheet.triangle.count == 1 && !(sheet.triangle_flags[0] & SHEET_FLAT)) {
+    if (sheet.triangle.count == 1 && !sheet_is_edge_on(&sheet, 0)) {
       struct occluder occluder;
       occluder_init(&occluder, &sheet, 0);
       for (int k = 0; k < 3; k++) {

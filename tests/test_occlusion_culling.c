@@ -148,8 +148,7 @@ static void add_soup(struct scene *scene, uint64_t seed, int count,
 static bool hides(const struct sheet *sheet, uint32_t t, struct geom_point p) {
   struct geom_triangle c = sheet_corners(sheet, t);
   struct occluder occluder;
-  if ((sheet->triangle_flags[t] & SHEET_FLAT) ||
-      geom_orient2d(c.p[0], c.p[1], p) <= 0 ||
+  if (sheet_is_edge_on(sheet, t) || geom_orient2d(c.p[0], c.p[1], p) <= 0 ||
       geom_orient2d(c.p[1], c.p[2], p) <= 0 ||
       geom_orient2d(c.p[2], c.p[0], p) <= 0)
     return false;

@@ -29,7 +29,7 @@ static struct geom_point place(int bits, int depth_bits) {
   return p;
 }
 
-/* One triangle that is not flat, seen as `perspective` says. */
+/* One triangle that is not edge-on, seen as `perspective` says. */
 static void start(struct sheet *sheet, bool perspective, int bits,
                   int depth_bits) {
   exact_sheet_init(sheet);

@@ -93,7 +93,7 @@ static int count_at(const struct sheet *sheet, uint32_t e, struct ratio t) {
     struct occluder occluder;
     struct occluded_interval part;
     struct occlusion_counts counts = {0};
-    if ((sheet->triangle_flags[i] & SHEET_FLAT) || i == edge->triangle[0] ||
+    if (sheet_is_edge_on(sheet, i) || i == edge->triangle[0] ||
         i == edge->triangle[1])
       continue;
     occluder_init(&occluder, sheet, i);

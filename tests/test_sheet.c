@@ -510,7 +510,7 @@ static void a_face_in_the_section_plane_stays(void **state) {
     front += fixture.sheet.point.item[p[0]].z == SHEET_Z_MAX &&
              fixture.sheet.point.item[p[1]].z == SHEET_Z_MAX &&
              fixture.sheet.point.item[p[2]].z == SHEET_Z_MAX &&
-             !(fixture.sheet.triangle_flags[t] & SHEET_FLAT);
+             !sheet_is_edge_on(&fixture.sheet, t);
   }
   assert_int_equal(front, 2); /* of the lower box: a quad */
   sheet_fixture_fini(&fixture);

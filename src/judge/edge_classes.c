@@ -85,8 +85,8 @@ static struct judge_facing facing_of(const struct judge_facings *facings,
                                      const struct judge_point3 *corner,
                                      size_t count, double contact) {
   struct judge_point3 sum = judge_area(facings->scene, face);
-  struct judge_facing facing = {.flat = !(point3_length(sum) > 0)};
-  if (!facing.flat)
+  struct judge_facing facing = {.has_no_area = !(point3_length(sum) > 0)};
+  if (!facing.has_no_area)
     facing.normal = point3_unit(sum);
   facing.open =
       count > JUDGE_TRIANGULATION_MAX &&
@@ -126,7 +126,7 @@ static double slope_at_side(const struct judge_facings *facings,
       judge_fan_along(facings->all, side->face, side->a, side->b, &fan);
   if (fan > 0)
     return fan == 1 ? judge_fan_slope(facings, side_triangle, at) : 0;
-  return facing->flat || facing->open || facing->thin
+  return facing->has_no_area || facing->open || facing->thin
              ? 0
              : slope(facings, facing->normal, at);
 }
@@ -144,7 +144,7 @@ unsigned judge_class_mask_of_pair(const struct judge_facings *facings,
   double one = slope_at_side(facings, s), two = slope_at_side(facings, t);
   if (judge_is_silhouette(one, against ? two : -two))
     class_mask |= RECTO_EDGE_SILHOUETTE;
-  if (f->flat || g->flat)
+  if (f->has_no_area || g->has_no_area)
     return class_mask;
   double cosine = point3_dot(f->normal, g->normal);
   cosine = against ? cosine : -cosine;

@@ -20,7 +20,7 @@ struct judge_side {
 /* How a face lies in space and towards the viewer. */
 struct judge_facing {
   struct judge_point3 normal; /* unit */
-  bool flat;                  /* the face has no area */
+  bool has_no_area;           /* in space */
   bool clipped;               /* a part of it is not drawn */
   bool thin; /* what is drawn of it is no thicker than contact: rounding may
                 decide which side of it is seen */

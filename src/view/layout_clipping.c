@@ -126,7 +126,7 @@ static int64_t cut_ear(struct layout *layout, uint32_t face, int ear,
 }
 
 /* Adds a clipped triangle in triangles.  Where rounding to the grid turned a
- * sliver of it over or made it flat, that triangle's sides are contours.
+ * sliver of it over or made it edge-on, that triangle's sides are contours.
  * sign  set to the sign of the whole area on the page, in the face's winding */
 static recto_status add_clipped_ears(struct layout *layout,
                                      const struct layout_triangle *triangle,
@@ -239,7 +239,7 @@ static recto_status add_polygon(struct layout *layout,
   int sign = 0;
   recto_status status =
       add_clipped_ears(layout, triangle, polygon, point, &sign);
-  /* Where a strip is left so thin that rounding made it flat, as at the near
+  /* Where a strip is left so thin that rounding made it edge-on, as at the near
    * plane, the triangle still lies on its side of the edge. */
   if (sign == 0)
     sign = view_sign(layout, corner);

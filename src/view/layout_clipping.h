@@ -78,7 +78,7 @@ static inline int64_t layout_sink_triangle(struct layout_triangle_sink *sink,
       (struct sheet_triangle){{point[0], point[1 + flip], point[2 - flip]},
                               {side[2 * flip], side[1], side[2 - 2 * flip]},
                               face};
-  *sink->flags++ = flip ? SHEET_FLIPPED : area == 0 ? SHEET_FLAT : 0;
+  *sink->flags++ = flip ? SHEET_FLIPPED : area == 0 ? SHEET_EDGE_ON : 0;
   sink->remaining--;
   return area;
 }

@@ -235,10 +235,11 @@ recto_status layout_range(struct layout *layout, const uint8_t *used) {
   grow_by_points(&range, layout, used);
   if (!grow_by_faces(&range, layout))
     return error_memory(layout->error);
-  bool flat = range.high - range.low <= 4 * camera->contact_most, grew = true;
+  bool shallow = range.high - range.low <= 4 * camera->contact_most,
+       grew = true;
   for (int round = 1; grew && round <= MAX_ROUNDS; round++) {
     range.is_passed = false;
-    grew = grow_by_all_lines(&range, layout, flat || round == MAX_ROUNDS);
+    grew = grow_by_all_lines(&range, layout, shallow || round == MAX_ROUNDS);
   }
   if (range.low > range.high)
     return RECTO_OK;

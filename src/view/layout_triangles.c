@@ -242,7 +242,7 @@ static recto_status add_whole_face(struct layout *layout, uint32_t face,
     struct layout_triangle triangle =
         nth_triangle(layout, face, start, count, t);
     uint8_t flags = layout->flags.item[first + t];
-    int own = flags & SHEET_FLAT ? 0 : flags & SHEET_FLIPPED ? -1 : 1;
+    int own = flags & SHEET_EDGE_ON ? 0 : flags & SHEET_FLIPPED ? -1 : 1;
     int sign = is_common ? common : own;
     layout_record_triangle_sides(layout, &triangle, sign);
     const uint32_t *p = layout->sheet->triangle.item[first + t].point;

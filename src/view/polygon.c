@@ -112,7 +112,7 @@ static bool is_clockwise(void *at, size_t stride, uint32_t count) {
                     image(at, stride, low + 1 < count ? low + 1 : 0)) < 0;
 }
 
-void polygon_flatten(const struct polygon *polygon,
+void polygon_project(const struct polygon *polygon,
                      const struct polygon_areas *areas, void *at,
                      size_t stride) {
   bool shows;

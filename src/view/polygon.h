@@ -35,7 +35,7 @@ double polygon_off_plane(const struct polygon *polygon,
  *   Where no area exceeds TOLERANCE_NO_AREA_SHARE of the extent's square, as in
  *   a bow-tie, whose lobes cancel, it is the axis along which the polygon is
  *   thinnest, and the leftmost corner of the projection turns left. */
-void polygon_flatten(const struct polygon *polygon,
+void polygon_project(const struct polygon *polygon,
                      const struct polygon_areas *areas, void *at,
                      size_t stride);
 

@@ -45,7 +45,7 @@ struct sheet_triangle {
 };
 
 enum {
-  SHEET_FLAT = 1,    /* seen edge-on: no area on the page, hides nothing */
+  SHEET_EDGE_ON = 1, /* it has no area on the page, and hides nothing */
   SHEET_FLIPPED = 2, /* the face's own winding is clockwise on the page */
   SHEET_INNER = 4,   /* shifted by k: side k is no edge of the mesh: a diagonal,
                         or one that clipping made */
@@ -98,7 +98,7 @@ struct sheet {
   /* The contours, whether drawn or not:
    *   edges of one face or of more than two,
    *   silhouettes,
-   *   sides of a triangle that is SHEET_FLAT,
+   *   sides of a triangle that is SHEET_EDGE_ON,
    *   diagonals along which a face that is not planar folds,
    *   sides that clipping to the near plane made.
    * Away from them, and from the page's border, the projected faces neither
@@ -129,6 +129,11 @@ static inline struct geom_segment sheet_ends(const struct sheet *sheet,
                                              const uint32_t point[2]) {
   return (struct geom_segment){sheet->point.item[point[0]],
                                sheet->point.item[point[1]]};
+}
+
+static inline bool sheet_is_edge_on(const struct sheet *sheet,
+                                    size_t triangle) {
+  return sheet->triangle_flags[triangle] & SHEET_EDGE_ON;
 }
 
 /* Is the edge to be drawn, and longer than a point on the page? */

@@ -79,7 +79,7 @@ bool triangulate(struct triangulation *triangulation,
   triangulation->off_plane = polygon_off_plane(&polygon, &areas);
   triangulation->warped =
       triangulation->off_plane > areas.extent * TOLERANCE_WARP_SHARE;
-  polygon_flatten(&polygon, &areas, triangulation->corner.item,
+  polygon_project(&polygon, &areas, triangulation->corner.item,
                   sizeof *triangulation->corner.item);
   return (count == 4 && !has_repeats(&polygon) &&
           cut_quadrilateral(triangulation, &polygon)) ||

@@ -16,7 +16,7 @@ struct triangulation_triangle {
 
 /* A corner's state during ear clipping. */
 struct triangulation_corner {
-  double at[2];        /* in the projection, see polygon_flatten */
+  double at[2];        /* in the projection, see polygon_project */
   double length;       /* squared length, rounded, of the diagonal that cuts it
                           off */
   uint32_t next, prev; /* among the corners that are left */

@@ -72,7 +72,7 @@ static int count_occluders(struct contour_pieces *c, struct geom_point p) {
   for (size_t i = 0; i < c->query.found.count; i++) {
     uint32_t t = c->query.found.item[i];
     struct geom_triangle of = sheet_corners(sheet, t);
-    bool inside = (sheet->triangle_flags[t] & SHEET_FLAT) == 0;
+    bool inside = !sheet_is_edge_on(sheet, t);
     for (int k = 0; inside && k < 3; k++)
       inside = geom_orient2d(of.p[k], of.p[geom_next_corner(k)], p) > 0;
     if (!inside)

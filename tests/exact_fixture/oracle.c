@@ -11,10 +11,6 @@
 #include "visibility/predicate/occlusion.h"
 #include "visibility/predicate/triangle_pair.h"
 
-static bool is_flat(const struct sheet *sheet, uint32_t t) {
-  return sheet->triangle_flags[t] & SHEET_FLAT;
-}
-
 static void corners_of(const struct sheet *sheet, uint32_t t,
                        struct geom_point p[3]) {
   for (int k = 0; k < 3; k++)
@@ -25,7 +21,7 @@ bool oracle_covers(const struct sheet *sheet, uint32_t t,
                    const struct rational_point *p) {
   struct geom_point corner[3];
   struct rational_line side;
-  bool inside = !is_flat(sheet, t);
+  bool inside = !sheet_is_edge_on(sheet, t);
   rational_line_init(&side);
   corners_of(sheet, t, corner);
   for (int k = 0; k < 3 && inside; k++) {
@@ -113,7 +109,7 @@ static struct lines gather_lines(const struct sheet *sheet) {
   struct geom_point p[3], q[3];
   assert_non_null(lines.item);
   for (uint32_t f = 0; f < n; f++) {
-    if (is_flat(sheet, f))
+    if (sheet_is_edge_on(sheet, f))
       continue;
     corners_of(sheet, f, p);
     for (int k = 0; k < 3; k++) {
@@ -122,7 +118,7 @@ static struct lines gather_lines(const struct sheet *sheet) {
     }
     for (uint32_t g = 0; g < f; g++) {
       struct rational_line *line = &lines.item[lines.count];
-      if (is_flat(sheet, g))
+      if (sheet_is_edge_on(sheet, g))
         continue;
       corners_of(sheet, g, q);
       rational_line_init(line);
@@ -335,7 +331,8 @@ bool oracle_is_hidden(const struct sheet *sheet, uint32_t e, const mpq_t t) {
   point_on_edge(&at, p, q, t);
   for (uint32_t f = 0; f < sheet->triangle.count; f++) {
     struct occluder occluder;
-    if (is_flat(sheet, f) || f == edge->triangle[0] || f == edge->triangle[1])
+    if (sheet_is_edge_on(sheet, f) || f == edge->triangle[0] ||
+        f == edge->triangle[1])
       continue;
     corners_of(sheet, f, corner);
     occluder_init(&occluder, sheet, f);

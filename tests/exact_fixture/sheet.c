@@ -72,7 +72,7 @@ static void add_triangle(struct sheet *sheet, const uint32_t p[3],
   assert_true(ARRAY_PUSH(&sheet->triangle, t));
   sheet->triangle_flags =
       mem_resize(sheet->triangle_flags, sheet->triangle.count, 1);
-  sheet->triangle_flags[id] = (uint8_t)(area == 0  ? SHEET_FLAT
+  sheet->triangle_flags[id] = (uint8_t)(area == 0  ? SHEET_EDGE_ON
                                         : area < 0 ? SHEET_FLIPPED
                                                    : 0);
 }

@@ -13,10 +13,6 @@
 #include "visibility/progress.h"
 #include "visibility/solver.h"
 
-static bool is_flat(const struct sheet *sheet, size_t triangle) {
-  return sheet->triangle_flags[triangle] & SHEET_FLAT;
-}
-
 static bool solve_edges_brute(const struct sheet *sheet, struct map *map,
                               struct occlusion_counts *counts,
                               struct progress *progress) {
@@ -38,7 +34,7 @@ static bool solve_edges_brute(const struct sheet *sheet, struct map *map,
     edge_intervals_start(&intervals);
     for (size_t t = 0; t < n; t++) {
       struct occluded_interval interval;
-      if (!is_flat(sheet, t) &&
+      if (!sheet_is_edge_on(sheet, t) &&
           occlude_edge(&occluder[t], s.p, s.q, &interval, counts) &&
           !occlusion_is_own(sheet, edge, (uint32_t)t) &&
           !edge_intervals_occlude(&intervals, interval))
@@ -102,7 +98,8 @@ bool brute_subtract_all(struct brute_pieces *pieces, const struct sheet *sheet,
     return false;
   for (uint32_t g = 0; g < n; g++)
     if (!progress_step(progress, 1 + pieces->left.count) ||
-        (g != f && !is_flat(sheet, g) && !triangles_disjoint(sheet, f, g) &&
+        (g != f && !sheet_is_edge_on(sheet, g) &&
+         !triangles_disjoint(sheet, f, g) &&
          !subtract_triangle(pieces, sheet, &plane, f, g)))
       return false;
   return true;
@@ -119,7 +116,7 @@ static bool solve_fragments_brute(const struct sheet *sheet,
   fragments.report = report;
   for (uint32_t f = 0; ok && f < sheet->triangle.count; f++) {
     progress->share = (double)f / (double)sheet->triangle.count;
-    if (!is_flat(sheet, f))
+    if (!sheet_is_edge_on(sheet, f))
       ok = brute_subtract_all(&pieces, sheet, f, progress) &&
            (pieces.whole ? fragments_add_whole(&fragments, f)
                          : fragments_add(&fragments, f, pieces.left.item,

@@ -16,7 +16,7 @@ struct brute_pieces {
 
 void brute_pieces_fini(struct brute_pieces *pieces);
 
-/* Subtracts from triangle f, which is not flat, every other one where it is
+/* Subtracts from triangle f, which is not edge-on, every other one where it is
  * nearer.  Exact.
  * progress  may be NULL
  * Returns false when memory ran out or the caller cancelled. */

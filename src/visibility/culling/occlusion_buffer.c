@@ -155,8 +155,7 @@ static struct neighbour find_neighbour(const struct sheet *sheet, uint32_t t,
     memcpy(candidate, sheet->edge.item[edge].triangle, sizeof candidate);
   for (int i = 0; i < 2; i++) {
     uint32_t n = candidate[i];
-    if (n >= sheet->triangle.count || n == t ||
-        (sheet->triangle_flags[n] & SHEET_FLAT))
+    if (n >= sheet->triangle.count || n == t || sheet_is_edge_on(sheet, n))
       continue;
     int side = side_between(sheet, n, p, q);
     if (side >= 0)
@@ -278,7 +277,7 @@ void occlusion_buffer_raise(struct occlusion_buffer *buffer,
   struct box2 box = box2_of_triangle(sheet, t);
   struct cell_range r = triangle_grid_cells(cells, box);
   r = (struct cell_range){r.x0 + 1, r.y0 + 1, r.x1 - 1, r.y1 - 1};
-  if (r.x0 > r.x1 || r.y0 > r.y1 || (sheet->triangle_flags[t] & SHEET_FLAT))
+  if (r.x0 > r.x1 || r.y0 > r.y1 || sheet_is_edge_on(sheet, t))
     return;
   struct raising raising = {.buffer = buffer,
                             .sheet = sheet,

@@ -68,7 +68,7 @@ double occlusion_culling_complexity(const struct sheet *sheet, double area) {
 }
 
 /* An upper bound of a triangle's contact tolerance as a depth; INFINITY where
- * it is flat. */
+ * it is seen edge-on. */
 static double thickness_of(const struct occlusion_bound *contact,
                            const struct geom_triangle *corners) {
   double nz, bound = occlusion_bound_of(contact, corners, &nz);
@@ -92,7 +92,7 @@ static double make_candidates(const struct culling_work *work,
         cells, (struct box2){box.x0 - xy_margin, box.y0 - xy_margin,
                              box.x1 + xy_margin, box.y1 + xy_margin});
     double margin = work->culling->margin;
-    if (work->fragments && !(sheet->triangle_flags[t] & SHEET_FLAT))
+    if (work->fragments && !sheet_is_edge_on(sheet, t))
       margin += thickness_of(&work->contact, &corners);
     candidate[t] = (struct candidate){
         (uint32_t)t,
@@ -231,7 +231,7 @@ static void add_thickness(struct culling_work *work,
       sheet_corners(work->sheet, candidate->triangle);
   int32_t steps = occlusion_steps_up(thickness_of(&work->contact, &corners));
   if (steps <= least || work->tests < 0 ||
-      (work->sheet->triangle_flags[candidate->triangle] & SHEET_FLAT))
+      sheet_is_edge_on(work->sheet, candidate->triangle))
     return;
   for (int y = candidate->y0, x0, x1; y <= candidate->y1; y++)
     if (columns_in_row(work->culling, &corners, y, &x0, &x1)) {

@@ -36,7 +36,7 @@ static bool find_touching(struct fragments *f, uint32_t triangle,
   struct plane_filter plane = plane_filter_of(sheet, triangle);
   for (size_t i = 0; i < count; i++) {
     uint32_t g = candidate[i];
-    if (g < triangle && !(sheet->triangle_flags[g] & SHEET_FLAT) &&
+    if (g < triangle && !sheet_is_edge_on(sheet, g) &&
         sheet->triangle.item[g].face != sheet->triangle.item[triangle].face &&
         !box2_disjoint(box, box2_of_triangle(sheet, g))) {
       f->counts.contact_pairs++;

@@ -54,7 +54,7 @@ static bool find_own_triangles(struct face_work *work, uint32_t triangle) {
   for (uint32_t t = first;
        t < sheet->triangle.count && sheet->triangle.item[t].face == work->face;
        t++)
-    if (!(sheet->triangle_flags[t] & SHEET_FLAT) && !ARRAY_PUSH(&work->own, t))
+    if (!sheet_is_edge_on(sheet, t) && !ARRAY_PUSH(&work->own, t))
       return false;
   return true;
 }

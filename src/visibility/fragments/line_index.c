@@ -25,14 +25,13 @@ struct gathered_sides {
 };
 
 /* Finds the ends of side k of triangle t.  Returns whether it is an edge of the
- * sheet and the triangle is not flat. */
+ * sheet and the triangle is not edge-on. */
 static bool is_edge(const struct sheet *sheet, uint32_t t, int k,
                     struct geom_point end[2]) {
   const struct sheet_triangle *triangle = &sheet->triangle.item[t];
   end[0] = sheet->point.item[triangle->point[k]];
   end[1] = sheet->point.item[triangle->point[geom_next_corner(k)]];
-  return triangle->side[k] != SHEET_NONE &&
-         !(sheet->triangle_flags[t] & SHEET_FLAT);
+  return triangle->side[k] != SHEET_NONE && !sheet_is_edge_on(sheet, t);
 }
 
 /* Chooses the smallest cells that keep to the limit on the entries. */

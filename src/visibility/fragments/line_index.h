@@ -22,8 +22,8 @@ struct line_index {
 };
 
 /* Indexes the triangle sides that are edges of the sheet.
- * triangle  `count` triangles of the sheet without duplicates; flat ones are
- *           left out
+ * triangle  `count` triangles of the sheet without duplicates; those seen
+ *           edge-on are left out
  * Returns false when memory ran out. */
 USE_RESULT bool line_index_init(struct line_index *index,
                                 const struct sheet *sheet,

@@ -77,15 +77,15 @@ void occluder_subtraction_init(struct occluder_subtraction *subtraction,
                                const struct sheet *sheet);
 void occluder_subtraction_fini(struct occluder_subtraction *subtraction);
 
-/* Makes a triangle, which is not flat, the current one, without occluders.
+/* Makes a triangle, which is not edge-on, the current one, without occluders.
  * part  the part of it to start with; NULL: all of it
  * Returns false when memory ran out, as all functions below. */
 USE_RESULT bool
 occluder_subtraction_start(struct occluder_subtraction *subtraction,
                            uint32_t triangle, const struct geom_convex *part);
 
-/* Tests whether triangle g, which is not flat and not the current one, occludes
- * the current one, and collects it if it does.  Exact. */
+/* Tests whether triangle g, which is not edge-on and not the current one,
+ * occludes the current one, and collects it if it does.  Exact. */
 USE_RESULT bool
 occluder_subtraction_collect(struct occluder_subtraction *subtraction,
                              uint32_t g);
@@ -96,8 +96,9 @@ occluder_subtraction_collect(struct occluder_subtraction *subtraction,
 USE_RESULT bool
 occluder_subtraction_subtract_all(struct occluder_subtraction *subtraction);
 
-/* Subtracts the region where triangle g, which is not flat and not the current
- * one, is nearer than the current one, without collecting it.  Exact. */
+/* Subtracts the region where triangle g, which is not edge-on and not the
+ * current one, is nearer than the current one, without collecting it.
+ * Exact. */
 USE_RESULT bool
 occluder_subtraction_subtract_nearer(struct occluder_subtraction *subtraction,
                                      uint32_t g);

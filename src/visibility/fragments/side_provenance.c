@@ -183,11 +183,11 @@ static bool own_crosses_along(const struct provenance_query *q, uint32_t g) {
   return false;
 }
 
-/* Returns whether g is a triangle of another face, not flat, whose box overlaps
- * the segment. */
+/* Returns whether g is a triangle of another face, not edge-on, whose box
+ * overlaps the segment. */
 static bool may_bound_segment(const struct provenance_query *q, uint32_t g) {
   return q->sheet->triangle.item[g].face != q->face &&
-         !(q->sheet->triangle_flags[g] & SHEET_FLAT) &&
+         !sheet_is_edge_on(q->sheet, g) &&
          !box2_disjoint(q->box, box2_of_triangle(q->sheet, g));
 }
 

@@ -204,7 +204,7 @@ static bool meet_along(const struct sheet *sheet,
     bool near = is_near_line(p, q, segment.end[0]) &&
                 is_near_line(p, q, segment.end[1]);
     beside |= !near;
-    found |= near && !(sheet->triangle_flags[incidence->triangle] & SHEET_FLAT);
+    found |= near && !sheet_is_edge_on(sheet, incidence->triangle);
     end[0] = segment.end[0];
     end[1] = segment.end[1];
     if (!ARRAY_PUSH(&segments->list, segment))

@@ -38,7 +38,7 @@ prepare_triangle(struct intersection_search *search, uint32_t f) {
   return &search->occluder;
 }
 
-/* Decides a candidate pair exactly; either triangle may be SHEET_FLAT. */
+/* Decides a candidate pair exactly; either triangle may be SHEET_EDGE_ON. */
 static bool decide_pair(void *user, uint32_t f, uint32_t g) {
   struct intersection_search *search = user;
   const struct sheet *sheet = search->sheet;

@@ -17,7 +17,7 @@ struct side_count side_count_of(const struct occluder *plane,
 bool is_overlap_within_rounding(const struct sheet *sheet, uint32_t f,
                                 uint32_t g, const struct occluder *hf,
                                 const struct occluder *hg) {
-  if ((sheet->triangle_flags[f] | sheet->triangle_flags[g]) & SHEET_FLAT)
+  if ((sheet->triangle_flags[f] | sheet->triangle_flags[g]) & SHEET_EDGE_ON)
     return false;
   for (int k = 0; k < 3; k++) {
     int next = geom_next_corner(k);

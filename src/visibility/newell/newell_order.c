@@ -65,7 +65,7 @@ static bool add_triangles(struct newell_order *order) {
         .last_open = NEWELL_NONE,
         .box = box2_of_triangle(sheet, (uint32_t)t),
         .rank = NEWELL_NONE,
-        .state = (sheet->triangle_flags[t] & SHEET_FLAT) ||
+        .state = sheet_is_edge_on(sheet, t) ||
                          triangle_grid_leaves_out(order->grid, (uint32_t)t)
                      ? NEWELL_UNSEEN
                      : NEWELL_WAITING};

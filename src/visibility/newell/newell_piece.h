@@ -20,8 +20,8 @@ enum newell_state {
   NEWELL_MARKED,  /* moved ahead of another piece and not painted yet */
   NEWELL_PAINTED, /* has its rank */
   NEWELL_SPLIT,   /* replaced by its parts */
-  NEWELL_UNSEEN   /* not to be painted: flat, a duplicate, entirely behind one
-                     other piece, or of a triangle without an order */
+  NEWELL_UNSEEN   /* not to be painted: edge-on, a duplicate, entirely behind
+                     one other piece, or of a triangle without an order */
 };
 
 /* Piece t < triangle count is the whole triangle t; later ones are parts. */

@@ -76,8 +76,7 @@ static bool occlude_painted_edge(struct painting *painting,
   for (size_t i = 0; i < painting->query.found.count; i++) {
     uint32_t t = painting->query.found.item[i];
     struct occluded_interval part;
-    if ((own && painting->rank[t] <= rank) ||
-        (sheet->triangle_flags[t] & SHEET_FLAT))
+    if ((own && painting->rank[t] <= rank) || sheet_is_edge_on(sheet, t))
       continue;
     if (occlude_by_outline(sheet_corners(sheet, t).p, s.p, s.q, &part) &&
         !edge_intervals_occlude(intervals, part))
@@ -114,7 +113,7 @@ static bool subtract_later_triangles(struct painting *painting, uint32_t f,
     uint32_t g = painting->query.found.item[i];
     struct box2 box = box2_of_triangle(painting->sheet, g);
     if (painting->rank[g] <= painting->rank[f] ||
-        (painting->sheet->triangle_flags[g] & SHEET_FLAT) ||
+        sheet_is_edge_on(painting->sheet, g) ||
         box2_disjoint(subtraction->box, box))
       continue;
     struct triangle_occluder occluder = {.triangle = g, .sides = 3, .box = box};
@@ -133,7 +132,7 @@ static bool solve_fragments_painter(struct painting *painting,
   fragments.progress = &painting->progress;
   occluder_subtraction_init(&subtraction, painting->sheet);
   for (size_t f = 0; ok && f < painting->sheet->triangle.count; f++)
-    if (!(painting->sheet->triangle_flags[f] & SHEET_FLAT))
+    if (!sheet_is_edge_on(painting->sheet, f))
       ok = occluder_subtraction_start(&subtraction, (uint32_t)f, NULL) &&
            subtract_later_triangles(painting, (uint32_t)f, &subtraction) &&
            occluder_subtraction_store(&subtraction, &fragments);

@@ -160,7 +160,7 @@ static bool is_crossed(const struct deferred_triangles *d) {
 static bool add_candidate(struct deferred_triangles *d, uint32_t g) {
   return g == d->subtraction.triangle ||
          (g > d->subtraction.triangle && d->state[g] == MAP_HIDDEN) ||
-         (d->sheet->triangle_flags[g] & SHEET_FLAT) ||
+         sheet_is_edge_on(d->sheet, g) ||
          !triangle_grid_query_first(&d->query, g) ||
          ARRAY_PUSH(&d->query.found, g);
 }

@@ -51,8 +51,8 @@ void deferred_triangles_fini(struct deferred_triangles *d);
 USE_RESULT bool deferred_triangles_sort(const struct deferred_triangles *d,
                                         uint32_t *triangle, size_t count);
 
-/* Computes the visible pieces of a triangle, which is not flat and all of whose
- * tiles have lists, and adds them to the fragments.
+/* Computes the visible pieces of a triangle, which is not edge-on and all of
+ * whose tiles have lists, and adds them to the fragments.
  * Returns false when memory ran out or the caller cancelled. */
 USE_RESULT bool deferred_triangles_solve(struct deferred_triangles *d,
                                          uint32_t triangle,

@@ -59,7 +59,7 @@ static bool occlude_by_triangle(struct edge_query *query, uint32_t t,
   if (occluder == NULL)
     return occlude_edge_by_triangle(query->sheet, t, query->p, query->q, part,
                                     &query->counts);
-  return !(query->sheet->triangle_flags[t] & SHEET_FLAT) &&
+  return !sheet_is_edge_on(query->sheet, t) &&
          occlude_edge(&occluder[t], query->p, query->q, part, &query->counts);
 }
 

@@ -11,8 +11,7 @@ static bool init_faces(struct pairwise_fallback *fallback) {
   if (fallback->state == NULL)
     return false;
   for (size_t t = 0; t < n; t++)
-    fallback->state[t] =
-        sheet->triangle_flags[t] & SHEET_FLAT ? MAP_HIDDEN : MAP_MIXED;
+    fallback->state[t] = sheet_is_edge_on(sheet, t) ? MAP_HIDDEN : MAP_MIXED;
   return deferred_triangles_init(&fallback->deferred_triangles, sheet,
                                  &fallback->lists, fallback->wanted,
                                  fallback->state);

@@ -44,8 +44,8 @@ void pairwise_fallback_fini(struct pairwise_fallback *fallback);
 struct edge_intervals *
 pairwise_fallback_edge(struct pairwise_fallback *fallback, uint32_t e);
 
-/* Computes the visible pieces of triangles, none of them flat, and adds them to
- * the fragments.  Reorders the list.
+/* Computes the visible pieces of triangles, none of them edge-on, and adds them
+ * to the fragments.  Reorders the list.
  * Returns false when memory ran out or the caller cancelled. */
 USE_RESULT bool pairwise_fallback_faces(struct pairwise_fallback *fallback,
                                         uint32_t *triangle, size_t count,

@@ -59,7 +59,7 @@ static uint32_t *list_all(const struct triangle_grid *grid, size_t *count) {
   return all;
 }
 
-/* Prepares the listed triangles as occluders, except flat ones. */
+/* Prepares the listed triangles as occluders, except those seen edge-on. */
 static bool prepare_occluders(struct tile_candidates *list,
                               const struct sheet *sheet, const uint32_t *all,
                               size_t count) {
@@ -69,7 +69,7 @@ static bool prepare_occluders(struct tile_candidates *list,
   if (list->occluder == NULL)
     return false;
   for (size_t i = 0; i < count; i++)
-    if (!(sheet->triangle_flags[all[i]] & SHEET_FLAT))
+    if (!sheet_is_edge_on(sheet, all[i]))
       occluder_init(&list->occluder[all[i]], sheet, all[i]);
   return true;
 }
@@ -118,7 +118,7 @@ struct kdop8_range tile_candidates_range(const struct tile_candidates *list,
                               TILE_BUCKET_SHIFT + bits - 6};
 }
 
-/* Computes the keys of a cell's list.  A flat triangle, which is seen edge-on
+/* Computes the keys of a cell's list.  A triangle that is seen edge-on
  * and occludes nothing, gets the key 0, which overlaps next to no query. */
 static void compute_keys(struct tile_candidates *list,
                          const struct sheet *sheet, int x, int y, size_t from,
@@ -130,8 +130,7 @@ static void compute_keys(struct tile_candidates *list,
     struct kdop8 kdop = kdop8_of_point(sheet->point.item[p[0]]);
     kdop8_add(&kdop, sheet->point.item[p[1]]);
     kdop8_add(&kdop, sheet->point.item[p[2]]);
-    list->key[i] =
-        sheet->triangle_flags[t] & SHEET_FLAT ? 0 : kdop8_key(&range, &kdop);
+    list->key[i] = sheet_is_edge_on(sheet, t) ? 0 : kdop8_key(&range, &kdop);
   }
 }
 

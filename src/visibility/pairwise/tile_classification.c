@@ -200,7 +200,7 @@ static bool collect_range(void *user, struct parallel_range range) {
     (void)poll_at(t);
     footprint[t] = footprint_of(r, low, high);
     add_buckets(&g, r, bucket_mask(low, high));
-    if (flags[t] & SHEET_FLAT)
+    if (flags[t] & SHEET_EDGE_ON)
       continue;
     if (is_steep(work->sheet, &work->all, (uint32_t)t, &corners))
       add_unsafe(&g, r, work->fragments ? UINT8_MAX : (uint8_t)(low + 1));

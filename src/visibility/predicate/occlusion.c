@@ -262,7 +262,7 @@ bool occlude_edge_by_triangle(const struct sheet *sheet, uint32_t triangle,
   int at_p, at_q;
   counts->pairs++;
   if (!occlude_by_outline(corners.p, p, q, interval) ||
-      (sheet->triangle_flags[triangle] & SHEET_FLAT))
+      sheet_is_edge_on(sheet, triangle))
     return false;
   counts->depth_tests++;
   plane = plane_filter_of(sheet, triangle);

@@ -70,7 +70,7 @@ struct occluder {
   struct box2 box;
 };
 
-/* Prepares a triangle that is not SHEET_FLAT. */
+/* Prepares a triangle that is not SHEET_EDGE_ON. */
 void occluder_init(struct occluder *occluder, const struct sheet *sheet,
                    uint32_t triangle);
 
@@ -99,7 +99,7 @@ static inline bool occlusion_is_possible(const struct sheet *sheet,
                                          struct geom_point q, struct box2 box) {
   const uint32_t *point = sheet->triangle.item[triangle].point;
   int64_t low = p.z < q.z ? p.z : q.z;
-  if (sheet->triangle_flags[triangle] & SHEET_FLAT)
+  if (sheet_is_edge_on(sheet, triangle))
     return false;
   if (sheet->point.item[point[0]].z < low &&
       sheet->point.item[point[1]].z < low &&

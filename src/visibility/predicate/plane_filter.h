@@ -33,7 +33,7 @@ struct plane_filter {
   double t_error;          /* INFINITY where the filter cannot be used */
 };
 
-/* The plane of a triangle, which may be SHEET_FLAT. */
+/* The plane of a triangle, which may be SHEET_EDGE_ON. */
 struct plane_filter plane_filter_of(const struct sheet *sheet,
                                     uint32_t triangle);
 

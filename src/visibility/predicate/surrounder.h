@@ -23,7 +23,7 @@ struct surrounder_plane {
   double contact; /* in depth units */
 };
 
-/* The plane of a triangle that is not flat. */
+/* The plane of a triangle that is not edge-on. */
 struct surrounder_plane surrounder_plane_of(const struct sheet *sheet,
                                             uint32_t triangle);
 
@@ -31,7 +31,7 @@ struct surrounder_plane surrounder_plane_of(const struct sheet *sheet,
 double surrounder_farthest_z(const struct surrounder_plane *plane,
                              const struct box2 *window);
 
-/* Computes the depths of a triangle that is not flat over the window. */
+/* Computes the depths of a triangle that is not edge-on over the window. */
 void surrounder_depths_of(const struct sheet *sheet, uint32_t triangle,
                           const struct box2 *window,
                           struct surrounder_depths *depth);

@@ -22,7 +22,7 @@ struct triangle_plane {
 struct triangle_plane triangle_plane_of(const struct sheet *sheet,
                                         uint32_t triangle);
 
-/* Do the interiors of two triangles, counter-clockwise and not flat, have no
+/* Do the interiors of two triangles, counter-clockwise and not edge-on, have no
  * point of the page in common?  Those of neighbours have none, and most
  * triangles near a face are its neighbours.  Exact. */
 bool triangles_disjoint(const struct sheet *sheet, uint32_t f, uint32_t g);

@@ -27,7 +27,7 @@ struct active_edge_pair {
 };
 
 /* Starts a facet at its topmost line.  Returns false where it covers no line.
- * facet  a triangle that identifies its facet (facet_of) and is not flat */
+ * facet  a triangle that identifies its facet (facet_of) and is not edge-on */
 bool active_edge_pair_start(struct active_edge_pair *pair,
                             const struct raster *raster,
                             const struct facets *facets, uint32_t facet);

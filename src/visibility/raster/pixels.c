@@ -30,7 +30,7 @@ struct sort_key *pixels_buckets(const struct raster *raster,
                                 size_t *count) {
   const struct sheet *sheet = raster->sheet;
   uint32_t all = (uint32_t)sheet->triangle.count;
-  int left_out = SHEET_FLAT | (request->remove_backs ? SHEET_FLIPPED : 0);
+  int left_out = SHEET_EDGE_ON | (request->remove_backs ? SHEET_FLIPPED : 0);
   struct sort_key *key = mem_alloc(2 * (size_t)all, sizeof *key);
   *count = 0;
   if (key == NULL)

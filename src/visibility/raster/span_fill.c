@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-/* Sets the plane of a triangle of the sheet that is not flat. */
+/* Sets the plane of a triangle of the sheet that is not edge-on. */
 static void init_plane(struct span_fill_plane *plane,
                        const struct raster *raster, uint32_t triangle) {
   const struct scan_grid *grid = &raster->grid;

@@ -135,7 +135,8 @@ static inline void span_fill_span(struct raster *raster, uint32_t facet,
 
 /* ---- Triangles ----------------------------------------------------------- */
 
-/* Draws a triangle of the sheet, not flat, into a frame that holds all lines.
+/* Draws a triangle of the sheet, not edge-on, into a frame that holds all
+ * lines.
  * covered  the number of pixels it covers, hidden or not, is added to it
  * Returns false, and does nothing, where the triangle is steep. */
 bool span_fill_triangle(struct raster *raster, uint32_t triangle,

@@ -98,7 +98,7 @@ static bool join_across(struct facet_joining *joining,
     uint32_t shared_vertex = other->point[next_of(past, 3)];
     uint32_t tail = joining->count - k - 1;
     if (other->point[at] != v || joining->facets->part[t] != SHEET_NONE ||
-        (sheet->triangle_flags[t] & SHEET_FLAT) ||
+        sheet_is_edge_on(sheet, t) ||
         geom_plane_value(plane, sheet_point(joining, shared_vertex)) != 0 ||
         !stays_convex(joining, k, shared_vertex))
       continue;
@@ -152,8 +152,7 @@ static bool join_face(struct facet_joining *joining) {
     return false;
   for (uint32_t t = joining->first; t < joining->past; t++)
     if (joining->facets->part[t] == SHEET_NONE &&
-        !(joining->sheet->triangle_flags[t] & SHEET_FLAT) &&
-        !grow_facet(joining, t))
+        !sheet_is_edge_on(joining->sheet, t) && !grow_facet(joining, t))
       return false;
   return true;
 }

@@ -28,7 +28,8 @@ struct facets {
                      NULL where nothing was merged */
 };
 
-/* Merges the triangles of each face greedily.  Flat triangles are not merged.
+/* Merges the triangles of each face greedily.  Triangles seen edge-on are not
+ * merged.
  * Returns false when memory ran out. */
 USE_RESULT bool facets_init(struct facets *facets, const struct sheet *sheet);
 void facets_fini(struct facets *facets);

@@ -222,11 +222,11 @@ static void want_face_tiles(struct tiles_work *work, uint32_t t) {
 static bool classify_face_range(void *user, struct parallel_range range) {
   struct tiles_work *work = user;
   for (size_t t = range.begin; t < range.end; t++) {
-    bool flat = work->sheet->triangle_flags[t] & SHEET_FLAT;
+    bool edge_on = sheet_is_edge_on(work->sheet, t);
     if (!poll_at(t))
       return false;
     work->face_state[t] =
-        flat ? MAP_HIDDEN : (uint8_t)state_of_face(work, (uint32_t)t);
+        edge_on ? MAP_HIDDEN : (uint8_t)state_of_face(work, (uint32_t)t);
   }
   return true;
 }

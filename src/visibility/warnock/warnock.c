@@ -253,7 +253,7 @@ static bool subdivide_page(struct warnock *w,
                                         .hides = front_hides,
                                         .user = w};
   if (w->edge_deferred == NULL || w->triangle_deferred == NULL ||
-      !warnock_windows_init(&w->windows, &page, SHEET_FLAT, grid->left_out,
+      !warnock_windows_init(&w->windows, &page, SHEET_EDGE_ON, grid->left_out,
                             w->request->edges))
     return false;
   w->listed_max =

@@ -67,7 +67,7 @@ bool warnock_solve_face(struct warnock *w, const struct warnock_window *win,
                         uint32_t t) {
   struct geom_line border[8];
   const struct warnock_range *list[2] = {&win->surrounders, &win->facets};
-  if ((w->sheet->triangle_flags[t] & SHEET_FLAT) || w->triangle_deferred[t])
+  if (sheet_is_edge_on(w->sheet, t) || w->triangle_deferred[t])
     return true;
   window_lines(&win->box, border, border + 4);
   if (!occluder_subtraction_start(&w->subtraction, t, NULL))
@@ -86,7 +86,7 @@ bool warnock_solve_face(struct warnock *w, const struct warnock_window *win,
       uint32_t g = pool[i];
       if (occluder_subtraction_is_empty(&w->subtraction))
         return true;
-      if (g != t && !(w->sheet->triangle_flags[g] & SHEET_FLAT) &&
+      if (g != t && !sheet_is_edge_on(w->sheet, g) &&
           (!progress_step(&w->progress, 1 + w->subtraction.left.count) ||
            !occluder_subtraction_subtract_nearer(&w->subtraction, g)))
         return false;

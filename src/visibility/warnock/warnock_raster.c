@@ -291,7 +291,7 @@ static bool process_block(struct subdivision *s) {
 static bool subdivide_frame(struct subdivision *s) {
   const struct scan_grid *grid = &s->frame->raster.grid;
   struct box2 frame = {0, 0, grid->columns, grid->lines};
-  int left_out = SHEET_FLAT | (s->request->remove_backs ? SHEET_FLIPPED : 0);
+  int left_out = SHEET_EDGE_ON | (s->request->remove_backs ? SHEET_FLIPPED : 0);
   if (!warnock_windows_init(&s->windows, &frame, left_out, NULL,
                             !s->request->fragments))
     return false;

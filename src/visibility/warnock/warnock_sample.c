@@ -27,8 +27,7 @@ bool warnock_sample_init(struct warnock_sample *sample,
   if (sample->plane == NULL)
     return false;
   for (uint32_t t = 0; t < count; t++)
-    if ((sheet->triangle_flags[t] & SHEET_FLAT) == 0 &&
-        facet_of(facets, t) == t)
+    if (!sheet_is_edge_on(sheet, t) && facet_of(facets, t) == t)
       sample->plane[t] = sample_plane(sheet, grid, t);
   return true;
 }

@@ -77,9 +77,10 @@ bool tile_order_init(struct tile_order *order, const struct raster *raster,
                      const struct solver_request *request) {
   const struct scan_grid *grid = &raster->grid;
   size_t count = raster->sheet->triangle.count, tiles;
-  struct tile_sort sort = {
-      raster, facets, SHEET_FLAT | (request->remove_backs ? SHEET_FLIPPED : 0),
-      (size_t)grid->columns / TILE_COLUMNS + 1, 0};
+  struct tile_sort sort = {raster, facets,
+                           SHEET_EDGE_ON |
+                               (request->remove_backs ? SHEET_FLIPPED : 0),
+                           (size_t)grid->columns / TILE_COLUMNS + 1, 0};
   size_t *start;
   uint32_t *tile_of = mem_alloc(count, sizeof *tile_of);
   order->bands = ((size_t)grid->lines + TILE_ORDER_BAND - 1) / TILE_ORDER_BAND;

@@ -100,7 +100,8 @@ struct sweep {
 bool sweep_includes_line(const struct sheet *sheet, size_t edge);
 
 /* Collects the edges.
- * kept   one a triangle: does it take part?  NULL: all do.  Flat ones never do.
+ * kept   one a triangle: does it take part?  NULL: all do.  Those seen edge-on
+ *        never do.
  * drawn  include the edges to be drawn for which sweep_includes_line is true
  * Returns false when memory ran out; call sweep_fini in either case. */
 USE_RESULT bool sweep_init(struct sweep *sweep, const struct sheet *sheet,

@@ -26,7 +26,7 @@ static void list_keys(struct sweep_gathering *g, const struct sheet *sheet,
   for (uint32_t t = 0; t < triangles; t++) {
     const uint32_t *point = sheet->triangle.item[t].point;
     (void)poll_at(t);
-    if ((sheet->triangle_flags[t] & SHEET_FLAT) || (kept != NULL && !kept[t]))
+    if (sheet_is_edge_on(sheet, t) || (kept != NULL && !kept[t]))
       continue;
     for (int k = 0; k < 3; k++)
       g->key[g->count++] =

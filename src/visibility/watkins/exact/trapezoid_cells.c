@@ -48,7 +48,7 @@ bool trapezoid_cells_init(struct trapezoid_cells *cells,
     return false;
   for (size_t t = 0; t < count; t++) {
     struct geom_plane plane = sheet_plane(sheet, t);
-    if (!(sheet->triangle_flags[t] & SHEET_FLAT))
+    if (!sheet_is_edge_on(sheet, t))
       cells->plane[t] = depth_plane_of(&plane);
   }
   return true;

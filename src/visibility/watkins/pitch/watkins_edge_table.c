@@ -149,7 +149,7 @@ static bool add_facets(struct watkins *watkins, struct edge_gathering *g,
       MEM_PREFETCH(&g->point[p]);
       MEM_PREFETCH(&g->first[p]);
     }
-    if ((sheet->triangle_flags[t] & SHEET_FLAT) || facet_of(facets, t) != t)
+    if (sheet_is_edge_on(sheet, t) || facet_of(facets, t) != t)
       continue;
     count = facet_outline(facets, sheet, t, &corner, &side);
     for (uint32_t k = 0; k < count; k++)
