@@ -35,12 +35,12 @@ static int judge_turn(const double a[2], const double b[2], const double c[2]) {
 
 static void assert_turn(const double a[2], const double b[2],
                         const double c[2]) {
-  int sign = exact_turn(a, b, c);
+  int sign = exact_orient2d(a, b, c);
   if (sign != judge_turn(a, b, c))
     fail_msg("(%a %a) (%a %a) (%a %a) give %d", a[0], a[1], b[0], b[1], c[0],
              c[1], sign);
-  assert_int_equal(exact_turn(b, c, a), sign);
-  assert_int_equal(exact_turn(c, b, a), -sign);
+  assert_int_equal(exact_orient2d(b, c, a), sign);
+  assert_int_equal(exact_orient2d(c, b, a), -sign);
 }
 
 static double random_double(struct random *random) {
@@ -87,7 +87,7 @@ static void nearly_collinear_points_turn_the_right_way(void **state) {
     if (i % 2)
       p[2][1] = nextafter(p[2][1], i % 4 == 1 ? INFINITY : -INFINITY);
     assert_turn(p[0], p[1], p[2]);
-    counts[exact_turn(p[0], p[1], p[2]) + 1]++;
+    counts[exact_orient2d(p[0], p[1], p[2]) + 1]++;
   }
   /* All three answers came up. */
   for (int k = 0; k < 3; k++)
@@ -115,9 +115,11 @@ static bool on_one_line(const double p[3][3]) {
   struct scene_point point[3];
   for (int i = 0; i < 3; i++)
     point[i] = (struct scene_point){p[i][0], p[i][1], p[i][2]};
-  bool answer = exact_on_one_line(&point[0], &point[1], &point[2]);
-  assert_int_equal(exact_on_one_line(&point[1], &point[2], &point[0]), answer);
-  assert_int_equal(exact_on_one_line(&point[2], &point[1], &point[0]), answer);
+  bool answer = exact_are_collinear(&point[0], &point[1], &point[2]);
+  assert_int_equal(exact_are_collinear(&point[1], &point[2], &point[0]),
+                   answer);
+  assert_int_equal(exact_are_collinear(&point[2], &point[1], &point[0]),
+                   answer);
   return answer;
 }
 

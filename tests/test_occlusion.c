@@ -139,7 +139,7 @@ static void one_unit_of_depth_is_contact_and_two_are_not(void **state) {
     const struct geom_point p = {100, 100, z}, q = {300, 200, z};
     assert_int_equal(occlude_edge(&occluder, p, q, &part, &counts), z < 999);
     assert_int_equal(occluder_side(&occluder, p), z < 999 ? -1 : z > 1001);
-    assert_true((occluder_depth(&occluder, p) < 0) == (z < 999));
+    assert_true((occluder_value(&occluder, p) < 0) == (z < 999));
   }
   exact_sheet_fini(&sheet);
 }

@@ -153,7 +153,7 @@ static bool hides(const struct sheet *sheet, uint32_t t, struct geom_point p) {
       geom_orient2d(c.p[2], c.p[0], p) <= 0)
     return false;
   occluder_init(&occluder, sheet, t);
-  return occluder_depth(&occluder, p) < 0;
+  return occluder_value(&occluder, p) < 0;
 }
 
 /* Is the point behind a triangle that is not culled? */

@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "base/stream.h"
-#include "scene/bowtie.h"
+#include "scene/self_intersection.h"
 #include "scene/read.h"
 #include "scene/scene.h"
 #include "scene/name.h"
@@ -254,7 +254,7 @@ static bool star_crosses(uint32_t count, uint32_t step, double tilt) {
     add_point(&r, cos(angle), sin(angle) * cos(tilt), sin(angle) * sin(tilt));
     corner[i] = (uint32_t)((uint64_t)i * step % count);
   }
-  bool answer = bowtie_has_crossing(&r.scene, corner, count);
+  bool answer = polygon_intersects_itself(&r.scene, corner, count);
   free(corner);
   reading_fini(&r);
   return answer;
@@ -346,7 +346,7 @@ static void polygons_cross_where_two_sides_do(void **state) {
       corner[k] = k;
     }
     bool expected = judge_crossing((const double(*)[2])flat, (int)n);
-    assert_int_equal(bowtie_has_crossing(&r->scene, corner, n), expected);
+    assert_int_equal(polygon_intersects_itself(&r->scene, corner, n), expected);
     yes += expected;
   }
   assert_true(yes > 2000 && yes < 18000);

@@ -491,14 +491,14 @@ static void turns_of_one_last_place_are_seen(void **state) {
     const uint32_t corner[] = {0, 1, 2, 3, 4};
     for (int c = 0; c < 5; c++)
       point[c] = (struct scene_point){flat[c][0], flat[c][1], 0};
-    convex += exact_turn(flat[0], flat[1], flat[2]) > 0;
-    reflex += exact_turn(flat[0], flat[1], flat[2]) < 0;
+    convex += exact_orient2d(flat[0], flat[1], flat[2]) > 0;
+    reflex += exact_orient2d(flat[0], flat[1], flat[2]) < 0;
     struct triangulation t = {0};
     assert_true(triangulate(&t, point, corner, 5));
     check_sides(&t, NULL, 5);
     for (size_t k = 0; k < 3; k++) {
       const uint32_t *c = t.triangle.item[k].corner;
-      assert_true(exact_turn(flat[c[0]], flat[c[1]], flat[c[2]]) > 0);
+      assert_true(exact_orient2d(flat[c[0]], flat[c[1]], flat[c[2]]) > 0);
     }
     triangulation_fini(&t);
   }

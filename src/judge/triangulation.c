@@ -85,8 +85,8 @@ static bool leftmost_turns_right(const struct triangulation_work *work) {
     if (c[i].at[0] < c[first].at[0] ||
         (c[i].at[0] == c[first].at[0] && c[i].at[1] < c[first].at[1]))
       first = i;
-  return exact_turn(c[(first + work->count - 1) % work->count].at, c[first].at,
-                    c[(first + 1) % work->count].at) < 0;
+  return exact_orient2d(c[(first + work->count - 1) % work->count].at,
+                        c[first].at, c[(first + 1) % work->count].at) < 0;
 }
 
 /* Projects along the axis of largest projected area, or where no projection has
@@ -165,7 +165,7 @@ static void update_cut(struct triangulation_work *work, uint32_t i) {
   const struct scene_point *p = position_of_corner(work, c[i].before),
                            *q = position_of_corner(work, c[i].next);
   double x = q->x - p->x, y = q->y - p->y, z = q->z - p->z;
-  c[i].turn = exact_turn(c[c[i].before].at, c[i].at, c[c[i].next].at);
+  c[i].turn = exact_orient2d(c[c[i].before].at, c[i].at, c[c[i].next].at);
   c[i].length = round_to_24_bits(x * x + y * y + z * z);
   c[i].refused = false;
 }
@@ -192,8 +192,8 @@ static bool is_rule_ear(const struct triangulation_work *work, uint32_t i) {
     const double *at = c[k].at;
     if (c[k].turn <= 0 && !is_same_projection(at, p) &&
         !is_same_projection(at, q) && !is_same_projection(at, r) &&
-        exact_turn(p, q, at) >= 0 && exact_turn(q, r, at) >= 0 &&
-        exact_turn(r, p, at) >= 0)
+        exact_orient2d(p, q, at) >= 0 && exact_orient2d(q, r, at) >= 0 &&
+        exact_orient2d(r, p, at) >= 0)
       return false;
   }
   return true;

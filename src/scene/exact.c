@@ -113,7 +113,7 @@ static inline int turn_filtered(double ax, double ay, double bx, double by,
   return UNKNOWN;
 }
 
-int exact_turn(const double a[2], const double b[2], const double c[2]) {
+int exact_orient2d(const double a[2], const double b[2], const double c[2]) {
   int sign = turn_filtered(a[0], a[1], b[0], b[1], c[0], c[1]);
   return sign == UNKNOWN ? turn_exactly(a[0], a[1], b[0], b[1], c[0], c[1])
                          : sign;
@@ -121,8 +121,9 @@ int exact_turn(const double a[2], const double b[2], const double c[2]) {
 
 /* In space three points are on one line where they are on one line in all
  * three views along the axes; one view that is sure to say no is enough. */
-bool exact_on_one_line(const struct scene_point *a, const struct scene_point *b,
-                       const struct scene_point *c) {
+bool exact_are_collinear(const struct scene_point *a,
+                         const struct scene_point *b,
+                         const struct scene_point *c) {
   int xy = turn_filtered(a->x, a->y, b->x, b->y, c->x, c->y);
   if (xy == 1 || xy == -1)
     return false;

@@ -12,12 +12,12 @@
 /* The side of the line from a to b on which c lies, for points x, y.
  * Returns 1 where a, b, c turn counter-clockwise, -1 clockwise, 0 on it.
  * Exact: for all finite coordinates, the smallest and the largest too. */
-int exact_turn(const double a[2], const double b[2], const double c[2]);
+int exact_orient2d(const double a[2], const double b[2], const double c[2]);
 
 /* Whether three points surely are not on one line, decided from one view along
  * an axis: a no says nothing.  The bound is that of exact.c. */
-static inline bool exact_surely_turns(double ax, double ay, double bx,
-                                      double by, double cx, double cy) {
+static inline bool exact_surely_not_collinear(double ax, double ay, double bx,
+                                              double by, double cx, double cy) {
   double left = (bx - ax) * (cy - ay);
   double right = (by - ay) * (cx - ax);
   double bound = 2.5 * DBL_EPSILON * (fabs(left) + fabs(right)) + DBL_MIN;
@@ -26,7 +26,8 @@ static inline bool exact_surely_turns(double ax, double ay, double bx,
 
 /* Whether three points lie on one line; also where two of them are equal.
  * Exact: likewise. */
-bool exact_on_one_line(const struct scene_point *a, const struct scene_point *b,
-                       const struct scene_point *c);
+bool exact_are_collinear(const struct scene_point *a,
+                         const struct scene_point *b,
+                         const struct scene_point *c);
 
 #endif

@@ -7,7 +7,7 @@
 #include "scene/scene.h"
 
 #include "base/sort.h"
-#include "scene/bowtie.h"
+#include "scene/self_intersection.h"
 #include "scene/diagnostics.h"
 #include "scene/exact.h"
 #include "scene/limit.h"
@@ -21,7 +21,7 @@ static bool same_position(const struct scene *scene, uint32_t a, uint32_t b) {
 static bool on_one_line(const struct scene *scene, uint32_t a, uint32_t b,
                         uint32_t c) {
   const struct scene_point *point = scene->point.item;
-  return exact_on_one_line(&point[a], &point[b], &point[c]);
+  return exact_are_collinear(&point[a], &point[b], &point[c]);
 }
 
 /* ---- Checks -------------------------------------------------------------- */
@@ -132,7 +132,7 @@ static bool examine_face(const struct scene *scene, const uint32_t *corner,
         "face without area, its boundary retraces itself, skipped");
     return false;
   }
-  if (count > 3 && bowtie_has_crossing(scene, corner, count))
+  if (count > 3 && polygon_intersects_itself(scene, corner, count))
     diagnostics_fault(diagnostics, SCENE_FAULT_BOW_TIE, line,
                       "face whose sides cross each other");
   return true;

@@ -1,7 +1,6 @@
 # src/scene/local.mk - the sources of this layer.
 librecto_core_la_SOURCES += \
   %D%/angle.c %D%/angle.h \
-  %D%/bowtie.c %D%/bowtie.h \
   %D%/cluster.c %D%/cluster.h \
   %D%/diagnostics.c %D%/diagnostics.h \
   %D%/edge_classes.c %D%/edge_classes.h \
@@ -28,6 +27,7 @@ librecto_core_la_SOURCES += \
   %D%/reader_ply.c \
   %D%/reader_stl.c \
   %D%/scene.c %D%/scene.h \
+  %D%/self_intersection.c %D%/self_intersection.h \
   %D%/side_iterator.h \
   %D%/topology.c %D%/topology.h \
   %D%/unusable.c %D%/unusable.h \

@@ -168,8 +168,8 @@ static inline const char *read_plain_face(const struct obj_parser *p,
   const struct scene_point *point = p->scene->point.item;
   const struct scene_point *a = &point[corner[0]], *b = &point[corner[1]],
                            *c = &point[corner[2]];
-  bool bent = exact_surely_turns(a->x, a->y, b->x, b->y, c->x, c->y) ||
-              exact_surely_turns(a->y, a->z, b->y, b->z, c->y, c->z);
+  bool bent = exact_surely_not_collinear(a->x, a->y, b->x, b->y, c->x, c->y) ||
+              exact_surely_not_collinear(a->y, a->z, b->y, b->z, c->y, c->z);
   return bent && *at == '\n' ? at + 1 : NULL;
 }
 

@@ -37,7 +37,7 @@
  *   A cut can make ears of its two neighbours only, so two corners are tested
  *   after each.
  * Robustness
- *   All turns are decided by exact_turn.  After too many repeated tests corners
+ *   All turns are decided by exact_orient2d.  After too many repeated tests corners
  *   are cut off untested, so the loop always ends.
  * Source  ear clipping: [Meisters1975], the two-ears theorem.
  */
@@ -214,8 +214,8 @@ static bool is_reflex_in_ear(const void *user, uint32_t p) {
                *b = corner[ear->b].at, *c = corner[ear->c].at;
   if (corner[p].turn > 0 || is_at(at, a) || is_at(at, b) || is_at(at, c))
     return false;
-  return exact_turn(c, a, at) >= 0 && exact_turn(a, b, at) >= 0 &&
-         exact_turn(b, c, at) >= 0;
+  return exact_orient2d(c, a, at) >= 0 && exact_orient2d(a, b, at) >= 0 &&
+         exact_orient2d(b, c, at) >= 0;
 }
 
 static bool is_ear(const struct ear_clipper *clipper, uint32_t b) {

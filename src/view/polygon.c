@@ -107,9 +107,9 @@ static bool is_clockwise(void *at, size_t stride, uint32_t count) {
   for (uint32_t c = 1; c < count; c++)
     if (vector2_is_before(image(at, stride, c), image(at, stride, low)))
       low = c;
-  return exact_turn(image(at, stride, low > 0 ? low - 1 : count - 1),
-                    image(at, stride, low),
-                    image(at, stride, low + 1 < count ? low + 1 : 0)) < 0;
+  return exact_orient2d(image(at, stride, low > 0 ? low - 1 : count - 1),
+                        image(at, stride, low),
+                        image(at, stride, low + 1 < count ? low + 1 : 0)) < 0;
 }
 
 void polygon_project(const struct polygon *polygon,

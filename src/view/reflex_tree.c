@@ -121,7 +121,7 @@ static bool is_beyond_side(const struct reflex_tree_node *box, const double *a,
                            const double *b) {
   const double corner[2] = {b[1] > a[1] ? box->low[0] : box->high[0],
                             b[0] > a[0] ? box->high[1] : box->low[1]};
-  return exact_turn(a, b, corner) < 0;
+  return exact_orient2d(a, b, corner) < 0;
 }
 
 static bool may_meet(const struct reflex_tree_node *box,

@@ -40,7 +40,7 @@ struct triangulation {
 
 static inline int triangulation_turn(const struct triangulation_corner *corner,
                                      uint32_t a, uint32_t b, uint32_t c) {
-  return exact_turn(corner[a].at, corner[b].at, corner[c].at);
+  return exact_orient2d(corner[a].at, corner[b].at, corner[c].at);
 }
 
 static inline void triangulation_add(struct triangulation *triangulation,

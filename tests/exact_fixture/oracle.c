@@ -279,8 +279,8 @@ static bool is_behind_at(const struct occluder *occluder, struct geom_point p,
   mpq_t from, to;
   bool behind;
   mpq_inits(from, to, NULL);
-  rational_set_int128(mpq_numref(from), occluder_depth(occluder, p));
-  rational_set_int128(mpq_numref(to), occluder_depth(occluder, q));
+  rational_set_int128(mpq_numref(from), occluder_value(occluder, p));
+  rational_set_int128(mpq_numref(to), occluder_value(occluder, q));
   mpq_sub(to, to, from);
   mpq_mul(to, to, t);
   mpq_add(to, to, from);

@@ -41,7 +41,7 @@ static bool find_touching(struct fragments *f, uint32_t triangle,
         !box2_disjoint(box, box2_of_triangle(sheet, g))) {
       f->counts.contact_pairs++;
       struct plane_filter other = plane_filter_of(sheet, g);
-      if (!plane_filters_may_touch(sheet, &plane, triangle, &other, g) ||
+      if (!triangles_may_touch(sheet, &plane, triangle, &other, g) ||
           triangles_disjoint(sheet, triangle, g))
         continue;
       f->counts.contact_exact++;

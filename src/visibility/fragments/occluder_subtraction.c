@@ -182,8 +182,8 @@ coverage_of_crossing(const struct occluder_subtraction *subtraction,
     struct plane_filter filter =
         plane_filter_of(subtraction->sheet, occluder->triangle);
     for (uint32_t c = 0; c < piece->count; c++)
-      sum += plane_filter_nearer(&subtraction->filter, &filter,
-                                 piece->corner[c].x, piece->corner[c].y);
+      sum += plane_filter_compare(&subtraction->filter, &filter,
+                                  piece->corner[c].x, piece->corner[c].y);
     if (sum == count || sum == -count)
       return sum > 0 ? COVERAGE_FULL : COVERAGE_NONE;
     struct triangle_plane plane =

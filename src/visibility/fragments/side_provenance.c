@@ -104,12 +104,12 @@ static bool filtered_is_nearer(const struct sheet *sheet, uint32_t f,
                                const struct geom_corner *to, bool *nearer) {
   struct plane_filter sf = plane_filter_of(sheet, f),
                       sg = plane_filter_of(sheet, g);
-  int at_from = plane_filter_nearer(&sf, &sg, from->x, from->y),
-      at_to = plane_filter_nearer(&sf, &sg, to->x, to->y);
+  int at_from = plane_filter_compare(&sf, &sg, from->x, from->y),
+      at_to = plane_filter_compare(&sf, &sg, to->x, to->y);
   if (at_from == 0 || at_to == 0)
     return false;
   *nearer = at_from > 0 || at_to > 0;
-  return !plane_filters_may_touch(sheet, &sf, f, &sg, g);
+  return !triangles_may_touch(sheet, &sf, f, &sg, g);
 }
 
 /* Returns whether g is nearer than f somewhere from `from` to `to`; if the two

@@ -163,7 +163,8 @@ static bool passes_through(const struct sheet *sheet,
     if (is_same_face(sheet, incidence->triangle, g))
       continue;
     occluder_init(&hf, sheet, incidence->triangle);
-    if (is_overlap_within_rounding(sheet, incidence->triangle, g, &hf, &hg))
+    if (triangles_coplanar_within_rounding(sheet, incidence->triangle, g, &hf,
+                                           &hg))
       continue;
     struct side_count count = side_count_of(&hg, hf.p);
     behind |= count.in_front == 0 && count.behind == 1;

@@ -59,7 +59,7 @@ static bool decide_pair(void *user, uint32_t f, uint32_t g) {
   sf = side_count_of(&hg, hf->p);
   if (!straddles(sf) && !ends_on_plane(sf))
     return true;
-  if (is_overlap_within_rounding(sheet, f, g, hf, &hg))
+  if (triangles_coplanar_within_rounding(sheet, f, g, hf, &hg))
     return true;
   search->counts.straddle++;
   if (ends_on_plane(sf))

@@ -14,15 +14,15 @@ struct side_count side_count_of(const struct occluder *plane,
   return count;
 }
 
-bool is_overlap_within_rounding(const struct sheet *sheet, uint32_t f,
-                                uint32_t g, const struct occluder *hf,
-                                const struct occluder *hg) {
+bool triangles_coplanar_within_rounding(const struct sheet *sheet, uint32_t f,
+                                        uint32_t g, const struct occluder *hf,
+                                        const struct occluder *hg) {
   if ((sheet->triangle_flags[f] | sheet->triangle_flags[g]) & SHEET_EDGE_ON)
     return false;
   for (int k = 0; k < 3; k++) {
     int next = geom_next_corner(k);
-    if (occluder_edge_leaves_rounding(hg, sheet, hf->p[k], hf->p[next]) ||
-        occluder_edge_leaves_rounding(hf, sheet, hg->p[k], hg->p[next]))
+    if (occluder_edge_is_off_plane(hg, sheet, hf->p[k], hf->p[next]) ||
+        occluder_edge_is_off_plane(hf, sheet, hg->p[k], hg->p[next]))
       return false;
   }
   return true;

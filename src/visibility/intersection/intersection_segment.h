@@ -31,9 +31,9 @@ static inline bool ends_on_plane(struct side_count s) {
  * from it, its rounding error grows, and coplanar triangles seem to straddle
  * it.  Of a triangle that is seen edge-on, this is not known: false.
  * hf, hg  the two, prepared */
-bool is_overlap_within_rounding(const struct sheet *sheet, uint32_t f,
-                                uint32_t g, const struct occluder *hf,
-                                const struct occluder *hg);
+bool triangles_coplanar_within_rounding(const struct sheet *sheet, uint32_t f,
+                                        uint32_t g, const struct occluder *hf,
+                                        const struct occluder *hg);
 
 /* Two triangles and the segment in which their surfaces intersect. */
 struct intersection_segment {

@@ -76,7 +76,7 @@ static void set_candidate_plane(struct newell_order *order, uint32_t triangle) {
 static bool hides_nothing(const struct newell_order *order, uint32_t t) {
   struct geom_triangle corner = sheet_corners(order->sheet, t);
   for (int k = 0; k < 3; k++)
-    if (plane_filter_occludes(&order->filter, corner.p[k]) <= 0)
+    if (plane_filter_contact_sign(&order->filter, corner.p[k]) <= 0)
       return false;
   return true;
 }

@@ -66,12 +66,12 @@ occlusion_tolerance_bound_all(const struct sheet *sheet) {
                                   (grid + slope * share) * (1 + 0x1p-19)};
 }
 
-int128 occluder_depth(const struct occluder *occluder, struct geom_point p) {
+int128 occluder_value(const struct occluder *occluder, struct geom_point p) {
   return geom_plane_value(&occluder->plane, p) * FIXED_ONE + occluder->t0 +
          occluder->t1 * p.z;
 }
 
-/* The sign of occluder_depth where doubles certify it, else 0. */
+/* The sign of occluder_value where doubles certify it, else 0. */
 static int depth_filter(const struct occluder *occluder, struct geom_point p) {
   double x = occluder->nx * (double)((int64_t)p.x - occluder->p[0].x),
          y = occluder->ny * (double)((int64_t)p.y - occluder->p[0].y),
@@ -160,7 +160,7 @@ static bool clip_to_outline(const struct geom_point corner[3],
  * farther on the plane is no longer that of the triangle, and its rounding
  * error grows beyond the contact tolerance.
  * p_shared  p is the corner, else q is
- * gp, gq    occluder_depth of p and q */
+ * gp, gq    occluder_value of p and q */
 static bool is_behind_at_exit(const struct occluded_interval *interval,
                               bool p_shared, int128 gp, int128 gq) {
   if (p_shared)
@@ -188,8 +188,8 @@ static bool clip_to_depth(const struct occluder *occluder, struct geom_point p,
   if (sp > 0 && sq > 0)
     return false;
   counts->exact_tests++;
-  gp = occluder_depth(occluder, p);
-  gq = occluder_depth(occluder, q);
+  gp = occluder_value(occluder, p);
+  gq = occluder_value(occluder, q);
   if (p_shared != q_shared)
     return is_behind_at_exit(interval, p_shared, gp, gq);
   if (gp >= 0 && gq >= 0)
@@ -213,9 +213,9 @@ bool occlude_by_outline(const struct geom_point corner[3], struct geom_point p,
   return clip_to_outline(corner, p, q, interval);
 }
 
-bool occluder_edge_leaves_rounding(const struct occluder *occluder,
-                                   const struct sheet *sheet,
-                                   struct geom_point p, struct geom_point q) {
+bool occluder_edge_is_off_plane(const struct occluder *occluder,
+                                const struct sheet *sheet, struct geom_point p,
+                                struct geom_point q) {
   struct occluded_interval part;
   if (!occlude_by_outline(occluder->p, p, q, &part))
     return false;
@@ -266,8 +266,8 @@ bool occlude_edge_by_triangle(const struct sheet *sheet, uint32_t triangle,
     return false;
   counts->depth_tests++;
   plane = plane_filter_of(sheet, triangle);
-  at_p = plane_filter_occludes(&plane, p);
-  at_q = plane_filter_occludes(&plane, q);
+  at_p = plane_filter_contact_sign(&plane, p);
+  at_q = plane_filter_contact_sign(&plane, q);
   if (at_p == at_q && at_p != 0)
     return at_p < 0;
   occluder_init(&occluder, sheet, triangle);

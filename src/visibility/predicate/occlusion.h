@@ -152,9 +152,9 @@ bool occlude_by_outline(const struct geom_point corner[3], struct geom_point p,
  * plane or in front of it by more than rounding: of the page grid and, where no
  * contact tolerance is given, of the coordinates.  In doubles: what differs
  * from that bound by their own rounding error may be taken for either. */
-bool occluder_edge_leaves_rounding(const struct occluder *occluder,
-                                   const struct sheet *sheet,
-                                   struct geom_point p, struct geom_point q);
+bool occluder_edge_is_off_plane(const struct occluder *occluder,
+                                const struct sheet *sheet, struct geom_point p,
+                                struct geom_point q);
 
 void occlusion_counts_add(struct occlusion_counts *sum,
                           const struct occlusion_counts *more);
@@ -186,7 +186,7 @@ static inline double occlusion_bound_of(const struct occlusion_bound *all,
 
 /* (value << 16) + T of a point: negative where it is behind the plane by more
  * than the contact tolerance.  Exact. */
-int128 occluder_depth(const struct occluder *occluder, struct geom_point p);
+int128 occluder_value(const struct occluder *occluder, struct geom_point p);
 
 /* On which side of the plane a point is: -1 behind it and +1 in front of it by
  * more than the contact tolerance, 0 in contact with it.  Exact. */

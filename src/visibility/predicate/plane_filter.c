@@ -126,19 +126,19 @@ static bool may_touch(const struct plane_filter *plane,
   return plane_filter_may_touch(plane, corners.p);
 }
 
-bool plane_filters_may_touch(const struct sheet *sheet,
-                             const struct plane_filter *sf, uint32_t f,
-                             const struct plane_filter *sg, uint32_t g) {
+bool triangles_may_touch(const struct sheet *sheet,
+                         const struct plane_filter *sf, uint32_t f,
+                         const struct plane_filter *sg, uint32_t g) {
   return may_touch(sf, sheet, g) || may_touch(sg, sheet, f);
 }
 
-int plane_filter_occludes(const struct plane_filter *plane,
-                          struct geom_point p) {
+int plane_filter_contact_sign(const struct plane_filter *plane,
+                              struct geom_point p) {
   struct bounded_value at = value_at(plane, p);
   return (at.value > -at.least) - (at.value < -at.most);
 }
 
-/* The coordinates given to plane_filter_nearer are off by less than this. */
+/* The coordinates given to plane_filter_compare are off by less than this. */
 #define POINT_ERROR 0.25
 
 /* By how much a plane is farther at a point than at its corner, and the error
@@ -160,8 +160,8 @@ static struct depth_drop depth_drop_at(const struct plane_filter *plane,
   return (struct depth_drop){depth, off / nz_least + ERROR_BOUND * fabs(depth)};
 }
 
-int plane_filter_nearer(const struct plane_filter *f,
-                        const struct plane_filter *g, double x, double y) {
+int plane_filter_compare(const struct plane_filter *f,
+                         const struct plane_filter *g, double x, double y) {
   struct depth_drop of_f = depth_drop_at(f, x, y),
                     of_g = depth_drop_at(g, x, y);
   double nearer = (g->z - f->z) - (of_g.depth - of_f.depth);

@@ -53,21 +53,21 @@ bool plane_filter_may_touch(const struct plane_filter *plane,
 
 /* May two triangles touch (triangle_pair.h)?  False is certain.
  * sf, sg  their planes */
-bool plane_filters_may_touch(const struct sheet *sheet,
-                             const struct plane_filter *sf, uint32_t f,
-                             const struct plane_filter *sg, uint32_t g);
+bool triangles_may_touch(const struct sheet *sheet,
+                         const struct plane_filter *sf, uint32_t f,
+                         const struct plane_filter *sg, uint32_t g);
 
 /* The sign of value + T at p: -1 where the point is behind the plane by more
  * than the contact tolerance, so that the triangle hides it; +1 where it is
  * not; 0 where that is not certain. */
-int plane_filter_occludes(const struct plane_filter *plane,
-                          struct geom_point p);
+int plane_filter_contact_sign(const struct plane_filter *plane,
+                              struct geom_point p);
 
 /* Compares the depths of two planes at a point of the page known to a quarter
  * of a unit: +1 where g is strictly nearer, -1 where f is, 0 where that is not
  * certain. */
-int plane_filter_nearer(const struct plane_filter *f,
-                        const struct plane_filter *g, double x, double y);
+int plane_filter_compare(const struct plane_filter *f,
+                         const struct plane_filter *g, double x, double y);
 
 /* The sign of the value alone: +1 in front of the plane, -1 behind it, 0 where
  * that is not certain. */

@@ -1,4 +1,4 @@
-/* bowtie.c - crossing sides, found by a sweep along x.
+/* self_intersection.c - crossing sides of a polygon, found by a sweep along x.
  *
  * Most polygons are convex, and one pass shows it: they turn one way only and
  * go round once.  Of the others, the sides are taken in the order of their left
@@ -7,7 +7,7 @@
  * quadratic; the number of tests is bounded, since all that hangs on the answer
  * is a warning.
  */
-#include "scene/bowtie.h"
+#include "scene/self_intersection.h"
 
 #include <math.h>
 #include <string.h>
@@ -15,16 +15,16 @@
 #include "base/sort.h"
 #include "scene/exact.h"
 
-struct bowtie_side {
+struct polygon_side {
   double left[2], right[2]; /* left[0] <= right[0] */
 };
 
 enum { FEW_SIDES = 32, TESTS_PER_SIDE = 256 };
 
 /* Room for the sweep, on the stack where the polygon is small. */
-struct bowtie_sweep {
-  double (*flat)[2]; /* the corners, seen along the axis */
-  struct bowtie_side *side;
+struct side_sweep {
+  double (*projected)[2]; /* the corners, seen along the axis */
+  struct polygon_side *side;
   struct sort_key *order, *scratch;
   uint32_t *active;
 };
@@ -116,13 +116,13 @@ static bool runs_right(const double a[2], const double b[2]) {
 /* Whether all corners turn one way (or not at all) and the sides change
  * between right and left only twice, so that the turns add up to a full one:
  * then no side can meet another. */
-static bool is_convex(const double (*flat)[2], size_t count) {
+static bool is_convex(const double (*projected)[2], size_t count) {
   int way = 0, changes = 0;
-  const double *a = flat[count - 2], *b = flat[count - 1];
+  const double *a = projected[count - 2], *b = projected[count - 1];
   bool right = runs_right(a, b);
   for (size_t i = 0; i < count; i++) {
-    const double *c = flat[i];
-    int turn = exact_turn(a, b, c);
+    const double *c = projected[i];
+    int turn = exact_orient2d(a, b, c);
     if (turn * way < 0)
       return false;
     way = way ? way : turn;
@@ -136,11 +136,11 @@ static bool is_convex(const double (*flat)[2], size_t count) {
 
 /* ---- The sweep ----------------------------------------------------------- */
 
-static void make_sides(const struct bowtie_sweep *sweep, size_t count) {
+static void make_sides(const struct side_sweep *sweep, size_t count) {
   for (size_t i = 0; i < count; i++) {
-    struct bowtie_side *side = &sweep->side[i];
-    const double *from = sweep->flat[i];
-    const double *to = sweep->flat[i + 1 < count ? i + 1 : 0];
+    struct polygon_side *side = &sweep->side[i];
+    const double *from = sweep->projected[i];
+    const double *to = sweep->projected[i + 1 < count ? i + 1 : 0];
     bool turned = to[0] < from[0];
     memcpy(side->left, turned ? to : from, sizeof side->left);
     memcpy(side->right, turned ? from : to, sizeof side->right);
@@ -150,27 +150,26 @@ static void make_sides(const struct bowtie_sweep *sweep, size_t count) {
   sort_keys(sweep->order, sweep->scratch, count);
 }
 
-static bool sides_cross(const struct bowtie_side *a,
-                        const struct bowtie_side *b) {
+static bool sides_cross(const struct polygon_side *a,
+                        const struct polygon_side *b) {
   return smaller(a->left[1], a->right[1]) <= larger(b->left[1], b->right[1]) &&
          smaller(b->left[1], b->right[1]) <= larger(a->left[1], a->right[1]) &&
-         exact_turn(a->left, a->right, b->left) *
-                 exact_turn(a->left, a->right, b->right) <
+         exact_orient2d(a->left, a->right, b->left) *
+                 exact_orient2d(a->left, a->right, b->right) <
              0 &&
-         exact_turn(b->left, b->right, a->left) *
-                 exact_turn(b->left, b->right, a->right) <
+         exact_orient2d(b->left, b->right, a->left) *
+                 exact_orient2d(b->left, b->right, a->right) <
              0;
 }
 
-static bool find_bowtie_crossing(const struct bowtie_sweep *sweep,
-                                 size_t count) {
+static bool find_bowtie_crossing(const struct side_sweep *sweep, size_t count) {
   size_t active = 0, tests = 0;
   make_sides(sweep, count);
   for (size_t i = 0; i < count; i++) {
-    const struct bowtie_side *side = &sweep->side[sweep->order[i].value];
+    const struct polygon_side *side = &sweep->side[sweep->order[i].value];
     size_t kept = 0;
     for (size_t k = 0; k < active; k++) {
-      const struct bowtie_side *other = &sweep->side[sweep->active[k]];
+      const struct polygon_side *other = &sweep->side[sweep->active[k]];
       if (other->right[0] < side->left[0])
         continue;
       if (sides_cross(side, other))
@@ -187,33 +186,33 @@ static bool find_bowtie_crossing(const struct bowtie_sweep *sweep,
 }
 
 static bool has_crossing(const struct scene *scene, const uint32_t *corner,
-                         size_t count, const struct bowtie_sweep *sweep) {
+                         size_t count, const struct side_sweep *sweep) {
   int axis = choose_view_axis(scene, corner, count);
   for (size_t i = 0; i < count; i++)
-    drop_axis(&scene->point.item[corner[i]], axis, sweep->flat[i]);
-  return !is_convex((const double(*)[2])sweep->flat, count) &&
+    drop_axis(&scene->point.item[corner[i]], axis, sweep->projected[i]);
+  return !is_convex((const double(*)[2])sweep->projected, count) &&
          find_bowtie_crossing(sweep, count);
 }
 
-bool bowtie_has_crossing(const struct scene *scene, const uint32_t *corner,
-                         size_t count) {
+bool polygon_intersects_itself(const struct scene *scene,
+                               const uint32_t *corner, size_t count) {
   if (count <= FEW_SIDES) {
-    double flat[FEW_SIDES][2];
-    struct bowtie_side side[FEW_SIDES];
+    double projected[FEW_SIDES][2];
+    struct polygon_side side[FEW_SIDES];
     struct sort_key order[FEW_SIDES], scratch[FEW_SIDES];
     uint32_t active[FEW_SIDES];
-    struct bowtie_sweep sweep = {flat, side, order, scratch, active};
+    struct side_sweep sweep = {projected, side, order, scratch, active};
     return has_crossing(scene, corner, count, &sweep);
   }
   struct arena arena = {NULL, 0};
-  struct bowtie_sweep sweep = {
-      arena_alloc(&arena, count, sizeof *sweep.flat),
+  struct side_sweep sweep = {
+      arena_alloc(&arena, count, sizeof *sweep.projected),
       arena_alloc(&arena, count, sizeof *sweep.side),
       arena_alloc(&arena, count, sizeof *sweep.order),
       arena_alloc(&arena, count, sizeof *sweep.scratch),
       arena_alloc(&arena, count, sizeof *sweep.active)};
   bool crossing = false;
-  if (sweep.flat != NULL && sweep.side != NULL && sweep.order != NULL &&
+  if (sweep.projected != NULL && sweep.side != NULL && sweep.order != NULL &&
       sweep.scratch != NULL && sweep.active != NULL)
     crossing = has_crossing(scene, corner, count, &sweep);
   arena_fini(&arena);

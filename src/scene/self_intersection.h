@@ -1,6 +1,6 @@
-/* bowtie.h - tests whether the sides of a polygon cross each other. */
-#ifndef SCENE_BOWTIE_H
-#define SCENE_BOWTIE_H
+/* self_intersection.h - tests whether the sides of a polygon cross each other. */
+#ifndef SCENE_SELF_INTERSECTION_H
+#define SCENE_SELF_INTERSECTION_H
 
 #include "scene/scene.h"
 
@@ -12,7 +12,7 @@
  *        out or the polygon is adversarial, as the result serves a warning
  *        only.
  * Cost: for an ordinary polygon, that of sorting its sides. */
-bool bowtie_has_crossing(const struct scene *scene, const uint32_t *corner,
-                         size_t count);
+bool polygon_intersects_itself(const struct scene *scene,
+                               const uint32_t *corner, size_t count);
 
 #endif
