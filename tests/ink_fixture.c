@@ -169,11 +169,11 @@ static bool find_twins(struct ink_fixture *k) {
     const struct map_corner *corner = k->map.corner.item + loop->corner;
     for (uint32_t i = 0; i < loop->count && ok; i++) {
       struct geom_line line;
-      uint64_t number;
+      uint64_t key;
       geom_line_through(&line, grid_point(&corner[i]),
                         grid_point(&corner[(i + 1) % loop->count]));
-      assert_true(geom_line_number(&line, &number));
-      ok = side_lines_add_number(&lines, number);
+      assert_true(geom_line_key(&line, &key));
+      ok = side_lines_add_key(&lines, key);
     }
   }
   k->map.half_edge.count = 0;

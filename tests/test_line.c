@@ -111,9 +111,9 @@ static void triangle(uint64_t *r, int bits, struct geom_point p[3]) {
   }
 }
 
-/* A narrow line, near the one from p to q or anywhere. */
-static void narrow(uint64_t *r, int bits, struct twin *t, struct geom_point p,
-                   struct geom_point q) {
+/* A grid line, near the one from p to q or anywhere. */
+static void draw_grid_line(uint64_t *r, int bits, struct twin *t,
+                           struct geom_point p, struct geom_point q) {
   struct geom_point a, b;
   do {
     switch (exact_random_below(r, 3)) {
@@ -132,7 +132,7 @@ static void narrow(uint64_t *r, int bits, struct twin *t, struct geom_point p,
     twin_reverse(t);
 }
 
-/* A wide line between planes of one family, so that wide lines often meet on
+/* The intersection of two planes of one family, so that these often meet on
  * each other: all of a family's planes go through a common point or, nearly,
  * through one line. */
 static bool wide(uint64_t *r, const struct geom_point family[4],
@@ -171,7 +171,7 @@ static void draw_lines(uint64_t *r, struct twin t[LINES]) {
     family[k] = point(r, bits);
   for (int k = 0; k < LINES; k++)
     if (exact_random_below(r, 2) || !wide(r, family, &t[k]))
-      narrow(r, bits, &t[k], family[0], family[1]);
+      draw_grid_line(r, bits, &t[k], family[0], family[1]);
 }
 
 /* ---- Questions ----------------------------------------------------------- */
@@ -245,7 +245,7 @@ static int draw_corners(uint64_t *r, const struct twin t[LINES],
         c[count].corner = geom_corner_of(&t[j].line, &t[k].line);
         count++;
       }
-  for (int k = 0; k < LINES && t[k].line.narrow; k++) {
+  for (int k = 0; k < LINES && t[k].line.is_grid_line; k++) {
     struct geom_point p = {t[k].line.x0, t[k].line.y0, 0};
     if (exact_random_below(r, 2))
       p = near(r, p, 1);
@@ -289,7 +289,7 @@ static void side_is_the_sign_of_the_value(void **state) {
         if (want == 0 && c[k].corner.l1 != &t[j].line &&
             c[k].corner.l2 != &t[j].line) {
           zeros++;
-          wide_zeros += !t[j].line.narrow;
+          wide_zeros += !t[j].line.is_grid_line;
         }
       }
   }
@@ -464,7 +464,7 @@ static void extreme_triangle(uint64_t *r, struct geom_point p[3]) {
   }
 }
 
-/* The limbs of a wide line as an integer. */
+/* The limbs of a plane intersection as an integer. */
 static void wide_coefficient(mpz_t to, const struct geom_line *line, int k) {
   mpz_import(to, GEOM_LINE_LIMBS, -1, sizeof(mp_limb_t), 0, 0, line->limb[k]);
   if (line->sign[k] < 0)
@@ -601,7 +601,7 @@ static struct geom_line stepped(struct geom_point p, int dx, int dy, int k,
   return line;
 }
 
-static void lines_have_one_number_however_they_are_given(void **state) {
+static void lines_have_one_key_however_they_are_given(void **state) {
   uint64_t r = 3;
   int alike = 0;
   (void)state;
@@ -614,9 +614,9 @@ static void lines_have_one_number_however_they_are_given(void **state) {
     if (dx == 0 && dy == 0)
       continue;
     struct geom_line line = stepped(p, dx, dy, -3, 4);
-    assert_true(geom_line_number(&line, &a));
+    assert_true(geom_line_key(&line, &a));
     line = stepped(p, dx, dy, 1000, 1000 - 7 * (1 + i % 5));
-    assert_true(geom_line_number(&line, &b));
+    assert_true(geom_line_key(&line, &b));
     assert_true(a == b);
     /* Two planes that cross above it. */
     const struct geom_point f[3] = {{p.x, p.y, 900},
@@ -627,11 +627,11 @@ static void lines_have_one_number_however_they_are_given(void **state) {
                                     {p.x - dy, p.y + dx, 7}};
     struct geom_plane front = plane_of(g), back = plane_of(f);
     assert_int_equal(geom_line_between(&line, &front, &back), 0);
-    assert_true(geom_line_number(&line, &c));
+    assert_true(geom_line_key(&line, &c));
     assert_true(a == c);
     p.x++;
     line = stepped(p, dx, dy, 0, 1);
-    assert_true(geom_line_number(&line, &d));
+    assert_true(geom_line_key(&line, &d));
     alike += a == d && dy != 0;
   }
   assert_int_equal(alike, 0);
@@ -658,24 +658,24 @@ static void draw_plane(uint64_t *r, struct geom_plane plane[2]) {
   plane[1] = plane_of(p);
 }
 
-static void lines_without_grid_points_have_one_number_too(void **state) {
+static void lines_without_grid_points_have_one_key_too(void **state) {
   uint64_t r = 4, last = 0;
   (void)state;
   for (int i = 0; i < 500; i++) {
     struct geom_plane f[2], g[2];
     struct geom_line line;
-    uint64_t number[3];
+    uint64_t key[3];
     draw_plane(&r, f);
     draw_plane(&r, g);
     assert_int_equal(geom_line_between(&line, &f[0], &g[0]), 0);
-    assert_false(geom_line_number(&line, &number[0]));
+    assert_false(geom_line_key(&line, &key[0]));
     assert_int_equal(geom_line_between(&line, &f[1], &g[0]), 0);
-    assert_false(geom_line_number(&line, &number[1]));
+    assert_false(geom_line_key(&line, &key[1]));
     assert_int_equal(geom_line_between(&line, &g[1], &f[1]), 0);
-    assert_false(geom_line_number(&line, &number[2]));
-    assert_true(number[0] == number[1] && number[0] == number[2]);
-    assert_true(number[0] != last);
-    last = number[0];
+    assert_false(geom_line_key(&line, &key[2]));
+    assert_true(key[0] == key[1] && key[0] == key[2]);
+    assert_true(key[0] != last);
+    last = key[0];
   }
 }
 
@@ -692,8 +692,8 @@ int main(void) {
       cmocka_unit_test(three_planes_meet_in_one_corner),
       cmocka_unit_test(parallel_planes_have_no_line_but_an_order),
       cmocka_unit_test(a_line_turned_round_has_its_sides_swapped),
-      cmocka_unit_test(lines_have_one_number_however_they_are_given),
-      cmocka_unit_test(lines_without_grid_points_have_one_number_too),
+      cmocka_unit_test(lines_have_one_key_however_they_are_given),
+      cmocka_unit_test(lines_without_grid_points_have_one_key_too),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

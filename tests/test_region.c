@@ -194,7 +194,7 @@ static void set_between(mpq_t to, uint64_t *r, int size, int prime) {
 }
 
 /* Each outer with its holes goes round a point once or not at all, and round
- * the points of the pieces alone.  The pieces' sides are narrow. */
+ * the points of the pieces alone.  The pieces' sides are grid lines. */
 static void check_samples(const struct geom_region *region,
                           const struct mosaic *m, int size, uint64_t *r) {
   enum { SAMPLES = 12 };

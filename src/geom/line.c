@@ -6,8 +6,8 @@
  * so the value of a third line there has the sign of det(l1, l2, l3) times
  * the sign of the last component.
  *
- * Of narrow lines that is 127 bits at most, so machine words decide where
- * doubles cannot; wide.h is for wide ones.
+ * Of grid lines that is 127 bits at most, so machine words decide where doubles
+ * cannot; wide.h is for plane intersections.
  *
  * Filter: the nine inputs are within 2^-52 of the true coefficients (the
  * digits are cut off); each of the six triple products gathers at most 3 such
@@ -25,7 +25,7 @@ void geom_line_through(struct geom_line *line, struct geom_point p,
                        struct geom_point q) {
   int64_t a = (int64_t)p.y - q.y, b = (int64_t)q.x - p.x;
   memset(line, 0, sizeof *line);
-  line->narrow = true;
+  line->is_grid_line = true;
   line->x0 = p.x;
   line->y0 = p.y;
   line->x1 = q.x;
@@ -107,7 +107,7 @@ void geom_line_reverse(struct geom_line *line) {
 /* ---- Exact coefficients -------------------------------------------------- */
 
 static void exact_line(struct wide l[3], const struct geom_line *line) {
-  if (line->narrow) {
+  if (line->is_grid_line) {
     int64_t a = (int64_t)line->y0 - line->y1, b = (int64_t)line->x1 - line->x0;
     l[0] = wide_of_int128(a);
     l[1] = wide_of_int128(b);
@@ -136,36 +136,37 @@ void geom_corner_exact(const struct geom_corner *corner, struct wide h[3]) {
       wide_negate(&h[k]);
 }
 
-/* ---- The same of narrow lines, in machine words -------------------------- */
+/* ---- The same of grid lines, in machine words ---------------------------- */
 
 /* a, b < 2^31, c < 2^62 */
-struct narrow_line {
+struct line_coefficients {
   int64_t a, b, c;
 };
 
 /* x, y < 2^94, 0 < w < 2^63 */
-struct narrow_corner {
+struct corner_integers {
   int128 x, y;
   int64_t w;
 };
 
-static struct narrow_line narrow_of(const struct geom_line *line) {
+static struct line_coefficients coefficients_of(const struct geom_line *line) {
   int64_t a = (int64_t)line->y0 - line->y1, b = (int64_t)line->x1 - line->x0;
-  return (struct narrow_line){a, b, -(a * line->x0 + b * line->y0)};
+  return (struct line_coefficients){a, b, -(a * line->x0 + b * line->y0)};
 }
 
-/* The corner as homogeneous integers; false where one of its lines is wide. */
-static bool narrow_meet(struct narrow_corner *h,
-                        const struct geom_corner *corner) {
-  struct narrow_line p, q;
+/* The corner as homogeneous integers; false where one of its lines is no grid
+ * line. */
+static bool grid_lines_meet(struct corner_integers *h,
+                            const struct geom_corner *corner) {
+  struct line_coefficients p, q;
   if (corner->l1 == NULL) {
-    *h = (struct narrow_corner){corner->ix, corner->iy, 1};
+    *h = (struct corner_integers){corner->ix, corner->iy, 1};
     return true;
   }
-  if (!corner->l1->narrow || !corner->l2->narrow)
+  if (!corner->l1->is_grid_line || !corner->l2->is_grid_line)
     return false;
-  p = narrow_of(corner->l1);
-  q = narrow_of(corner->l2);
+  p = coefficients_of(corner->l1);
+  q = coefficients_of(corner->l2);
   h->x = (int128)p.b * q.c - (int128)q.b * p.c;
   h->y = (int128)p.c * q.a - (int128)q.c * p.a;
   h->w = p.a * q.b - q.a * p.b;
@@ -177,7 +178,7 @@ static bool narrow_meet(struct narrow_corner *h,
   return true;
 }
 
-/* ---- Lines by number ----------------------------------------------------- */
+/* ---- Keys of lines ------------------------------------------------------- */
 
 static uint64_t common_divisor(uint64_t a, uint64_t b) {
   while (b != 0) {
@@ -193,8 +194,8 @@ static uint64_t magnitude_64(int64_t a) {
 }
 
 /* Mixes the coefficients, which have no common divisor, so that few lines share
- * a number that are different. */
-static uint64_t hash_line(struct narrow_line l) {
+ * a key that are different. */
+static uint64_t hash_line(struct line_coefficients l) {
   bool turned = l.a < 0 || (l.a == 0 && l.b < 0);
   const uint64_t part[3] = {(uint64_t)l.a, (uint64_t)l.b, (uint64_t)l.c};
   uint64_t sum = 0;
@@ -203,14 +204,16 @@ static uint64_t hash_line(struct narrow_line l) {
   return sum;
 }
 
-/* The same integers for a wide line; false where they are too large. */
-static bool reduce_wide(const struct geom_line *line, struct narrow_line *to) {
+/* The same integers for a plane intersection; false where they are too
+ * large. */
+static bool reduce_coefficients(const struct geom_line *line,
+                                struct line_coefficients *to) {
   struct wide exact[3];
   int64_t reduced[3];
   exact_line(exact, line);
   if (!wide_reduce(exact, reduced))
     return false;
-  *to = (struct narrow_line){reduced[0], reduced[1], reduced[2]};
+  *to = (struct line_coefficients){reduced[0], reduced[1], reduced[2]};
   return true;
 }
 
@@ -221,9 +224,9 @@ static uint64_t multiply_residues(uint64_t a, uint64_t b) {
   return (uint64_t)((uint128)a * b % RESIDUE_PRIME);
 }
 
-/* The number of a wide line whose integers are too large to be reduced: the
- * residues of its coefficients, divided by the first that is not 0. */
-static uint64_t number_of_residues(const struct geom_line *line) {
+/* The key of a plane intersection whose integers are too large to be reduced:
+ * the residues of its coefficients, divided by the first that is not 0. */
+static uint64_t key_of_residues(const struct geom_line *line) {
   uint64_t residue[3], inverse = 1, power;
   int first = 2;
   for (int k = 2; k >= 0; k--) {
@@ -243,28 +246,28 @@ static uint64_t number_of_residues(const struct geom_line *line) {
       inverse = multiply_residues(inverse, power);
     power = multiply_residues(power, power);
   }
-  return hash_line(
-      (struct narrow_line){(int64_t)multiply_residues(residue[0], inverse),
-                           (int64_t)multiply_residues(residue[1], inverse),
-                           (int64_t)multiply_residues(residue[2], inverse)});
+  return hash_line((struct line_coefficients){
+      (int64_t)multiply_residues(residue[0], inverse),
+      (int64_t)multiply_residues(residue[1], inverse),
+      (int64_t)multiply_residues(residue[2], inverse)});
 }
 
-bool geom_line_number(const struct geom_line *line, uint64_t *number) {
-  struct narrow_line reduced;
-  if (line->narrow) {
+bool geom_line_key(const struct geom_line *line, uint64_t *key) {
+  struct line_coefficients reduced;
+  if (line->is_grid_line) {
     int64_t divisor;
-    reduced = narrow_of(line);
+    reduced = coefficients_of(line);
     /* It divides c too. */
     divisor = (int64_t)common_divisor(magnitude_64(reduced.a),
                                       magnitude_64(reduced.b));
     reduced.a /= divisor;
     reduced.b /= divisor;
     reduced.c /= divisor;
-  } else if (!reduce_wide(line, &reduced)) {
-    *number = number_of_residues(line);
+  } else if (!reduce_coefficients(line, &reduced)) {
+    *key = key_of_residues(line);
     return false;
   }
-  *number = hash_line(reduced);
+  *key = hash_line(reduced);
   return true;
 }
 
@@ -272,12 +275,12 @@ bool geom_line_number(const struct geom_line *line, uint64_t *number) {
 
 static int side_exact(const struct geom_line *line,
                       const struct geom_corner *corner) {
-  struct narrow_corner narrow;
+  struct corner_integers c;
   struct wide l[3], h[3], ax, by, sum, value;
-  if (line->narrow && narrow_meet(&narrow, corner)) {
-    struct narrow_line n = narrow_of(line); /* 2^125 each: the sum fits */
-    return geom_sign128(n.a * narrow.x + n.b * narrow.y +
-                        (int128)n.c * narrow.w);
+  if (line->is_grid_line && grid_lines_meet(&c, corner)) {
+    struct line_coefficients n =
+        coefficients_of(line); /* 2^125 each: the sum fits */
+    return geom_sign128(n.a * c.x + n.b * c.y + (int128)n.c * c.w);
   }
   exact_line(l, line);
   geom_corner_exact(corner, h);
@@ -292,7 +295,7 @@ static int side_exact(const struct geom_line *line,
 static bool same_line(const struct geom_line *l, const struct geom_line *m) {
   if (l == m)
     return true;
-  if (!l->narrow || !m->narrow)
+  if (!l->is_grid_line || !m->is_grid_line)
     return false;
   return (l->x0 == m->x0 && l->y0 == m->y0 && l->x1 == m->x1 &&
           l->y1 == m->y1) ||
@@ -302,7 +305,7 @@ static bool same_line(const struct geom_line *l, const struct geom_line *m) {
 static int side_of_point(const struct geom_line *line,
                          const struct geom_corner *corner) {
   double value, size;
-  if (line->narrow) {
+  if (line->is_grid_line) {
     int64_t dx = (int64_t)line->x1 - line->x0,
             dy = (int64_t)line->y1 - line->y0;
     int64_t ex = (int64_t)corner->ix - line->x0,
@@ -328,7 +331,7 @@ static int side_of_point(const struct geom_line *line,
 static int side_of_doubles(const struct geom_line *line,
                            const struct geom_corner *corner) {
   double ax, by, c, value, bound;
-  if (line->narrow) {
+  if (line->is_grid_line) {
     ax = line->a * (corner->x - line->x0);
     by = line->b * (corner->y - line->y0);
     c = 0;
@@ -374,8 +377,8 @@ int geom_line_side(const struct geom_line *line,
 static int product_exact(const struct geom_line *l1, const struct geom_line *l2,
                          bool dot) {
   struct wide p[3], q[3], value;
-  if (l1->narrow && l2->narrow) {
-    struct narrow_line m = narrow_of(l1), n = narrow_of(l2);
+  if (l1->is_grid_line && l2->is_grid_line) {
+    struct line_coefficients m = coefficients_of(l1), n = coefficients_of(l2);
     return geom_sign64(dot ? m.a * n.a + m.b * n.b : m.a * n.b - n.a * m.b);
   }
   exact_line(p, l1);
@@ -442,10 +445,10 @@ struct geom_corner geom_corner_of(const struct geom_line *l1,
 
 static int compare_exact(const struct geom_corner *p,
                          const struct geom_corner *q) {
-  struct narrow_corner m, n;
+  struct corner_integers m, n;
   struct wide g[3], h[3], value;
   int order = 0;
-  if (narrow_meet(&m, p) && narrow_meet(&n, q)) {
+  if (grid_lines_meet(&m, p) && grid_lines_meet(&n, q)) {
     order = ratio_compare((struct ratio){m.x, m.w}, (struct ratio){n.x, n.w});
     return order != 0 ? order
                       : ratio_compare((struct ratio){m.y, m.w},
@@ -475,7 +478,7 @@ int geom_corner_compare(const struct geom_corner *p,
 }
 
 /* floor(2^bits num / den + 1/2), num < 2^94 */
-static int64_t round_narrow(int128 num, int64_t den, int bits) {
+static int64_t round_quotient(int128 num, int64_t den, int bits) {
   int128 twice = num * ((int128)2 << bits) + den, whole = twice / den / 2;
   if (whole * 2 * den > twice)
     whole--;
@@ -484,11 +487,11 @@ static int64_t round_narrow(int128 num, int64_t den, int bits) {
 
 void geom_corner_round(const struct geom_corner *corner, int bits, int64_t *x,
                        int64_t *y) {
-  struct narrow_corner narrow;
+  struct corner_integers c;
   struct wide h[3];
-  if (narrow_meet(&narrow, corner)) {
-    *x = round_narrow(narrow.x, narrow.w, bits);
-    *y = round_narrow(narrow.y, narrow.w, bits);
+  if (grid_lines_meet(&c, corner)) {
+    *x = round_quotient(c.x, c.w, bits);
+    *y = round_quotient(c.y, c.w, bits);
     return;
   }
   geom_corner_exact(corner, h);

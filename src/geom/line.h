@@ -1,18 +1,19 @@
 /* line.h - exact lines of the page and the corners where they meet.
  *
  * A line is the oriented half plane a x + b y + c > 0, its left side.  It is
- * either narrow, through two integer points (a mesh edge, a window's border),
- * or wide, the place where two planes are equally deep.
+ * either a grid line, through two integer points (a mesh edge, a window's
+ * border), or a plane intersection, where two planes are equally deep.
  *
  * A corner is either an integer point or the crossing of two lines; it is
  * never rounded before the last predicate on it is evaluated.
  *
- * Ranges: narrow |a|, |b| < 2^31, |c| < 2^62; wide |a|, |b| < 2^137,
- * |c| < 2^170: with normals below 2^72 and 2^63 and plane constants below
- * 2^105 (predicate.h), a = nFx nGz - nGx nFz and c = KG nFz - KF nGz.
+ * Ranges: of grid lines |a|, |b| < 2^31, |c| < 2^62; of plane intersections
+ * |a|, |b| < 2^137, |c| < 2^170, as normals are below 2^72 and 2^63 and plane
+ * constants below 2^105 (predicate.h), and
+ *     a = nFx nGz - nGx nFz,  c = KG nFz - KF nGz.
  *
  * Robustness: signs of 3 x 3 determinants, doubles first, wide.h where they
- * cannot decide.  Cost of the wide path is about a microsecond.
+ * cannot decide.  That costs about a microsecond.
  */
 #ifndef GEOM_LINE_H
 #define GEOM_LINE_H
@@ -24,9 +25,9 @@
 
 struct geom_line {
   double a, b, c; /* the nearest doubles */
-  bool narrow;
-  int32_t x0, y0, x1, y1; /* narrow: from, to; the left side is positive */
-  int8_t sign[3];         /* wide: of a, b, c */
+  bool is_grid_line;
+  int32_t x0, y0, x1, y1; /* grid line: from, to; the left side is positive */
+  int8_t sign[3];         /* plane intersection: of a, b, c */
   uint64_t limb[3][GEOM_LINE_LIMBS];
 };
 
@@ -49,9 +50,9 @@ void geom_line_level(struct geom_line *line, struct ratio height);
 /* Turns the line round. */
 void geom_line_reverse(struct geom_line *line);
 
-/* Sets `number` to one that lines share which are the same one, either way
- * round; few others do.  Returns false where no two grid points can have it. */
-bool geom_line_number(const struct geom_line *line, uint64_t *number);
+/* A hash: lines that are the same, in either direction, have the same key, and
+ * few others do.  Returns false where no two grid points can have it. */
+bool geom_line_key(const struct geom_line *line, uint64_t *key);
 
 struct geom_corner {
   double x, y; /* grid units, nearest or so: for boxes and filters */

@@ -1,9 +1,10 @@
 /* wide.h - integers of up to 640 bits in fixed memory, for the rare wide path.
  *
  * Nothing is allocated, so nothing can fail.  The widest value there is comes
- * from two crossings of wide lines (line.h): |a|, |b| < 2^137, |c| < 2^170, so
- * of a crossing |x|, |y| < 2^308 and |w| < 2^275, and x1 w2 - x2 w1 < 2^584.
- * A corner times 2^(bits + 1), bits <= 64, is below 2^374. */
+ * from two crossings of plane intersections (line.h): with |a|, |b| < 2^137 and
+ * |c| < 2^170, a crossing has |x|, |y| < 2^308 and |w| < 2^275, and
+ * x1 w2 - x2 w1 < 2^584.  A corner times 2^(bits + 1), bits <= 64, is below
+ * 2^374. */
 #ifndef GEOM_WIDE_H
 #define GEOM_WIDE_H
 

@@ -37,8 +37,8 @@
  *   A cut can make ears of its two neighbours only, so two corners are tested
  *   after each.
  * Robustness
- *   All turns are decided by exact_orient2d.  After too many repeated tests corners
- *   are cut off untested, so the loop always ends.
+ *   All turns are decided by exact_orient2d.  After too many repeated tests
+ *   corners are cut off untested, so the loop always ends.
  * Source  ear clipping: [Meisters1975], the two-ears theorem.
  */
 #include "view/ear_clipping.h"

@@ -75,16 +75,16 @@ static void choose_shape(struct line_index *index,
       .rows = (int)(((int64_t)box.y1 - box.y0) >> shift) + 1};
 }
 
-/* The sort keys: the cell in the upper 32 bits and the number of the line in
- * the lower; the value is the side. */
+/* The sort keys: the cell in the upper 32 bits and the key of the line in the
+ * lower; the value is the side. */
 typedef ARRAY(struct sort_key) side_keys;
 
-static uint32_t triangle_of_ends(const struct geom_point end[2]) {
+static uint32_t key_of_ends(const struct geom_point end[2]) {
   struct geom_line line;
-  uint64_t number = 0;
+  uint64_t key = 0;
   geom_line_through(&line, end[0], end[1]);
-  (void)geom_line_number(&line, &number);
-  return (uint32_t)number;
+  (void)geom_line_key(&line, &key);
+  return (uint32_t)key;
 }
 
 static bool index_side(const struct line_index *index,
@@ -93,14 +93,14 @@ static bool index_side(const struct line_index *index,
   const struct triangle_grid *shape = &index->shape;
   struct cell_range r =
       triangle_grid_cells(shape, box2_of_segment(end[0], end[1]));
-  uint32_t number = triangle_of_ends(end);
+  uint32_t key = key_of_ends(end);
   for (int y = r.y0; y <= r.y1; y++) {
     int x0, x1;
     triangle_grid_row(shape, end[0], end[1], r, y, &x0, &x1);
     for (int x = x0; x <= x1; x++) {
       uint64_t cell = (uint64_t)y * (uint64_t)shape->columns + (uint64_t)x;
-      struct sort_key key = {cell << 32 | number, side};
-      if (!ARRAY_PUSH(keys, key))
+      struct sort_key entry = {cell << 32 | key, side};
+      if (!ARRAY_PUSH(keys, entry))
         return false;
     }
   }
@@ -128,15 +128,15 @@ static bool make_lists(struct line_index *index, const side_keys *keys) {
   size_t cells = triangle_grid_cell_count(&index->shape);
   index->start = mem_calloc(cells + 1, sizeof *index->start);
   index->item = mem_alloc(keys->count, sizeof *index->item);
-  index->number = mem_alloc(keys->count, sizeof *index->number);
-  if (index->start == NULL || index->item == NULL || index->number == NULL)
+  index->key = mem_alloc(keys->count, sizeof *index->key);
+  if (index->start == NULL || index->item == NULL || index->key == NULL)
     return false;
   for (size_t i = 0; i < keys->count; i++) {
     if (!poll_at(i))
       return false;
     index->start[(keys->item[i].key >> 32) + 1]++;
     index->item[i] = keys->item[i].value;
-    index->number[i] = (uint32_t)keys->item[i].key;
+    index->key[i] = (uint32_t)keys->item[i].key;
   }
   for (size_t i = 0; i < cells; i++)
     index->start[i + 1] += index->start[i];
@@ -158,8 +158,8 @@ bool line_index_init(struct line_index *index, const struct sheet *sheet,
 void line_index_fini(struct line_index *index) {
   mem_free(index->start);
   mem_free(index->item);
-  mem_free(index->number);
-  index->start = index->item = index->number = NULL;
+  mem_free(index->key);
+  index->start = index->item = index->key = NULL;
 }
 
 /* The row or column that contains coordinate v, clamped to the index. */
@@ -189,19 +189,19 @@ static void find_index_columns(const struct triangle_grid *shape,
                       shape->columns);
 }
 
-/* Appends the sides of a cell whose line has that number. */
+/* Appends the sides of a cell whose line has that key. */
 static bool find_in_cell(const struct line_index *index, size_t cell,
-                         uint32_t number, side_list *found) {
+                         uint32_t key, side_list *found) {
   uint32_t low = index->start[cell], high = index->start[cell + 1];
   uint32_t end = high;
   while (low < high) {
     uint32_t middle = low + (high - low) / 2;
-    if (index->number[middle] < number)
+    if (index->key[middle] < key)
       low = middle + 1;
     else
       high = middle;
   }
-  for (; low < end && index->number[low] == number; low++)
+  for (; low < end && index->key[low] == key; low++)
     if (!ARRAY_PUSH(found, index->item[low]))
       return false;
   return true;
@@ -215,15 +215,15 @@ bool line_index_find(const struct line_index *index,
                          shape->rows);
   int y1 = index_cell_at(fmax(p->y, q->y) + MARGIN, shape->y0, shape->shift,
                          shape->rows);
-  uint64_t number;
-  if (!geom_line_number(line, &number))
+  uint64_t key;
+  if (!geom_line_key(line, &key))
     return true;
   for (int y = y0; y <= y1; y++) {
     int x0, x1;
     find_index_columns(shape, p, q, y, &x0, &x1);
     for (int x = x0; x <= x1; x++)
       if (!find_in_cell(index, (size_t)y * (size_t)shape->columns + (size_t)x,
-                        (uint32_t)number, found))
+                        (uint32_t)key, found))
         return false;
   }
   return true;

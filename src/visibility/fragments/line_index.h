@@ -2,9 +2,9 @@
  * line.
  *
  * The bounding boxes of long thin triangles overlap nearly everything, but
- * their sides cross few cells.  Within a cell, sides are sorted by a number
- * that is computed from their supporting line (geom/line.h), so that a query
- * visits only the sides on one line.
+ * their sides cross few cells.  Within a cell, sides are sorted by the key of
+ * their supporting line (geom_line_key), so that a query visits only the sides
+ * on one line.
  */
 #ifndef VISIBILITY_FRAGMENTS_LINE_INDEX_H
 #define VISIBILITY_FRAGMENTS_LINE_INDEX_H
@@ -18,7 +18,7 @@ typedef ARRAY(uint32_t) side_list;
 struct line_index {
   struct triangle_grid shape; /* the cells; its own lists are not used */
   uint32_t *start, *item;     /* of cell c: item[start[c] .. start[c + 1]) */
-  uint32_t *number; /* one per item: that of its line, ascending in a cell */
+  uint32_t *key; /* one per item: that of its line, ascending in a cell */
 };
 
 /* Indexes the triangle sides that are edges of the sheet.

@@ -2,7 +2,7 @@
  *
  * Phases
  *   1 pair the sides that are a whole edge of both their faces, the usual case;
- *     sort the others by the number of their line
+ *     sort the others by the key of their line
  *   2 along each line sort the forward and the reversed sides by their low
  *     ends, and merge the two sequences: the stretches in common
  *   3 loop by loop divide the sides at the ends of their stretches */
@@ -32,16 +32,16 @@ struct subdivision_work {
   uint32_t *start, *along;
 };
 
-bool side_lines_add_number(side_lines *lines, uint64_t number) {
-  return ARRAY_PUSH(lines, number);
+bool side_lines_add_key(side_lines *lines, uint64_t key) {
+  return ARRAY_PUSH(lines, key);
 }
 
 bool side_lines_add(side_lines *lines, const struct map_corner *corner,
                     const struct geom_line *line) {
-  uint64_t number = OF_EDGE;
+  uint64_t key = OF_EDGE;
   if (corner->side != MAP_SIDE_EDGE && corner->side != MAP_SIDE_OCCLUDER)
-    (void)geom_line_number(line, &number);
-  return ARRAY_PUSH(lines, number);
+    (void)geom_line_key(line, &key);
+  return ARRAY_PUSH(lines, key);
 }
 
 /* ---- 1. Sides by line ---------------------------------------------------- */
@@ -79,14 +79,14 @@ static bool pair_edges(struct subdivision_work *work, uint8_t *paired) {
   return ok;
 }
 
-static uint64_t number_of_edge(const struct sheet *sheet, uint32_t edge) {
+static uint64_t key_of_edge(const struct sheet *sheet, uint32_t edge) {
   const uint32_t *point = sheet->edge.item[edge].point;
   struct geom_line line;
-  uint64_t number;
+  uint64_t key;
   geom_line_through(&line, sheet->point.item[point[0]],
                     sheet->point.item[point[1]]);
-  (void)geom_line_number(&line, &number);
-  return number;
+  (void)geom_line_key(&line, &key);
+  return key;
 }
 
 /* ---- 2. Stretches in common ---------------------------------------------- */
@@ -173,7 +173,7 @@ static bool match_lines(struct subdivision_work *work,
       key[count++] = (struct sort_key){
           lines->item[s] != OF_EDGE
               ? lines->item[s]
-              : number_of_edge(work->sheet, map->corner.item[s].id),
+              : key_of_edge(work->sheet, map->corner.item[s].id),
           s};
   if (ok)
     sort_keys(key, key + count, count);

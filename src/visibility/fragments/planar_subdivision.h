@@ -34,8 +34,8 @@ typedef ARRAY(uint64_t) side_lines;
 USE_RESULT bool side_lines_add(side_lines *lines,
                                const struct map_corner *corner,
                                const struct geom_line *line);
-/* The same for a line that has a number, not 0, by the caller's own rule. */
-USE_RESULT bool side_lines_add_number(side_lines *lines, uint64_t number);
+/* The same for a line that has a key, not 0, by the caller's own rule. */
+USE_RESULT bool side_lines_add_key(side_lines *lines, uint64_t key);
 
 /* Writes the half-edges to the map, when all its sides have been added.
  * Cost  linear but for the sides on one line, which are sorted */

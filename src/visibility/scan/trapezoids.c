@@ -188,18 +188,18 @@ static bool add_trapezoid_side(struct trapezoids *trapezoids,
                                const struct map_corner *corner) {
   const struct span_side *side =
       k == 1 ? &trapezoid->span.right : &trapezoid->span.left;
-  uint64_t number;
+  uint64_t key;
   if (k % 2 == 0) {
-    number = sort_key_of_int64((int64_t)(corner->y * MAP_CORNER_SCALE));
+    key = sort_key_of_int64((int64_t)(corner->y * MAP_CORNER_SCALE));
   } else if (side->straight && side->side != MAP_SIDE_CLIP) {
     return side_lines_add(&trapezoids->lines, corner, NULL);
   } else if (side->straight) {
-    number = 1 + (uint64_t)side->key;
+    key = 1 + (uint64_t)side->key;
   } else {
-    memcpy(&number, &side->x, sizeof number);
-    number += (uint64_t)trapezoid->first << 32;
+    memcpy(&key, &side->x, sizeof key);
+    key += (uint64_t)trapezoid->first << 32;
   }
-  return side_lines_add_number(&trapezoids->lines, number);
+  return side_lines_add_key(&trapezoids->lines, key);
 }
 
 /* Stores the loop of the distinct corners, from the lowest in (x, y). */
