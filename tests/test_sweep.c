@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "tests/polled.h"
-#include "visibility/watkins/exact/trapezoid_cells.h"
+#include "visibility/watkins/exact/visible_trapezoids.h"
 
 static const struct solver_request plain = {.threads = 1};
 
@@ -103,7 +103,7 @@ static void every_end_and_crossing_is_met_once(void **state) {
       fail_msg("seed %u: %zu places, not %zu", (unsigned)seed, sweep.events,
                set.point.count);
     assert_int_equal(sweep.active.count, 0);
-    assert_int_equal(sweep.in, 0);
+    assert_int_equal(sweep.covering_total, 0);
     for (size_t h = 1; h < sweep.height.count; h++)
       assert_true(
           ratio_compare(sweep.height.item[h - 1], sweep.height.item[h]) > 0);
@@ -157,7 +157,7 @@ static void a_crossing_lies_on_both_edges(void **state) {
 
 struct areas {
   mpq_t *sum; /* one a triangle: twice its area */
-  size_t cells;
+  size_t trapezoids;
 };
 
 /* x of an edge at a height. */
@@ -175,17 +175,17 @@ static void edge_at(mpq_t x, const struct sweep_edge *edge, const mpq_t y) {
   mpq_clear(slope);
 }
 
-static bool add_cell(void *user, const struct sweep *sweep,
-                     const struct sweep_cell *cell) {
+static bool add_trapezoid(void *user, const struct sweep *sweep,
+                          const struct sweep_trapezoid *trapezoid) {
   struct areas *areas = user;
   mpq_t height[2], x, wide, sum;
   mpq_inits(height[0], height[1], x, wide, sum, NULL);
-  rational_set_ratio(height[0], sweep->height.item[cell->top]);
-  rational_set_ratio(height[1], sweep->height.item[cell->bottom]);
+  rational_set_ratio(height[0], sweep->height.item[trapezoid->top]);
+  rational_set_ratio(height[1], sweep->height.item[trapezoid->bottom]);
   assert_true(mpq_cmp(height[0], height[1]) > 0);
   for (int k = 0; k < 2; k++) {
-    edge_at(wide, &sweep->edge.item[cell->right], height[k]);
-    edge_at(x, &sweep->edge.item[cell->left], height[k]);
+    edge_at(wide, &sweep->edge.item[trapezoid->right], height[k]);
+    edge_at(x, &sweep->edge.item[trapezoid->left], height[k]);
     mpq_sub(wide, wide, x);
     assert_true(mpq_sgn(wide) >= 0);
     mpq_add(sum, sum, wide);
@@ -193,9 +193,10 @@ static bool add_cell(void *user, const struct sweep *sweep,
   assert_true(mpq_sgn(sum) > 0);
   mpq_sub(x, height[0], height[1]);
   mpq_mul(sum, sum, x);
-  for (size_t i = 0; i < cell->count; i++)
-    mpq_add(areas->sum[cell->in[i]], areas->sum[cell->in[i]], sum);
-  areas->cells++;
+  for (size_t i = 0; i < trapezoid->count; i++)
+    mpq_add(areas->sum[trapezoid->covering[i]],
+            areas->sum[trapezoid->covering[i]], sum);
+  areas->trapezoids++;
   mpq_clears(height[0], height[1], x, wide, sum, NULL);
   return true;
 }
@@ -211,7 +212,7 @@ static void assert_areas(const struct sheet *sheet, const struct areas *areas) {
 }
 
 static void trapezoids_tile_every_triangle(void **state) {
-  size_t cells = 0;
+  size_t trapezoids = 0;
   (void)state;
   for (uint64_t seed = 1; seed <= 210; seed++) {
     struct sheet sheet;
@@ -222,18 +223,18 @@ static void trapezoids_tile_every_triangle(void **state) {
     for (size_t t = 0; t < sheet.triangle.count; t++)
       mpq_init(areas.sum[t]);
     assert_true(sweep_init(&sweep, &sheet, NULL, seed % 2 == 0));
-    sweep.cell = add_cell;
+    sweep.on_trapezoid = add_trapezoid;
     sweep.user = &areas;
     assert_int_equal(sweep_run(&sweep, &plain, 0, 1, NULL), RECTO_OK);
     assert_areas(&sheet, &areas);
-    cells += areas.cells;
+    trapezoids += areas.trapezoids;
     for (size_t t = 0; t < sheet.triangle.count; t++)
       mpq_clear(areas.sum[t]);
     mem_free(areas.sum);
     sweep_fini(&sweep);
     exact_sheet_fini(&sheet);
   }
-  assert_true(cells > 2000);
+  assert_true(trapezoids > 2000);
 }
 
 /* ---- Depth --------------------------------------------------------------- */
@@ -252,18 +253,19 @@ static void piercing_squares(struct sheet *sheet) {
 static void doubles_leave_only_piercing_pairs_to_exact_planes(void **state) {
   struct sheet sheet;
   struct sweep sweep;
-  struct trapezoid_cells cells;
+  struct visible_trapezoids visible;
   (void)state;
   piercing_squares(&sheet);
-  assert_true(trapezoid_cells_init(&cells, &sheet));
+  assert_true(visible_trapezoids_init(&visible, &sheet));
   assert_true(sweep_init(&sweep, &sheet, NULL, false));
-  cells.keep = true;
-  sweep.cell = trapezoid_cells_add;
-  sweep.user = &cells;
+  visible.keep = true;
+  sweep.on_trapezoid = visible_trapezoids_add;
+  sweep.user = &visible;
   assert_int_equal(sweep_run(&sweep, &plain, 0, 1, NULL), RECTO_OK);
-  assert_true(cells.filter_failures > 0 && cells.filter_failures < cells.count);
-  for (size_t i = 0; i < cells.part.count; i++) {
-    const struct cell_part *part = &cells.part.item[i];
+  assert_true(visible.filter_failures > 0 &&
+              visible.filter_failures < visible.count);
+  for (size_t i = 0; i < visible.part.count; i++) {
+    const struct visible_trapezoid *part = &visible.part.item[i];
     uint32_t face = sheet.triangle.item[part->triangle].face;
     if (part->count == 0)
       continue;
@@ -271,7 +273,7 @@ static void doubles_leave_only_piercing_pairs_to_exact_planes(void **state) {
     assert_int_equal(part->count, 2);
   }
   sweep_fini(&sweep);
-  trapezoid_cells_fini(&cells);
+  visible_trapezoids_fini(&visible);
   exact_sheet_fini(&sheet);
 }
 
@@ -279,12 +281,12 @@ static void doubles_leave_only_piercing_pairs_to_exact_planes(void **state) {
 
 static void a_scene_beyond_the_limits_is_refused(void **state) {
   struct sheet sheet;
-  struct trapezoid_cells cells;
+  struct visible_trapezoids visible;
   (void)state;
   piercing_squares(&sheet);
-  assert_true(trapezoid_cells_init(&cells, &sheet));
-  cells.keep = true;
-  cells.pieces_max = 0;
+  assert_true(visible_trapezoids_init(&visible, &sheet));
+  visible.keep = true;
+  visible.pieces_max = 0;
   for (int limit = 0; limit < 3; limit++) {
     static const char *const word[] = {"places", "over each other",
                                        "trapezoids"};
@@ -292,22 +294,22 @@ static void a_scene_beyond_the_limits_is_refused(void **state) {
     recto_status status;
     struct sweep sweep;
     assert_true(sweep_init(&sweep, &sheet, NULL, true));
-    sweep.cell = trapezoid_cells_add;
-    sweep.user = &cells;
+    sweep.on_trapezoid = visible_trapezoids_add;
+    sweep.user = &visible;
     if (limit == 0)
       sweep.events_max = 5;
     if (limit == 1)
-      sweep.in_max = 2;
+      sweep.covering_max = 2;
     status = sweep_run(&sweep, &plain, 0, 1, &error);
     if (limit == 2) {
       assert_int_equal(status, RECTO_OK);
-      status = trapezoid_cells_finish(&cells, &sweep, NULL, &error);
+      status = visible_trapezoids_finish(&visible, &sweep, NULL, &error);
     }
     assert_int_equal(status, RECTO_ERROR_LIMIT);
     assert_non_null(strstr(error.text, word[limit]));
     sweep_fini(&sweep);
   }
-  trapezoid_cells_fini(&cells);
+  visible_trapezoids_fini(&visible);
   exact_sheet_fini(&sheet);
 }
 

@@ -76,7 +76,7 @@ librecto_core_la_SOURCES += \
   %D%/watkins/exact/sweep.c %D%/watkins/exact/sweep.h \
   %D%/watkins/exact/sweep_edges.c \
   %D%/watkins/exact/sweep_events.c \
-  %D%/watkins/exact/trapezoid_cells.c %D%/watkins/exact/trapezoid_cells.h \
+  %D%/watkins/exact/visible_trapezoids.c %D%/watkins/exact/visible_trapezoids.h \
   %D%/watkins/watkins_solver.c %D%/watkins/watkins_solver.h \
   %D%/watkins/exact/watkins_exact.c \
   %D%/watkins/pitch/watkins.c %D%/watkins/pitch/watkins.h \

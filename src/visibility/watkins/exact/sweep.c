@@ -73,20 +73,22 @@ static void find_edges_through(const struct sweep *sweep,
 }
 
 /* Ends the interval after the active edge of that rank at the current height,
- * and reports its cell. */
+ * and reports its trapezoid. */
 static bool close_interval(struct sweep *sweep, size_t rank) {
   uint32_t left = sweep->active.item[rank];
   const struct sweep_edge *edge = &sweep->edge.item[left];
-  struct sweep_cell cell = {.left = left,
-                            .top = edge->top,
-                            .bottom = (uint32_t)sweep->height.count - 1,
-                            .in = edge->in.item,
-                            .count = edge->in.count};
-  if (sweep->cell == NULL || cell.count == 0 || cell.top == cell.bottom)
+  struct sweep_trapezoid trapezoid = {.left = left,
+                                      .top = edge->top,
+                                      .bottom =
+                                          (uint32_t)sweep->height.count - 1,
+                                      .covering = edge->covering.item,
+                                      .count = edge->covering.count};
+  if (sweep->on_trapezoid == NULL || trapezoid.count == 0 ||
+      trapezoid.top == trapezoid.bottom)
     return true;
-  cell.right = sweep->active.item[rank + 1];
-  return sweep_same_line(edge, &sweep->edge.item[cell.right]) ||
-         sweep->cell(sweep->user, sweep, &cell);
+  trapezoid.right = sweep->active.item[rank + 1];
+  return sweep_same_line(edge, &sweep->edge.item[trapezoid.right]) ||
+         sweep->on_trapezoid(sweep->user, sweep, &trapezoid);
 }
 
 static int compare_outgoing(const void *a, const void *b, void *user) {
@@ -110,8 +112,8 @@ static bool list_outgoing(struct sweep *sweep, const struct sweep_event *event,
       out->item[out->count++] = e;
       continue;
     }
-    sweep->in -= edge->in.count;
-    ARRAY_FREE(&edge->in);
+    sweep->covering_total -= edge->covering.count;
+    ARRAY_FREE(&edge->covering);
   }
   for (size_t i = 0; i < sweep->starting.count; i++)
     out->item[out->count++] = sweep->starting.item[i];
@@ -148,29 +150,30 @@ static bool replace_active(struct sweep *sweep, size_t low, size_t high) {
 /* Finds the triangles that cover the interval after the active edge of that
  * rank: the symmetric difference of those before it and those that the edge
  * bounds, two ascending lists, for each of the latter begins or ends there. */
-static bool set_in(struct sweep *sweep, size_t rank) {
+static bool find_covering(struct sweep *sweep, size_t rank) {
   struct sweep_edge *edge = &sweep->edge.item[sweep->active.item[rank]];
   const sweep_list *before =
-      rank > 0 ? &sweep->edge.item[sweep->active.item[rank - 1]].in : NULL;
-  size_t i = 0, k = 0, n = before != NULL ? before->count : 0, in = 0;
-  sweep->in -= edge->in.count;
-  edge->in.count = 0;
-  if (!ARRAY_RESERVE(&edge->in, n + edge->toggles))
+      rank > 0 ? &sweep->edge.item[sweep->active.item[rank - 1]].covering
+               : NULL;
+  size_t i = 0, k = 0, n = before != NULL ? before->count : 0, all = 0;
+  sweep->covering_total -= edge->covering.count;
+  edge->covering.count = 0;
+  if (!ARRAY_RESERVE(&edge->covering, n + edge->bounded_count))
     return false;
-  while (i < n && k < edge->toggles) {
+  while (i < n && k < edge->bounded_count) {
     uint32_t old = before->item[i],
-             toggle = sweep->toggle.item[edge->toggle + k];
-    if (old != toggle)
-      edge->in.item[in++] = old < toggle ? old : toggle;
-    i += old <= toggle;
-    k += toggle <= old;
+             side = sweep->bounded.item[edge->bounded + k];
+    if (old != side)
+      edge->covering.item[all++] = old < side ? old : side;
+    i += old <= side;
+    k += side <= old;
   }
   for (; i < n; i++)
-    edge->in.item[in++] = before->item[i];
-  for (; k < edge->toggles; k++)
-    edge->in.item[in++] = sweep->toggle.item[edge->toggle + k];
-  edge->in.count = in;
-  sweep->in += in;
+    edge->covering.item[all++] = before->item[i];
+  for (; k < edge->bounded_count; k++)
+    edge->covering.item[all++] = sweep->bounded.item[edge->bounded + k];
+  edge->covering.count = all;
+  sweep->covering_total += all;
   return true;
 }
 
@@ -193,8 +196,8 @@ static bool list_incident(struct sweep *sweep, const uint32_t *edge,
                           size_t count) {
   for (size_t i = 0; i < count; i++) {
     const struct sweep_edge *at = &sweep->edge.item[edge[i]];
-    for (uint32_t k = 0; k < at->toggles; k++)
-      if (!ARRAY_PUSH(&sweep->incident, sweep->toggle.item[at->toggle + k]))
+    for (uint32_t k = 0; k < at->bounded_count; k++)
+      if (!ARRAY_PUSH(&sweep->incident, sweep->bounded.item[at->bounded + k]))
         return false;
   }
   return true;
@@ -203,7 +206,7 @@ static bool list_incident(struct sweep *sweep, const uint32_t *edge,
 static bool report_pairs(struct sweep *sweep, uint32_t edge,
                          const sweep_list *list) {
   for (size_t i = 0; i < list->count; i++)
-    if (!sweep->pair(sweep->user, sweep, edge, list->item[i]))
+    if (!sweep->on_pair(sweep->user, sweep, edge, list->item[i]))
       return false;
   return true;
 }
@@ -222,7 +225,7 @@ static bool report_occluders(struct sweep *sweep, size_t low) {
     uint32_t e = sweep->starting.item[i];
     if (sweep->edge.item[e].side != SHEET_NONE &&
         !report_pairs(sweep, e,
-                      &sweep->edge.item[sweep->active.item[low - 1]].in))
+                      &sweep->edge.item[sweep->active.item[low - 1]].covering))
       return false;
   }
   return true;
@@ -241,35 +244,35 @@ static bool process_event(struct sweep *sweep, const struct sweep_event *event,
     if (!close_interval(sweep, i))
       return false;
   sweep->incident.count = 0;
-  if ((sweep->pair != NULL &&
+  if ((sweep->on_pair != NULL &&
        !list_incident(sweep, ARRAY_AT(&sweep->active, low), high - low)) ||
       !list_outgoing(sweep, event, low, high) ||
-      (sweep->pair != NULL &&
+      (sweep->on_pair != NULL &&
        !list_incident(sweep, sweep->starting.item, sweep->starting.count)) ||
       !replace_active(sweep, low, high))
     return false;
   past = low + sweep->outgoing.count;
   height = (uint32_t)sweep->height.count - 1;
   for (size_t i = low; i < past; i++)
-    if (!set_in(sweep, i) ||
+    if (!find_covering(sweep, i) ||
         !progress_step(progress,
-                       sweep->edge.item[sweep->active.item[i]].in.count))
+                       sweep->edge.item[sweep->active.item[i]].covering.count))
       return false;
   for (size_t i = low > 0 ? low - 1 : low; i < past; i++)
     sweep->edge.item[sweep->active.item[i]].top = height;
   if ((low > 0 && !add_crossing_of_neighbours(sweep, low - 1)) ||
       (past > low && !add_crossing_of_neighbours(sweep, past - 1)))
     return false;
-  return sweep->pair == NULL || report_occluders(sweep, low);
+  return sweep->on_pair == NULL || report_occluders(sweep, low);
 }
 
 static recto_status limit_error(const struct sweep *sweep, recto_error *error) {
-  if (sweep->in > sweep->in_max)
+  if (sweep->covering_total > sweep->covering_max)
     return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
                      "too much for watkins without a pitch: more than %zu "
                      "faces over each other, counted in every interval; "
                      "-m auto has no such limit",
-                     sweep->in_max);
+                     sweep->covering_max);
   return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
                    "too much for watkins without a pitch: edges end or cross "
                    "in more than %zu places; -m auto has no such limit",
@@ -291,7 +294,8 @@ recto_status sweep_run(struct sweep *sweep,
         !process_event(sweep, &event, &progress))
       return error_memory(error);
     sweep->events++;
-    if (sweep->events > sweep->events_max || sweep->in > sweep->in_max)
+    if (sweep->events > sweep->events_max ||
+        sweep->covering_total > sweep->covering_max)
       return limit_error(sweep, error);
     progress.share =
         from + (to - from) * (double)sweep->ends_passed / (double)sweep->ends;

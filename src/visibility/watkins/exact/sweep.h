@@ -7,14 +7,14 @@
  *          drawn.  A horizontal edge runs from its left end to its right end,
  *          as if the page were rotated clockwise by an infinitesimal angle;
  *          coincident edges are neighbours in the active list.
- * Cells    the interval between two neighbouring active edges, from one event
- *          to the next that changes it, is a trapezoid with a constant list of
- *          triangles.  The trapezoids tile the page.
+ * Trapezoids  the interval between two neighbouring active edges, from one
+ *          event to the next that changes it, is a trapezoid with a constant
+ *          list of triangles that cover it.  The trapezoids tile the page.
  *
  * Invariants, between two events
- *   active  is sorted by x; its edges cross the current height, or lie on it
- *   in      of an active edge: the triangles that cover the interval between it
- *           and the next active edge
+ *   active    is sorted by x; its edges cross the current height, or lie on it
+ *   covering  of an active edge: the triangles that cover the interval between
+ *             it and the next active edge
  * Robustness  all predicates are exact: doubles with an error bound, then
  *          integers; see sweep_events.c.
  * Cost     O((n + k) (log n + a + d)) for n edges, k crossings, a active edges
@@ -31,10 +31,10 @@
 
 #define SWEEP_NONE UINT32_MAX
 
-/* The most events, and the most entries in the lists `in` of all active edges:
- * about a quarter of a gigabyte each. */
+/* The most events, and the most entries in the lists `covering` of all active
+ * edges: about a quarter of a gigabyte each. */
 #define SWEEP_EVENTS_MAX (1 << 22)
-#define SWEEP_IN_MAX (1 << 25)
+#define SWEEP_COVERING_MAX (1 << 25)
 
 /* The point (x / den, y / den): |x|, |y| < 2^95, 0 < den < 2^63. */
 struct sweep_event {
@@ -48,27 +48,28 @@ struct sweep_event {
 typedef ARRAY(uint32_t) sweep_list;
 
 struct sweep_edge {
-  int32_t x0, y0, x1, y1;   /* the end that the sweep passes first, the other */
-  uint32_t toggle, toggles; /* the triangles that it bounds, a range of the
-                               sweep's `toggle`, ascending */
-  uint32_t side;            /* the sheet's edge to be drawn; SHEET_NONE */
+  int32_t x0, y0, x1, y1; /* the end that the sweep passes first, the other */
+  /* The triangles that it bounds: a range of the sweep's `bounded`,
+   * ascending. */
+  uint32_t bounded, bounded_count;
+  uint32_t side; /* the sheet's edge to be drawn; SHEET_NONE */
   /* While it is active, of the interval between it and the next active edge: */
-  uint32_t top;  /* index of the height at which the interval began */
-  sweep_list in; /* the triangles that cover the interval, ascending */
+  uint32_t top;        /* index of the height at which the interval began */
+  sweep_list covering; /* the triangles that cover the interval, ascending */
 };
 
 /* A trapezoid: an interval between two heights. */
-struct sweep_cell {
-  uint32_t left, right; /* edges */
-  uint32_t top, bottom; /* indices of heights, different */
-  const uint32_t *in;   /* `count` triangles that cover it, at least one */
+struct sweep_trapezoid {
+  uint32_t left, right;     /* edges */
+  uint32_t top, bottom;     /* indices of heights, different */
+  const uint32_t *covering; /* `count` triangles that cover it, at least one */
   size_t count;
 };
 
 struct sweep {
   const struct sheet *sheet;
   ARRAY(struct sweep_edge) edge;
-  sweep_list toggle;
+  sweep_list bounded;   /* triangles by edge */
   struct sort_key *end; /* both ends of all edges, in the order of events; the
                            value is the edge that starts, or SWEEP_NONE */
   size_t ends, ends_passed;
@@ -76,21 +77,21 @@ struct sweep {
   ARRAY(struct ratio) height;         /* of all events so far, descending */
   sweep_list active;
   /* Of the current event: */
-  sweep_list outgoing;       /* the edges that leave it, from the left */
-  sweep_list starting;       /* the edges that start at it */
-  sweep_list incident;       /* the triangles bounded by its edges */
-  size_t in, in_max;         /* entries of all lists `in`; limit */
-  size_t events, events_max; /* processed so far; limit */
-  size_t crossings;          /* found so far */
-  /* Receives a cell; NULL: cells are not wanted.  Returns false when memory
+  sweep_list outgoing; /* the edges that leave it, from the left */
+  sweep_list starting; /* the edges that start at it */
+  sweep_list incident; /* the triangles bounded by its edges */
+  size_t covering_total, covering_max; /* entries of all such lists; limit */
+  size_t events, events_max;           /* processed so far; limit */
+  size_t crossings;                    /* found so far */
+  /* Receives a trapezoid; NULL: they are not wanted.  Returns false when memory
    * ran out. */
-  bool (*cell)(void *user, const struct sweep *sweep,
-               const struct sweep_cell *cell);
+  bool (*on_trapezoid)(void *user, const struct sweep *sweep,
+                       const struct sweep_trapezoid *trapezoid);
   /* Receives an edge to be drawn and a triangle that may occlude some of it,
    * perhaps repeatedly; NULL: pairs are not wanted.  Returns false when memory
    * ran out. */
-  bool (*pair)(void *user, const struct sweep *sweep, uint32_t edge,
-               uint32_t triangle);
+  bool (*on_pair)(void *user, const struct sweep *sweep, uint32_t edge,
+                  uint32_t triangle);
   void *user;
 };
 
@@ -100,12 +101,12 @@ struct sweep {
 bool sweep_includes_line(const struct sheet *sheet, size_t edge);
 
 /* Collects the edges.
- * kept   one a triangle: does it take part?  NULL: all do.  Those seen edge-on
- *        never do.
- * drawn  include the edges to be drawn for which sweep_includes_line is true
+ * left_out  one a triangle: not 0: it takes no part; NULL: all do.  Those seen
+ *           edge-on never do.
+ * drawn     include the edges to be drawn for which sweep_includes_line is true
  * Returns false when memory ran out; call sweep_fini in either case. */
 USE_RESULT bool sweep_init(struct sweep *sweep, const struct sheet *sheet,
-                           const uint8_t *kept, bool drawn);
+                           const uint8_t *left_out, bool drawn);
 void sweep_fini(struct sweep *sweep);
 
 /* Processes all events.

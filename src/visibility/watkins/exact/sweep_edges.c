@@ -21,12 +21,12 @@ bool sweep_includes_line(const struct sheet *sheet, size_t e) {
  *     3 t + k            for side k of triangle t,
  *     3 triangles + e    for drawn edge e. */
 static void list_keys(struct sweep_gathering *g, const struct sheet *sheet,
-                      const uint8_t *kept, bool drawn) {
+                      const uint8_t *left_out, bool drawn) {
   uint32_t triangles = (uint32_t)sheet->triangle.count;
   for (uint32_t t = 0; t < triangles; t++) {
     const uint32_t *point = sheet->triangle.item[t].point;
     (void)poll_at(t);
-    if (sheet_is_edge_on(sheet, t) || (kept != NULL && !kept[t]))
+    if (sheet_is_edge_on(sheet, t) || (left_out != NULL && left_out[t] != 0))
       continue;
     for (int k = 0; k < 3; k++)
       g->key[g->count++] =
@@ -51,7 +51,7 @@ static bool add_sweep_edge(struct sweep *sweep, uint64_t points,
                            uint32_t side) {
   const struct geom_point *p = &sweep->sheet->point.item[points >> 32];
   const struct geom_point *q = &sweep->sheet->point.item[points & UINT32_MAX];
-  struct sweep_edge edge = {.toggle = (uint32_t)sweep->toggle.count,
+  struct sweep_edge edge = {.bounded = (uint32_t)sweep->bounded.count,
                             .side = side};
   if (key_of_end(p->x, p->y) > key_of_end(q->x, q->y)) {
     const struct geom_point *swap = p;
@@ -75,9 +75,9 @@ static bool add_edges_between(struct sweep *sweep, const struct sort_key *key,
     if (!add_sweep_edge(sweep, key->key, SHEET_NONE))
       return false;
     for (; i < count && key[i].value < sides; i++)
-      if (!ARRAY_PUSH(&sweep->toggle, key[i].value / 3))
+      if (!ARRAY_PUSH(&sweep->bounded, key[i].value / 3))
         return false;
-    sweep->edge.item[sweep->edge.count - 1].toggles = (uint32_t)i;
+    sweep->edge.item[sweep->edge.count - 1].bounded_count = (uint32_t)i;
     if (i < count)
       sweep->edge.item[sweep->edge.count - 1].side = key[i++].value - sides;
   }
@@ -106,16 +106,16 @@ static bool sort_ends(struct sweep *sweep) {
 }
 
 bool sweep_init(struct sweep *sweep, const struct sheet *sheet,
-                const uint8_t *kept, bool drawn) {
+                const uint8_t *left_out, bool drawn) {
   size_t most = 3 * sheet->triangle.count + (drawn ? sheet->edge.count : 0);
   struct sweep_gathering g = {mem_alloc(2 * most, sizeof *g.key), 0};
   bool ok = g.key != NULL;
   memset(sweep, 0, sizeof *sweep);
   sweep->sheet = sheet;
-  sweep->in_max = SWEEP_IN_MAX;
+  sweep->covering_max = SWEEP_COVERING_MAX;
   sweep->events_max = SWEEP_EVENTS_MAX;
   if (ok) {
-    list_keys(&g, sheet, kept, drawn);
+    list_keys(&g, sheet, left_out, drawn);
     sort_keys(g.key, g.key + most, g.count);
   }
   for (size_t i = 0, past, n = 0; ok && i < g.count; i = past, n++) {
@@ -129,9 +129,9 @@ bool sweep_init(struct sweep *sweep, const struct sheet *sheet,
 
 void sweep_fini(struct sweep *sweep) {
   for (size_t e = 0; e < sweep->edge.count; e++)
-    ARRAY_FREE(&sweep->edge.item[e].in);
+    ARRAY_FREE(&sweep->edge.item[e].covering);
   ARRAY_FREE(&sweep->edge);
-  ARRAY_FREE(&sweep->toggle);
+  ARRAY_FREE(&sweep->bounded);
   ARRAY_FREE(&sweep->crossing);
   ARRAY_FREE(&sweep->height);
   ARRAY_FREE(&sweep->active);

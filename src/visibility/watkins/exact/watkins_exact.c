@@ -5,8 +5,8 @@
  *            computed once (occlusion.h).  A triangle that never covers such an
  *            interval cannot occlude any of the edge.  Lines that are not edges
  *            of faces are deferred to pairwise_fallback.h.
- * Fragments  see trapezoid_cells.c: trapezoids, each with the triangle visible
- *            in it, are united by fragments.h.
+ * Fragments  see visible_trapezoids.c: trapezoids, each with the triangle
+ *            visible in it, are united by fragments.h.
  */
 #include "visibility/watkins/watkins_solver.h"
 
@@ -16,7 +16,7 @@
 #include "visibility/progress.h"
 #include "visibility/predicate/edge_intervals.h"
 #include "visibility/pairwise/pairwise_fallback.h"
-#include "visibility/watkins/exact/trapezoid_cells.h"
+#include "visibility/watkins/exact/visible_trapezoids.h"
 
 /* Limit of the pairs of an edge and a triangle that may occlude it. */
 #define PAIRS_MAX (1 << 24)
@@ -31,21 +31,20 @@ struct edge_face_pairs {
 };
 
 /* What both sweeps' callbacks get. */
-struct exact {
-  struct trapezoid_cells cells;
+struct exact_watkins {
+  struct visible_trapezoids visible;
   struct edge_face_pairs pairs;
   struct progress progress;
-  struct pairwise_fallback fallback;
-  bool ready; /* the fallback was initialised */
+  struct pairwise_fallback fallback; /* all 0 before its first use */
 };
 
 /* Initialises the fallback at its first use; false when memory ran out. */
-static bool init_fallback(struct exact *exact, const struct sheet *sheet,
+static bool init_fallback(struct exact_watkins *exact,
+                          const struct sheet *sheet,
                           const struct solver_request *request) {
-  if (exact->ready)
+  if (exact->fallback.sheet != NULL)
     return true;
   exact->progress = progress_of(request, "edges");
-  exact->ready = true;
   return pairwise_fallback_init(&exact->fallback, sheet, request->fragments,
                                 &exact->progress);
 }
@@ -61,7 +60,7 @@ static bool unique_pairs(struct edge_face_pairs *pairs) {
 
 static bool add_edge_triangle(void *user, const struct sweep *sweep,
                               uint32_t edge, uint32_t triangle) {
-  struct edge_face_pairs *pairs = &((struct exact *)user)->pairs;
+  struct edge_face_pairs *pairs = &((struct exact_watkins *)user)->pairs;
   uint32_t side = sweep->edge.item[edge].side;
   struct sort_key pair = {(uint64_t)side << 32 | triangle, 0};
   if (pairs->too_many ||
@@ -71,9 +70,10 @@ static bool add_edge_triangle(void *user, const struct sweep *sweep,
          ARRAY_PUSH(&pairs->pair, pair);
 }
 
-static bool add_cell(void *user, const struct sweep *sweep,
-                     const struct sweep_cell *cell) {
-  return trapezoid_cells_add(&((struct exact *)user)->cells, sweep, cell);
+static bool add_trapezoid(void *user, const struct sweep *sweep,
+                          const struct sweep_trapezoid *trapezoid) {
+  return visible_trapezoids_add(&((struct exact_watkins *)user)->visible, sweep,
+                                trapezoid);
 }
 
 /* ---- Edges --------------------------------------------------------------- */
@@ -97,7 +97,7 @@ static bool store_edge(const struct sheet *sheet, uint32_t e,
 }
 
 /* The same for a line that is not an edge of a face. */
-static bool store_line(struct exact *exact, const struct sheet *sheet,
+static bool store_line(struct exact_watkins *exact, const struct sheet *sheet,
                        const struct solver_request *request, uint32_t e,
                        struct map *map) {
   struct edge_intervals *intervals = NULL;
@@ -106,7 +106,8 @@ static bool store_line(struct exact *exact, const struct sheet *sheet,
   return intervals != NULL && edge_intervals_store(intervals, e, map);
 }
 
-static recto_status store_edges(struct exact *exact, const struct sheet *sheet,
+static recto_status store_edges(struct exact_watkins *exact,
+                                const struct sheet *sheet,
                                 const struct solver_request *request,
                                 struct map *map, struct report *report,
                                 recto_error *error) {
@@ -149,14 +150,14 @@ static recto_status store_edges(struct exact *exact, const struct sheet *sheet,
 
 /* Adds the fragments of the deferred triangles, solved by the fallback. */
 static recto_status
-store_deferred_fragments(struct exact *exact, const struct sheet *sheet,
+store_deferred_fragments(struct exact_watkins *exact, const struct sheet *sheet,
                          const struct solver_request *request,
                          struct fragments *fragments, struct report *report,
                          recto_error *error) {
   ARRAY(uint32_t) list = {0};
   bool ok = true;
   for (uint32_t t = 0; ok && t < sheet->triangle.count; t++)
-    if (trapezoid_cells_is_deferred(&exact->cells, t))
+    if (visible_trapezoids_is_deferred(&exact->visible, t))
       ok = ARRAY_PUSH(&list, t);
   report_count(report, "watkins", "deferred", list.count);
   if (list.count > 0)
@@ -169,36 +170,36 @@ store_deferred_fragments(struct exact *exact, const struct sheet *sheet,
 
 /* Sweeps the triangles that may be visible a second time. */
 static recto_status
-solve_fragments_watkins(struct exact *exact, const struct sheet *sheet,
+solve_fragments_watkins(struct exact_watkins *exact, const struct sheet *sheet,
                         const struct triangle_grid *grid,
                         const struct solver_request *request, struct map *map,
                         struct report *report, recto_error *error) {
-  struct trapezoid_cells *cells = &exact->cells;
+  struct visible_trapezoids *visible = &exact->visible;
   struct fragments fragments;
   struct sweep sweep;
   recto_status status = RECTO_OK;
   struct progress progress = progress_of(request, "faces");
   bool ready = fragments_init(&fragments, sheet, grid, true);
-  if (!sweep_init(&sweep, sheet, cells->seen, false) || !ready)
+  if (!sweep_init(&sweep, sheet, visible->hidden, false) || !ready)
     status = error_memory(error);
   fragments.progress = &progress;
   fragments.report = report;
-  sweep.cell = add_cell;
+  sweep.on_trapezoid = add_trapezoid;
   sweep.user = exact;
-  cells->keep = true;
-  cells->count = cells->filter_failures = 0;
+  visible->keep = true;
+  visible->count = visible->filter_failures = 0;
   if (status == RECTO_OK)
     status = sweep_run(&sweep, request, 0.5, 0.7, error);
   if (status == RECTO_OK)
-    status = trapezoid_cells_finish(cells, &sweep, &fragments, error);
+    status = visible_trapezoids_finish(visible, &sweep, &fragments, error);
   exact->progress.stage = "faces";
   if (status == RECTO_OK)
     status = store_deferred_fragments(exact, sheet, request, &fragments, report,
                                       error);
   if (status == RECTO_OK && !fragments_finish(&fragments, map))
     status = error_memory(error);
-  report_count(report, "watkins", "visible_trapezoids", cells->count);
-  report_count(report, "watkins", "filter_failures", cells->filter_failures);
+  report_count(report, "watkins", "visible_trapezoids", visible->count);
+  report_count(report, "watkins", "filter_failures", visible->filter_failures);
   sweep_fini(&sweep);
   if (ready)
     fragments_fini(&fragments);
@@ -208,16 +209,17 @@ solve_fragments_watkins(struct exact *exact, const struct sheet *sheet,
 /* ---- The solver ---------------------------------------------------------- */
 
 /* Sweeps all triangles and drawn edges. */
-static recto_status sweep_all(struct exact *exact, const struct sheet *sheet,
-                              const uint8_t *kept,
+static recto_status sweep_all(struct exact_watkins *exact,
+                              const struct sheet *sheet,
+                              const uint8_t *left_out,
                               const struct solver_request *request,
                               struct report *report, recto_error *error) {
   struct sweep sweep;
   recto_status status = RECTO_OK;
-  if (!sweep_init(&sweep, sheet, kept, request->edges))
+  if (!sweep_init(&sweep, sheet, left_out, request->edges))
     status = error_memory(error);
-  sweep.cell = request->fragments ? add_cell : NULL;
-  sweep.pair = request->edges ? add_edge_triangle : NULL;
+  sweep.on_trapezoid = request->fragments ? add_trapezoid : NULL;
+  sweep.on_pair = request->edges ? add_edge_triangle : NULL;
   sweep.user = exact;
   if (status == RECTO_OK)
     status = sweep_run(&sweep, request, 0, 0.5, error);
@@ -225,38 +227,19 @@ static recto_status sweep_all(struct exact *exact, const struct sheet *sheet,
   report_count(report, "watkins", "events", sweep.events);
   report_count(report, "watkins", "event_heights", sweep.height.count);
   report_count(report, "watkins", "crossings_found", sweep.crossings);
-  report_count(report, "watkins", "trapezoids", exact->cells.count);
+  report_count(report, "watkins", "trapezoids", exact->visible.count);
   sweep_fini(&sweep);
   return status;
 }
 
-/* Sets *kept, one byte a triangle: does the grid list it?  NULL: all are
- * listed. */
-static recto_status list_kept(const struct sheet *sheet,
-                              const struct triangle_grid *grid, uint8_t **kept,
-                              recto_error *error) {
-  *kept = NULL;
-  if (grid->left_out == NULL)
-    return RECTO_OK;
-  *kept = mem_alloc(sheet->triangle.count, 1);
-  for (uint32_t t = 0; *kept != NULL && t < sheet->triangle.count; t++)
-    (*kept)[t] = !triangle_grid_leaves_out(grid, t);
-  return *kept != NULL ? RECTO_OK : error_memory(error);
-}
-
-static recto_status solve_on(struct exact *exact, const struct sheet *sheet,
-                             const struct triangle_grid *grid,
-                             const struct solver_request *request,
-                             struct map *map, struct report *report,
-                             recto_error *error) {
-  uint8_t *kept;
-  recto_status status = list_kept(sheet, grid, &kept, error);
-  if (status == RECTO_OK && request->fragments &&
-      !trapezoid_cells_init(&exact->cells, sheet))
-    status = error_memory(error);
-  if (status == RECTO_OK)
-    status = sweep_all(exact, sheet, kept, request, report, error);
-  mem_free(kept);
+static recto_status
+solve_on(struct exact_watkins *exact, const struct sheet *sheet,
+         const struct triangle_grid *grid, const struct solver_request *request,
+         struct map *map, struct report *report, recto_error *error) {
+  if (request->fragments && !visible_trapezoids_init(&exact->visible, sheet))
+    return error_memory(error);
+  recto_status status =
+      sweep_all(exact, sheet, grid->left_out, request, report, error);
   if (status == RECTO_OK && request->edges)
     status = store_edges(exact, sheet, request, map, report, error);
   if (status == RECTO_OK && request->fragments)
@@ -269,7 +252,7 @@ recto_status watkins_solve_exactly(struct sheet *sheet,
                                    const struct solver_request *request,
                                    struct map *map, struct report *report,
                                    recto_error *error) {
-  struct exact exact;
+  struct exact_watkins exact;
   struct triangle_grid grid;
   recto_status status = RECTO_OK;
   memset(&exact, 0, sizeof exact);
@@ -280,7 +263,7 @@ recto_status watkins_solve_exactly(struct sheet *sheet,
   if (status == RECTO_OK)
     status = solve_on(&exact, sheet, &grid, request, map, report, error);
   ARRAY_FREE(&exact.pairs.pair);
-  trapezoid_cells_fini(&exact.cells);
+  visible_trapezoids_fini(&exact.visible);
   pairwise_fallback_fini(&exact.fallback);
   triangle_grid_fini(&grid);
   return status;

@@ -1,4 +1,4 @@
-/* trapezoid_cells.c - the triangles visible in each trapezoid, as fragments.
+/* visible_trapezoids.c - the triangles visible in each trapezoid, as fragments.
  *
  * Rule     the triangle nearest at the trapezoid's middle is compared with the
  *          others at its four corners, in doubles.  A triangle that is behind
@@ -19,7 +19,7 @@
  *   - each slope of a plane by 4 u relatively, which over 2^31 units is 2^-20,
  *   - the terms of the sum, below 2^41 where they matter, round to 2^-11.
  */
-#include "visibility/watkins/exact/trapezoid_cells.h"
+#include "visibility/watkins/exact/visible_trapezoids.h"
 
 #include <math.h>
 #include <string.h>
@@ -33,36 +33,37 @@ struct cell_corner {
   double x, y, dx, dy;
 };
 
-bool trapezoid_cells_init(struct trapezoid_cells *cells,
-                          const struct sheet *sheet) {
+bool visible_trapezoids_init(struct visible_trapezoids *visible,
+                             const struct sheet *sheet) {
   size_t count = sheet->triangle.count;
-  memset(cells, 0, sizeof *cells);
-  cells->sheet = sheet;
-  cells->pieces_max = CELLS_PIECES_MAX;
-  cells->plane = mem_alloc(count, sizeof *cells->plane);
-  cells->seen = mem_calloc(count, 1);
-  cells->covered = mem_calloc(count, 1);
-  cells->ties = mem_calloc(count, 1);
-  if (cells->plane == NULL || cells->seen == NULL || cells->covered == NULL ||
-      cells->ties == NULL)
+  memset(visible, 0, sizeof *visible);
+  visible->sheet = sheet;
+  visible->pieces_max = TRAPEZOIDS_PIECES_MAX;
+  visible->plane = mem_alloc(count, sizeof *visible->plane);
+  visible->hidden = mem_alloc(count, 1);
+  visible->covered = mem_calloc(count, 1);
+  visible->ties = mem_calloc(count, 1);
+  if (visible->plane == NULL || visible->hidden == NULL ||
+      visible->covered == NULL || visible->ties == NULL)
     return false;
+  memset(visible->hidden, 1, count);
   for (size_t t = 0; t < count; t++) {
     struct geom_plane plane = sheet_plane(sheet, t);
     if (!sheet_is_edge_on(sheet, t))
-      cells->plane[t] = depth_plane_of(&plane);
+      visible->plane[t] = depth_plane_of(&plane);
   }
   return true;
 }
 
-void trapezoid_cells_fini(struct trapezoid_cells *cells) {
-  mem_free(cells->plane);
-  mem_free(cells->seen);
-  mem_free(cells->covered);
-  mem_free(cells->ties);
-  ARRAY_FREE(&cells->part);
-  ARRAY_FREE(&cells->tied);
-  ARRAY_FREE(&cells->candidate);
-  memset(cells, 0, sizeof *cells);
+void visible_trapezoids_fini(struct visible_trapezoids *visible) {
+  mem_free(visible->plane);
+  mem_free(visible->hidden);
+  mem_free(visible->covered);
+  mem_free(visible->ties);
+  ARRAY_FREE(&visible->part);
+  ARRAY_FREE(&visible->tied);
+  ARRAY_FREE(&visible->candidate);
+  memset(visible, 0, sizeof *visible);
 }
 
 /* ---- Visible triangles --------------------------------------------------- */
@@ -94,96 +95,100 @@ static bool is_plane_behind(const struct depth_plane *plane,
   return true;
 }
 
-/* Lists the triangles of the cell that may be visible, the nearest at its
+/* Lists the triangles of the trapezoid that may be visible, the nearest at its
  * middle first. */
-static bool find_cell_candidates(struct trapezoid_cells *cells,
-                                 const struct sweep *sweep,
-                                 const struct sweep_cell *cell) {
-  const struct sweep_edge *left = &sweep->edge.item[cell->left];
-  const struct sweep_edge *right = &sweep->edge.item[cell->right];
-  double top = ratio_to_double(sweep->height.item[cell->top]);
-  double bottom = ratio_to_double(sweep->height.item[cell->bottom]);
+static bool find_trapezoid_candidates(struct visible_trapezoids *visible,
+                                      const struct sweep *sweep,
+                                      const struct sweep_trapezoid *trapezoid) {
+  const struct sweep_edge *left = &sweep->edge.item[trapezoid->left];
+  const struct sweep_edge *right = &sweep->edge.item[trapezoid->right];
+  double top = ratio_to_double(sweep->height.item[trapezoid->top]);
+  double bottom = ratio_to_double(sweep->height.item[trapezoid->bottom]);
   const struct cell_corner corner[CORNERS] = {
       corner_at(left, top), corner_at(right, top), corner_at(left, bottom),
       corner_at(right, bottom)};
   double x = 0, y = (top + bottom) / 2, nearest = -INFINITY;
-  uint32_t front = cell->in[0];
-  cells->candidate.count = 0;
-  if (!ARRAY_RESERVE(&cells->candidate, cell->count))
+  uint32_t front = trapezoid->covering[0];
+  visible->candidate.count = 0;
+  if (!ARRAY_RESERVE(&visible->candidate, trapezoid->count))
     return false;
   for (int k = 0; k < CORNERS; k++)
     x += corner[k].x / CORNERS;
-  for (size_t i = 0; i < cell->count && cell->count > 1; i++) {
-    double depth = depth_plane_at(&cells->plane[cell->in[i]], x, y);
-    if (depth > nearest || (depth == nearest && cell->in[i] < front)) {
+  for (size_t i = 0; i < trapezoid->count && trapezoid->count > 1; i++) {
+    double depth =
+        depth_plane_at(&visible->plane[trapezoid->covering[i]], x, y);
+    if (depth > nearest ||
+        (depth == nearest && trapezoid->covering[i] < front)) {
       nearest = depth;
-      front = cell->in[i];
+      front = trapezoid->covering[i];
     }
   }
-  cells->candidate.item[cells->candidate.count++] = front;
-  for (size_t i = 0; i < cell->count; i++)
-    if (cell->in[i] != front && !is_plane_behind(&cells->plane[cell->in[i]],
-                                                 &cells->plane[front], corner))
-      cells->candidate.item[cells->candidate.count++] = cell->in[i];
+  visible->candidate.item[visible->candidate.count++] = front;
+  for (size_t i = 0; i < trapezoid->count; i++)
+    if (trapezoid->covering[i] != front &&
+        !is_plane_behind(&visible->plane[trapezoid->covering[i]],
+                         &visible->plane[front], corner))
+      visible->candidate.item[visible->candidate.count++] =
+          trapezoid->covering[i];
   return true;
 }
 
 /* Counts a tie for each candidate; returns whether all of them are deferred. */
-static bool count_ties(struct trapezoid_cells *cells) {
+static bool count_ties(struct visible_trapezoids *visible) {
   bool all = true;
-  for (size_t i = 0; i < cells->candidate.count; i++) {
-    uint32_t t = cells->candidate.item[i];
-    if (!trapezoid_cells_is_deferred(cells, t))
-      cells->ties[t]++;
-    all &= trapezoid_cells_is_deferred(cells, t);
+  for (size_t i = 0; i < visible->candidate.count; i++) {
+    uint32_t t = visible->candidate.item[i];
+    if (!visible_trapezoids_is_deferred(visible, t))
+      visible->ties[t]++;
+    all &= visible_trapezoids_is_deferred(visible, t);
   }
   return all;
 }
 
-static bool store_parts(struct trapezoid_cells *cells,
-                        const struct sweep_cell *cell) {
-  const sweep_list *candidate = &cells->candidate;
-  struct cell_part part = {.left = cell->left,
-                           .right = cell->right,
-                           .top = cell->top,
-                           .bottom = cell->bottom,
-                           .tied = (uint32_t)cells->tied.count};
-  if (candidate->count > 1 && !count_ties(cells)) {
+static bool store_parts(struct visible_trapezoids *visible,
+                        const struct sweep_trapezoid *trapezoid) {
+  const sweep_list *candidate = &visible->candidate;
+  struct visible_trapezoid part = {.left = trapezoid->left,
+                                   .right = trapezoid->right,
+                                   .top = trapezoid->top,
+                                   .bottom = trapezoid->bottom,
+                                   .tied = (uint32_t)visible->tied.count};
+  if (candidate->count > 1 && !count_ties(visible)) {
     part.count = (uint32_t)candidate->count;
-    if (!ARRAY_RESERVE(&cells->tied, part.count))
+    if (!ARRAY_RESERVE(&visible->tied, part.count))
       return false;
-    memcpy(cells->tied.item + part.tied, candidate->item,
+    memcpy(visible->tied.item + part.tied, candidate->item,
            part.count * sizeof *candidate->item);
-    cells->tied.count += part.count;
+    visible->tied.count += part.count;
   }
   for (size_t i = 0; i < candidate->count; i++) {
     part.triangle = candidate->item[i];
-    if (!trapezoid_cells_is_deferred(cells, part.triangle) &&
-        !ARRAY_PUSH(&cells->part, part))
+    if (!visible_trapezoids_is_deferred(visible, part.triangle) &&
+        !ARRAY_PUSH(&visible->part, part))
       return false;
   }
-  for (size_t i = 0; i < cell->count; i++)
-    if (candidate->count > 1 || cell->in[i] != candidate->item[0])
-      cells->covered[cell->in[i]] = 1;
+  for (size_t i = 0; i < trapezoid->count; i++)
+    if (candidate->count > 1 || trapezoid->covering[i] != candidate->item[0])
+      visible->covered[trapezoid->covering[i]] = 1;
   return true;
 }
 
-bool trapezoid_cells_add(void *user, const struct sweep *sweep,
-                         const struct sweep_cell *cell) {
-  struct trapezoid_cells *cells = user;
-  cells->count++;
-  if (cells->too_many)
+bool visible_trapezoids_add(void *user, const struct sweep *sweep,
+                            const struct sweep_trapezoid *trapezoid) {
+  struct visible_trapezoids *visible = user;
+  visible->count++;
+  if (visible->too_many)
     return true;
-  if (!find_cell_candidates(cells, sweep, cell))
+  if (!find_trapezoid_candidates(visible, sweep, trapezoid))
     return false;
-  cells->filter_failures += cells->candidate.count > 1;
-  if (cells->keep) {
-    cells->too_many =
-        cells->part.count >= CELLS_MAX || cells->tied.count >= CELLS_TIED_MAX;
-    return store_parts(cells, cell);
+  visible->filter_failures += visible->candidate.count > 1;
+  if (visible->keep) {
+    visible->too_many = visible->part.count >= TRAPEZOIDS_MAX ||
+                        visible->tied.count >= TRAPEZOIDS_TIED_MAX;
+    return store_parts(visible, trapezoid);
   }
-  for (size_t i = 0; i < cells->candidate.count; i++)
-    cells->seen[cells->candidate.item[i]] = 1;
+  for (size_t i = 0; i < visible->candidate.count; i++)
+    visible->hidden[visible->candidate.item[i]] = 0;
   return true;
 }
 
@@ -194,7 +199,7 @@ enum { PART_WORK = 32 };
 
 /* The pieces of the current triangle. */
 struct piece_work {
-  struct trapezoid_cells *cells;
+  struct visible_trapezoids *visible;
   const struct sweep *sweep;
   struct fragments *fragments;
   struct occluder_subtraction subtraction;
@@ -208,7 +213,8 @@ static struct geom_point point_on_page(int32_t x, int32_t y) {
 
 /* The four lines of a trapezoid, each with the trapezoid on its left: below,
  * right, above, left. */
-static void set_lines(const struct sweep *sweep, const struct cell_part *part,
+static void set_lines(const struct sweep *sweep,
+                      const struct visible_trapezoid *part,
                       struct geom_line line[CORNERS]) {
   const struct sweep_edge *left = &sweep->edge.item[part->left];
   const struct sweep_edge *right = &sweep->edge.item[part->right];
@@ -230,7 +236,8 @@ static void widen_box(struct geom_convex *piece, double x, double y) {
 
 /* The trapezoid as a convex piece; a triangle where its left and right sides
  * meet at the top or at the bottom. */
-static bool make_piece(const struct sweep *sweep, const struct cell_part *part,
+static bool make_piece(const struct sweep *sweep,
+                       const struct visible_trapezoid *part,
                        struct arena *arena, struct geom_convex *piece) {
   struct geom_line *line = arena_alloc(arena, CORNERS, sizeof *line);
   const struct geom_line **side = arena_alloc(arena, CORNERS, sizeof *side);
@@ -258,9 +265,9 @@ static bool make_piece(const struct sweep *sweep, const struct cell_part *part,
 /* Appends what remains of a trapezoid when the nearer ones of the tied
  * triangles are subtracted. */
 static bool subtract_others(struct piece_work *work,
-                            const struct cell_part *part,
+                            const struct visible_trapezoid *part,
                             const struct geom_convex *piece) {
-  const uint32_t *other = work->cells->tied.item + part->tied;
+  const uint32_t *other = work->visible->tied.item + part->tied;
   struct occluder_subtraction *subtraction = &work->subtraction;
   if (!occluder_subtraction_start(subtraction, part->triangle, piece))
     return false;
@@ -281,16 +288,16 @@ static bool subtract_others(struct piece_work *work,
 /* Adds the parts of one triangle to the fragments. */
 static bool store_triangle(struct piece_work *work, const struct sort_key *key,
                            size_t count) {
-  const struct cell_part *all = work->cells->part.item;
+  const struct visible_trapezoid *all = work->visible->part.item;
   uint32_t triangle = all[key->value].triangle;
   bool ok = true;
-  if (trapezoid_cells_is_deferred(work->cells, triangle))
+  if (visible_trapezoids_is_deferred(work->visible, triangle))
     return true;
-  if (!work->cells->covered[triangle])
+  if (!work->visible->covered[triangle])
     return fragments_add_whole(work->fragments, triangle);
   work->piece.count = 0;
   for (size_t i = 0; ok && i < count; i++) {
-    const struct cell_part *part = &all[key[i].value];
+    const struct visible_trapezoid *part = &all[key[i].value];
     struct geom_convex piece;
     ok = make_piece(work->sweep, part, &work->arena, &piece) &&
          (part->count > 0 ? subtract_others(work, part, &piece)
@@ -303,41 +310,41 @@ static bool store_triangle(struct piece_work *work, const struct sort_key *key,
 }
 
 /* The parts sorted by triangle; NULL when memory ran out. */
-static struct sort_key *sort_parts(const struct trapezoid_cells *cells) {
-  size_t count = cells->part.count;
+static struct sort_key *sort_parts(const struct visible_trapezoids *visible) {
+  size_t count = visible->part.count;
   struct sort_key *key = mem_alloc(2 * count, sizeof *key);
   for (size_t i = 0; key != NULL && i < count; i++)
-    key[i] = (struct sort_key){cells->part.item[i].triangle, (uint32_t)i};
+    key[i] = (struct sort_key){visible->part.item[i].triangle, (uint32_t)i};
   if (key != NULL)
     sort_keys(key, key + count, count);
   return key;
 }
 
-static bool has_too_many(const struct trapezoid_cells *cells) {
+static bool has_too_many(const struct visible_trapezoids *visible) {
   size_t pieces = 0;
-  for (size_t i = 0; i < cells->part.count; i++)
-    pieces += cells->covered[cells->part.item[i].triangle];
-  return cells->too_many || pieces > cells->pieces_max;
+  for (size_t i = 0; i < visible->part.count; i++)
+    pieces += visible->covered[visible->part.item[i].triangle];
+  return visible->too_many || pieces > visible->pieces_max;
 }
 
-recto_status trapezoid_cells_finish(struct trapezoid_cells *cells,
-                                    const struct sweep *sweep,
-                                    struct fragments *fragments,
-                                    recto_error *error) {
+recto_status visible_trapezoids_finish(struct visible_trapezoids *visible,
+                                       const struct sweep *sweep,
+                                       struct fragments *fragments,
+                                       recto_error *error) {
   struct piece_work work = {
-      .cells = cells, .sweep = sweep, .fragments = fragments};
-  size_t count = cells->part.count;
+      .visible = visible, .sweep = sweep, .fragments = fragments};
+  size_t count = visible->part.count;
   struct sort_key *key;
   bool ok;
-  if (has_too_many(cells))
+  if (has_too_many(visible))
     return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
                      "too much for watkins without a pitch: faces are cut "
                      "into more than %zu trapezoids; -m auto has no such "
                      "limit",
-                     cells->pieces_max);
-  key = sort_parts(cells);
+                     visible->pieces_max);
+  key = sort_parts(visible);
   ok = key != NULL;
-  occluder_subtraction_init(&work.subtraction, cells->sheet);
+  occluder_subtraction_init(&work.subtraction, visible->sheet);
   for (size_t i = 0, past; ok && i < count; i = past) {
     for (past = i + 1; past < count && key[past].key == key[i].key;)
       past++;
