@@ -43,8 +43,8 @@ static bool next_line(struct walk *walk) {
 /* x on the line, as the scene has it. */
 static double scene_x(double x) { return x / PIXELS_UNIT + PIXELS_SIDE / 2; }
 
-static int face_of(const struct walk *walk, const struct watkins_span *piece) {
-  return (int)walk->watkins.facet.item[piece->facet].face;
+static int face_of(const struct walk *walk, const struct watkins_span *span) {
+  return (int)walk->watkins.facet.item[span->facet].face;
 }
 
 static void assert_near(double got, double want) {
@@ -69,24 +69,24 @@ static int seen_at_column(const struct walk *walk, int column, int columns) {
   double x =
       ((column + 0.5) * PIXELS_SIDE / columns - PIXELS_SIDE / 2) * PIXELS_UNIT;
   const struct watkins_span *seen = NULL;
-  for (size_t i = 0; i < watkins->piece.count; i++) {
-    const struct watkins_span *piece = &watkins->piece.item[i];
-    if (x < piece->x0 - 0x1p-8 || x > piece->x1 + 0x1p-8)
+  for (size_t i = 0; i < watkins->span.count; i++) {
+    const struct watkins_span *span = &watkins->span.item[i];
+    if (x < span->x0 - 0x1p-8 || x > span->x1 + 0x1p-8)
       continue;
-    if (seen == NULL || is_nearer(walk, piece->facet, seen->facet, x) ||
-        (!is_nearer(walk, seen->facet, piece->facet, x) &&
-         face_of(walk, piece) < face_of(walk, seen)))
-      seen = piece;
+    if (seen == NULL || is_nearer(walk, span->facet, seen->facet, x) ||
+        (!is_nearer(walk, seen->facet, span->facet, x) &&
+         face_of(walk, span) < face_of(walk, seen)))
+      seen = span;
   }
   return seen == NULL ? -1 : face_of(walk, seen);
 }
 
-static void assert_pieces_in_order(const struct walk *walk) {
+static void assert_spans_in_order(const struct walk *walk) {
   const struct watkins *watkins = &walk->watkins;
-  for (size_t i = 0; i < watkins->piece.count; i++) {
-    assert_true(watkins->piece.item[i].x0 <= watkins->piece.item[i].x1);
+  for (size_t i = 0; i < watkins->span.count; i++) {
+    assert_true(watkins->span.item[i].x0 <= watkins->span.item[i].x1);
     if (i > 0)
-      assert_true(watkins->piece.item[i - 1].x1 <= watkins->piece.item[i].x0);
+      assert_true(watkins->span.item[i - 1].x1 <= watkins->span.item[i].x0);
   }
 }
 
@@ -101,7 +101,7 @@ static void assert_frame_is_judged(const struct pixels_scene *scene,
     int32_t line = walk.watkins.table.line;
     for (; next >= line; next--) {
       if (next == line)
-        assert_pieces_in_order(&walk);
+        assert_spans_in_order(&walk);
       for (int column = 0; column < lines; column++) {
         int want = pixels_seen(scene, lines, column, next, NULL);
         int got = next == line ? seen_at_column(&walk, column, lines) : -1;
@@ -236,12 +236,12 @@ struct listed_span {
 
 static void assert_spans(const struct walk *walk,
                          const struct listed_span *want, size_t count) {
-  assert_int_equal(walk->watkins.piece.count, count);
+  assert_int_equal(walk->watkins.span.count, count);
   for (size_t i = 0; i < count; i++) {
-    const struct watkins_span *piece = &walk->watkins.piece.item[i];
-    assert_near(scene_x(piece->x0), want[i].x0);
-    assert_near(scene_x(piece->x1), want[i].x1);
-    assert_int_equal(face_of(walk, piece), want[i].face);
+    const struct watkins_span *span = &walk->watkins.span.item[i];
+    assert_near(scene_x(span->x0), want[i].x0);
+    assert_near(scene_x(span->x1), want[i].x1);
+    assert_int_equal(face_of(walk, span), want[i].face);
   }
 }
 
@@ -278,8 +278,8 @@ static void line_15_is_split_as_listed(void **state) {
   walk_to_line(&walk, 15);
   assert_int_equal(walk.watkins.counts.splits, before + 1);
   assert_spans(&walk, spans, 4);
-  assert_int_equal(walk.watkins.piece.item[1].right, WATKINS_NONE);
-  assert_int_equal(walk.watkins.piece.item[2].left, WATKINS_NONE);
+  assert_int_equal(walk.watkins.span.item[1].right, WATKINS_NONE);
+  assert_int_equal(walk.watkins.span.item[2].left, WATKINS_NONE);
   assert_depths_of_line_15(&walk);
   end_walk(&walk);
 }
@@ -311,9 +311,9 @@ static void an_interval_is_split_wherever_two_seen_faces_pierce(void **state) {
   assert_true(next_line(&walk));
   assert_int_equal(walk.watkins.counts.intervals, 1);
   assert_int_equal(walk.watkins.counts.splits, 8);
-  assert_int_equal(walk.watkins.piece.count, 9);
+  assert_int_equal(walk.watkins.span.count, 9);
   for (size_t i = 0; i < 9; i++)
-    assert_int_equal(face_of(&walk, &walk.watkins.piece.item[i]), i);
+    assert_int_equal(face_of(&walk, &walk.watkins.span.item[i]), i);
   end_walk(&walk);
   assert_frame_is_judged(&fan, 32);
 }
@@ -321,7 +321,7 @@ static void an_interval_is_split_wherever_two_seen_faces_pierce(void **state) {
 /* ---- Coherence ----------------------------------------------------------- */
 
 /* Depth comparisons with coherence, and without, where what was kept of the
- * line above is forgotten; the pieces of each line are the same. */
+ * line above is forgotten; the spans of each line are the same. */
 static void compare_coherence(const struct pixels_scene *scene, double pitch_mm,
                               int64_t *with, int64_t *without) {
   struct walk kept, anew;
@@ -330,10 +330,10 @@ static void compare_coherence(const struct pixels_scene *scene, double pitch_mm,
   while (next_line(&kept)) {
     anew.watkins.record[0].count = anew.watkins.record[1].count = 0;
     assert_true(next_line(&anew));
-    assert_int_equal(kept.watkins.piece.count, anew.watkins.piece.count);
-    for (size_t i = 0; i < kept.watkins.piece.count; i++) {
-      const struct watkins_span *p = &kept.watkins.piece.item[i],
-                                *q = &anew.watkins.piece.item[i];
+    assert_int_equal(kept.watkins.span.count, anew.watkins.span.count);
+    for (size_t i = 0; i < kept.watkins.span.count; i++) {
+      const struct watkins_span *p = &kept.watkins.span.item[i],
+                                *q = &anew.watkins.span.item[i];
       assert_int_equal(p->facet, q->facet);
       assert_true(p->x0 == q->x0 && p->x1 == q->x1);
     }

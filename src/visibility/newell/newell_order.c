@@ -209,11 +209,11 @@ static void pop_down_to(struct newell_order *order, uint32_t q) {
 
 /* What follows from a test of the candidate: it may be painted, another piece
  * was moved ahead of it, or a piece was split. */
-enum step { STEP_FAILED, STEP_PAINT, STEP_MOVED, STEP_SPLIT };
+enum order_step { STEP_FAILED, STEP_PAINT, STEP_MOVED, STEP_SPLIT };
 
 /* Tests candidate P against piece Q. */
-static enum step test_pieces(struct newell_order *order, uint32_t p,
-                             uint32_t q) {
+static enum order_step test_pieces(struct newell_order *order, uint32_t p,
+                                   uint32_t q) {
   order->counts.tests++;
   switch (newell_test(order, p, q)) {
   case NEWELL_FAILED:
@@ -235,8 +235,8 @@ static enum step test_pieces(struct newell_order *order, uint32_t p,
 }
 
 /* Tests candidate P against all pieces that it may occlude. */
-static enum step test_candidate(struct newell_order *order, uint32_t p) {
-  enum step result = STEP_PAINT;
+static enum order_step test_candidate(struct newell_order *order, uint32_t p) {
+  enum order_step result = STEP_PAINT;
   uint32_t triangle = order->piece.item[p].triangle;
   if (!triangle_grid_find_overlapping(order->grid, triangle, &order->query))
     return STEP_FAILED;
@@ -250,7 +250,7 @@ static enum step test_candidate(struct newell_order *order, uint32_t p) {
          q = order->piece.item[q].next_open) {
       if (!progress_step(&order->progress, PAIR_WORK))
         return STEP_FAILED;
-      enum step step = test_pieces(order, p, q);
+      enum order_step step = test_pieces(order, p, q);
       arena_reset(&order->scratch);
       if (step == STEP_FAILED || step == STEP_SPLIT)
         return step;

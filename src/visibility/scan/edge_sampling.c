@@ -13,7 +13,7 @@
 
 #define EDGE_SAMPLING_HIDDEN UINT32_MAX /* no visible run is open */
 
-/* ---- Edges and cells ----------------------------------------------------- */
+/* ---- Edges and parts ----------------------------------------------------- */
 
 static double frame_of(int64_t at, int64_t den, int64_t first, int64_t step) {
   return (double)(at * den - first) / (double)step;
@@ -27,27 +27,27 @@ static double frame_y(const struct scan_grid *grid, int64_t y) {
   return frame_of(y, grid->den, grid->y_first, grid->y_step);
 }
 
-/* The bits of the number of cells: none is longer than half a line's height. */
+/* The bits of the number of parts: none is longer than half a line's height. */
 static int cell_bits(const struct scan_grid *grid, double dx, double dy) {
   double wide = fabs(dx) * (double)grid->x_step / (double)grid->y_step;
-  double cells = 2 * (wide > fabs(dy) ? wide : fabs(dy));
+  double parts = 2 * (wide > fabs(dy) ? wide : fabs(dy));
   int bits = 0;
-  while (bits < EDGE_SAMPLING_BITS_MAX && ldexp(1, bits) < cells)
+  while (bits < EDGE_SAMPLING_BITS_MAX && ldexp(1, bits) < parts)
     bits++;
   return bits;
 }
 
-/* The parameter, 0 to 1, of the middle of a cell counted from the top. */
-static double middle_of(const struct sampled_edge *edge, uint32_t cell) {
-  double t = (cell + 0.5) / ldexp(1, edge->bits);
+/* The parameter, 0 to 1, of the middle of a part counted from the top. */
+static double middle_of(const struct sampled_edge *edge, uint32_t part) {
+  double t = (part + 0.5) / ldexp(1, edge->bits);
   return edge->turned ? 1 - t : t;
 }
 
-/* The highest line whose centre is not above the middle of a cell; -1 where all
+/* The highest line whose centre is not above the middle of a part; -1 where all
  * are. */
-static int32_t line_above_cell(const struct edge_sampling *sampling,
-                               const struct sampled_edge *edge, uint32_t cell) {
-  double y = floor(edge->y0 + middle_of(edge, cell) * edge->dy - 0.5);
+static int32_t line_above_part(const struct edge_sampling *sampling,
+                               const struct sampled_edge *edge, uint32_t part) {
+  double y = floor(edge->y0 + middle_of(edge, part) * edge->dy - 0.5);
   int32_t lines = sampling->grid.lines;
   return y < 0 ? -1 : y >= lines ? lines - 1 : (int32_t)y;
 }
@@ -66,7 +66,7 @@ static void set_edge(const struct edge_sampling *sampling, uint32_t e,
   to->bits = cell_bits(&sampling->grid, to->dx, to->dy);
   to->turned = to->dy > 0;
   to->between = floor(to->y0 - 0.5) == floor(to->y0 + to->dy - 0.5);
-  to->cell = 0;
+  to->part = 0;
   to->start = EDGE_SAMPLING_HIDDEN;
 }
 
@@ -84,7 +84,7 @@ static bool sort_edges(struct edge_sampling *sampling,
   for (size_t i = 0; i < sampling->count; i++)
     key[i] =
         (struct sort_key){(uint64_t)(sampling->grid.lines -
-                                     line_above_cell(sampling, &edge[i], 0)),
+                                     line_above_part(sampling, &edge[i], 0)),
                           (uint32_t)i};
   sort_keys(key, key + sampling->count, sampling->count);
   for (size_t i = 0; i < sampling->count; i++)
@@ -164,7 +164,7 @@ double edge_sampling_contact(const struct sheet *sheet, uint32_t face,
   return coordinate_error_contact(sheet, face) * per_unit;
 }
 
-/* The two scan lines between which the current cells lie. */
+/* The two scan lines between which the current parts lie. */
 struct sample_lines {
   edge_sampling_seen_fn seen;
   const void *upper, *lower;
@@ -220,11 +220,11 @@ static bool is_occluded_by(const struct edge_sampling *sampling,
          (double)corner.p[0].z - per_column * at[0][0] - per_line * at[0][1];
 }
 
-/* Tests the samples about the middle of the current cell, the nearest first. */
+/* Tests the samples about the middle of the current part, the nearest first. */
 static bool is_cell_visible(const struct edge_sampling *sampling,
                             const struct sampled_edge *edge,
                             const struct sample_lines *lines) {
-  double t = middle_of(edge, edge->cell), x = edge->x0 + t * edge->dx;
+  double t = middle_of(edge, edge->part), x = edge->x0 + t * edge->dx;
   double z = edge->z0 + t * edge->dz;
   bool upper = edge->y0 + t * edge->dy > lines->line + 1;
   double near = sampling->reach_x > 0 ? floor(x) + 0.5 : x;
@@ -243,34 +243,34 @@ static bool is_cell_visible(const struct edge_sampling *sampling,
 
 static bool close_sampled_run(struct edge_sampling *sampling,
                               struct sampled_edge *edge) {
-  uint32_t cells = (uint32_t)1 << edge->bits;
-  struct sampled_run run = {edge->edge, edge->start, edge->cell};
+  uint32_t parts = (uint32_t)1 << edge->bits;
+  struct sampled_run run = {edge->edge, edge->start, edge->part};
   if (edge->start == EDGE_SAMPLING_HIDDEN)
     return true;
   if (edge->turned) {
-    run.first = cells - edge->cell;
-    run.past = cells - edge->start;
+    run.first = parts - edge->part;
+    run.past = parts - edge->start;
   }
   edge->start = EDGE_SAMPLING_HIDDEN;
   return ARRAY_PUSH(&sampling->run, run);
 }
 
-/* Samples the cells of an edge above the lower line's centre. */
+/* Samples the parts of an edge above the lower line's centre. */
 static bool sample_edge(struct edge_sampling *sampling,
                         struct sampled_edge *edge,
                         const struct sample_lines *lines) {
-  uint32_t cells = (uint32_t)1 << edge->bits;
-  for (; edge->cell < cells &&
-         line_above_cell(sampling, edge, edge->cell) >= lines->line;
-       edge->cell++) {
+  uint32_t parts = (uint32_t)1 << edge->bits;
+  for (; edge->part < parts &&
+         line_above_part(sampling, edge, edge->part) >= lines->line;
+       edge->part++) {
     if (is_cell_visible(sampling, edge, lines)) {
       if (edge->start == EDGE_SAMPLING_HIDDEN)
-        edge->start = edge->cell;
+        edge->start = edge->part;
     } else if (!close_sampled_run(sampling, edge)) {
       return false;
     }
   }
-  return edge->cell < cells || close_sampled_run(sampling, edge);
+  return edge->part < parts || close_sampled_run(sampling, edge);
 }
 
 bool edge_sampling_line(struct edge_sampling *sampling, int32_t line,
@@ -279,14 +279,14 @@ bool edge_sampling_line(struct edge_sampling *sampling, int32_t line,
   const struct sample_lines lines = {seen, upper, lower, line};
   size_t kept = 0;
   while (sampling->entered < sampling->count &&
-         line_above_cell(sampling, &sampling->edge[sampling->entered], 0) >=
+         line_above_part(sampling, &sampling->edge[sampling->entered], 0) >=
              line)
     sampling->active[sampling->active_count++] = (uint32_t)sampling->entered++;
   for (size_t i = 0; i < sampling->active_count; i++) {
     struct sampled_edge *edge = &sampling->edge[sampling->active[i]];
     if (!sample_edge(sampling, edge, &lines))
       return false;
-    if (edge->cell < (uint32_t)1 << edge->bits)
+    if (edge->part < (uint32_t)1 << edge->bits)
       sampling->active[kept++] = sampling->active[i];
   }
   sampling->active_count = kept;
@@ -306,12 +306,12 @@ static bool store_runs(const struct edge_sampling *sampling,
                        const struct sort_key *key, size_t count,
                        struct map *map) {
   uint32_t edge = sampling->run.item[key->value].edge;
-  int64_t cells = INT64_C(1) << sampling->bits[edge];
+  int64_t parts = INT64_C(1) << sampling->bits[edge];
   struct map_mixed mixed = {edge, (uint32_t)map->interval.count,
                             (uint32_t)count};
   if (count == 1) {
     const struct sampled_run *run = &sampling->run.item[key->value];
-    if (run->first == 0 && run->past == cells) {
+    if (run->first == 0 && run->past == parts) {
       map->edge_state[edge] = MAP_VISIBLE;
       return true;
     }
@@ -319,8 +319,8 @@ static bool store_runs(const struct edge_sampling *sampling,
   map->edge_state[edge] = MAP_MIXED;
   for (size_t i = 0; i < count; i++) {
     const struct sampled_run *run = &sampling->run.item[key[i].value];
-    struct map_interval interval = {ratio_of(run->first, cells),
-                                    ratio_of(run->past, cells)};
+    struct map_interval interval = {ratio_of(run->first, parts),
+                                    ratio_of(run->past, parts)};
     if (!ARRAY_PUSH(&map->interval, interval))
       return false;
   }

@@ -2,11 +2,11 @@
  * sampling the scan lines of a method.
  *
  * A method passes its scan lines from the top, each with a function that
- * returns the facet visible at an x.  An edge is divided into 2^m cells, the
- * fewest that are no longer than half a line's height in x and y; a cell is
+ * returns the facet visible at an x.  An edge is divided into 2^m parts, the
+ * fewest that are no longer than half a line's height in x and y; a part is
  * visible if its middle is.  So intervals start and end at multiples of 2^-m.
  *
- * Samples.  The middle of a cell lies between the centres of two lines and,
+ * Samples.  The middle of a part lies between the centres of two lines and,
  * where the method has pixels, of two columns: two or four sample points.  It
  * is visible if at least one of them shows no facet in front of it: near a
  * curved silhouette at least one sample lies outside the silhouette, though the
@@ -18,7 +18,7 @@
  * mm of wrong ink, and 67 mm where one of the two samples suffices; on a soup
  * of 1,000 triangles at 16 lines 8,753 and 10,111 mm.)
  *
- * Depth bias.  A sample shows no facet in front of the cell if it sees
+ * Depth bias.  A sample shows no facet in front of the part if it sees
  * background, or if the depth of the edge is at least
  *     z - |change of z over `reach_x` columns|
  *       - |change of z over half a line|
@@ -40,7 +40,7 @@
 #include "geom/scanfill.h"
 #include "visibility/solver.h"
 
-#define EDGE_SAMPLING_BITS_MAX 24 /* at most 2^24 cells an edge */
+#define EDGE_SAMPLING_BITS_MAX 24 /* at most 2^24 parts an edge */
 
 /* The facet visible on a scan line at frame x; SHEET_NONE. */
 typedef uint32_t (*edge_sampling_seen_fn)(const void *line, double x);
@@ -50,14 +50,14 @@ struct sampled_edge {
   double x0, y0, dx, dy; /* frame units; from point[0] */
   double z0, dz;
   bool between;   /* its ends lie between the centres of the same lines */
-  int bits;       /* 2^bits cells */
+  int bits;       /* 2^bits parts */
   bool turned;    /* point[1] is the higher end: sampled from there */
-  uint32_t cell;  /* the next one, counted from the top */
-  uint32_t start; /* first cell of the open visible run;
+  uint32_t part;  /* the next one, counted from the top */
+  uint32_t start; /* first part of the open visible run;
                      EDGE_SAMPLING_HIDDEN: none is open */
 };
 
-/* A visible run of cells [first, past), counted from point[0]. */
+/* A visible run of parts [first, past), counted from point[0]. */
 struct sampled_run {
   uint32_t edge, first, past;
 };
@@ -98,7 +98,7 @@ USE_RESULT bool edge_sampling_line(struct edge_sampling *sampling, int32_t line,
                                    edge_sampling_seen_fn seen,
                                    const void *upper, const void *lower);
 
-/* Adds a visible run of a skipped edge, in cells of 2^-bits.  The runs of one
+/* Adds a visible run of a skipped edge, in parts of 2^-bits.  The runs of one
  * edge are disjoint, have the same bits, and come in any order. */
 USE_RESULT bool edge_sampling_add(struct edge_sampling *sampling,
                                   struct sampled_run run, int bits);

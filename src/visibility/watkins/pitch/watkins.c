@@ -33,7 +33,7 @@
 
 /* The current run of consecutive lines on which an edge of the sheet is drawn,
  * from the top: [last, first]. */
-struct open_run {
+struct visible_run {
   int32_t first, last;   /* first OPEN_NONE: no run is open */
   bool from_end, to_end; /* includes the edge's own first, last line */
 };
@@ -41,48 +41,48 @@ struct open_run {
 /* The spans of a line. */
 struct span_row {
   const struct watkins *watkins;
-  watkins_spans piece;
+  watkins_spans span;
 };
 
-struct scan {
+struct pitch_scan {
   const struct solver_request *request;
   struct watkins watkins;
   struct edge_sampling sampling;
   struct trapezoids trapezoids;
-  struct open_run *run; /* one an edge of the sheet */
+  struct visible_run *run; /* one an edge of the sheet */
   struct span_row row, above;
 };
 
 /* The facet visible at x (edge_sampling_seen_fn). */
 static uint32_t facet_at_x(const void *user, double x) {
   const struct span_row *row = user;
-  const struct watkins_span *piece = row->piece.item;
+  const struct watkins_span *facet_span = row->span.item;
   size_t i;
-  LOWER_BOUND(i, 0, row->piece.count, !(piece[i].x1 > x));
-  if (i == row->piece.count || piece[i].x0 > x)
+  LOWER_BOUND(i, 0, row->span.count, !(facet_span[i].x1 > x));
+  if (i == row->span.count || facet_span[i].x0 > x)
     return SHEET_NONE;
-  return row->watkins->facet.item[piece[i].facet].triangle;
+  return row->watkins->facet.item[facet_span[i].facet].triangle;
 }
 
-/* The parameter of height y on an edge from y0 to y1, in cells. */
+/* The parameter of height y on an edge from y0 to y1, in parts. */
 static uint32_t cell_at(double y, double y0, double y1) {
-  double cells = (y - y0) / (y1 - y0) * (1 << EDGE_SAMPLING_BITS_MAX);
-  if (!(cells > 0))
+  double parts = (y - y0) / (y1 - y0) * (1 << EDGE_SAMPLING_BITS_MAX);
+  if (!(parts > 0))
     return 0;
-  return cells < 1 << EDGE_SAMPLING_BITS_MAX
-             ? (uint32_t)(cells + 0.5)
+  return parts < 1 << EDGE_SAMPLING_BITS_MAX
+             ? (uint32_t)(parts + 0.5)
              : (uint32_t)1 << EDGE_SAMPLING_BITS_MAX;
 }
 
-static double height_of(const struct scan *scan, uint32_t point) {
+static double height_of(const struct pitch_scan *scan, uint32_t point) {
   const struct scan_grid *grid = &scan->watkins.table.grid;
   int64_t y = scan->watkins.sheet->point.item[point].y;
   return (double)(y * grid->den - grid->y_first) / (double)grid->y_step;
 }
 
 /* Stores the open run of an edge of the sheet, if there is one. */
-static bool close_open_run(struct scan *scan, uint32_t side) {
-  struct open_run *open = &scan->run[side];
+static bool close_open_run(struct pitch_scan *scan, uint32_t side) {
+  struct visible_run *open = &scan->run[side];
   const uint32_t *point = scan->watkins.sheet->edge.item[side].point;
   double y0 = height_of(scan, point[0]), y1 = height_of(scan, point[1]);
   double top = open->first + 1, bottom = open->last;
@@ -101,14 +101,14 @@ static bool close_open_run(struct scan *scan, uint32_t side) {
 }
 
 /* Extends the runs of the edges drawn on the line, or opens them. */
-static bool join_ends(struct scan *scan) {
+static bool join_ends(struct pitch_scan *scan) {
   const struct watkins *watkins = &scan->watkins;
   int32_t line = watkins->table.line;
   for (size_t i = 0; i < watkins->shown.count; i++) {
     uint32_t e = watkins->shown.item[i];
     const struct watkins_edge *edge = &watkins->edge.item[e];
     int32_t left = watkins->table.edge.item[e].dy;
-    struct open_run *open = &scan->run[edge->side];
+    struct visible_run *open = &scan->run[edge->side];
     if (open->first == OPEN_NONE || open->last > line + 1) {
       if (!close_open_run(scan, edge->side))
         return false;
@@ -121,7 +121,7 @@ static bool join_ends(struct scan *scan) {
   return true;
 }
 
-static bool open_edges(struct scan *scan) {
+static bool open_edges(struct pitch_scan *scan) {
   const struct watkins *watkins = &scan->watkins;
   size_t count = watkins->sheet->edge.count;
   uint8_t *followed = mem_calloc(count, 1);
@@ -139,7 +139,7 @@ static bool open_edges(struct scan *scan) {
   return ok;
 }
 
-static bool finish_edges(struct scan *scan, struct map *map) {
+static bool finish_edges(struct pitch_scan *scan, struct map *map) {
   size_t count = scan->watkins.sheet->edge.count;
   for (size_t e = 0; e < count; e++)
     if (!close_open_run(scan, (uint32_t)e))
@@ -195,26 +195,28 @@ static struct span_side side_of_span(const struct watkins *watkins, uint32_t e,
 }
 
 static uint32_t face_of(const struct watkins *watkins,
-                        const struct watkins_span *piece) {
-  return watkins->facet.item[piece->facet].face;
+                        const struct watkins_span *facet_span) {
+  return watkins->facet.item[facet_span->facet].face;
 }
 
-/* Makes one span of touching pieces of one face. */
-static bool add_piece_spans(struct scan *scan) {
+/* Makes one span of touching ones of facets of one face. */
+static bool add_face_spans(struct pitch_scan *scan) {
   const struct watkins *watkins = &scan->watkins;
-  const struct watkins_span *piece = watkins->piece.item;
-  size_t count = watkins->piece.count;
+  const struct watkins_span *facet_span = watkins->span.item;
+  size_t count = watkins->span.count;
   for (size_t i = 0, past; i < count; i = past) {
-    uint32_t face = face_of(watkins, &piece[i]);
+    uint32_t face = face_of(watkins, &facet_span[i]);
     struct span span = {.face = face};
-    for (past = i + 1; past < count && piece[past].x0 == piece[past - 1].x1 &&
-                       face_of(watkins, &piece[past]) == face;)
+    for (past = i + 1; past < count &&
+                       facet_span[past].x0 == facet_span[past - 1].x1 &&
+                       face_of(watkins, &facet_span[past]) == face;)
       past++;
-    span.left = side_of_span(watkins, piece[i].left, piece[i].x0, face,
-                             i > 0 ? face_of(watkins, &piece[i - 1]) : face);
-    span.right =
-        side_of_span(watkins, piece[past - 1].right, piece[past - 1].x1, face,
-                     past < count ? face_of(watkins, &piece[past]) : face);
+    span.left =
+        side_of_span(watkins, facet_span[i].left, facet_span[i].x0, face,
+                     i > 0 ? face_of(watkins, &facet_span[i - 1]) : face);
+    span.right = side_of_span(
+        watkins, facet_span[past - 1].right, facet_span[past - 1].x1, face,
+        past < count ? face_of(watkins, &facet_span[past]) : face);
     if (!trapezoids_add(&scan->trapezoids, watkins->table.line, &span))
       return false;
   }
@@ -225,19 +227,19 @@ static bool add_piece_spans(struct scan *scan) {
 
 /* Processes a line.
  * here  does any edge cross it? */
-static bool process_line(struct scan *scan, int32_t line, bool here) {
+static bool process_line(struct pitch_scan *scan, int32_t line, bool here) {
   struct watkins *watkins = &scan->watkins;
-  watkins_spans free_pieces = scan->above.piece;
-  scan->above.piece = scan->row.piece;
-  scan->row.piece = free_pieces;
-  scan->row.piece.count = 0;
+  watkins_spans free_spans = scan->above.span;
+  scan->above.span = scan->row.span;
+  scan->row.span = free_spans;
+  scan->row.span.count = 0;
   if (here) {
-    watkins_spans now = watkins->piece;
-    if ((scan->request->fragments && !add_piece_spans(scan)) ||
+    watkins_spans now = watkins->span;
+    if ((scan->request->fragments && !add_face_spans(scan)) ||
         (scan->request->edges && !join_ends(scan)))
       return false;
-    watkins->piece = scan->row.piece;
-    scan->row.piece = now;
+    watkins->span = scan->row.span;
+    scan->row.span = now;
   }
   return !scan->request->edges ||
          edge_sampling_line(&scan->sampling, line, facet_at_x,
@@ -246,7 +248,8 @@ static bool process_line(struct scan *scan, int32_t line, bool here) {
                             &scan->row);
 }
 
-static recto_status scan_watkins_lines(struct scan *scan, recto_error *error) {
+static recto_status scan_watkins_lines(struct pitch_scan *scan,
+                                       recto_error *error) {
   struct progress progress = progress_of(scan->request, "visibility");
   struct watkins *watkins = &scan->watkins;
   int32_t lines = watkins->table.grid.lines;
@@ -266,7 +269,7 @@ static recto_status scan_watkins_lines(struct scan *scan, recto_error *error) {
   return RECTO_OK;
 }
 
-static void report_scan(const struct scan *scan, struct report *report) {
+static void report_scan(const struct pitch_scan *scan, struct report *report) {
   const struct watkins *watkins = &scan->watkins;
   report_int(report, "watkins", "lines", watkins->table.grid.lines);
   report_int(report, "watkins", "intervals", watkins->counts.intervals);
@@ -281,7 +284,7 @@ static void report_scan(const struct scan *scan, struct report *report) {
   }
 }
 
-static recto_status run_scan(struct scan *scan, const struct sheet *sheet,
+static recto_status run_scan(struct pitch_scan *scan, const struct sheet *sheet,
                              const struct facets *facets,
                              const struct scan_grid *grid, struct map *map,
                              struct report *report, recto_error *error) {
@@ -308,7 +311,7 @@ recto_status watkins_solve_at_pitch(struct sheet *sheet,
                                     const struct solver_request *request,
                                     struct map *map, struct report *report,
                                     recto_error *error) {
-  struct scan scan;
+  struct pitch_scan scan;
   struct facets facets = {0};
   struct scan_grid grid;
   recto_status status =
@@ -327,8 +330,8 @@ recto_status watkins_solve_at_pitch(struct sheet *sheet,
   edge_sampling_fini(&scan.sampling);
   trapezoids_fini(&scan.trapezoids);
   mem_free(scan.run);
-  ARRAY_FREE(&scan.row.piece);
-  ARRAY_FREE(&scan.above.piece);
+  ARRAY_FREE(&scan.row.span);
+  ARRAY_FREE(&scan.above.span);
   facets_fini(&facets);
   return status;
 }

@@ -11,9 +11,9 @@
  * S and A are in the scan table (geom/scanfill.h).
  *
  * Invariants, on a line
- *   From the left along A, a facet is `in` from its first edge to its second.
- *   Pieces are disjoint, ascend in x, and cover exactly the intervals in which
- *   some facet is in.
+ *   From the left along A, a facet covers from its first edge to its second.
+ *   Spans are disjoint, ascend in x, and cover exactly the intervals that some
+ *   facet covers.
  *   Edges at one x make one end of intervals.  The facets visible on its two
  *   sides decide which of the edges are drawn there.
  */
@@ -44,7 +44,7 @@ struct watkins_edge {
 
 struct watkins_facet {
   uint32_t triangle, face; /* the triangle that identifies it; its face */
-  bool in;                 /* does it cover the current interval? */
+  bool covers;             /* does it cover the current interval? */
   double per_x, per_line;  /* change of depth per unit of x, per line down */
   double z_low, z_high;    /* range of its corners' depths */
   bool steep;              /* see watkins_edge_table.c */
@@ -89,15 +89,15 @@ struct watkins {
   struct scan_table table;         /* S and A */
   ARRAY(struct watkins_edge) edge; /* one an edge of the table */
   ARRAY(struct watkins_facet) facet;
-  watkins_list in;           /* H */
+  watkins_list covering;     /* H */
   ARRAY(double) depth;       /* of the facets of H at an interval's middle */
   ARRAY(double) stack;       /* right ends of undecided parts of an interval */
-  watkins_spans piece;       /* of this line */
+  watkins_spans span;        /* of this line */
   watkins_list shown;        /* edges drawn at this line's interval ends */
   watkins_records record[2]; /* of this line and the one before, by */
   watkins_list order[2];     /* the parity of the line */
   double low, pitch;         /* of the lines, grid units of the sheet */
-  bool sides;                /* set the edges of pieces */
+  bool sides;                /* set the edges of spans */
   struct watkins_counts counts;
 };
 
@@ -151,7 +151,7 @@ USE_RESULT bool watkins_show_ends(struct watkins *watkins, size_t first,
 /* ---- An interval --------------------------------------------------------- */
 
 /* Decides which facets of H are visible between two edges of A, left strictly
- * to the left of right, and appends the pieces.  Returns false when memory ran
+ * to the left of right, and appends the spans.  Returns false when memory ran
  * out or the caller cancelled. */
 USE_RESULT bool watkins_decide(struct watkins *watkins, uint32_t left,
                                uint32_t right);

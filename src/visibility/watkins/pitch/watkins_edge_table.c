@@ -202,10 +202,10 @@ void watkins_fini(struct watkins *watkins) {
   scan_table_fini(&watkins->table);
   ARRAY_FREE(&watkins->edge);
   ARRAY_FREE(&watkins->facet);
-  ARRAY_FREE(&watkins->in);
+  ARRAY_FREE(&watkins->covering);
   ARRAY_FREE(&watkins->depth);
   ARRAY_FREE(&watkins->stack);
-  ARRAY_FREE(&watkins->piece);
+  ARRAY_FREE(&watkins->span);
   ARRAY_FREE(&watkins->shown);
   for (int i = 0; i < 2; i++) {
     ARRAY_FREE(&watkins->record[i]);
@@ -224,17 +224,17 @@ double watkins_edge_depth(const struct watkins *watkins, uint32_t edge) {
 static bool toggle_facet(struct watkins *watkins, uint32_t f, uint32_t edge) {
   struct watkins_facet *facet = &watkins->facet.item[f];
   size_t i = 0;
-  facet->in = !facet->in;
-  if (facet->in) {
+  facet->covers = !facet->covers;
+  if (facet->covers) {
     facet->x = watkins->table.edge.item[edge].x;
     facet->z = watkins_edge_depth(watkins, edge);
-    return ARRAY_PUSH(&watkins->in, f);
+    return ARRAY_PUSH(&watkins->covering, f);
   }
-  while (watkins->in.item[i] != f)
+  while (watkins->covering.item[i] != f)
     i++;
-  for (; i + 1 < watkins->in.count; i++)
-    watkins->in.item[i] = watkins->in.item[i + 1];
-  watkins->in.count--;
+  for (; i + 1 < watkins->covering.count; i++)
+    watkins->covering.item[i] = watkins->covering.item[i + 1];
+  watkins->covering.count--;
   return true;
 }
 
@@ -278,7 +278,7 @@ static size_t find_group_end(const struct scan_table *table, size_t first) {
 static bool process_end(struct watkins *watkins, size_t first, size_t past,
                         uint32_t left, uint32_t *right) {
   const uint32_t *active = watkins->table.active;
-  size_t piece = watkins->piece.count;
+  size_t span = watkins->span.count;
   uint32_t seen = WATKINS_NONE;
   bool drawn = false;
   for (size_t i = first; i < past; i++) {
@@ -287,17 +287,17 @@ static bool process_end(struct watkins *watkins, size_t first, size_t past,
       return false;
   }
   if (left != WATKINS_NONE && watkins->sides)
-    watkins->piece.item[piece - 1].right =
+    watkins->span.item[span - 1].right =
         choose_edge(watkins, first, past, left);
   *right = WATKINS_NONE;
-  if (watkins->in.count > 0) {
+  if (watkins->covering.count > 0) {
     /* As a facet is in, there is another edge to the right. */
     if (!watkins_decide(watkins, active[first], active[past]))
       return false;
-    seen = watkins->piece.item[piece].facet;
+    seen = watkins->span.item[span].facet;
     if (watkins->sides)
-      watkins->piece.item[piece].left = choose_edge(watkins, first, past, seen);
-    *right = watkins->piece.item[watkins->piece.count - 1].facet;
+      watkins->span.item[span].left = choose_edge(watkins, first, past, seen);
+    *right = watkins->span.item[watkins->span.count - 1].facet;
   }
   return !drawn || watkins_show_ends(watkins, first, past, left, seen);
 }
@@ -306,7 +306,7 @@ bool watkins_next(struct watkins *watkins, bool *more) {
   struct scan_table *table = &watkins->table;
   uint32_t seen = WATKINS_NONE;
   int parity;
-  watkins->piece.count = 0;
+  watkins->span.count = 0;
   watkins->shown.count = 0;
   *more = scan_table_next(table);
   if (!*more)

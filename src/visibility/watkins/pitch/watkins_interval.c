@@ -78,20 +78,21 @@ static bool is_clearly_nearer(const struct watkins *watkins, uint32_t f,
 /* Sorts H by depth at x, nearest first, equal depths by index, by insertion;
  * the result does not depend on the order before. */
 static void sort_in(struct watkins *watkins, double x) {
-  uint32_t *in = watkins->in.item;
+  uint32_t *covering = watkins->covering.item;
   double *depth = watkins->depth.item;
-  for (size_t i = 0; i < watkins->in.count; i++) {
-    uint32_t f = in[i];
+  for (size_t i = 0; i < watkins->covering.count; i++) {
+    uint32_t f = covering[i];
     double z = watkins_depth(watkins, f, x);
     size_t hole = i;
     for (; hole > 0; hole--) {
       watkins->counts.comparisons++;
-      if (depth[hole - 1] > z || (depth[hole - 1] == z && in[hole - 1] < f))
+      if (depth[hole - 1] > z ||
+          (depth[hole - 1] == z && covering[hole - 1] < f))
         break;
-      in[hole] = in[hole - 1];
+      covering[hole] = covering[hole - 1];
       depth[hole] = depth[hole - 1];
     }
-    in[hole] = f;
+    covering[hole] = f;
     depth[hole] = z;
   }
 }
@@ -99,45 +100,40 @@ static void sort_in(struct watkins *watkins, double x) {
 /* Moves to the front the facet of lowest index among those tied with the
  * nearest. */
 static void break_ties(struct watkins *watkins) {
-  uint32_t *in = watkins->in.item;
+  uint32_t *covering = watkins->covering.item;
   const double *depth = watkins->depth.item;
   size_t front = 0;
   uint32_t first;
-  for (size_t i = 1; i < watkins->in.count; i++)
-    if (in[i] < in[front] &&
-        depth[0] - depth[i] <= tolerance_of(watkins, in[0], in[i]))
+  for (size_t i = 1; i < watkins->covering.count; i++)
+    if (covering[i] < covering[front] &&
+        depth[0] - depth[i] <= tolerance_of(watkins, covering[0], covering[i]))
       front = i;
-  first = in[front];
+  first = covering[front];
   for (; front > 0; front--)
-    in[front] = in[front - 1];
-  in[0] = first;
+    covering[front] = covering[front - 1];
+  covering[0] = first;
 }
 
 /* Finds where the facet in front intersects another between x0 and x1, at least
  * PART_WIDTH_MIN away from both: the first one in the order of depth. */
 static bool find_depth_crossing(struct watkins *watkins, double x0, double x1,
                                 double *at) {
-  const uint32_t *in = watkins->in.item;
-  for (size_t i = 1; i < watkins->in.count; i++) {
+  const uint32_t *covering = watkins->covering.item;
+  for (size_t i = 1; i < watkins->covering.count; i++) {
     int left, right;
-    if (is_clearly_nearer(watkins, in[0], in[i]))
+    if (is_clearly_nearer(watkins, covering[0], covering[i]))
       continue;
-    left = watkins_compare(watkins, in[0], in[i], x0);
-    right = watkins_compare(watkins, in[0], in[i], x1);
+    left = watkins_compare(watkins, covering[0], covering[i], x0);
+    right = watkins_compare(watkins, covering[0], covering[i], x1);
     if (left * right < 0) {
-      double d0 = depth_difference(watkins, in[0], in[i], x0);
-      double d1 = depth_difference(watkins, in[0], in[i], x1);
+      double d0 = depth_difference(watkins, covering[0], covering[i], x0);
+      double d1 = depth_difference(watkins, covering[0], covering[i], x1);
       *at = x0 + (x1 - x0) * d0 / (d0 - d1);
       if (*at - x0 > PART_WIDTH_MIN && x1 - *at > PART_WIDTH_MIN)
         return true;
     }
   }
   return false;
-}
-
-static bool add_visible_piece(struct watkins *watkins,
-                              struct watkins_span piece) {
-  return ARRAY_PUSH(&watkins->piece, piece);
 }
 
 /* Splits the interval at its visible intersections.
@@ -147,7 +143,7 @@ static bool add_visible_piece(struct watkins *watkins,
 static bool split_interval(struct watkins *watkins, uint32_t left,
                            uint32_t right, uint32_t *nearest) {
   const struct scan_edge *edge = watkins->table.edge.item;
-  struct watkins_span piece = {.x0 = edge[left].x, .left = left};
+  struct watkins_span span = {.x0 = edge[left].x, .left = left};
   bool whole = true;
   watkins->stack.count = 0;
   if (!ARRAY_PUSH(&watkins->stack, edge[right].x))
@@ -155,14 +151,14 @@ static bool split_interval(struct watkins *watkins, uint32_t left,
   while (watkins->stack.count > 0) {
     int64_t before = watkins->counts.comparisons;
     double at;
-    piece.x1 = watkins->stack.item[watkins->stack.count - 1];
-    sort_in(watkins, piece.x0 + (piece.x1 - piece.x0) / 2);
-    *nearest = watkins->in.item[0];
+    span.x1 = watkins->stack.item[watkins->stack.count - 1];
+    sort_in(watkins, span.x0 + (span.x1 - span.x0) / 2);
+    *nearest = watkins->covering.item[0];
     if (!progress_step(watkins->progress,
                        (size_t)(watkins->counts.comparisons - before)))
       return false;
     break_ties(watkins);
-    if (find_depth_crossing(watkins, piece.x0, piece.x1, &at)) {
+    if (find_depth_crossing(watkins, span.x0, span.x1, &at)) {
       whole = false;
       watkins->counts.splits++;
       if (!ARRAY_PUSH(&watkins->stack, at))
@@ -170,12 +166,12 @@ static bool split_interval(struct watkins *watkins, uint32_t left,
       continue;
     }
     watkins->stack.count--;
-    piece.facet = watkins->in.item[0];
-    piece.right = watkins->stack.count == 0 ? right : WATKINS_NONE;
-    if (!add_visible_piece(watkins, piece))
+    span.facet = watkins->covering.item[0];
+    span.right = watkins->stack.count == 0 ? right : WATKINS_NONE;
+    if (!ARRAY_PUSH(&watkins->span, span))
       return false;
-    piece.x0 = piece.x1;
-    piece.left = WATKINS_NONE;
+    span.x0 = span.x1;
+    span.left = WATKINS_NONE;
   }
   if (!whole)
     *nearest = WATKINS_NONE;
@@ -223,10 +219,10 @@ static double lines_order_holds(const struct watkins *watkins, uint32_t left,
              {l->x + (r->x - l->x) / 2, l->dx + (r->dx - l->dx) / 2}};
   const struct watkins_facet *facet = watkins->facet.item;
   double kept = INFINITY;
-  for (size_t i = 0; i < watkins->in.count; i++) {
-    uint32_t g = watkins->in.item[i];
+  for (size_t i = 0; i < watkins->covering.count; i++) {
+    uint32_t g = watkins->covering.item[i];
     for (int k = 0; k < 3; k++) {
-      uint32_t f = k == 2 ? nearest : watkins->in.item[0];
+      uint32_t f = k == 2 ? nearest : watkins->covering.item[0];
       double apart;
       if (f == g || is_clearly_nearer(watkins, f, g))
         continue;
@@ -256,14 +252,14 @@ static bool store_record(struct watkins *watkins, uint32_t left, uint32_t right,
   int here = parity_of(watkins->table.line);
   watkins_list *order = &watkins->order[here];
   struct watkins_record record = {until, left, right, (uint32_t)order->count,
-                                  (uint32_t)watkins->in.count};
+                                  (uint32_t)watkins->covering.count};
   if (is_last_line(watkins, left, right))
     return true;
   watkins->edge.item[left].record = (uint32_t)watkins->record[here].count;
-  if (!ARRAY_RESERVE(order, watkins->in.count))
+  if (!ARRAY_RESERVE(order, watkins->covering.count))
     return false;
-  for (size_t i = 0; i < watkins->in.count; i++)
-    order->item[order->count++] = watkins->in.item[i];
+  for (size_t i = 0; i < watkins->covering.count; i++)
+    order->item[order->count++] = watkins->covering.item[i];
   return ARRAY_PUSH(&watkins->record[here], record);
 }
 
@@ -279,11 +275,12 @@ static const struct watkins_record *find_record(const struct watkins *watkins,
     return NULL;
   record = &watkins->record[above].item[index];
   if (record->left != left || record->right != right ||
-      record->until > watkins->table.line || record->count != watkins->in.count)
+      record->until > watkins->table.line ||
+      record->count != watkins->covering.count)
     return NULL;
   order = watkins->order[above].item + record->order;
   for (uint32_t i = 0; i < record->count; i++)
-    if (!watkins->facet.item[order[i]].in)
+    if (!watkins->facet.item[order[i]].covers)
       return NULL;
   return record;
 }
@@ -295,7 +292,7 @@ static bool decide_by_depth(struct watkins *watkins, uint32_t left,
   int32_t line = watkins->table.line;
   uint32_t nearest = WATKINS_NONE;
   double kept;
-  if (!ARRAY_RESERVE(&watkins->depth, watkins->in.count) ||
+  if (!ARRAY_RESERVE(&watkins->depth, watkins->covering.count) ||
       !split_interval(watkins, left, right, &nearest))
     return false;
   if (nearest == WATKINS_NONE || is_last_line(watkins, left, right))
@@ -309,38 +306,39 @@ static bool decide_by_depth(struct watkins *watkins, uint32_t left,
  * front of H; false where there is none.  No depth is computed. */
 static bool find_clearly_nearest(struct watkins *watkins) {
   const struct watkins_facet *facet = watkins->facet.item;
-  uint32_t *in = watkins->in.item, front;
+  uint32_t *covering = watkins->covering.item, front;
   size_t best = 0;
-  for (size_t i = 1; i < watkins->in.count; i++)
-    if (facet[in[i]].z_low > facet[in[best]].z_low)
+  for (size_t i = 1; i < watkins->covering.count; i++)
+    if (facet[covering[i]].z_low > facet[covering[best]].z_low)
       best = i;
-  front = in[best];
-  for (size_t i = 0; i < watkins->in.count; i++)
-    if (i != best && !is_clearly_nearer(watkins, front, in[i]))
+  front = covering[best];
+  for (size_t i = 0; i < watkins->covering.count; i++)
+    if (i != best && !is_clearly_nearer(watkins, front, covering[i]))
       return false;
-  in[best] = in[0];
-  in[0] = front;
+  covering[best] = covering[0];
+  covering[0] = front;
   return true;
 }
 
 bool watkins_decide(struct watkins *watkins, uint32_t left, uint32_t right) {
   const struct scan_edge *edge = watkins->table.edge.item;
-  struct watkins_span piece = {edge[left].x, edge[right].x, 0, left, right};
+  struct watkins_span span = {edge[left].x, edge[right].x, 0, left, right};
   const struct watkins_record *record;
   watkins->counts.intervals++;
-  if (!progress_step(watkins->progress, 1 + watkins->in.count))
+  if (!progress_step(watkins->progress, 1 + watkins->covering.count))
     return false;
-  if (watkins->in.count > 1 && !find_clearly_nearest(watkins)) {
+  if (watkins->covering.count > 1 && !find_clearly_nearest(watkins)) {
     record = find_record(watkins, left, right);
     if (record == NULL)
       return decide_by_depth(watkins, left, right);
     watkins->counts.coherent++;
     for (uint32_t i = 0; i < record->count; i++)
-      watkins->in.item[i] = watkins->order[parity_of(watkins->table.line + 1)]
-                                .item[record->order + i];
+      watkins->covering.item[i] =
+          watkins->order[parity_of(watkins->table.line + 1)]
+              .item[record->order + i];
     if (!store_record(watkins, left, right, record->until))
       return false;
   }
-  piece.facet = watkins->in.item[0];
-  return add_visible_piece(watkins, piece);
+  span.facet = watkins->covering.item[0];
+  return ARRAY_PUSH(&watkins->span, span);
 }
