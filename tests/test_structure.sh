@@ -14,8 +14,8 @@ sources() {
 # drawing alone, the judge base and the scene, the program recto.h alone;
 # readers and writers never include each other.
 #
-# Within visibility and ink the folders have floors too: a folder includes
-# itself, lower floors, and the headers that lie in the layer itself, which
+# Within visibility and ink the folders have levels too: a folder includes
+# itself, lower levels, and the headers that lie in the layer itself, which
 # include no folder.  So no method of visibility includes another one.  The
 # sources that lie in the layer itself (the choice of a method, the phases of
 # ink) stand above all.
@@ -29,21 +29,21 @@ check_sources() {
               "cli import", name, " ")
         for (i in name)
           layer[name[i]] = i - 1
-        set_floor("visibility", 1, "predicate")
-        set_floor("visibility", 2, "index")
-        set_floor("visibility", 3, "contour culling intersection fragments")
-        set_floor("visibility", 4, "pairwise scan")
-        set_floor("visibility", 5, "raster")
-        set_floor("visibility", 6, "brute newell scanline_zbuffer tiles warnock " \
+        set_level("visibility", 1, "predicate")
+        set_level("visibility", 2, "index")
+        set_level("visibility", 3, "contour culling intersection fragments")
+        set_level("visibility", 4, "pairwise scan")
+        set_level("visibility", 5, "raster")
+        set_level("visibility", 6, "brute newell scanline_zbuffer tiles warnock " \
               "watkins zbuffer")
-        set_floor("ink", 1, "lines")
-        set_floor("ink", 2, "curve fill order")
-        set_floor("ink", 3, "hatch")
+        set_level("ink", 1, "lines")
+        set_level("ink", 2, "curve fill order")
+        set_level("ink", 3, "hatch")
       }
-      function set_floor(of, level, folders, i, name, count) {
+      function set_level(of, number, folders, i, name, count) {
         count = split(folders, name, " ")
         for (i = 1; i <= count; i++)
-          floor[of "/" name[i]] = level
+          level[of "/" name[i]] = number
       }
       # "src/view/sheet.c" -> "view", "backends/writer.c" -> "backends"
       function folder(path) {
@@ -83,7 +83,7 @@ check_sources() {
           return 0
         if (from == "")
           return file ~ /\.h$/
-        return to != "" && floor[to] >= floor[from]
+        return to != "" && level[to] >= level[from]
       }
       function wrong(why) {
         print file ": " why ": " included
@@ -95,8 +95,8 @@ check_sources() {
         if (index($0, "/* " noun(file) substr(file, length(file) - 1) " - ") != 1)
           wrong("does not open with its job")
         if ((from == "visibility" || from == "ink") && subfolder(file) != "" &&
-            !(subfolder(file) in floor))
-          wrong("its folder has no floor")
+            !(subfolder(file) in level))
+          wrong("its folder has no level")
       }
       /^ *# *include *"/ {
         included = $0
@@ -389,8 +389,8 @@ claim "a comment may not be wider than the page" finds width \
   "src/geom/ratio.c: line" "too long"
 claim "a source may not open without its job" finds sources \
   "src/geom/new.c: does not open" ""
-claim "a folder may not be without a floor" finds sources \
-  "src/visibility/included/new.c: its folder has no floor" ""
+claim "a folder may not be without a level" finds sources \
+  "src/visibility/included/new.c: its folder has no level" ""
 claim "modules may not include each other in a circle" finds circles \
   "geom/convex: in a circle of includes" ""
 claim "a function may not have the name of another one" finds names \

@@ -109,7 +109,7 @@ static recto_status make_edges(struct layout *layout,
           class_mask_of(edge, class_masks[e], layout->sides[e]) &
           (has_mesh_contours(coarse, edge->point[0]) ? wanted
                                                      : wanted & ~silhouette));
-    bool contour = edge->uses != 2 || layout->sides[e] != LAYOUT_PLAIN;
+    bool contour = edge->uses != 2 || layout->sides[e] != LAYOUT_TWO_SIDED;
     if (!edge_class && !layout->outlines && !contour)
       continue;
     struct layout_cut ends;

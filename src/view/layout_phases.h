@@ -51,7 +51,7 @@ enum {
   LAYOUT_ONE_FACE = 8,
   LAYOUT_FACES_MAX = 3 * LAYOUT_ONE_FACE,
   /* Two faces, one on each side: the edge is no contour. */
-  LAYOUT_PLAIN = LAYOUT_LEFT | LAYOUT_RIGHT | 2 * LAYOUT_ONE_FACE
+  LAYOUT_TWO_SIDED = LAYOUT_LEFT | LAYOUT_RIGHT | 2 * LAYOUT_ONE_FACE
 };
 
 /* Records on which side of an edge a face of this orientation lies.

@@ -10,7 +10,7 @@
 #include "base/poll.h"
 #include "view/coordinate_error.h"
 #include "view/layout_clipping.h"
-#include "view/layout_plain.h"
+#include "view/layout_unclipped.h"
 
 static inline void set_side(const struct layout *layout,
                             struct layout_triangle *triangle, int k,
@@ -76,7 +76,7 @@ static recto_status add_fold(struct layout *layout, uint32_t face,
       layout->outlines || (layout->options->ink.edges & RECTO_EDGE_SILHOUETTE);
   uint32_t fold = SHEET_NONE;
   struct layout_fold made = {.face = face};
-  if (diagonal->sides != LAYOUT_PLAIN && diagonal->from != SHEET_NONE) {
+  if (diagonal->sides != LAYOUT_TWO_SIDED && diagonal->from != SHEET_NONE) {
     recto_status status = layout_known_cut(
         layout, &diagonal->cut, diagonal->from, diagonal->to, &made.ends);
     if (status == RECTO_OK && made.ends.point[0] != SHEET_NONE) {
@@ -340,11 +340,11 @@ recto_status layout_triangles(struct layout *layout) {
   if (layout->sides == NULL || !layout_reserve(layout, triangles))
     return error_memory(layout->error);
   bool done;
-  if (!layout_plain_all(layout, &done))
+  if (!layout_all_unclipped(layout, &done))
     return error_memory(layout->error);
   for (uint32_t face = done ? faces : 0; face < faces; face++) {
     uint32_t next = (face | (POLL_ITEMS - 1)) + 1;
-    face = layout_plain_faces(layout, face, next < faces ? next : faces);
+    face = layout_unclipped_faces(layout, face, next < faces ? next : faces);
     if (face == faces)
       break;
     recto_status status = layout_face(layout, face);

@@ -13,10 +13,10 @@ librecto_core_la_SOURCES += \
   %D%/layout_edges.c \
   %D%/layout_clipping.c %D%/layout_clipping.h \
   %D%/layout_phases.h \
-  %D%/layout_plain.c %D%/layout_plain.h \
   %D%/layout_points.c \
   %D%/layout_range.c \
   %D%/layout_triangles.c \
+  %D%/layout_unclipped.c %D%/layout_unclipped.h \
   %D%/polygon.c %D%/polygon.h \
   %D%/project.c %D%/project.h \
   %D%/rescale.c %D%/rescale.h \

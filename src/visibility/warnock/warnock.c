@@ -50,7 +50,7 @@ enum { LISTED_PER_ITEM_MAX = 256 };
 /* Solves the window's own lists by pairs. */
 static bool solve_window(struct warnock *w, const struct warnock_window *win) {
   for (size_t i = win->edges.from; i < win->edges.to; i++) {
-    uint32_t e = w->windows.edges.item[i];
+    uint32_t e = w->windows.edge_pool.item[i];
     if (!progress_step(&w->progress, warnock_count(win->surrounders) +
                                          warnock_count(win->facets)) ||
         !warnock_solve_edge(w, win, e))
@@ -59,7 +59,7 @@ static bool solve_window(struct warnock *w, const struct warnock_window *win) {
   if (!w->request->fragments)
     return true;
   for (size_t k = win->surrounders.from; k < win->surrounders.to; k++)
-    if (!warnock_solve_face(w, win, w->windows.surrounders.item[k]))
+    if (!warnock_solve_face(w, win, w->windows.surrounder_pool.item[k]))
       return false;
   for (size_t k = win->facets.from; k < win->facets.to; k++)
     if (!warnock_solve_face(w, win, w->windows.facet_pool.item[k]))
@@ -70,9 +70,9 @@ static bool solve_window(struct warnock *w, const struct warnock_window *win) {
 /* Defers everything in the window's lists to pairwise_fallback.h. */
 static bool defer_window(struct warnock *w, const struct warnock_window *win) {
   for (size_t i = win->edges.from; i < win->edges.to; i++)
-    w->edge_deferred[w->windows.edges.item[i]] = 1;
+    w->edge_deferred[w->windows.edge_pool.item[i]] = 1;
   for (size_t i = win->surrounders.from; i < win->surrounders.to; i++)
-    w->triangle_deferred[w->windows.surrounders.item[i]] =
+    w->triangle_deferred[w->windows.surrounder_pool.item[i]] =
         w->request->fragments;
   for (size_t i = win->facets.from; i < win->facets.to; i++)
     w->triangle_deferred[w->windows.facet_pool.item[i]] = w->request->fragments;
@@ -101,7 +101,8 @@ static bool divide_window(struct warnock *w, const struct warnock_window *win) {
 
 static bool is_small(const struct warnock *w, const struct box2 *v) {
   int64_t width = (int64_t)v->x1 - v->x0, height = (int64_t)v->y1 - v->y0;
-  return width < 2 || height < 2 || (width <= w->floor && height <= w->floor);
+  return width < 2 || height < 2 ||
+         (width <= w->least_side && height <= w->least_side);
 }
 
 /* The edges and faces of the window that are not yet deferred. */
@@ -111,7 +112,7 @@ static size_t count_unsolved(const struct warnock *w,
   if (!w->request->fragments)
     return unsolved;
   for (size_t i = win->surrounders.from; i < win->surrounders.to; i++)
-    unsolved += !w->triangle_deferred[w->windows.surrounders.item[i]];
+    unsolved += !w->triangle_deferred[w->windows.surrounder_pool.item[i]];
   for (size_t i = win->facets.from; i < win->facets.to; i++)
     unsolved += !w->triangle_deferred[w->windows.facet_pool.item[i]];
   return unsolved;
@@ -142,7 +143,7 @@ static bool handle_long_list(struct warnock *w, struct warnock_window *win,
   }
   if (!small)
     return divide_window(w, win);
-  w->counts.floor++;
+  w->counts.of_least_size++;
   return solve_window(w, win);
 }
 
@@ -246,7 +247,7 @@ static bool subdivide_page(struct warnock *w,
   w->triangle_deferred = mem_calloc(sheet->triangle.count, 1);
   w->occlusion_limit = WARNOCK_UNITE_FROM;
   w->piece_limit = WARNOCK_LIMIT_FROM;
-  w->floor = edge_length(sheet);
+  w->least_side = edge_length(sheet);
   w->windows = (struct warnock_windows){.sheet = sheet,
                                         .facets = &triangles,
                                         .update_front = update_nearer_front,
@@ -257,8 +258,8 @@ static bool subdivide_page(struct warnock *w,
                             w->request->edges))
     return false;
   w->listed_max =
-      LISTED_PER_ITEM_MAX *
-      (uint64_t)(w->windows.facet_pool.count + w->windows.edges.count + 1024);
+      LISTED_PER_ITEM_MAX * (uint64_t)(w->windows.facet_pool.count +
+                                       w->windows.edge_pool.count + 1024);
   while (w->windows.stack.count > 0)
     if (!process_page_window(w))
       return false;
@@ -271,7 +272,7 @@ static void report_windows(const struct warnock *w, struct report *report) {
   report_count(report, "warnock", "without_face", w->counts.no_face);
   report_count(report, "warnock", "one_surrounder", w->counts.one_surrounder);
   report_count(report, "warnock", "few_faces", w->counts.few);
-  report_count(report, "warnock", "of_least_size", w->counts.floor);
+  report_count(report, "warnock", "of_least_size", w->counts.of_least_size);
   report_count(report, "warnock", "deferred", w->counts.deferred);
   report_count(report, "warnock", "divided", w->counts.divided);
   report_text(report, "warnock", "division",

@@ -97,11 +97,11 @@ bool warnock_drop_hidden_edges(struct warnock *w, struct warnock_window *win,
   if (front->facet == SHEET_NONE)
     return true;
   for (size_t i = win->edges.from; i < win->edges.to; i++) {
-    uint32_t e = w->windows.edges.item[i];
+    uint32_t e = w->windows.edge_pool.item[i];
     struct edge_task task;
     struct edge_occlusion hidden = {.edge = e, .interval.sides = OCCLUDED_BOTH};
     if (!is_edge_behind(w, front, e)) {
-      w->windows.edges.item[kept++] = e;
+      w->windows.edge_pool.item[kept++] = e;
       continue;
     }
     if (!start_edge(w, &win->box, e, &task))
@@ -111,7 +111,7 @@ bool warnock_drop_hidden_edges(struct warnock *w, struct warnock_window *win,
     if (!add_occlusion(w, hidden))
       return false;
   }
-  win->edges.to = w->windows.edges.count = kept;
+  win->edges.to = w->windows.edge_pool.count = kept;
   return true;
 }
 
@@ -153,7 +153,7 @@ bool warnock_solve_edge(struct warnock *w, const struct warnock_window *win,
   edge_intervals_start(&w->intervals);
   for (size_t k = win->surrounders.from;
        k < win->surrounders.to && !task.hidden; k++)
-    if (!occlude_by(w, &task, w->windows.surrounders.item[k]))
+    if (!occlude_by(w, &task, w->windows.surrounder_pool.item[k]))
       return false;
   for (size_t k = win->facets.from; k < win->facets.to && !task.hidden; k++)
     if (!occlude_by(w, &task, w->windows.facet_pool.item[k]))

@@ -81,7 +81,7 @@ bool warnock_solve_face(struct warnock *w, const struct warnock_window *win,
     return true;
   for (int l = 0; l < 2; l++) {
     const uint32_t *pool =
-        l == 0 ? w->windows.surrounders.item : w->windows.facet_pool.item;
+        l == 0 ? w->windows.surrounder_pool.item : w->windows.facet_pool.item;
     for (size_t i = list[l]->from; i < list[l]->to; i++) {
       uint32_t g = pool[i];
       if (occluder_subtraction_is_empty(&w->subtraction))

@@ -125,7 +125,7 @@ static uint32_t facet_at_subpixel(const struct subdivision *s,
   uint32_t seen = SHEET_NONE;
   double low = -INFINITY;
   for (size_t i = win->surrounders.from; i < win->surrounders.to; i++) {
-    uint32_t t = s->windows.surrounders.item[i];
+    uint32_t t = s->windows.surrounder_pool.item[i];
     if (seen == SHEET_NONE ||
         warnock_sample_is_nearer(&s->sample, t, seen, column, line))
       seen = t;

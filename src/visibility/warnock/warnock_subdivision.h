@@ -47,11 +47,11 @@ struct warnock {
   bool any_deferred;
   struct arena arena; /* owns the pieces */
   struct occluder_subtraction subtraction;
-  int64_t floor; /* grid units: no smaller window is divided */
+  int64_t least_side; /* grid units: no smaller window is divided */
   struct occlusion_counts occlusion_counts;
   struct {
-    uint64_t all, no_edge, no_face, one_surrounder, few, floor, deferred,
-        divided;
+    uint64_t all, no_edge, no_face, one_surrounder, few, of_least_size,
+        deferred, divided;
   } counts;
 };
 

@@ -42,27 +42,27 @@ bool warnock_windows_init(struct warnock_windows *windows,
   mem_free(key);
   for (uint32_t e = 0; ok && edges && e < sheet->edge.count; e++)
     if (sheet_edge_is_drawn(sheet, e))
-      ok = ARRAY_PUSH(&windows->edges, e);
+      ok = ARRAY_PUSH(&windows->edge_pool, e);
   struct warnock_window win = {.box = *first,
                                .pairs = INFINITY,
                                .facets = {0, windows->facet_pool.count},
-                               .edges = {0, windows->edges.count}};
+                               .edges = {0, windows->edge_pool.count}};
   return ok && ARRAY_PUSH(&windows->stack, win);
 }
 
 void warnock_windows_fini(struct warnock_windows *windows) {
   ARRAY_FREE(&windows->stack);
   ARRAY_FREE(&windows->facet_pool);
-  ARRAY_FREE(&windows->surrounders);
-  ARRAY_FREE(&windows->edges);
+  ARRAY_FREE(&windows->surrounder_pool);
+  ARRAY_FREE(&windows->edge_pool);
   mem_free(windows->nearest);
 }
 
 struct warnock_window warnock_windows_pop(struct warnock_windows *windows) {
   struct warnock_window win = windows->stack.item[--windows->stack.count];
   windows->facet_pool.count = win.facets.to;
-  windows->surrounders.count = win.surrounders.to;
-  windows->edges.count = win.edges.to;
+  windows->surrounder_pool.count = win.surrounders.to;
+  windows->edge_pool.count = win.edges.to;
   return win;
 }
 
@@ -118,11 +118,11 @@ bool warnock_list_facets(struct warnock_windows *windows,
                          struct warnock_front *front) {
   struct warnock_range facets = win->facets, surrounders = win->surrounders;
   win->facets.from = windows->facet_pool.count;
-  win->surrounders.from = windows->surrounders.count;
+  win->surrounders.from = windows->surrounder_pool.count;
   *front = (struct warnock_front){SHEET_NONE, .depth.low = -INFINITY};
   for (size_t i = surrounders.from; i < surrounders.to; i++)
     windows->update_front(windows->user, &win->box,
-                          windows->surrounders.item[i], front);
+                          windows->surrounder_pool.item[i], front);
   for (size_t i = facets.from; i < facets.to; i++) {
     uint32_t t = windows->facet_pool.item[i];
     if (!poll_at(i))
@@ -134,7 +134,7 @@ bool warnock_list_facets(struct warnock_windows *windows,
     }
     enum window_class class = warnock_classify(windows, on_sheet, t);
     if (class == WINDOW_SURROUNDING) {
-      if (!ARRAY_PUSH(&windows->surrounders, t))
+      if (!ARRAY_PUSH(&windows->surrounder_pool, t))
         return false;
       windows->update_front(windows->user, &win->box, t, front);
     } else if (class != WINDOW_DISJOINT &&
@@ -143,17 +143,18 @@ bool warnock_list_facets(struct warnock_windows *windows,
     }
   }
   for (size_t i = surrounders.from; i < surrounders.to; i++)
-    if (!ARRAY_PUSH(&windows->surrounders, windows->surrounders.item[i]))
+    if (!ARRAY_PUSH(&windows->surrounder_pool,
+                    windows->surrounder_pool.item[i]))
       return false;
   win->facets.to = windows->facet_pool.count;
-  win->surrounders.to = windows->surrounders.count;
+  win->surrounders.to = windows->surrounder_pool.count;
   if (front->facet == SHEET_NONE)
     return true;
   uint64_t dropped = windows->dropped;
   win->facets.to = windows->facet_pool.count =
       drop_hidden(windows, win, front, windows->facet_pool.item, win->facets);
-  win->surrounders.to = windows->surrounders.count = drop_hidden(
-      windows, win, front, windows->surrounders.item, win->surrounders);
+  win->surrounders.to = windows->surrounder_pool.count = drop_hidden(
+      windows, win, front, windows->surrounder_pool.item, win->surrounders);
   front->hides |= windows->dropped > dropped;
   return true;
 }
@@ -163,15 +164,15 @@ bool warnock_list_edges(struct warnock_windows *windows,
                         const uint8_t *deferred) {
   const struct sheet *sheet = windows->sheet;
   struct warnock_range edges = win->edges;
-  win->edges.from = windows->edges.count;
+  win->edges.from = windows->edge_pool.count;
   for (size_t i = edges.from; i < edges.to; i++) {
-    uint32_t e = windows->edges.item[i];
+    uint32_t e = windows->edge_pool.item[i];
     struct geom_segment s = sheet_ends(sheet, sheet->edge.item[e].point);
     if ((deferred == NULL || !deferred[e]) &&
         window_meets_edge(on_sheet, s.p, s.q) &&
-        !ARRAY_PUSH(&windows->edges, e))
+        !ARRAY_PUSH(&windows->edge_pool, e))
       return false;
   }
-  win->edges.to = windows->edges.count;
+  win->edges.to = windows->edge_pool.count;
   return true;
 }

@@ -63,7 +63,7 @@ struct warnock_windows {
                 const struct warnock_front *front, uint32_t facet);
   void *user;
   ARRAY(struct warnock_window) stack;
-  ARRAY(uint32_t) facet_pool, surrounders, edges; /* the pools */
+  ARRAY(uint32_t) facet_pool, surrounder_pool, edge_pool;
   double *nearest; /* one a triangle: the depth of its facet's nearest corner */
   struct window_counts classified;
   uint64_t cut_short; /* lists that ended at the first face behind the front */

@@ -1,4 +1,4 @@
-/* layout_plain.c - makes the sheet's triangles of faces that need neither
+/* layout_unclipped.c - makes the sheet's triangles of faces that need neither
  * triangulation nor clipping: one after the other, or in parallel.
  *
  * In parallel, each range of faces knows where its triangles stand once those
@@ -6,7 +6,7 @@
  * face: edges are in the order of these, so those of a range are consecutive.
  * Only that range records sides of the edge directly; others list them, and
  * they are recorded at the end. */
-#include "view/layout_plain.h"
+#include "view/layout_unclipped.h"
 
 #include <stdatomic.h>
 #include <string.h>
@@ -16,17 +16,17 @@
 #include "view/layout_clipping.h"
 
 /* A side of an edge that belongs to an earlier range. */
-struct foreign_side {
+struct deferred_side {
   uint32_t edge;
   bool forward;
   int8_t sign;
 };
 
 /* A range of faces. */
-struct plain_range {
+struct face_range {
   uint32_t first_edge; /* of those that belong to it */
   uint32_t kept;       /* faces with three corners; then, all before it */
-  ARRAY(struct foreign_side) foreign;
+  ARRAY(struct deferred_side) deferred;
   bool failed; /* memory ran out */
 };
 
@@ -51,25 +51,25 @@ static bool has_corners(const struct layout *layout, uint32_t face) {
 
 /* Records the sides of a triangle, some of whose edges belong to an earlier
  * range. */
-static void record_some_sides(struct plain_range *range, uint8_t *sides,
+static void record_some_sides(struct face_range *range, uint8_t *sides,
                               const uint32_t edge[3], const uint32_t corner[3],
                               int sign) {
   for (int k = 0; k < 3; k++) {
     bool forward = corner[k] < corner[geom_next_corner(k)];
-    struct foreign_side side = {edge[k], forward, (int8_t)sign};
+    struct deferred_side side = {edge[k], forward, (int8_t)sign};
     if (edge[k] >= range->first_edge)
       layout_record_side(&sides[edge[k]], forward, sign);
-    else if (!ARRAY_PUSH(&range->foreign, side))
+    else if (!ARRAY_PUSH(&range->deferred, side))
       range->failed = true;
   }
 }
 
-/* As layout_plain_faces, to an end of the arrays of triangles.
+/* As layout_unclipped_faces, to an end of the arrays of triangles.
  * range  which the faces are of; NULL: all edges belong to them */
-static inline uint32_t add_plain_faces(const struct layout *layout,
-                                       struct layout_triangle_sink *to,
-                                       struct plain_range *range, uint32_t face,
-                                       uint32_t end) {
+static inline uint32_t add_unclipped_faces(const struct layout *layout,
+                                           struct layout_triangle_sink *to,
+                                           struct face_range *range,
+                                           uint32_t face, uint32_t end) {
   const struct scene *scene = layout->scene;
   const uint32_t *start = scene->face_start.item, *own = scene->corner.item;
   const uint32_t *weld = layout->topology->weld, *map = layout->point_map;
@@ -100,27 +100,27 @@ static inline uint32_t add_plain_faces(const struct layout *layout,
   return face;
 }
 
-uint32_t layout_plain_faces(struct layout *layout, uint32_t face,
-                            uint32_t end) {
+uint32_t layout_unclipped_faces(struct layout *layout, uint32_t face,
+                                uint32_t end) {
   struct layout_triangle_sink sink = layout_sink_of(layout);
-  face = add_plain_faces(layout, &sink, NULL, face, end);
+  face = add_unclipped_faces(layout, &sink, NULL, face, end);
   layout_sink_close(layout, &sink);
   return face;
 }
 
 /* ---- In parallel --------------------------------------------------------- */
 
-struct plain_work {
+struct face_ranges_work {
   struct layout *layout;
-  struct plain_range *range;
-  atomic_bool odd; /* a face is not plain */
+  struct face_range *range;
+  atomic_bool found_other; /* a face is no such triangle */
 };
 
 /* Counts the faces of a range that keep three corners, and finds its edges. */
 static bool count_kept_faces(void *user, struct parallel_range faces) {
-  struct plain_work *work = user;
+  struct face_ranges_work *work = user;
   const struct topology *topology = work->layout->topology;
-  struct plain_range *range = &work->range[faces.begin / PARALLEL_ITEMS];
+  struct face_range *range = &work->range[faces.begin / PARALLEL_ITEMS];
   size_t first;
   LOWER_BOUND(first, 0, topology->edge.count,
               topology->edge.item[first].first < faces.begin);
@@ -132,7 +132,7 @@ static bool count_kept_faces(void *user, struct parallel_range faces) {
 }
 
 /* Makes `kept` of each range the number of all before it; returns the sum. */
-static uint32_t assign_positions(struct plain_range *range, size_t ranges) {
+static uint32_t assign_positions(struct face_range *range, size_t ranges) {
   uint32_t sum = 0;
   for (size_t i = 0; i < ranges; i++) {
     uint32_t kept = range[i].kept;
@@ -143,10 +143,10 @@ static uint32_t assign_positions(struct plain_range *range, size_t ranges) {
 }
 
 /* Makes the triangles of a range. */
-static bool make_plain_triangles(void *user, struct parallel_range faces) {
-  struct plain_work *work = user;
+static bool make_range_triangles(void *user, struct parallel_range faces) {
+  struct face_ranges_work *work = user;
   const struct layout *layout = work->layout;
-  struct plain_range *range = &work->range[faces.begin / PARALLEL_ITEMS];
+  struct face_range *range = &work->range[faces.begin / PARALLEL_ITEMS];
   struct layout_triangle_sink sink = {
       layout->sheet->point.item,
       layout->sheet->triangle.item + range->kept,
@@ -154,9 +154,9 @@ static bool make_plain_triangles(void *user, struct parallel_range faces) {
       faces.end - faces.begin,
   };
   uint32_t face = (uint32_t)faces.begin, end = (uint32_t)faces.end;
-  while ((face = add_plain_faces(layout, &sink, range, face, end)) < end) {
+  while ((face = add_unclipped_faces(layout, &sink, range, face, end)) < end) {
     if (has_corners(layout, face)) {
-      atomic_store(&work->odd, true);
+      atomic_store(&work->found_other, true);
       return false;
     }
     face++;
@@ -164,15 +164,16 @@ static bool make_plain_triangles(void *user, struct parallel_range faces) {
   return !range->failed;
 }
 
-static void record_foreign(struct layout *layout, struct plain_range *range) {
-  for (size_t i = 0; i < range->foreign.count; i++) {
-    const struct foreign_side *side = &range->foreign.item[i];
+static void record_deferred_sides(struct layout *layout,
+                                  struct face_range *range) {
+  for (size_t i = 0; i < range->deferred.count; i++) {
+    const struct deferred_side *side = &range->deferred.item[i];
     layout_record_side(&layout->sides[side->edge], side->forward, side->sign);
   }
-  ARRAY_FREE(&range->foreign);
+  ARRAY_FREE(&range->deferred);
 }
 
-bool layout_plain_all(struct layout *layout, bool *done) {
+bool layout_all_unclipped(struct layout *layout, bool *done) {
   size_t faces = scene_face_count(layout->scene);
   size_t ranges = parallel_range_count(faces, PARALLEL_ITEMS);
   *done = false;
@@ -180,18 +181,18 @@ bool layout_plain_all(struct layout *layout, bool *done) {
       layout->scene->corner.count != 3 * faces)
     return true;
   int workers = parallel_workers(faces, PARALLEL_ITEMS);
-  struct plain_work work = {.layout = layout,
-                            .range = mem_calloc(ranges, sizeof *work.range)};
+  struct face_ranges_work work = {
+      .layout = layout, .range = mem_calloc(ranges, sizeof *work.range)};
   bool ok =
       work.range != NULL &&
       parallel_ranges(workers, faces, PARALLEL_ITEMS, count_kept_faces, &work);
   uint32_t kept = ok ? assign_positions(work.range, ranges) : 0;
   ok = ok && parallel_ranges(workers, faces, PARALLEL_ITEMS,
-                             make_plain_triangles, &work);
+                             make_range_triangles, &work);
   for (size_t i = 0; work.range != NULL && i < ranges; i++)
-    record_foreign(layout, &work.range[i]);
+    record_deferred_sides(layout, &work.range[i]);
   mem_free(work.range);
-  if (atomic_load(&work.odd)) {
+  if (atomic_load(&work.found_other)) {
     memset(layout->sides, 0, layout->topology->edge.count);
     return true;
   }
