@@ -22,14 +22,14 @@ void sheet_fixture_start(struct sheet_fixture *fixture) {
   fixture->options.page.height_mm = 100;
 }
 
-void sheet_fixture_out(struct sheet_fixture *fixture, bool outlines) {
+void sheet_fixture_out(struct sheet_fixture *fixture, bool all_edges) {
   recto_error error = {0};
-  fixture->outlines = outlines;
+  fixture->all_edges = all_edges;
   if (topology_init(&fixture->topology, &fixture->scene, &error) != RECTO_OK ||
       camera_aim(&fixture->camera, &fixture->scene, &fixture->options,
                  &error) != RECTO_OK ||
       layout_sheet(&fixture->sheet, &fixture->scene, &fixture->topology,
-                   &fixture->camera, &fixture->options, outlines,
+                   &fixture->camera, &fixture->options, all_edges,
                    &error) != RECTO_OK)
     fail_msg("%s", error.text);
 }
@@ -126,7 +126,7 @@ static void check_edge(const struct sheet_fixture *fixture,
   assert_int_not_equal(edge->point[0], edge->point[1]);
   assert_true(edge->group < fixture->scene.group.count);
   if (edge->edge_class == 0) {
-    assert_true(fixture->outlines);
+    assert_true(fixture->all_edges);
     return;
   }
   assert_true(has_one_bit(edge->edge_class));
@@ -305,7 +305,7 @@ void sheet_fixture_check(const struct sheet_fixture *fixture) {
   check_triangles(fixture);
   check_edges(fixture);
   check_sides(fixture);
-  if (fixture->outlines) {
+  if (fixture->all_edges) {
     check_contours(fixture);
     check_cuts(fixture);
   }

@@ -12,7 +12,7 @@ struct sheet_fixture {
   struct topology topology;
   struct camera camera;
   struct sheet sheet;
-  bool outlines;
+  bool all_edges;
 };
 
 /* An empty scene and the default options on a page of 200 x 100 mm. */
@@ -20,7 +20,7 @@ void sheet_fixture_start(struct sheet_fixture *fixture);
 
 /* Finds the edges, aims, and builds the sheet; fails the test where that
  * fails. */
-void sheet_fixture_out(struct sheet_fixture *fixture, bool outlines);
+void sheet_fixture_out(struct sheet_fixture *fixture, bool all_edges);
 
 void sheet_fixture_fini(struct sheet_fixture *fixture);
 

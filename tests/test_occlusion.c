@@ -72,7 +72,8 @@ static void touching_the_outline_hides_nothing(void **state) {
         occlude_edge(&occluder, edge[k][0], edge[k][1], &part, &counts));
     assert_false(
         occlude_edge(&occluder, edge[k][1], edge[k][0], &part, &counts));
-    assert_false(occlude_by_outline(occluder.p, edge[k][0], edge[k][1], &part));
+    assert_false(
+        occlude_by_projection(occluder.p, edge[k][0], edge[k][1], &part));
   }
   exact_sheet_fini(&sheet);
 }

@@ -20,12 +20,12 @@
 static void the_scenes_keep_every_invariant(void **state) {
   (void)state;
   for (const struct scenes_entry *entry = scene_list; entry->name; entry++)
-    for (int outlines = 0; outlines < 2; outlines++) {
+    for (int all_edges = 0; all_edges < 2; all_edges++) {
       struct sheet_fixture fixture;
       sheet_fixture_start(&fixture);
       entry->fill(&fixture.scene, &fixture.options);
       fixture.options.ink.edges = RECTO_EDGES_ALL;
-      sheet_fixture_out(&fixture, outlines);
+      sheet_fixture_out(&fixture, all_edges);
       sheet_fixture_check(&fixture);
       sheet_fixture_fini(&fixture);
     }

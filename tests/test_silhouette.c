@@ -270,15 +270,15 @@ static void outlines_add_edges_that_are_not_drawn(void **state) {
   (void)state;
   for (unsigned edges = 0; edges <= RECTO_EDGES_ALL; edges += 5) {
     struct sheet_fixture fixture[2];
-    for (int outlines = 0; outlines < 2; outlines++) {
-      start_from_corner(&fixture[outlines]);
-      build_box(&fixture[outlines].scene, vector_of(0, 0, 0),
+    for (int all_edges = 0; all_edges < 2; all_edges++) {
+      start_from_corner(&fixture[all_edges]);
+      build_box(&fixture[all_edges].scene, vector_of(0, 0, 0),
                 vector_of(1, 2, 3));
-      build_parallelogram(&fixture[outlines].scene, vector_of(4, 0, 0),
+      build_parallelogram(&fixture[all_edges].scene, vector_of(4, 0, 0),
                           vector_of(1, 0, 0), vector_of(0, 1, 1));
-      fixture[outlines].options.ink.edges = edges;
-      sheet_fixture_out(&fixture[outlines], outlines);
-      sheet_fixture_check(&fixture[outlines]);
+      fixture[all_edges].options.ink.edges = edges;
+      sheet_fixture_out(&fixture[all_edges], all_edges);
+      sheet_fixture_check(&fixture[all_edges]);
     }
     assert_int_equal(sheet_fixture_count(&fixture[0], 0), 0);
     assert_int_equal(fixture[1].sheet.edge.count, 16);
@@ -311,19 +311,19 @@ static void a_fold_at_a_diagonal_is_a_silhouette(void **state) {
   int folded = 0;
   for (int turn = 0; turn < 4 * 26; turn++) {
     struct sheet_fixture turned = fixture;
-    bool requested = turn & 1, outlines = turn & 2;
+    bool requested = turn & 1, all_edges = turn & 2;
     turned.options.camera.azimuth_deg = 7 * (turn / 4);
     turned.options.ink.edges =
         RECTO_EDGE_BORDER | (requested ? RECTO_EDGE_SILHOUETTE : 0);
-    sheet_fixture_out(&turned, outlines);
-    if (outlines)
+    sheet_fixture_out(&turned, all_edges);
+    if (all_edges)
       sheet_fixture_check(&turned);
     const struct sheet *sheet = &turned.sheet;
     bool fold =
         (sheet->triangle_flags[0] ^ sheet->triangle_flags[1]) & SHEET_FLIPPED;
     folded += fold;
     assert_int_equal(sheet->contour.count, 4 + fold);
-    assert_int_equal(count_folds(sheet), fold && (requested || outlines));
+    assert_int_equal(count_folds(sheet), fold && (requested || all_edges));
     assert_int_equal(sheet_fixture_count(&turned, RECTO_EDGE_SILHOUETTE),
                      fold && requested);
     sheet_fini(&turned.sheet);

@@ -48,14 +48,15 @@ static double apply_row(const double row[4], struct judge_point3 p) {
   return row[0] * p.x + row[1] * p.y + row[2] * p.z + row[3];
 }
 
-double judge_depth(const struct judge_camera *camera, struct judge_point3 p) {
+double judge_homogeneous_w(const struct judge_camera *camera,
+                           struct judge_point3 p) {
   return apply_row(camera->matrix + 8, p);
 }
 
 double judge_view_depth(const struct judge_camera *camera,
                         struct judge_point3 p) {
   return camera->perspective
-             ? judge_depth(camera, p)
+             ? judge_homogeneous_w(camera, p)
              : point3_dot(camera->back, point3_sub(camera->eye, p));
 }
 
@@ -75,7 +76,7 @@ double judge_near(const struct judge_camera *camera) {
 
 struct judge_point2 judge_project(const struct judge_camera *camera,
                                   struct judge_point3 p) {
-  double depth = judge_depth(camera, p);
+  double depth = judge_homogeneous_w(camera, p);
   return (struct judge_point2){apply_row(camera->matrix, p) / depth,
                                apply_row(camera->matrix + 4, p) / depth};
 }
@@ -91,7 +92,7 @@ struct judge_point3 judge_shift(const struct judge_camera *camera,
   struct judge_point3 x = {m[0], m[1], m[2]}, y = {m[4], m[5], m[6]};
   x = point3_along(x, -point3_dot(x, camera->back), camera->back);
   y = point3_along(y, -point3_dot(y, camera->back), camera->back);
-  double depth = judge_depth(camera, p);
+  double depth = judge_homogeneous_w(camera, p);
   p = point3_along(p, dx * depth / point3_dot(x, x), x);
   return point3_along(p, dy * depth / point3_dot(y, y), y);
 }

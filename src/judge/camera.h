@@ -31,7 +31,8 @@ double judge_view_depth(const struct judge_camera *camera,
                         struct judge_point3 p);
 /* The homogeneous coordinate: the distance above in perspective, 1 in an
  * orthographic view. */
-double judge_depth(const struct judge_camera *camera, struct judge_point3 p);
+double judge_homogeneous_w(const struct judge_camera *camera,
+                           struct judge_point3 p);
 /* Upper bound of the rounding error of points that the near plane makes; 0
  * where there is no near plane. */
 double judge_near_tolerance(const struct judge_camera *camera);

@@ -4,7 +4,7 @@
 
 #include "base/poll.h"
 #include "judge/camera.h"
-#include "judge/page_outline.h"
+#include "judge/clipped_triangle.h"
 #include "judge/triangulation.h"
 
 /* ---- Facings ------------------------------------------------------------- */
@@ -59,9 +59,10 @@ static bool are_in_line(const struct judge_facings *facings,
  * cannot turn its image over. */
 static bool is_thick(const struct judge_facings *facings,
                      const struct judge_triangle *t, double contact) {
-  struct judge_outline outline = judge_outline_on_page(facings->camera, t);
-  return outline.count < 3 ||
-         !are_in_line(facings, outline.p, outline.count, contact);
+  struct judge_clipped_triangle clipped =
+      judge_clip_triangle(facings->camera, t);
+  return clipped.count < 3 ||
+         !are_in_line(facings, clipped.p, clipped.count, contact);
 }
 
 /* Whether all of a face is drawn: its corners are in front of the near plane

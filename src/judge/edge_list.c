@@ -16,7 +16,7 @@ static bool clip_far_image(const struct judge_camera *camera,
       struct judge_point2 at = judge_project(camera, end[k]);
       double along = side / 2 == 0 ? at.x : at.y;
       where[k] = (TOLERANCE_JUDGE_IMAGE_MM + (side % 2 == 0 ? along : -along)) *
-                 judge_depth(camera, end[k]);
+                 judge_homogeneous_w(camera, end[k]);
     }
     if (where[0] < 0 && where[1] < 0)
       return false;
@@ -46,7 +46,8 @@ bool judge_edges_add(struct judge_edges *edges,
   struct judge_edge edge = {
       {end[0], end[1]},
       {judge_project(camera, end[0]), judge_project(camera, end[1])},
-      {judge_depth(camera, end[0]), judge_depth(camera, end[1])},
+      {judge_homogeneous_w(camera, end[0]),
+       judge_homogeneous_w(camera, end[1])},
       *source};
   return ARRAY_PUSH(&edges->edge, edge);
 }

@@ -7,7 +7,7 @@
 #include "base/poll.h"
 #include "base/sort.h"
 #include "judge/camera.h"
-#include "judge/page_outline.h"
+#include "judge/clipped_triangle.h"
 #include "judge/sampler.h"
 
 enum { FEW_CORNERS = 32 };
@@ -33,11 +33,11 @@ struct overshoot {
 static struct overshoot overshoot_of(const struct judge_camera *camera,
                                      const struct judge_triangle *t,
                                      const struct judge_triangle *plane) {
-  struct judge_outline outline = judge_outline_on_page(camera, t);
+  struct judge_clipped_triangle clipped = judge_clip_triangle(camera, t);
   struct overshoot most = {0, 0};
-  for (unsigned i = 0; i < outline.count; i++) {
+  for (unsigned i = 0; i < clipped.count; i++) {
     double away =
-        point3_dot(plane->normal, point3_sub(outline.p[i], plane->p[0]));
+        point3_dot(plane->normal, point3_sub(clipped.p[i], plane->p[0]));
     most.before = fmax(most.before, away);
     most.behind = fmax(most.behind, -away);
   }
@@ -250,9 +250,9 @@ static struct judge_point3 direction_from(const struct judge_triangle *t,
 
 static bool is_clipped(const struct judge_camera *camera,
                        const struct judge_triangle *t) {
-  struct judge_outline outline = judge_outline_on_page(camera, t);
+  struct judge_clipped_triangle clipped = judge_clip_triangle(camera, t);
   for (unsigned i = 0; i < 3; i++)
-    if (outline.count != 3 || !is_same_point3(outline.p[i], t->p[i]))
+    if (clipped.count != 3 || !is_same_point3(clipped.p[i], t->p[i]))
       return true;
   return false;
 }
@@ -263,12 +263,12 @@ static bool is_clipped(const struct judge_camera *camera,
 static bool is_cut_beside(const struct judge_camera *camera,
                           const struct judge_triangle *t,
                           const struct judge_point3 corner[2], double least) {
-  struct judge_outline outline = judge_outline_on_page(camera, t);
+  struct judge_clipped_triangle clipped = judge_clip_triangle(camera, t);
   struct judge_point3 side = point3_sub(corner[1], corner[0]);
   double length = point3_length(side);
-  for (unsigned i = 0; i < outline.count; i++) {
+  for (unsigned i = 0; i < clipped.count; i++) {
     double twice =
-        point3_length(point3_cross(side, point3_sub(outline.p[i], corner[0])));
+        point3_length(point3_cross(side, point3_sub(clipped.p[i], corner[0])));
     if (twice > 0x1p-40 * length * length && twice < least * length)
       return true;
   }

@@ -1,6 +1,7 @@
 # src/judge/local.mk - the independent judge: sees the scene alone.
 librecto_core_la_SOURCES += \
   %D%/camera.c %D%/camera.h \
+  %D%/clipped_triangle.c %D%/clipped_triangle.h \
   %D%/contact.c %D%/contact.h \
   %D%/ear_clipping.c %D%/ear_clipping.h \
   %D%/edge_list.c %D%/edge_list.h \
@@ -12,7 +13,6 @@ librecto_core_la_SOURCES += \
   %D%/judge.c %D%/judge.h \
   %D%/missing_run.c %D%/missing_run.h \
   %D%/options.h \
-  %D%/page_outline.c %D%/page_outline.h \
   %D%/point.h \
   %D%/ray.c %D%/ray.h \
   %D%/sampler.c %D%/sampler.h \

@@ -40,7 +40,7 @@ struct judge_point3 judge_point3_of_image(const struct judge_edge *edge,
 
 double judge_rounding_at(const struct judge_camera *camera,
                          double ray_offset_mm, struct judge_point3 at) {
-  double depth = judge_depth(camera, at);
+  double depth = judge_homogeneous_w(camera, at);
   double offset =
       point3_length(point3_sub(judge_shift(camera, at, ray_offset_mm, 0), at));
   return offset + camera->depth_step * depth * depth;
@@ -88,8 +88,8 @@ static enum judge_visibility cast_ray(const struct judge_sampler *sampler,
                           .end = {end[0], end[1]}};
   if (camera->perspective) {
     ray.towards = point3_sub(camera->eye, from);
-    ray.t_max = 1 - near / judge_depth(camera, from);
-    ray.sure = 1 - sure / judge_depth(camera, from);
+    ray.t_max = 1 - near / judge_homogeneous_w(camera, from);
+    ray.sure = 1 - sure / judge_homogeneous_w(camera, from);
   } else {
     ray.towards = camera->back;
     ray.t_max = judge_view_depth(camera, from) - near;

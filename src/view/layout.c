@@ -24,7 +24,7 @@ static void free_layout(struct layout *layout) {
 recto_status layout_sheet(struct sheet *sheet, const struct scene *scene,
                           struct topology *topology,
                           const struct camera *camera,
-                          const recto_options *options, bool outlines,
+                          const recto_options *options, bool all_edges,
                           recto_error *error) {
   memset(sheet, 0, sizeof *sheet);
   sheet->camera = *camera;
@@ -36,7 +36,7 @@ recto_status layout_sheet(struct sheet *sheet, const struct scene *scene,
       .scene = scene,
       .topology = topology,
       .options = options,
-      .outlines = outlines,
+      .all_edges = all_edges,
       .projection = projection_of(camera),
       .error = error,
   };

@@ -11,7 +11,7 @@
  * An edge may have several classes: a crease may be a silhouette.  It becomes a
  * sheet edge if one of them is in options->ink.edges.
  * topology   its corners are dropped where `drop_after_sheet` is set
- * outlines   every edge of a face becomes a sheet edge, of class 0 where no
+ * all_edges  every edge of a face becomes a sheet edge, of class 0 where no
  *            class of it was requested
  * Errors  RECTO_ERROR_MEMORY; RECTO_ERROR_LIMIT: 2^31 points or triangles. */
 USE_RESULT recto_status layout_sheet(struct sheet *sheet,
@@ -19,6 +19,6 @@ USE_RESULT recto_status layout_sheet(struct sheet *sheet,
                                      struct topology *topology,
                                      const struct camera *camera,
                                      const recto_options *options,
-                                     bool outlines, recto_error *error);
+                                     bool all_edges, recto_error *error);
 
 #endif

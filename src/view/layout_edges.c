@@ -110,7 +110,7 @@ static recto_status make_edges(struct layout *layout,
           (has_mesh_contours(coarse, edge->point[0]) ? wanted
                                                      : wanted & ~silhouette));
     bool contour = edge->uses != 2 || layout->sides[e] != LAYOUT_TWO_SIDED;
-    if (!edge_class && !layout->outlines && !contour)
+    if (!edge_class && !layout->all_edges && !contour)
       continue;
     struct layout_cut ends;
     recto_status status = find_end_points(layout, e, &ends);
@@ -122,7 +122,7 @@ static recto_status make_edges(struct layout *layout,
       status = layout_contour(layout, ends.point[0], ends.point[1]);
     if (status != RECTO_OK)
       return status;
-    if (!edge_class && !layout->outlines)
+    if (!edge_class && !layout->all_edges)
       continue;
     edge_ids->bits[e / 64] |= UINT64_C(1) << e % 64;
     if (!add_sheet_edge(layout, ends, e,
@@ -204,7 +204,7 @@ recto_status layout_edges(struct layout *layout) {
                                coarse))
       goto no_memory;
   }
-  if (layout->outlines && !ARRAY_RESERVE(&layout->sheet->edge, edges))
+  if (layout->all_edges && !ARRAY_RESERVE(&layout->sheet->edge, edges))
     goto no_memory;
   status = make_edges(layout, class_masks, coarse, &edge_ids);
   if (status == RECTO_OK && !make_folds(layout, coarse))

@@ -92,7 +92,7 @@ struct layout {
   const struct scene *scene;
   const struct topology *topology;
   const recto_options *options;
-  bool outlines;
+  bool all_edges;
   struct projection projection;
   uint32_t *point_map; /* scene point -> sheet point; SHEET_NONE: outside,
                           welded to another, or not used */

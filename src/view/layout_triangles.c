@@ -73,7 +73,7 @@ static bool start_diagonals(struct layout *layout, uint32_t count) {
 static recto_status add_fold(struct layout *layout, uint32_t face,
                              struct layout_diagonal *diagonal) {
   bool wanted =
-      layout->outlines || (layout->options->ink.edges & RECTO_EDGE_SILHOUETTE);
+      layout->all_edges || (layout->options->ink.edges & RECTO_EDGE_SILHOUETTE);
   uint32_t fold = SHEET_NONE;
   struct layout_fold made = {.face = face};
   if (diagonal->sides != LAYOUT_TWO_SIDED && diagonal->from != SHEET_NONE) {

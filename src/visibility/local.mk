@@ -84,5 +84,5 @@ librecto_core_la_SOURCES += \
   %D%/watkins/pitch/watkins_interval.c \
   %D%/watkins/pitch/watkins_interval_ends.c \
   %D%/zbuffer/raster_small.c %D%/zbuffer/raster_small.h \
-  %D%/zbuffer/tile_order.c %D%/zbuffer/tile_order.h \
+  %D%/zbuffer/draw_order.c %D%/zbuffer/draw_order.h \
   %D%/zbuffer/zbuffer.c %D%/zbuffer/zbuffer.h

@@ -42,7 +42,7 @@ static struct image image_of(const struct judge_raster *raster,
     struct judge_point2 at = judge_project(camera, triangle->p[k]);
     image.at[k] = (struct judge_point2){at.x * scale, at.y * scale};
     image.near[k] = camera->perspective
-                        ? 1 / judge_depth(camera, triangle->p[k])
+                        ? 1 / judge_homogeneous_w(camera, triangle->p[k])
                         : point3_dot(camera->back, triangle->p[k]);
   }
   return image;

@@ -27,7 +27,7 @@ static recto_status solve(struct trial *trial, const recto_options *options,
 void trial_run(struct trial *trial, const struct scene *scene,
                const recto_options *options, const struct solver *solver,
                int lines, enum trial_part part) {
-  bool outlines = (part & TRIAL_FRAGMENTS) != 0;
+  bool all_edges = (part & TRIAL_FRAGMENTS) != 0;
   memset(trial, 0, sizeof *trial);
   map_init(&trial->map);
   trial->status = topology_init(&trial->topology, scene, NULL);
@@ -35,7 +35,7 @@ void trial_run(struct trial *trial, const struct scene *scene,
     trial->status = camera_aim(&trial->camera, scene, options, NULL);
   if (trial->status == RECTO_OK)
     trial->status = layout_sheet(&trial->sheet, scene, &trial->topology,
-                                 &trial->camera, options, outlines, NULL);
+                                 &trial->camera, options, all_edges, NULL);
   if (trial->status == RECTO_OK)
     trial->status = solve(trial, options, solver, lines, part);
 }

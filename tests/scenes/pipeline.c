@@ -26,14 +26,14 @@ void pipeline_run(struct pipeline *pipeline, const struct scene *scene,
   drawing_init(&pipeline->drawing);
   pipeline->report = report_create();
   recto_error *error = &pipeline->error;
-  bool outlines = options->ink.fill != RECTO_FILL_NONE;
+  bool all_edges = options->ink.fill != RECTO_FILL_NONE;
   pipeline->status = topology_init(&pipeline->topology, scene, error);
   if (pipeline->status == RECTO_OK)
     pipeline->status = camera_aim(&pipeline->camera, scene, options, error);
   if (pipeline->status == RECTO_OK)
     pipeline->status =
         layout_sheet(&pipeline->sheet, scene, &pipeline->topology,
-                     &pipeline->camera, options, outlines, error);
+                     &pipeline->camera, options, all_edges, error);
   if (pipeline->status == RECTO_OK)
     pipeline->status = solve(pipeline, options, solver);
   if (pipeline->status == RECTO_OK)

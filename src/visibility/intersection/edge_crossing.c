@@ -11,13 +11,13 @@
 
 bool edge_crossings_add(struct edge_crossings *crossings,
                         const struct sheet *sheet, uint32_t f,
-                        struct side_count sf, uint32_t g,
-                        struct side_count sg) {
+                        struct corner_counts cf, uint32_t g,
+                        struct corner_counts cg) {
   struct edge_crossing crossing = {
-      {surface_edge_of(sheet, f, (sf.off_plane + 1) % 3),
+      {surface_edge_of(sheet, f, (cf.off_plane + 1) % 3),
        {g, SHEET_NONE, SHEET_NONE}}};
-  if (ends_on_plane(sg))
-    crossing.side[1] = surface_edge_of(sheet, g, (sg.off_plane + 1) % 3);
+  if (ends_on_plane(cg))
+    crossing.side[1] = surface_edge_of(sheet, g, (cg.off_plane + 1) % 3);
   if (surface_edge_compare(crossing.side[0], crossing.side[1]) > 0) {
     struct surface_edge swap = crossing.side[0];
     crossing.side[0] = crossing.side[1];
@@ -77,7 +77,7 @@ static bool clip_to_triangle(const struct sheet *sheet,
   const struct geom_point p = sheet->point.item[edge.i],
                           q = sheet->point.item[edge.j];
   struct occluded_interval part;
-  if (!occlude_by_outline(corner.p, p, q, &part))
+  if (!occlude_by_projection(corner.p, p, q, &part))
     return false;
   for (int k = 0; k < 2; k++) {
     struct ratio t_k = k == 0 ? part.from : part.to;
@@ -166,7 +166,7 @@ static bool passes_through(const struct sheet *sheet,
     if (triangles_coplanar_within_rounding(sheet, incidence->triangle, g, &hf,
                                            &hg))
       continue;
-    struct side_count count = side_count_of(&hg, hf.p);
+    struct corner_counts count = corner_counts_of(&hg, hf.p);
     behind |= count.in_front == 0 && count.behind == 1;
     in_front |= count.behind == 0 && count.in_front == 1;
   }
@@ -196,7 +196,7 @@ static bool meet_along(const struct sheet *sheet,
     if (is_same_face(sheet, incidence->triangle, g))
       continue;
     occluder_init(&hf, sheet, incidence->triangle);
-    if (!ends_on_plane(side_count_of(&hg, hf.p)) ||
+    if (!ends_on_plane(corner_counts_of(&hg, hf.p)) ||
         !intersection_segment_find(sheet, incidence->triangle, g, &hf, &hg,
                                    &segment))
       continue;
@@ -247,8 +247,8 @@ static bool diagonals_meet_along(const struct sheet *sheet,
         continue;
       beside |= !is_near_line(p, q, segment.end[0]) ||
                 !is_near_line(p, q, segment.end[1]);
-      if ((ends_on_plane(side_count_of(&hg, hf.p)) ||
-           ends_on_plane(side_count_of(&hf, hg.p))) &&
+      if ((ends_on_plane(corner_counts_of(&hg, hf.p)) ||
+           ends_on_plane(corner_counts_of(&hf, hg.p))) &&
           !ARRAY_PUSH(&segments->list, segment)) /* others are there */
         return false;
     }
@@ -354,13 +354,13 @@ static bool add_slanted_segments(const struct sheet *sheet,
   for (; incidence < end; incidence++) {
     uint32_t f = incidence->triangle;
     struct intersection_segment segment;
-    struct side_count sf, sg;
+    struct corner_counts cf, cg;
     if (is_same_face(sheet, f, g))
       continue;
     occluder_init(&hf, sheet, f);
-    sf = side_count_of(&hg, hf.p);
-    sg = side_count_of(&hf, hg.p);
-    if (straddles(sf) || ends_on_plane(sf) || !straddles(sg) ||
+    cf = corner_counts_of(&hg, hf.p);
+    cg = corner_counts_of(&hf, hg.p);
+    if (straddles(cf) || ends_on_plane(cf) || !straddles(cg) ||
         !intersection_segment_find(sheet, f, g, &hf, &hg, &segment))
       continue;
     if (!is_point(&segment) && !ARRAY_PUSH(&segments->list, segment))

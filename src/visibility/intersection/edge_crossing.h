@@ -39,11 +39,11 @@ USE_RESULT bool edge_crossings_unite(struct edge_crossings *crossings,
 
 /* Adds a candidate: triangle f ends on the plane of g, which straddles that of
  * f or ends on it.  Returns false when memory ran out.
- * sf, sg  the sides of f at the plane of g, and of g at that of f */
+ * cf, cg  the corners of f by side of the plane of g, and those of g */
 USE_RESULT bool edge_crossings_add(struct edge_crossings *crossings,
                                    const struct sheet *sheet, uint32_t f,
-                                   struct side_count sf, uint32_t g,
-                                   struct side_count sg);
+                                   struct corner_counts cf, uint32_t g,
+                                   struct corner_counts cg);
 
 /* Adds the edges of triangle f that pass through the plane of g between an end
  * beyond contact and an end that touches it.  By contact the triangle across

@@ -133,14 +133,14 @@ static bool are_in_contact(const struct sheet *sheet,
                            const struct side_triangle *b) {
   bool across = side_of_edge(a, false) == 0 || side_of_edge(b, false) == 0;
   struct occluder plane[2];
-  struct side_count count[2];
+  struct corner_counts count[2];
   int sign = side_of_edge(a, across) * side_of_edge(b, across);
   if (sign < 0)
     return false;
   occluder_init(&plane[0], sheet, a->triangle);
   occluder_init(&plane[1], sheet, b->triangle);
   for (int k = 0; k < 2; k++)
-    count[k] = side_count_of(&plane[k], plane[1 - k].p);
+    count[k] = corner_counts_of(&plane[k], plane[1 - k].p);
   return count[0].behind + count[0].in_front == 0 ||
          count[1].behind + count[1].in_front == 0;
 }

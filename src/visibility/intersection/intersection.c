@@ -44,7 +44,7 @@ static bool decide_pair(void *user, uint32_t f, uint32_t g) {
   const struct sheet *sheet = search->sheet;
   const struct occluder *hf;
   struct occluder hg;
-  struct side_count sf, sg;
+  struct corner_counts cf, cg;
   struct intersection_segment segment;
   if (sheet->triangle.item[f].face == sheet->triangle.item[g].face)
     return true;
@@ -52,20 +52,20 @@ static bool decide_pair(void *user, uint32_t f, uint32_t g) {
   if (!progress_step(&search->progress, PAIR_WORK))
     return false;
   hf = prepare_triangle(search, f);
-  sg = side_count_of(hf, sheet_corners(sheet, g).p);
-  if (!straddles(sg) && !ends_on_plane(sg))
+  cg = corner_counts_of(hf, sheet_corners(sheet, g).p);
+  if (!straddles(cg) && !ends_on_plane(cg))
     return true;
   occluder_init(&hg, sheet, g);
-  sf = side_count_of(&hg, hf->p);
-  if (!straddles(sf) && !ends_on_plane(sf))
+  cf = corner_counts_of(&hg, hf->p);
+  if (!straddles(cf) && !ends_on_plane(cf))
     return true;
   if (triangles_coplanar_within_rounding(sheet, f, g, hf, &hg))
     return true;
   search->counts.straddle++;
-  if (ends_on_plane(sf))
-    return edge_crossings_add(&search->crossings, sheet, f, sf, g, sg);
-  if (ends_on_plane(sg))
-    return edge_crossings_add(&search->crossings, sheet, g, sg, f, sf);
+  if (ends_on_plane(cf))
+    return edge_crossings_add(&search->crossings, sheet, f, cf, g, cg);
+  if (ends_on_plane(cg))
+    return edge_crossings_add(&search->crossings, sheet, g, cg, f, cf);
   if (intersection_segment_find(sheet, f, g, hf, &hg, &segment) &&
       !ARRAY_PUSH(&search->segment.list, segment))
     return false;

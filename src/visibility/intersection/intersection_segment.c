@@ -1,9 +1,9 @@
 /* intersection_segment.c - the segment in which two triangles intersect. */
 #include "visibility/intersection/intersection_segment.h"
 
-struct side_count side_count_of(const struct occluder *plane,
-                                const struct geom_point p[3]) {
-  struct side_count count = {0, 0, 0};
+struct corner_counts corner_counts_of(const struct occluder *plane,
+                                      const struct geom_point p[3]) {
+  struct corner_counts count = {0, 0, 0};
   for (int k = 0; k < 3; k++) {
     int side = occluder_side(plane, p[k]);
     count.behind += side < 0;

@@ -5,24 +5,24 @@
 #include "base/memory.h"
 #include "visibility/predicate/occlusion.h"
 
-/* On which sides of a plane the corners of a triangle lie.  The corners that
- * are not counted are in contact with the plane. */
-struct side_count {
+/* The corners of a triangle by the side of a plane.  Those that are not counted
+ * are in contact with the plane. */
+struct corner_counts {
   int behind, in_front; /* how many corners */
   int off_plane;        /* the last corner that is not in contact */
 };
 
-struct side_count side_count_of(const struct occluder *plane,
-                                const struct geom_point p[3]);
+struct corner_counts corner_counts_of(const struct occluder *plane,
+                                      const struct geom_point p[3]);
 
 /* Are there corners on both sides? */
-static inline bool straddles(struct side_count s) {
+static inline bool straddles(struct corner_counts s) {
   return s.behind > 0 && s.in_front > 0;
 }
 
 /* Are just two corners in contact, so that the triangle ends on the plane along
  * a side? */
-static inline bool ends_on_plane(struct side_count s) {
+static inline bool ends_on_plane(struct corner_counts s) {
   return s.behind + s.in_front == 1;
 }
 

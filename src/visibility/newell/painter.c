@@ -78,7 +78,7 @@ static bool occlude_painted_edge(struct painting *painting,
     struct occluded_interval part;
     if ((own && painting->rank[t] <= rank) || sheet_is_edge_on(sheet, t))
       continue;
-    if (occlude_by_outline(sheet_corners(sheet, t).p, s.p, s.q, &part) &&
+    if (occlude_by_projection(sheet_corners(sheet, t).p, s.p, s.q, &part) &&
         !edge_intervals_occlude(intervals, part))
       return false;
   }

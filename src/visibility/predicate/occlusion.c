@@ -204,9 +204,9 @@ static bool clip_to_depth(const struct occluder *occluder, struct geom_point p,
   return ratio_compare(interval->from, interval->to) < 0;
 }
 
-bool occlude_by_outline(const struct geom_point corner[3], struct geom_point p,
-                        struct geom_point q,
-                        struct occluded_interval *interval) {
+bool occlude_by_projection(const struct geom_point corner[3],
+                           struct geom_point p, struct geom_point q,
+                           struct occluded_interval *interval) {
   interval->from = ratio_of(0, 1);
   interval->to = ratio_of(1, 1);
   interval->sides = OCCLUDED_BOTH;
@@ -217,7 +217,7 @@ bool occluder_edge_is_off_plane(const struct occluder *occluder,
                                 const struct sheet *sheet, struct geom_point p,
                                 struct geom_point q) {
   struct occluded_interval part;
-  if (!occlude_by_outline(occluder->p, p, q, &part))
+  if (!occlude_by_projection(occluder->p, p, q, &part))
     return false;
   bool given = sheet->camera.contact >= 0;
   double grid = contact_grid_units(sheet) * FIXED_ONE *
@@ -246,7 +246,7 @@ bool occlude_edge(const struct occluder *occluder, struct geom_point p,
   if (box2_disjoint(occluder->box, box2_of_segment(p, q)))
     return false;
   counts->pairs++;
-  if (!occlude_by_outline(occluder->p, p, q, interval))
+  if (!occlude_by_projection(occluder->p, p, q, interval))
     return false;
   counts->depth_tests++;
   return clip_to_depth(occluder, p, q, interval, counts);
@@ -261,7 +261,7 @@ bool occlude_edge_by_triangle(const struct sheet *sheet, uint32_t triangle,
   struct plane_filter plane;
   int at_p, at_q;
   counts->pairs++;
-  if (!occlude_by_outline(corners.p, p, q, interval) ||
+  if (!occlude_by_projection(corners.p, p, q, interval) ||
       sheet_is_edge_on(sheet, triangle))
     return false;
   counts->depth_tests++;

@@ -144,9 +144,9 @@ bool occlude_edge_by_triangle(const struct sheet *sheet, uint32_t triangle,
 
 /* Computes the interval of the edge that lies within the triangle's projection,
  * whatever the depths. */
-bool occlude_by_outline(const struct geom_point corner[3], struct geom_point p,
-                        struct geom_point q,
-                        struct occluded_interval *interval);
+bool occlude_by_projection(const struct geom_point corner[3],
+                           struct geom_point p, struct geom_point q,
+                           struct occluded_interval *interval);
 
 /* Whether a part of the edge within the triangle's projection is behind the
  * plane or in front of it by more than rounding: of the page grid and, where no

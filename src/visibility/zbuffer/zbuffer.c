@@ -1,7 +1,7 @@
 /* zbuffer.c - the depth buffer: all facets are drawn one after the other, each
  * pixel keeps the nearest.
  *
- * Phases   facets are sorted into bands and tiles of the frame (tile_order.h);
+ * Phases   facets are sorted into bands and tiles of the frame (draw_order.h);
  *          band by band from the top they are drawn (raster_small.h,
  *          span_fill.h, active_edge_pair.h); lines that no later band reaches
  *          are finished and become intervals and fragments (pixels.h).
@@ -16,7 +16,7 @@
 #include "visibility/zbuffer/zbuffer.h"
 
 #include "visibility/raster/active_edge_pair.h"
-#include "visibility/zbuffer/tile_order.h"
+#include "visibility/zbuffer/draw_order.h"
 #include "visibility/progress.h"
 #include "visibility/raster/span_fill.h"
 #include "visibility/zbuffer/raster_small.h"
@@ -57,8 +57,8 @@ static bool draw_facets(struct raster *raster, const struct facets *facets,
 static recto_status finish_band(struct raster *raster, struct pixels *pixels,
                                 size_t band, recto_error *error) {
   recto_status status = RECTO_OK;
-  int32_t past = raster->grid.lines - (int32_t)band * TILE_ORDER_BAND;
-  int32_t first = past < TILE_ORDER_BAND ? 0 : past - TILE_ORDER_BAND;
+  int32_t past = raster->grid.lines - (int32_t)band * DRAW_ORDER_BAND;
+  int32_t first = past < DRAW_ORDER_BAND ? 0 : past - DRAW_ORDER_BAND;
   for (int32_t line = past; line-- > first && status == RECTO_OK;) {
     status = pixels_line(pixels, line, error);
     if (raster->line_mask != UINT32_MAX)
@@ -73,12 +73,12 @@ recto_status zbuffer_draw(struct raster *raster, const struct facets *facets,
                           recto_error *error) {
   struct progress progress = progress_of(request, "visibility");
   recto_status status = RECTO_OK;
-  struct tile_order order;
+  struct draw_order order;
   size_t first = 0;
-  if (!tile_order_init(&order, raster, facets, request))
+  if (!draw_order_init(&order, raster, facets, request))
     return error_memory(error);
   if (pixels != NULL)
-    raster_make_ring(raster, TILE_ORDER_BAND + order.tallest);
+    raster_make_ring(raster, DRAW_ORDER_BAND + order.tallest);
   for (size_t band = 0; band < order.bands && status == RECTO_OK; band++) {
     if (!draw_facets(raster, facets, order.item + first,
                      order.past[band] - first, &progress, covered))
@@ -87,7 +87,7 @@ recto_status zbuffer_draw(struct raster *raster, const struct facets *facets,
     if (status == RECTO_OK && pixels != NULL)
       status = finish_band(raster, pixels, band, error);
   }
-  tile_order_fini(&order);
+  draw_order_fini(&order);
   return status;
 }
 

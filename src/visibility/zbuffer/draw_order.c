@@ -1,6 +1,6 @@
-/* tile_order.c - the facets that a z-buffer draws, sorted by tiles: a counting
+/* draw_order.c - the facets that a z-buffer draws, sorted by tiles: a counting
  * sort. */
-#include "visibility/zbuffer/tile_order.h"
+#include "visibility/zbuffer/draw_order.h"
 
 #include <string.h>
 
@@ -38,7 +38,7 @@ static uint32_t find_tile(struct tile_sort *sort, uint32_t triangle) {
   if (high - low > sort->tallest)
     sort->tallest = high - low;
   column = raster->pixel_of[corner[0]].column;
-  return (uint32_t)((size_t)(raster->grid.lines - high) / TILE_ORDER_BAND *
+  return (uint32_t)((size_t)(raster->grid.lines - high) / DRAW_ORDER_BAND *
                         sort->across +
                     (size_t)column / TILE_COLUMNS);
 }
@@ -72,7 +72,7 @@ static void sort_facets(const struct sheet *sheet, const uint32_t *tile_of,
   }
 }
 
-bool tile_order_init(struct tile_order *order, const struct raster *raster,
+bool draw_order_init(struct draw_order *order, const struct raster *raster,
                      const struct facets *facets,
                      const struct solver_request *request) {
   const struct scan_grid *grid = &raster->grid;
@@ -83,7 +83,7 @@ bool tile_order_init(struct tile_order *order, const struct raster *raster,
                            (size_t)grid->columns / TILE_COLUMNS + 1, 0};
   size_t *start;
   uint32_t *tile_of = mem_alloc(count, sizeof *tile_of);
-  order->bands = ((size_t)grid->lines + TILE_ORDER_BAND - 1) / TILE_ORDER_BAND;
+  order->bands = ((size_t)grid->lines + DRAW_ORDER_BAND - 1) / DRAW_ORDER_BAND;
   tiles = order->bands * sort.across;
   start = mem_calloc(tiles, sizeof *start);
   order->item = mem_alloc(count, sizeof *order->item);
@@ -92,7 +92,7 @@ bool tile_order_init(struct tile_order *order, const struct raster *raster,
       order->past == NULL) {
     mem_free(tile_of);
     mem_free(start);
-    tile_order_fini(order);
+    draw_order_fini(order);
     return false;
   }
   find_tiles(&sort, tile_of, start, tiles);
@@ -105,7 +105,7 @@ bool tile_order_init(struct tile_order *order, const struct raster *raster,
   return true;
 }
 
-void tile_order_fini(struct tile_order *order) {
+void draw_order_fini(struct draw_order *order) {
   mem_free(order->item);
   mem_free(order->past);
   memset(order, 0, sizeof *order);
