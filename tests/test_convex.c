@@ -63,8 +63,7 @@ static struct geom_line *lines_of(const struct geom_point p[3],
   struct geom_line *line = take(arena, 6, sizeof *line);
   for (int k = 0; k < 3; k++) {
     geom_line_through(&line[k], p[k], p[(k + 1) % 3]);
-    line[3 + k] = line[k];
-    geom_line_reverse(&line[3 + k]);
+    line[3 + k] = geom_line_reversed(&line[k]);
   }
   return line;
 }
@@ -109,9 +108,8 @@ static struct geom_line *random_line(uint64_t *r, int size,
     break;
   }
   if (exact_random_below(r, 2))
-    geom_line_reverse(&line[0]);
-  line[1] = line[0];
-  geom_line_reverse(&line[1]);
+    line[0] = geom_line_reversed(&line[0]);
+  line[1] = geom_line_reversed(&line[0]);
   return line;
 }
 
@@ -275,10 +273,8 @@ static void a_line_through_corners_makes_no_new_ones(void **state) {
   (void)state;
   geom_line_through(&diagonal[0], square[0], square[2]);
   geom_line_through(&median[0], square[1], (struct geom_point){2, 2, 0});
-  diagonal[1] = diagonal[0];
-  geom_line_reverse(&diagonal[1]);
-  median[1] = median[0];
-  geom_line_reverse(&median[1]);
+  diagonal[1] = geom_line_reversed(&diagonal[0]);
+  median[1] = geom_line_reversed(&median[0]);
   piece = piece_of(half, &arena);
   /* Along a side: nothing is cut. */
   assert_true(geom_convex_split(&piece, diagonal, diagonal + 1, &part[0],
@@ -292,8 +288,7 @@ static void a_line_through_corners_makes_no_new_ones(void **state) {
   assert_int_equal(part[1].count, 3);
   /* Through a corner alone: nothing is cut. */
   geom_line_through(&median[0], square[1], (struct geom_point){8, 1, 0});
-  median[1] = median[0];
-  geom_line_reverse(&median[1]);
+  median[1] = geom_line_reversed(&median[0]);
   assert_true(geom_convex_split(&piece, median, median + 1, &part[0], &part[1],
                                 &arena));
   assert_true(is_same_piece(&part[0], &piece));
@@ -315,8 +310,7 @@ static void a_piece_may_have_many_corners(void **state) {
     struct geom_line *line = take(&arena, 2, sizeof *line);
     geom_line_through(&line[0], (struct geom_point){x, x * x, 0},
                       (struct geom_point){x + 1, x * x + 2 * x, 0});
-    line[1] = line[0];
-    geom_line_reverse(&line[1]);
+    line[1] = geom_line_reversed(&line[0]);
     assert_true(
         geom_convex_split(&piece, line, line + 1, &part[0], &part[1], &arena));
     check_sum(&piece, part, 2, &(struct geom_convex){0});
@@ -348,8 +342,7 @@ static void what_is_left_and_what_is_common_make_up_the_whole(void **state) {
     cut = take(&arena, 8, sizeof *cut);
     memcpy(cut, line, sizeof line);
     for (int k = 0; k < count; k++) {
-      cut[count + k] = cut[k];
-      geom_line_reverse(&cut[count + k]);
+      cut[count + k] = geom_line_reversed(&cut[k]);
     }
     rest.count = 0;
     assert_true(geom_convex_subtract(&piece, cut, cut + count, count, &rest,

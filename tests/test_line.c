@@ -41,7 +41,7 @@ static int twin_between(struct twin *t, const struct geom_point f[3],
 }
 
 static void twin_reverse(struct twin *t) {
-  geom_line_reverse(&t->line);
+  t->line = geom_line_reversed(&t->line);
   mpq_neg(t->exact.a, t->exact.a);
   mpq_neg(t->exact.b, t->exact.b);
   mpq_neg(t->exact.c, t->exact.c);
@@ -581,7 +581,7 @@ static void a_line_turned_round_has_its_sides_swapped(void **state) {
     count = draw_corners(&r, t, c);
     for (int j = 0; j < LINES; j++) {
       struct geom_line back = t[j].line;
-      geom_line_reverse(&back);
+      back = geom_line_reversed(&back);
       for (int k = 0; k < count; k++)
         assert_int_equal(geom_line_side(&back, &c[k].corner),
                          -geom_line_side(&t[j].line, &c[k].corner));

@@ -64,7 +64,7 @@ static void query(const struct sheet *sheet, const struct line_index *grid,
     return;
   geom_line_through(&line, end[0], end[1]);
   if (number % 2)
-    geom_line_reverse(&line);
+    line = geom_line_reversed(&line);
   p = geom_corner_at(end[0]);
   q = geom_corner_at(end[1]);
   assert_true(line_index_find(grid, &line, &p, &q, &found));

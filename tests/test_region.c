@@ -70,8 +70,7 @@ static void add_box_around(struct mosaic *m, int x0, int y0, int x1, int y1,
     const int *p = hole[k], *q = hole[(k + 1) % count];
     geom_line_through(&line[k], (struct geom_point){p[0], p[1], 0},
                       (struct geom_point){q[0], q[1], 0});
-    line[8 + k] = line[k];
-    geom_line_reverse(&line[8 + k]);
+    line[8 + k] = geom_line_reversed(&line[k]);
   }
   assert_true(geom_convex_subtract(&box, line, line + 8, count, &m->piece, NULL,
                                    &m->arena));
@@ -272,7 +271,7 @@ static void cut_by(struct mosaic *m, const struct geom_line *cut) {
   size_t n = m->piece.count;
   struct geom_line *line = take(m, 2, sizeof *line);
   line[0] = line[1] = *cut;
-  geom_line_reverse(&line[1]);
+  line[1] = geom_line_reversed(&line[1]);
   for (size_t k = 0; k < n; k++) {
     struct geom_convex left, right;
     assert_true(geom_convex_split(&m->piece.item[k], &line[0], &line[1], &left,

@@ -84,8 +84,9 @@ static bool clip_to_side(const struct geom_convex *piece,
 
 bool geom_convex_split(const struct geom_convex *piece,
                        const struct geom_line *line,
-                       const struct geom_line *back, struct geom_convex *inside,
-                       struct geom_convex *outside, struct arena *arena) {
+                       const struct geom_line *reversed,
+                       struct geom_convex *inside, struct geom_convex *outside,
+                       struct arena *arena) {
   static const struct geom_convex none;
   signed char few[32], *sign = few;
   bool left = false, right = false;
@@ -107,12 +108,13 @@ bool geom_convex_split(const struct geom_convex *piece,
     return true;
   if (inside != NULL && !clip_to_side(piece, sign, 1, line, inside, arena))
     return false;
-  return outside == NULL || clip_to_side(piece, sign, -1, back, outside, arena);
+  return outside == NULL ||
+         clip_to_side(piece, sign, -1, reversed, outside, arena);
 }
 
 bool geom_convex_subtract(const struct geom_convex *piece,
                           const struct geom_line *line,
-                          const struct geom_line *back, int count,
+                          const struct geom_line *reversed, int count,
                           geom_pieces *rest, struct geom_convex *inside,
                           struct arena *arena) {
   struct geom_convex part = *piece, few[4], *cut = few;
@@ -123,7 +125,8 @@ bool geom_convex_subtract(const struct geom_convex *piece,
   }
   for (int k = 0; k < count; k++) {
     struct geom_convex left;
-    if (!geom_convex_split(&part, &line[k], &back[k], &left, &cut[k], arena))
+    if (!geom_convex_split(&part, &line[k], &reversed[k], &left, &cut[k],
+                           arena))
       return false;
     part = left;
     if (part.count == 0)

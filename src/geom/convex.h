@@ -22,11 +22,11 @@ USE_RESULT bool geom_convex_triangle(struct geom_convex *piece,
 
 /* Cuts a piece by a line: `inside` is what is left of it, `outside` the rest;
  * either may be empty, and each may be NULL where it is not wanted.
- * back  the same line turned round
+ * reversed  the same line in the opposite direction
  * Exact.  Returns false when memory ran out. */
 USE_RESULT bool
 geom_convex_split(const struct geom_convex *piece, const struct geom_line *line,
-                  const struct geom_line *back, struct geom_convex *inside,
+                  const struct geom_line *reversed, struct geom_convex *inside,
                   struct geom_convex *outside, struct arena *arena);
 
 typedef ARRAY(struct geom_convex) geom_pieces;
@@ -36,8 +36,8 @@ typedef ARRAY(struct geom_convex) geom_pieces;
  * inside  where not NULL, gets the common part (count 0: none). */
 USE_RESULT bool geom_convex_subtract(const struct geom_convex *piece,
                                      const struct geom_line *line,
-                                     const struct geom_line *back, int count,
-                                     geom_pieces *rest,
+                                     const struct geom_line *reversed,
+                                     int count, geom_pieces *rest,
                                      struct geom_convex *inside,
                                      struct arena *arena);
 

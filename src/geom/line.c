@@ -91,17 +91,18 @@ void geom_line_level(struct geom_line *line, struct ratio height) {
   store_coefficient(line, 2, &value, &line->c);
 }
 
-void geom_line_reverse(struct geom_line *line) {
-  int32_t x = line->x0, y = line->y0;
-  line->x0 = line->x1;
-  line->y0 = line->y1;
-  line->x1 = x;
-  line->y1 = y;
-  line->a = -line->a;
-  line->b = -line->b;
-  line->c = -line->c;
+struct geom_line geom_line_reversed(const struct geom_line *line) {
+  struct geom_line to = *line;
+  to.x0 = line->x1;
+  to.y0 = line->y1;
+  to.x1 = line->x0;
+  to.y1 = line->y0;
+  to.a = -to.a;
+  to.b = -to.b;
+  to.c = -to.c;
   for (int k = 0; k < 3; k++)
-    line->sign[k] = (int8_t)-line->sign[k];
+    to.sign[k] = (int8_t)-to.sign[k];
+  return to;
 }
 
 /* ---- Exact coefficients -------------------------------------------------- */

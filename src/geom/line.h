@@ -47,8 +47,8 @@ int geom_line_between(struct geom_line *line, const struct geom_plane *front,
  * height  |num| < 2^94, den < 2^64 */
 void geom_line_level(struct geom_line *line, struct ratio height);
 
-/* Turns the line round. */
-void geom_line_reverse(struct geom_line *line);
+/* The same line in the opposite direction. */
+struct geom_line geom_line_reversed(const struct geom_line *line);
 
 /* A hash: lines that are the same, in either direction, have the same key, and
  * few others do.  Returns false where no two grid points can have it. */

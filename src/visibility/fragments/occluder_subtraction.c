@@ -99,7 +99,7 @@ bool occluder_subtraction_collect(struct occluder_subtraction *subtraction,
   struct triangle_plane plane;
   struct box2 box = box2_of_triangle(sheet, g);
   struct triangle_occluder occluder = {.triangle = g, .sides = 3, .box = box};
-  struct geom_line line, back;
+  struct geom_line line, reversed;
   enum depth_order depth_order = NEARER_ALWAYS;
   int64_t low, high;
   if (box2_disjoint(subtraction->box, box))
@@ -117,8 +117,9 @@ bool occluder_subtraction_collect(struct occluder_subtraction *subtraction,
     subtraction->counts.exact++;
     subtraction->interpenetrating = true;
     plane = triangle_plane_of(sheet, g);
-    depth_order = triangle_depth_order(
-        &subtraction->plane, subtraction->triangle, &plane, g, &line, &back);
+    depth_order =
+        triangle_depth_order(&subtraction->plane, subtraction->triangle, &plane,
+                             g, &line, &reversed);
   }
   if (depth_order == NEARER_NEVER)
     return true;
@@ -189,9 +190,8 @@ coverage_of_crossing(const struct occluder_subtraction *subtraction,
     struct triangle_plane plane =
         triangle_plane_of(subtraction->sheet, occluder->triangle);
     (void)geom_line_between(line, &plane.plane, &subtraction->plane.plane);
-    struct geom_line *back = line + line_count(occluder);
-    *back = *line;
-    geom_line_reverse(back);
+    struct geom_line *reversed = line + line_count(occluder);
+    *reversed = geom_line_reversed(line);
     occluder->crossing_made = true;
   }
   return coverage_of_line(line, piece);

@@ -98,8 +98,7 @@ static bool split_region(struct occluder_subtraction *subtraction,
   if (line == NULL)
     return false;
   geom_line_through(&line[0], node->splitter.from, node->splitter.to);
-  line[1] = line[0];
-  geom_line_reverse(&line[1]);
+  line[1] = geom_line_reversed(&line[0]);
   if (!geom_convex_split(piece, &line[0], &line[1], &half[0], &half[1],
                          &subtraction->arena))
     return false;

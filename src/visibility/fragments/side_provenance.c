@@ -144,8 +144,8 @@ static bool crosses_along(const struct sheet *sheet, uint32_t f, uint32_t g,
                           const struct boundary_segment *s) {
   struct triangle_plane tf = triangle_plane_of(sheet, f),
                         tg = triangle_plane_of(sheet, g);
-  struct geom_line line, back;
-  if (triangle_depth_order(&tf, f, &tg, g, &line, &back) != NEARER_ON_LEFT)
+  struct geom_line line, reversed;
+  if (triangle_depth_order(&tf, f, &tg, g, &line, &reversed) != NEARER_ON_LEFT)
     return false;
   return geom_line_side(&line, s->low) == 0 &&
          geom_line_side(&line, s->high) == 0;

@@ -138,10 +138,10 @@ static void count_split(struct newell_order *order, uint32_t triangle) {
  *        done */
 static bool split_by(struct newell_order *order, uint32_t piece,
                      const struct geom_convex *shape,
-                     const struct geom_line *line, const struct geom_line *back,
-                     bool *split) {
+                     const struct geom_line *line,
+                     const struct geom_line *reversed, bool *split) {
   struct geom_convex left, right;
-  if (!geom_convex_split(shape, line, back, &left, &right, &order->scratch))
+  if (!geom_convex_split(shape, line, reversed, &left, &right, &order->scratch))
     return false;
   *split = left.count > 0 && right.count > 0;
   if (!*split)
@@ -153,13 +153,13 @@ static bool split_by(struct newell_order *order, uint32_t piece,
 
 /* Splits P where its plane intersects that of Q: the two pierce each other. */
 static bool split_piercing(struct newell_order *order, uint32_t p, uint32_t q) {
-  struct geom_line line, back;
+  struct geom_line line, reversed;
   struct geom_convex shape;
   bool split;
-  if (newell_crossing(order, p, q, &line, &back) != 0)
+  if (newell_crossing(order, p, q, &line, &reversed) != 0)
     return true;
   if (!newell_piece_shape(order, p, &shape) ||
-      !split_by(order, p, &shape, &line, &back, &split))
+      !split_by(order, p, &shape, &line, &reversed, &split))
     return false;
   order->counts.split_pierce++;
   count_split(order, order->piece.item[p].triangle);
@@ -169,15 +169,15 @@ static bool split_piercing(struct newell_order *order, uint32_t p, uint32_t q) {
 /* Splits Q to break a cycle: Q is marked already and would have to be moved
  * again, because the candidate P is in front of it. */
 static bool split_cycle(struct newell_order *order, uint32_t p, uint32_t q) {
-  struct geom_line line, back, *side;
+  struct geom_line line, reversed, *side;
   struct geom_convex shape;
   bool split = false;
   int count;
   order->counts.cycles++;
   if (!newell_piece_shape(order, q, &shape))
     return false;
-  if (newell_crossing(order, p, q, &line, &back) == 0 &&
-      !split_by(order, q, &shape, &line, &back, &split))
+  if (newell_crossing(order, p, q, &line, &reversed) == 0 &&
+      !split_by(order, q, &shape, &line, &reversed, &split))
     return false;
   side = newell_piece_lines(order, p, &count, &order->scratch);
   if (side == NULL)

@@ -15,8 +15,8 @@ struct geom_line *newell_piece_lines(const struct newell_order *order,
     return line;
   }
   for (size_t k = 0; k < n; k++) {
-    line[k] = line[n + k] = *p->shape->side[k];
-    geom_line_reverse(&line[n + k]);
+    line[k] = *p->shape->side[k];
+    line[n + k] = geom_line_reversed(&line[k]);
   }
   return line;
 }

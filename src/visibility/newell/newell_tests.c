@@ -8,14 +8,13 @@
 #include "visibility/newell/newell_tests.h"
 
 int newell_crossing(const struct newell_order *order, uint32_t p, uint32_t q,
-                    struct geom_line *line, struct geom_line *back) {
+                    struct geom_line *line, struct geom_line *reversed) {
   struct triangle_plane tp = triangle_plane_of(order->sheet,
                                                order->piece.item[p].triangle),
                         tq = triangle_plane_of(order->sheet,
                                                order->piece.item[q].triangle);
   int parallel = geom_line_between(line, &tp.plane, &tq.plane);
-  *back = *line;
-  geom_line_reverse(back);
+  *reversed = geom_line_reversed(line);
   return parallel;
 }
 

@@ -23,6 +23,6 @@ enum newell_result newell_test(struct newell_order *order, uint32_t p,
  * Returns 0; if the planes are parallel, another value as geom_line_between,
  * and no line. */
 int newell_crossing(const struct newell_order *order, uint32_t p, uint32_t q,
-                    struct geom_line *line, struct geom_line *back);
+                    struct geom_line *line, struct geom_line *reversed);
 
 #endif

@@ -33,13 +33,12 @@ bool triangles_disjoint(const struct sheet *sheet, uint32_t f, uint32_t g) {
 }
 
 void triangle_lines(const struct sheet *sheet, uint32_t triangle,
-                    struct geom_line line[3], struct geom_line back[3]) {
+                    struct geom_line line[3], struct geom_line reversed[3]) {
   const uint32_t *p = sheet->triangle.item[triangle].point;
   for (int k = 0; k < 3; k++) {
     geom_line_through(&line[k], sheet->point.item[p[k]],
                       sheet->point.item[p[geom_next_corner(k)]]);
-    back[k] = line[k];
-    geom_line_reverse(&back[k]);
+    reversed[k] = geom_line_reversed(&line[k]);
   }
 }
 
@@ -67,7 +66,7 @@ enum depth_order triangle_depth_order(const struct triangle_plane *f,
                                       uint32_t f_id,
                                       const struct triangle_plane *g,
                                       uint32_t g_id, struct geom_line *line,
-                                      struct geom_line *back) {
+                                      struct geom_line *reversed) {
   int sides = plane_sides(&f->plane, g->p);
   if (sides == 0)
     return g_id < f_id ? NEARER_ALWAYS : NEARER_NEVER;
@@ -83,8 +82,7 @@ enum depth_order triangle_depth_order(const struct triangle_plane *f,
   /* Each has corners on both sides of the other's plane: the planes
    * intersect. */
   (void)geom_line_between(line, &g->plane, &f->plane);
-  *back = *line;
-  geom_line_reverse(back);
+  *reversed = geom_line_reversed(line);
   return NEARER_ON_LEFT;
 }
 

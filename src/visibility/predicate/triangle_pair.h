@@ -30,7 +30,7 @@ bool triangles_disjoint(const struct sheet *sheet, uint32_t f, uint32_t g);
 /* The lines through the sides of a triangle, which lies on their left, and the
  * same lines reversed. */
 void triangle_lines(const struct sheet *sheet, uint32_t triangle,
-                    struct geom_line line[3], struct geom_line back[3]);
+                    struct geom_line line[3], struct geom_line reversed[3]);
 
 /* The triangle as a piece of itself.  Returns false when memory ran out. */
 USE_RESULT bool triangle_as_convex(const struct sheet *sheet, uint32_t triangle,
@@ -44,13 +44,12 @@ int plane_sides(const struct geom_plane *plane, const struct geom_point p[3]);
 
 /* Compares two triangles by exact depth; of coplanar ones that with the lower
  * index is the nearer.
- * line, back  set for NEARER_ON_LEFT: g is nearer on the left of `line`; `back`
- *             is the same line reversed */
+ * line, reversed  set for NEARER_ON_LEFT: g is nearer on the left of `line` */
 enum depth_order triangle_depth_order(const struct triangle_plane *f,
                                       uint32_t f_id,
                                       const struct triangle_plane *g,
                                       uint32_t g_id, struct geom_line *line,
-                                      struct geom_line *back);
+                                      struct geom_line *reversed);
 
 /* Are all corners of one triangle in contact with the other's plane?  Exact. */
 bool triangles_touch(const struct sheet *sheet, uint32_t f, uint32_t g);

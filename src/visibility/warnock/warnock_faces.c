@@ -51,15 +51,14 @@ static bool limit_pieces(struct warnock *w) {
 /* The window's borders as lines with the window on their left, and the same
  * lines reversed. */
 static void window_lines(const struct box2 *window, struct geom_line line[4],
-                         struct geom_line back[4]) {
+                         struct geom_line reversed[4]) {
   const struct geom_point at[4] = {{window->x0, window->y0, 0},
                                    {window->x1, window->y0, 0},
                                    {window->x1, window->y1, 0},
                                    {window->x0, window->y1, 0}};
   for (int k = 0; k < 4; k++) {
     geom_line_through(&line[k], at[k], at[(k + 1) % 4]);
-    back[k] = line[k];
-    geom_line_reverse(&back[k]);
+    reversed[k] = geom_line_reversed(&line[k]);
   }
 }
 

@@ -222,7 +222,7 @@ static void set_lines(const struct sweep *sweep,
   geom_line_through(&line[1], point_on_page(right->x1, right->y1),
                     point_on_page(right->x0, right->y0));
   geom_line_level(&line[2], sweep->height.item[part->top]);
-  geom_line_reverse(&line[2]);
+  line[2] = geom_line_reversed(&line[2]);
   geom_line_through(&line[3], point_on_page(left->x0, left->y0),
                     point_on_page(left->x1, left->y1));
 }
