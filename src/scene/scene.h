@@ -94,8 +94,8 @@ USE_RESULT recto_status scene_use_group(struct scene *scene, const char *name,
  * A bad element is skipped, reported and counted, never fatal. */
 struct diagnostics;
 
-/* Adds a face after the checks of enum scene_fault, but for planarity.  Corners at
- * the position of the one before them are left out.
+/* Adds a face after the checks of enum scene_fault, but for planarity.  Corners
+ * at the position of the one before them are left out.
  * corner  indices of points already in the scene, `count` of them
  * Returns RECTO_OK also for a skipped face; fails only on memory, or with
  *         RECTO_ERROR_LIMIT. */

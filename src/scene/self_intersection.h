@@ -1,4 +1,4 @@
-/* self_intersection.h - tests whether the sides of a polygon cross each other. */
+/* self_intersection.h - whether the sides of a polygon cross each other. */
 #ifndef SCENE_SELF_INTERSECTION_H
 #define SCENE_SELF_INTERSECTION_H
 

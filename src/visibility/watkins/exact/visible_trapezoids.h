@@ -1,5 +1,5 @@
-/* visible_trapezoids.h - the triangles visible in the trapezoids of a sweep, and
- * the fragments that they make up. */
+/* visible_trapezoids.h - the triangles visible in the trapezoids of a sweep,
+ * and the fragments that they make up. */
 #ifndef VISIBILITY_WATKINS_EXACT_VISIBLE_TRAPEZOIDS_H
 #define VISIBILITY_WATKINS_EXACT_VISIBLE_TRAPEZOIDS_H
 
