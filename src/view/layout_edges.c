@@ -1,6 +1,16 @@
 /* layout_edges.c - classifies the edges of faces and makes the edges of the
- * sheet. */
-#include "base/poll.h"
+ * sheet.
+ *
+ * Phases, all but the second in parallel
+ *   choose  finds the class of each edge, and which are to be made.
+ *   clip    clips those of them that leave the page, and adds the contours; few
+ *           edges are either.  So it is known how many are made before each.
+ *   make    makes the edges of the sheet.
+ *   link    makes the sides of triangles refer to these, and them to their
+ *           triangles.
+ */
+#include "base/parallel.h"
+#include "base/sort.h"
 #include "scene/edge_classes.h"
 #include "view/layout_phases.h"
 
@@ -52,17 +62,6 @@ struct edge_ids {
   uint32_t *before;
 };
 
-static bool edge_ids_init(struct edge_ids *edge_ids, size_t edges) {
-  edge_ids->bits = mem_calloc(edges / 64 + 1, sizeof *edge_ids->bits);
-  edge_ids->before = mem_alloc(edges / 64 + 1, sizeof *edge_ids->before);
-  return edge_ids->bits != NULL && edge_ids->before != NULL;
-}
-
-static void edge_ids_fini(struct edge_ids *edge_ids) {
-  mem_free(edge_ids->bits);
-  mem_free(edge_ids->before);
-}
-
 /* The sheet edge of a topology edge; SHEET_NONE: it was not made. */
 static inline uint32_t edge_id_of(const struct edge_ids *edge_ids,
                                   uint32_t edge) {
@@ -73,10 +72,10 @@ static inline uint32_t edge_id_of(const struct edge_ids *edge_ids,
          (uint32_t)__builtin_popcountll(bits & (bit - 1));
 }
 
-static bool add_sheet_edge(struct layout *layout, struct layout_cut ends,
-                           uint32_t source, uint32_t group, unsigned edge_class,
-                           uint32_t part) {
-  struct sheet_edge edge = {
+static struct sheet_edge sheet_edge_of(struct layout_cut ends, uint32_t source,
+                                       uint32_t group, unsigned edge_class,
+                                       uint32_t part) {
+  return (struct sheet_edge){
       .point = {ends.point[0], ends.point[1]},
       .triangle = {SHEET_NONE, SHEET_NONE},
       .source = source,
@@ -84,52 +83,140 @@ static bool add_sheet_edge(struct layout *layout, struct layout_cut ends,
       .edge_class = (uint16_t)edge_class,
       .part = (uint16_t)(part & UINT16_MAX),
   };
-  return ARRAY_PUSH(&layout->sheet->edge, edge);
 }
 
-/* Makes the requested edges, and contours.
- * class_masks  one a topology edge; NULL where no class of them was
- * requested */
-static recto_status make_edges(struct layout *layout,
-                               const uint8_t *class_masks,
-                               const uint8_t *coarse,
-                               struct edge_ids *edge_ids) {
-  const struct topology *topology = layout->topology;
+/* What the phases know, of all edges of the topology. */
+struct edge_work {
+  struct layout *layout;
+  struct edge_ids ids;
+  uint64_t *special;    /* a bit an edge: it is a contour or leaves the page */
+  uint8_t *class_masks; /* one an edge; once they are chosen, the class of each.
+                           NULL where no class of them was requested */
+  uint8_t *coarse;      /* of topology_coarse_parts; or NULL */
+  struct link_range *link;
+};
+
+static bool edge_work_init(struct edge_work *work, struct layout *layout) {
+  size_t words = layout->topology->edge.count / 64 + 1;
+  *work = (struct edge_work){.layout = layout};
+  work->ids.bits = mem_calloc(words, sizeof *work->ids.bits);
+  work->ids.before = mem_alloc(words, sizeof *work->ids.before);
+  work->special = mem_calloc(words, sizeof *work->special);
+  return work->ids.bits != NULL && work->ids.before != NULL &&
+         work->special != NULL;
+}
+
+static void edge_work_fini(struct edge_work *work) {
+  mem_free(work->ids.bits);
+  mem_free(work->ids.before);
+  mem_free(work->special);
+  mem_free(work->class_masks);
+  mem_free(work->coarse);
+}
+
+static bool is_contour(const struct layout *layout, uint32_t edge) {
+  return layout->topology->edge.item[edge].uses != 2 ||
+         layout->sides[edge] != LAYOUT_TWO_SIDED;
+}
+
+/* Chooses the requested edges of a range, and contours. */
+static bool choose_edges(void *user, struct parallel_range range) {
+  struct edge_work *work = user;
+  const struct layout *layout = work->layout;
+  const uint32_t *map = layout->point_map;
   unsigned wanted = layout->options->ink.edges & face_classes;
   unsigned silhouette = RECTO_EDGE_SILHOUETTE;
-  for (uint32_t e = 0; e < topology->edge.count; e++) {
-    const struct topology_edge *edge = &topology->edge.item[e];
-    if (e % 64 == 0)
-      edge_ids->before[e / 64] = (uint32_t)layout->sheet->edge.count;
-    unsigned edge_class = 0;
-    if (!poll_at(e))
-      return error_cancelled(layout->error);
-    if (class_masks != NULL)
-      edge_class = lowest_bit(
-          class_mask_of(edge, class_masks[e], layout->sides[e]) &
-          (has_mesh_contours(coarse, edge->point[0]) ? wanted
-                                                     : wanted & ~silhouette));
-    bool contour = edge->uses != 2 || layout->sides[e] != LAYOUT_TWO_SIDED;
-    if (!edge_class && !layout->all_edges && !contour)
-      continue;
-    struct layout_cut ends;
-    recto_status status = find_end_points(layout, e, &ends);
-    if (status != RECTO_OK)
-      return status;
-    if (ends.point[0] == SHEET_NONE)
-      continue;
-    if (contour)
-      status = layout_contour(layout, ends.point[0], ends.point[1]);
-    if (status != RECTO_OK)
-      return status;
-    if (!edge_class && !layout->all_edges)
-      continue;
-    edge_ids->bits[e / 64] |= UINT64_C(1) << e % 64;
-    if (!add_sheet_edge(layout, ends, e,
-                        layout->scene->face_group.item[edge->first], edge_class,
-                        0))
-      return error_memory(layout->error);
+  for (uint32_t e = (uint32_t)range.begin; e < range.end; e++) {
+    const struct topology_edge *edge = &layout->topology->edge.item[e];
+    uint64_t bit = UINT64_C(1) << e % 64;
+    bool made = layout->all_edges;
+    if (work->class_masks != NULL) {
+      unsigned edge_class = lowest_bit(
+          class_mask_of(edge, work->class_masks[e], layout->sides[e]) &
+          (has_mesh_contours(work->coarse, edge->point[0])
+               ? wanted
+               : wanted & ~silhouette));
+      work->class_masks[e] = (uint8_t)edge_class;
+      made |= edge_class != 0;
+    }
+    bool contour = is_contour(layout, e);
+    if (made)
+      work->ids.bits[e / 64] |= bit;
+    if (contour || (made && (map[edge->point[0]] == SHEET_NONE ||
+                             map[edge->point[1]] == SHEET_NONE)))
+      work->special[e / 64] |= bit;
   }
+  return true;
+}
+
+/* Clips a special edge, adds it if it is a contour, and does not make it where
+ * nothing is left of it. */
+static recto_status clip_edge(struct edge_work *work, uint32_t edge) {
+  struct layout *layout = work->layout;
+  struct layout_cut ends;
+  recto_status status = find_end_points(layout, edge, &ends);
+  if (status == RECTO_OK && ends.point[0] == SHEET_NONE)
+    work->ids.bits[edge / 64] &= ~(UINT64_C(1) << edge % 64);
+  else if (status == RECTO_OK && is_contour(layout, edge))
+    status = layout_contour(layout, ends.point[0], ends.point[1]);
+  return status;
+}
+
+/* Clips the special edges, and counts the edges that are made. */
+static recto_status clip_edges(struct edge_work *work, size_t *count) {
+  size_t words = work->layout->topology->edge.count / 64 + 1;
+  *count = 0;
+  for (size_t w = 0; w < words; w++) {
+    for (uint64_t left = work->special[w]; left != 0; left &= left - 1) {
+      uint32_t edge = (uint32_t)(64 * w) + (uint32_t)__builtin_ctzll(left);
+      recto_status status = clip_edge(work, edge);
+      if (status != RECTO_OK)
+        return status;
+    }
+    work->ids.before[w] = (uint32_t)*count;
+    *count += (size_t)__builtin_popcountll(work->ids.bits[w]);
+    if (!poll_at(64 * w))
+      return error_cancelled(work->layout->error);
+  }
+  return RECTO_OK;
+}
+
+/* Makes the chosen edges of a range; all that are clipped are known. */
+static bool make_edges_of_range(void *user, struct parallel_range range) {
+  const struct edge_work *work = user;
+  struct layout *layout = work->layout;
+  const uint32_t *group = layout->scene->face_group.item;
+  struct sheet_edge *to =
+      layout->sheet->edge.item + work->ids.before[range.begin / 64];
+  for (size_t w = range.begin / 64; 64 * w < range.end; w++)
+    for (uint64_t left = work->ids.bits[w]; left != 0; left &= left - 1) {
+      uint32_t e = (uint32_t)(64 * w) + (uint32_t)__builtin_ctzll(left);
+      uint32_t first = layout->topology->edge.item[e].first;
+      unsigned edge_class =
+          work->class_masks != NULL ? work->class_masks[e] : 0;
+      struct layout_cut ends;
+      if (find_end_points(layout, e, &ends) != RECTO_OK)
+        return false;
+      *to++ = sheet_edge_of(ends, e, group[first], edge_class, 0);
+    }
+  return true;
+}
+
+/* Makes the requested edges, and contours. */
+static recto_status make_edges(struct edge_work *work) {
+  struct layout *layout = work->layout;
+  size_t edges = layout->topology->edge.count, count;
+  int workers = parallel_workers(edges, PARALLEL_ITEMS);
+  if (!parallel_ranges(workers, edges, PARALLEL_ITEMS, choose_edges, work))
+    return error_memory(layout->error);
+  recto_status status = clip_edges(work, &count);
+  if (status != RECTO_OK)
+    return status;
+  if (!ARRAY_RESERVE(&layout->sheet->edge, count + layout->fold.count) ||
+      !parallel_ranges(workers, edges, PARALLEL_ITEMS, make_edges_of_range,
+                       work))
+    return error_memory(layout->error);
+  layout->sheet->edge.count = count;
   return RECTO_OK;
 }
 
@@ -142,82 +229,137 @@ static bool make_folds(struct layout *layout, const uint8_t *coarse) {
     uint32_t group = scene->face_group.item[fold->face];
     uint32_t corner = scene->corner.item[scene->face_start.item[fold->face]];
     bool is_mesh = has_mesh_contours(coarse, layout_weld(layout, corner));
-    if (!add_sheet_edge(layout, fold->ends, SHEET_NONE, group,
-                        is_mesh ? wanted : 0, 0))
+    struct sheet_edge edge =
+        sheet_edge_of(fold->ends, SHEET_NONE, group, is_mesh ? wanted : 0, 0);
+    if (!ARRAY_PUSH(&layout->sheet->edge, edge))
       return false;
+  }
+  return true;
+}
+
+/* ---- Sides --------------------------------------------------------------- */
+
+/* A side of an edge that an earlier range of triangles may have too. */
+struct late_side {
+  uint32_t edge, triangle;
+};
+
+struct link_range {
+  ARRAY(struct late_side) late;
+};
+
+/* Triangles use an edge in their order. */
+static inline void use_sheet_edge(struct sheet_edge *edge, uint32_t triangle) {
+  uint32_t *of = edge->triangle;
+  if (of[0] == SHEET_NONE)
+    of[0] = triangle;
+  else if (of[1] == SHEET_NONE && of[0] != triangle)
+    of[1] = triangle;
+}
+
+/* The first topology edge that no triangle before this one has: edges are in
+ * the order of their first faces. */
+static uint32_t first_own_edge(const struct edge_work *work, size_t triangle) {
+  const struct topology *topology = work->layout->topology;
+  size_t first = 0;
+  if (triangle > 0) {
+    uint32_t face = work->layout->sheet->triangle.item[triangle - 1].face;
+    LOWER_BOUND(first, 0, topology->edge.count,
+                topology->edge.item[first].first <= face);
+  }
+  return (uint32_t)first;
+}
+
+static bool link_sides_of_range(void *user, struct parallel_range range) {
+  struct edge_work *work = user;
+  struct layout *layout = work->layout;
+  struct sheet *sheet = layout->sheet;
+  struct link_range *link = &work->link[range.begin / PARALLEL_ITEMS];
+  uint32_t edges = (uint32_t)layout->topology->edge.count;
+  uint32_t first_fold = (uint32_t)(sheet->edge.count - layout->fold.count);
+  uint32_t own = first_own_edge(work, range.begin);
+  for (size_t t = range.begin; t < range.end; t++) {
+    uint32_t *side = sheet->triangle.item[t].side;
+    for (int k = 0; k < 3; k++) {
+      bool is_edge = side[k] < edges;
+      bool is_late = !is_edge || side[k] < own;
+      if (!is_edge)
+        layout->flags.item[t] |= (uint8_t)(SHEET_INNER << k);
+      if (side[k] == SHEET_NONE)
+        continue;
+      side[k] = is_edge ? edge_id_of(&work->ids, side[k])
+                        : first_fold + (side[k] - edges);
+      struct late_side late = {side[k], (uint32_t)t};
+      if (side[k] == SHEET_NONE)
+        continue;
+      if (!is_late)
+        use_sheet_edge(&sheet->edge.item[side[k]], (uint32_t)t);
+      else if (!ARRAY_PUSH(&link->late, late))
+        return false;
+    }
   }
   return true;
 }
 
 /* Makes the triangles' sides refer to sheet edges instead of topology edges,
  * and the edges to their first two triangles; marks the inner sides. */
-static void link_sides(struct layout *layout, const struct edge_ids *edge_ids) {
-  struct sheet *sheet = layout->sheet;
-  uint32_t edges = (uint32_t)layout->topology->edge.count;
-  uint32_t first_fold = (uint32_t)(sheet->edge.count - layout->fold.count);
-  for (size_t t = 0; t < sheet->triangle.count; t++) {
-    uint32_t *side = sheet->triangle.item[t].side;
-    (void)poll_at(t);
-    for (int k = 0; k < 3; k++) {
-      if (side[k] >= edges)
-        layout->flags.item[t] |= (uint8_t)(SHEET_INNER << k);
-      if (side[k] == SHEET_NONE)
-        continue;
-      side[k] = side[k] < edges ? edge_id_of(edge_ids, side[k])
-                                : first_fold + (side[k] - edges);
-      if (side[k] == SHEET_NONE)
-        continue;
-      uint32_t *of = sheet->edge.item[side[k]].triangle;
-      if (of[0] == SHEET_NONE)
-        of[0] = (uint32_t)t;
-      else if (of[1] == SHEET_NONE && of[0] != t)
-        of[1] = (uint32_t)t;
-    }
+static bool link_sides(struct edge_work *work) {
+  struct sheet *sheet = work->layout->sheet;
+  size_t count = sheet->triangle.count;
+  size_t ranges = parallel_range_count(count, PARALLEL_ITEMS);
+  int workers = parallel_workers(count, PARALLEL_ITEMS);
+  work->link = mem_calloc(ranges, sizeof *work->link);
+  bool ok =
+      work->link != NULL && parallel_ranges(workers, count, PARALLEL_ITEMS,
+                                            link_sides_of_range, work);
+  for (size_t r = 0; work->link != NULL && r < ranges; r++) {
+    struct link_range *link = &work->link[r];
+    for (size_t i = 0; i < link->late.count; i++)
+      use_sheet_edge(&sheet->edge.item[link->late.item[i].edge],
+                     link->late.item[i].triangle);
+    ARRAY_FREE(&link->late);
   }
+  mem_free(work->link);
+  return ok;
+}
+
+/* ---- Classes ------------------------------------------------------------- */
+
+/* Finds the classes of edges that do not depend on the camera, if any is
+ * requested, and the parts that sample no smooth surface. */
+static bool find_classes(struct edge_work *work) {
+  const struct layout *layout = work->layout;
+  const struct topology *topology = layout->topology;
+  const struct scene *scene = layout->scene;
+  double crease_deg = layout->options->mesh.crease_deg;
+  double start_deg = layout->options->mesh.crease_start_deg;
+  if (!(layout->options->ink.edges & face_classes))
+    return true;
+  uint8_t *masks = mem_alloc(topology->edge.count, sizeof *masks);
+  work->class_masks = masks;
+  if (masks == NULL ||
+      !topology_class_masks(topology, scene, crease_deg, masks) ||
+      (start_deg > crease_deg &&
+       !topology_drop_weak_creases(topology, scene, start_deg, masks)))
+    return false;
+  if (layout->options->ink.contours != RECTO_CONTOURS_SMOOTH)
+    return true;
+  work->coarse = mem_alloc(scene->point.count, 1);
+  return work->coarse != NULL &&
+         topology_coarse_parts(topology, scene, masks, work->coarse);
 }
 
 recto_status layout_edges(struct layout *layout) {
-  size_t edges = layout->topology->edge.count;
+  struct edge_work work;
   recto_status status;
-  struct edge_ids edge_ids;
-  uint8_t *class_masks = NULL, *coarse = NULL;
-  if (!edge_ids_init(&edge_ids, edges))
-    goto no_memory;
-  if (layout->options->ink.edges & face_classes) {
-    class_masks = mem_alloc(edges, sizeof *class_masks);
-    if (class_masks == NULL ||
-        !topology_class_masks(layout->topology, layout->scene,
-                              layout->options->mesh.crease_deg, class_masks))
-      goto no_memory;
-    if (layout->options->mesh.crease_start_deg >
-            layout->options->mesh.crease_deg &&
-        !topology_drop_weak_creases(layout->topology, layout->scene,
-                                    layout->options->mesh.crease_start_deg,
-                                    class_masks))
-      goto no_memory;
-  }
-  if (layout->options->ink.contours == RECTO_CONTOURS_SMOOTH &&
-      class_masks != NULL) {
-    coarse = mem_alloc(layout->scene->point.count, 1);
-    if (coarse == NULL ||
-        !topology_coarse_parts(layout->topology, layout->scene, class_masks,
-                               coarse))
-      goto no_memory;
-  }
-  if (layout->all_edges && !ARRAY_RESERVE(&layout->sheet->edge, edges))
-    goto no_memory;
-  status = make_edges(layout, class_masks, coarse, &edge_ids);
-  if (status == RECTO_OK && !make_folds(layout, coarse))
-    goto no_memory;
-  if (status == RECTO_OK)
-    link_sides(layout, &edge_ids);
-  goto end;
-no_memory:
-  status = error_memory(layout->error);
-end:
-  edge_ids_fini(&edge_ids);
-  mem_free(class_masks);
-  mem_free(coarse);
+  if (!edge_work_init(&work, layout) || !find_classes(&work))
+    status = error_memory(layout->error);
+  else
+    status = make_edges(&work);
+  if (status == RECTO_OK &&
+      (!make_folds(layout, work.coarse) || !link_sides(&work)))
+    status = error_memory(layout->error);
+  edge_work_fini(&work);
   return status;
 }
 
@@ -236,8 +378,9 @@ static recto_status add_wire(struct layout *layout, uint32_t wire) {
       return status;
     if (ends.point[0] == SHEET_NONE || from == to)
       continue;
-    if (!add_sheet_edge(layout, ends, wire, scene->wire_group.item[wire],
-                        RECTO_EDGE_WIRE, c - start))
+    struct sheet_edge edge = sheet_edge_of(
+        ends, wire, scene->wire_group.item[wire], RECTO_EDGE_WIRE, c - start);
+    if (!ARRAY_PUSH(&layout->sheet->edge, edge))
       return error_memory(layout->error);
   }
   return RECTO_OK;
