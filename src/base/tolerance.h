@@ -174,6 +174,15 @@
  * Ten times   slits and slivers of 0.2 um are passed over. */
 #define TOLERANCE_JUDGE_RAY_OFFSET_MM 2e-5
 
+/* Faces are nearly parallel, for the judge, below this: where they intersect on
+ * the page grid may be far from where they do in the scene.
+ * Unit        1 (the sine of their angle)
+ * Derivation  rounding either by two grid units moves the line by four over the
+ *             sine: by no more than a line may be off, 1.5 um, above 2.5e-3.
+ * Users       judge/intersections.c
+ * Ten times   ink between faces at less than 1.4 degrees is left open. */
+#define TOLERANCE_JUDGE_PARALLEL 2.5e-3
+
 /* The judge leaves open what a face's slope to the view, or an edge's angle to
  * the crease angle, is within this of.
  * Unit        1 (a sine, a cosine)

@@ -11,6 +11,9 @@ struct judge_source {
   uint32_t face[2];    /* two of its faces; SCENE_NONE */
   unsigned class_mask; /* mask of recto_edge_class that it surely has */
   bool exists;         /* surely there, whatever its classes */
+  /* Not 0: within this of the edge two nearly parallel faces may intersect on
+   * the page grid. */
+  double near_mm;
 };
 
 struct judge_edge {

@@ -105,7 +105,8 @@ static bool add_edge_of_sides(struct edge_finder *finder,
       spike || !alone
           ? 0
           : judge_class_mask_of_pair(&finder->facings, side, other, against),
-      !spike};
+      !spike,
+      0};
   return judge_edges_add(finder->edges, finder->camera,
                          judge_point3_at(finder->scene, side->a),
                          judge_point3_at(finder->scene, side->b), &source);
@@ -115,7 +116,7 @@ static bool add_edge_of_sides(struct edge_finder *finder,
 static bool add_border(struct edge_finder *finder,
                        const struct judge_side *side) {
   const struct judge_source source = {
-      {side->a, side->b}, {side->face, SCENE_NONE}, RECTO_EDGE_BORDER, true};
+      {side->a, side->b}, {side->face, SCENE_NONE}, RECTO_EDGE_BORDER, true, 0};
   return judge_edges_add(finder->edges, finder->camera,
                          judge_point3_at(finder->scene, side->a),
                          judge_point3_at(finder->scene, side->b), &source);
@@ -231,7 +232,8 @@ static bool add_wires(struct edge_finder *finder) {
           {scene->wire_corner.item[k - 1], scene->wire_corner.item[k]},
           {SCENE_NONE, SCENE_NONE},
           RECTO_EDGE_WIRE,
-          true};
+          true,
+          0};
       if (!judge_edges_add(finder->edges, finder->camera,
                            judge_point3_at(scene, source.point[0]),
                            judge_point3_at(scene, source.point[1]), &source))

@@ -60,7 +60,8 @@ static bool test_fold(const struct fold_finder *finder,
       {side_triangle->low, side_triangle->high},
       {side_triangle->face, side_triangle->face},
       silhouette ? RECTO_EDGE_SILHOUETTE : 0,
-      false};
+      false,
+      0};
   return judge_edges_add(
       finder->edges, finder->facings->camera, at,
       judge_point3_at(finder->facings->scene, side_triangle->high), &source);

@@ -6,8 +6,10 @@
 #include "base/hash.h"
 #include "base/poll.h"
 #include "base/sort.h"
+#include "base/tolerance.h"
 #include "judge/camera.h"
 #include "judge/clipped_triangle.h"
+#include "judge/grid.h"
 #include "judge/sampler.h"
 
 enum { FEW_CORNERS = 32 };
@@ -346,11 +348,18 @@ static bool add_shared(struct intersection_finder *finder, uint32_t other,
   const struct judge_source source = {{SCENE_NONE, SCENE_NONE},
                                       {s->face, t->face},
                                       sure ? RECTO_EDGE_INTERSECTION : 0,
-                                      false};
+                                      false,
+                                      0};
   bool is_diagonal = one.face != SCENE_NONE && two.face != SCENE_NONE;
   return (!sure && !is_diagonal) ||
          judge_edges_add(finder->edges, finder->camera, corner[0], corner[1],
                          &source);
+}
+
+static bool are_nearly_parallel(const struct judge_triangle *s,
+                                const struct judge_triangle *t) {
+  return point3_length(point3_cross(s->normal, t->normal)) <
+         TOLERANCE_JUDGE_PARALLEL;
 }
 
 /* Adds the overlap of two triangles' cuts by each other's planes; both are on
@@ -373,13 +382,13 @@ static bool add_common(struct intersection_finder *finder,
   snap_to_corner(one, two, &a, &b);
   const struct judge_camera *camera = finder->camera;
   /* It is sure where both triangles extend to either side of the other's plane
-   * by far more than contact and rounding, and both triangulations are
-   * known. */
+   * by far more than contact and rounding, which cannot move it either, and both
+   * triangulations are known. */
   double rounding = fmax(judge_rounding_at(camera, finder->ray_offset_mm, a),
                          judge_rounding_at(camera, finder->ray_offset_mm, b));
   double contact = fmax(one->contact, two->contact);
   bool sure =
-      !one->open && !two->open &&
+      !one->open && !two->open && !are_nearly_parallel(one, two) &&
       (contact <= rounding ||
        !(is_clipped(camera, one) || is_clipped(camera, two))) &&
       least_overshoot(camera, one, two) > 10 * fmax(two->contact, rounding) &&
@@ -387,8 +396,85 @@ static bool add_common(struct intersection_finder *finder,
   const struct judge_source source = {{SCENE_NONE, SCENE_NONE},
                                       {one->face, two->face},
                                       sure ? RECTO_EDGE_INTERSECTION : 0,
-                                      false};
+                                      false,
+                                      0};
   return judge_edges_add(finder->edges, finder->camera, a, b, &source);
+}
+
+/* ---- Nearly in one plane -------------------------------------------------- */
+
+/* A triangle clipped by a slab and by three sides has eight corners at most. */
+struct near_polygon {
+  struct judge_point3 p[8];
+  unsigned count;
+};
+
+/* Keeps what is at most `most` before a plane. */
+static void clip_near(struct near_polygon *polygon, struct judge_point3 normal,
+                      struct judge_point3 at, double most) {
+  struct near_polygon kept = {.count = 0};
+  for (unsigned i = 0; i < polygon->count; i++) {
+    struct judge_point3 a = polygon->p[i],
+                        b = polygon->p[(i + 1) % polygon->count];
+    double da = point3_dot(normal, point3_sub(a, at)) - most,
+           db = point3_dot(normal, point3_sub(b, at)) - most;
+    if (da <= 0 && kept.count < 8)
+      kept.p[kept.count++] = a;
+    if ((da <= 0) != (db <= 0) && kept.count < 8)
+      kept.p[kept.count++] = point3_along(a, da / (da - db), point3_sub(b, a));
+  }
+  *polygon = kept;
+}
+
+/* The part of s beside t and nearer to its plane than `by`. */
+static struct near_polygon near_part(const struct judge_triangle *s,
+                                     const struct judge_triangle *t,
+                                     double by) {
+  struct near_polygon part = {{s->p[0], s->p[1], s->p[2]}, 3};
+  struct judge_point3 n = t->normal, back = {-n.x, -n.y, -n.z};
+  clip_near(&part, n, t->p[0], by);
+  clip_near(&part, back, t->p[0], by);
+  for (int k = 0; k < 3; k++)
+    clip_near(&part, point3_cross(point3_sub(t->p[(k + 1) % 3], t->p[k]), n),
+              t->p[k], 0);
+  return part;
+}
+
+/* Adds where two nearly parallel triangles may intersect on the page grid,
+ * wherever they do in the scene: as a segment, and how far from it.  The grid's
+ * rounding of either is a tenth of the judge's. */
+static bool add_near(struct intersection_finder *finder, uint32_t other) {
+  const struct judge_triangle *s = &finder->all->triangle.item[finder->current],
+                              *t = &finder->all->triangle.item[other];
+  double rounding = 0;
+  for (int k = 0; k < 3; k++)
+    rounding =
+        fmax(rounding,
+             judge_rounding_at(finder->camera, finder->ray_offset_mm, s->p[k]));
+  struct near_polygon part = near_part(s, t, 0.2 * rounding);
+  struct judge_point2 at[8] = {{0, 0}};
+  unsigned a = 0, b = 0;
+  double longest = 0, moved = 0;
+  for (unsigned i = 0; i < part.count; i++) {
+    at[i] = judge_project(finder->camera, part.p[i]);
+    for (unsigned k = 0; k < i; k++) {
+      double length = hypot(at[i].x - at[k].x, at[i].y - at[k].y);
+      if (length > longest) {
+        longest = length;
+        a = k, b = i;
+      }
+    }
+  }
+  const struct judge_segment image = {at[a], at[b]};
+  for (unsigned i = 0; i < part.count; i++) {
+    double unused;
+    moved = fmax(moved, judge_distance(&image, at[i], &unused));
+  }
+  const struct judge_source source = {
+      {SCENE_NONE, SCENE_NONE}, {s->face, t->face}, 0, false, 2 * moved};
+  return moved < finder->ray_offset_mm ||
+         judge_edges_add(finder->edges, finder->camera, part.p[a], part.p[b],
+                         &source);
 }
 
 static bool intersect_with(void *user, uint32_t other) {
@@ -404,8 +490,10 @@ static bool intersect_with(void *user, uint32_t other) {
   if (shared >= 2)
     return add_shared(finder, other, corner);
   struct triangle_cut cs = cut_by_plane(s, t), ct = cut_by_plane(t, s);
-  return cs.count != 2 || ct.count != 2 ||
-         add_common(finder, &cs, &ct, point3_unit(along), other);
+  if (cs.count == 2 && ct.count == 2 &&
+      !add_common(finder, &cs, &ct, point3_unit(along), other))
+    return false;
+  return !are_nearly_parallel(s, t) || add_near(finder, other);
 }
 
 bool judge_edges_add_intersections(struct judge_edges *edges,

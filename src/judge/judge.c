@@ -20,6 +20,7 @@ struct judge_context {
   struct judge_sampler sampler;
   struct judge_edges edges;
   struct judge_segment *image, *ink; /* of the edges; of the strokes */
+  ARRAY(uint32_t) shallow;           /* edges that near_mm says something of */
   uint32_t inks, drops; /* segments of ink; of dropped strokes, after these */
   double grid; /* upper bound of the rounding to the page grid, scene units */
   struct judge_grid by_image, by_ink;
@@ -174,11 +175,24 @@ static bool stroke_runs_along(const struct judge_context *context,
   return along;
 }
 
+/* Whether nearly parallel faces may intersect at a point of the page grid. */
+static bool is_near_shallow(const struct judge_context *context,
+                            struct judge_point2 at) {
+  for (size_t i = 0; i < context->shallow.count; i++) {
+    uint32_t edge = context->shallow.item[i];
+    if (judge_is_within(&context->image[edge], at,
+                        context->edges.edge.item[edge].source.near_mm))
+      return true;
+  }
+  return false;
+}
+
 /* Decides whether a visible edge explains the ink at a point of a stroke.  The
  * nearest of the hidden edges along the stroke becomes the witness.  Where the
  * contact tolerance is less than the rounding to the grid, faces that touch may
  * intersect on the grid anywhere, so that ink without an edge along it is
- * undecided. */
+ * undecided; so it is where nearly parallel faces are that close.
+ */
 static enum judge_visibility explain_ink(const struct judge_context *context,
                                          const struct judge_segment *stroke,
                                          struct judge_witness *witness) {
@@ -208,8 +222,10 @@ static enum judge_visibility explain_ink(const struct judge_context *context,
   }
   bool may_pierce =
       context->options.contact >= 0 && context->options.contact < context->grid;
-  return best == JUDGE_BLOCKED && !witness->on_edge && may_pierce ? JUDGE_UNSURE
-                                                                  : best;
+  if (best == JUDGE_BLOCKED && !witness->on_edge &&
+      (may_pierce || is_near_shallow(context, witness->at)))
+    return JUDGE_UNSURE;
+  return best;
 }
 
 /* Whether the ink at a point closes a gap. */
@@ -432,9 +448,13 @@ static bool collect_images(struct judge_context *context) {
   context->image = mem_alloc(count, sizeof *context->image);
   if (context->image == NULL)
     return false;
-  for (size_t i = 0; i < count && poll_at(i); i++)
-    context->image[i] = (struct judge_segment){
-        context->edges.edge.item[i].at[0], context->edges.edge.item[i].at[1]};
+  for (size_t i = 0; i < count && poll_at(i); i++) {
+    const struct judge_edge *edge = &context->edges.edge.item[i];
+    context->image[i] = (struct judge_segment){edge->at[0], edge->at[1]};
+    if (edge->source.near_mm > context->options.lateral_mm &&
+        !ARRAY_PUSH(&context->shallow, (uint32_t)i))
+      return false;
+  }
   return true;
 }
 
@@ -495,6 +515,7 @@ bool judge_drawing(struct judge_verdict *verdict,
   }
   judge_grid_fini(&context.by_image);
   judge_grid_fini(&context.by_ink);
+  ARRAY_FREE(&context.shallow);
   mem_free(context.image);
   mem_free(context.ink);
   judge_edges_fini(&context.edges);
