@@ -1,6 +1,6 @@
 #!/bin/bash
-# test_fuzz_corpus.sh - no input that once made a fuzzer report a finding does
-# so now, nor do those that together reach the most code.
+# test_fuzz_corpus.sh - no input that once made a fuzzer or a soak report a
+# finding does so now, nor do those that together reach the most code.
 . "$(dirname "$0")/tap.sh"
 
 replay=$builddir/tests/fuzz/replay
@@ -28,6 +28,20 @@ can_be_drawn() {
     "$recto" "${words[@]}" 2>err && grep -q '</svg>' out.svg
 }
 claim "a scene is shown as what the program draws" can_be_drawn
+
+reported_are_repaired() {
+  "$builddir/tests/fuzz/soak" --replay "$srcdir"/tests/reported/*.obj >found 2>err ||
+    { say "$(tail -n 5 found err)" && false; }
+}
+claim "nothing is found with what a soak has reported" reported_are_repaired
+
+# A command line that is refused is a finding, so the replay can fail.
+soak_can_fail() {
+  sed '2s/$/ --crease=x/' "$srcdir/tests/reported/near-copies.obj" >bad.obj
+  ! "$builddir/tests/fuzz/soak" --replay bad.obj >found 2>err &&
+    grep -q refused found
+}
+claim "a soak says what it finds" soak_can_fail
 
 finds_a_fault() {
   mkdir -p none && ! "$replay" scene none >found 2>err

@@ -2,6 +2,7 @@
 # replays their inputs, and the same linked with libFuzzer (make fuzz).
 fuzz_sources = %D%/fuzz.h %D%/targets.c \
   %D%/decode.c %D%/decode.h %D%/render.c %D%/render.h \
+  %D%/agreement.c %D%/agreement.h \
   %D%/target_cli.c %D%/target_mesh.c %D%/target_reader.c \
   %D%/target_scene.c %D%/target_svg.c \
   tests/reading.c tests/reading.h \
@@ -12,10 +13,15 @@ check_PROGRAMS += %D%/replay
 %C%_replay_SOURCES = %D%/replay.c $(fuzz_sources)
 %C%_replay_LDADD = librecto_core.la
 
+check_PROGRAMS += %D%/soak
+%C%_soak_SOURCES = %D%/soak.c %D%/soak_kinds.c %D%/soak_kinds.h \
+  $(fuzz_sources)
+%C%_soak_LDADD = tests/scenes/libscenes.la librecto_core.la
+
 EXTRA_PROGRAMS += %D%/fuzz
 %C%_fuzz_SOURCES = %D%/libfuzzer.c $(fuzz_sources)
 %C%_fuzz_LDADD = librecto_core.la
 %C%_fuzz_LDFLAGS = -fsanitize=fuzzer
 
-EXTRA_DIST += %D%/run.sh %D%/corpus
+EXTRA_DIST += %D%/run.sh %D%/corpus tests/reported
 dist_check_SCRIPTS += tests/test_fuzz_corpus.sh
