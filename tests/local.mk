@@ -56,8 +56,11 @@ unit_tests += %D%/test_result_models
 %C%_test_result_models_SOURCES = %D%/test_result_models.c
 unit_tests += %D%/test_speckles
 %C%_test_speckles_SOURCES = %D%/test_speckles.c %D%/ink_fixture.c %D%/ink_fixture.h
-unit_tests += %D%/test_smooth_contours
-%C%_test_smooth_contours_SOURCES = %D%/test_smooth_contours.c
+unit_tests += %D%/test_smooth_contours %D%/test_smooth_tubes
+%C%_test_smooth_contours_SOURCES = %D%/test_smooth_contours.c \
+  %D%/smooth_surfaces.c %D%/smooth_surfaces.h
+%C%_test_smooth_tubes_SOURCES = %D%/test_smooth_tubes.c \
+  %D%/smooth_surfaces.c %D%/smooth_surfaces.h
 unit_tests += %D%/test_curves
 %C%_test_curves_SOURCES = %D%/test_curves.c %D%/drawing_fixture.c \
   %D%/drawing_fixture.h

@@ -1,0 +1,237 @@
+/* test_smooth_tubes.c - smooth contours of tubes are those of the surface: as
+ * many strokes as it has visible pieces, and each where a piece is. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "tests/smooth_surfaces.h"
+
+enum { SAMPLES = 1024, CONTOUR_STEPS = 2048, CONTOUR_MAX = 2 * CONTOUR_STEPS };
+
+static const int tessellation[][2] = {{32, 16}, {64, 32}, {256, 128}};
+
+/* A tube about a closed curve, which is nowhere along Z. */
+struct tube {
+  smooth_curve *centre;
+  smooth_surface *surface;
+  double radius;
+  int turns; /* so many times as long as the torus, about */
+};
+
+static const struct tube tubes[] = {
+    {smooth_circle, smooth_torus, SMOOTH_TORUS_RADIUS, 1},
+    {smooth_trefoil, smooth_knot, SMOOTH_KNOT_RADIUS, 3}};
+
+/* The height of a mesh's arcs over its chords, mm: along both parameters. */
+static double sagitta_of(const struct tube *tube, int n, int m) {
+  double most = 0;
+  for (int i = 0; i < SAMPLES; i++) {
+    double p[3], q[3], r[3], half = M_PI / n, u = 2 * M_PI * i / SAMPLES, d[3];
+    tube->surface(u - half, 0, p);
+    tube->surface(u, 0, q);
+    tube->surface(u + half, 0, r);
+    for (int k = 0; k < 3; k++)
+      d[k] = q[k] - (p[k] + r[k]) / 2;
+    most = fmax(most, sqrt(smooth_dot(d, d)));
+  }
+  return SMOOTH_SCALE_MM * (most + tube->radius * (1 - cos(M_PI / m)));
+}
+
+/* Whether nothing of a tube lies between a point of its contour and the viewer:
+ * none of the spheres about its centres. */
+static bool is_visible(double centre[SAMPLES][3], double radius,
+                       const double p[3], const double back[3]) {
+  for (int i = 0; i < SAMPLES; i++) {
+    double to[3] = {centre[i][0] - p[0], centre[i][1] - p[1],
+                    centre[i][2] - p[2]};
+    double along = smooth_dot(to, back),
+           square = smooth_dot(to, to) - along * along;
+    double inside = radius * radius * (1 - 1e-4) - square;
+    if (inside > 0 && along + sqrt(inside) > 0.03 * radius)
+      return false;
+  }
+  return true;
+}
+
+/* The contour of a tube: at each u, two v; each is closed. */
+struct tube_contour {
+  double mm[2][CONTOUR_MAX][2];
+  bool visible[2][CONTOUR_MAX];
+  int count[2];
+};
+
+static double contour_angle(const struct tube *tube,
+                            const struct smooth_axes *axes, double u) {
+  double normal[3], binormal[3];
+  smooth_frame(tube->centre, u, normal, binormal);
+  return atan2(smooth_dot(normal, axes->back),
+               smooth_dot(binormal, axes->back));
+}
+
+/* Samples are closer where the tube points to the viewer, and v turns. */
+static void find_contour(struct tube_contour *contour, const struct tube *tube,
+                         const struct smooth_axes *axes) {
+  static double centre[SAMPLES][3];
+  for (int i = 0; i < SAMPLES; i++)
+    tube->centre(2 * M_PI * i / SAMPLES, centre[i]);
+  for (int k = 0; k < 2; k++) {
+    int i = 0;
+    for (double u = 0; u < 2 * M_PI && i < CONTOUR_MAX; i++) {
+      double v = contour_angle(tube, axes, u), p[3];
+      double step = 2 * M_PI / CONTOUR_STEPS;
+      tube->surface(u, v + k * M_PI, p);
+      contour->mm[k][i][0] =
+          SMOOTH_PAGE_MM / 2 + SMOOTH_SCALE_MM * smooth_dot(p, axes->right);
+      contour->mm[k][i][1] =
+          SMOOTH_PAGE_MM / 2 + SMOOTH_SCALE_MM * smooth_dot(p, axes->up);
+      contour->visible[k][i] = is_visible(centre, tube->radius, p, axes->back);
+      while (fabs(remainder(contour_angle(tube, axes, u + step) - v,
+                            2 * M_PI)) > 0.1)
+        step /= 2;
+      u += step;
+    }
+    contour->count[k] = i;
+    assert_true(i < CONTOUR_MAX);
+  }
+}
+
+static double distance_between(const double p[2], const double q[2]) {
+  return hypot(p[0] - q[0], p[1] - q[1]);
+}
+
+/* The distance from a sample of a contour to its visible samples that are not
+ * of the same piece, from sample `from` to `to` of curve k; mm. */
+static double distance_to_others(const struct tube_contour *contour, int k,
+                                 int from, int to, int sample) {
+  double least = 1e9;
+  for (int other = 0; other < 2; other++)
+    for (int i = 0; i < contour->count[other]; i++) {
+      int count = contour->count[k];
+      bool own = other == k && (i - from % count + count) % count <= to - from;
+      if (!own && contour->visible[other][i])
+        least = fmin(least, distance_between(contour->mm[other][i],
+                                             contour->mm[k][sample]));
+    }
+  return least;
+}
+
+/* Counts a run of samples of curve k, visible or hidden all of them. */
+static int count_run(const struct tube_contour *contour, int k, int from,
+                     int to, double least) {
+  int count = contour->count[k];
+  double away = 0;
+  bool visible = contour->visible[k][from % count];
+  if (least == 0)
+    return visible;
+  for (int i = from; i <= to && away <= least; i++)
+    away = fmax(away, distance_to_others(contour, k, from, to, i % count));
+  return away > least ? visible : visible - 1;
+}
+
+/* The number of connected visible pieces, but for those that are nowhere
+ * farther from the others than `least`, mm; two are one if what is hidden
+ * between them is nowhere farther than that from what is visible. */
+static int count_pieces(const struct tube_contour *contour, double least) {
+  int pieces = 0;
+  for (int k = 0; k < 2; k++) {
+    const bool *visible = contour->visible[k];
+    int count = contour->count[k], first = 1;
+    while (first < count && visible[first] == visible[first - 1])
+      first++;
+    if (first == count)
+      pieces += visible[0];
+    for (int i = first, from = first; first < count && i < first + count; i++)
+      if (visible[i % count] != visible[(i + 1) % count]) {
+        pieces += count_run(contour, k, from, i, least);
+        from = i + 1;
+      }
+  }
+  return pieces;
+}
+
+/* The distance from a point to the visible contour, mm; where one sample of it
+ * is visible and the next is not, the end may be anywhere between. */
+static double distance_to_visible(const struct tube_contour *contour,
+                                  const double at[2]) {
+  double least = 1e9;
+  for (int k = 0; k < 2; k++)
+    for (int i = 0; i < contour->count[k]; i++) {
+      int next = (i + 1) % contour->count[k];
+      if (contour->visible[k][i] || contour->visible[k][next])
+        least = fmin(least, smooth_distance_to_segment(at, contour->mm[k][i],
+                                                       contour->mm[k][next]));
+    }
+  return least;
+}
+
+/* The farthest point of ink from the visible contour, and of that from ink:
+ * mm. */
+static void compare(const recto_drawing *drawing,
+                    const struct tube_contour *contour, double *false_mm,
+                    double *missing_mm) {
+  *false_mm = *missing_mm = 0;
+  for (size_t s = 0; s < recto_drawing_stroke_count(drawing); s++) {
+    recto_stroke stroke;
+    assert_true(recto_drawing_stroke(drawing, s, &stroke));
+    for (size_t i = 0; i < stroke.count; i += 1 + stroke.count / 256)
+      *false_mm =
+          fmax(*false_mm, distance_to_visible(contour, stroke.points + 2 * i));
+  }
+  for (int k = 0; k < 2; k++)
+    for (int i = 0; i < contour->count[k]; i += 4)
+      if (contour->visible[k][i])
+        *missing_mm =
+            fmax(*missing_mm, smooth_distance_to_ink(drawing, RECTO_EDGES_ALL,
+                                                     contour->mm[k][i]));
+}
+
+static void check_tube(const struct tube *tube, const recto_scene *scene, int n,
+                       int m, int view) {
+  static struct tube_contour contour;
+  recto_options options;
+  smooth_view(&options, view);
+  struct smooth_axes axes = smooth_axes_of(&options);
+  find_contour(&contour, tube, &axes);
+  recto_drawing *drawing = smooth_draw(scene, &options);
+  double sagitta = sagitta_of(tube, n, m), wrong, missing;
+  int strokes = (int)recto_drawing_stroke_count(drawing);
+  int most = count_pieces(&contour, 0);
+  int least = count_pieces(&contour, 2 * sagitta);
+  if (strokes < least || strokes > most)
+    fail_msg("%d x %d, view %d: %d strokes, %d to %d visible pieces", n, m,
+             view, strokes, least, most);
+  compare(drawing, &contour, &wrong, &missing);
+  /* Cusps are found to a few segments, which run towards the viewer. */
+  if (wrong > 3 * sagitta + 0.05 || missing > 1.6 * sagitta + 0.05)
+    fail_msg("%d x %d, view %d: ink %g mm from the contour, the contour %g mm "
+             "from ink, %g are the mesh's",
+             n, m, view, wrong, missing, sagitta);
+  recto_drawing_destroy(drawing);
+}
+
+/* As many strokes as visible pieces, but for what is nearer to another one than
+ * two arcs of the mesh are to their chords. */
+static void the_contours_of_tubes_are_their_visible_pieces(void **state) {
+  (void)state;
+  for (size_t i = 0; i < 2; i++)
+    for (size_t t = 0; t < 3; t++) {
+      int n = tubes[i].turns * tessellation[t][0], m = tessellation[t][1];
+      recto_scene *scene = smooth_scene(tubes[i].surface, false, n, m);
+      for (int view = 0; view < SMOOTH_VIEWS; view++)
+        check_tube(&tubes[i], scene, n, m, view);
+      recto_scene_destroy(scene);
+    }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(the_contours_of_tubes_are_their_visible_pieces),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
