@@ -20,6 +20,19 @@ f 3 4 8 7
 f 4 1 5 8
 END
 
+# make_sheet - writes sheet.obj, a sheet of 19,600 squares.
+make_sheet() {
+  awk 'BEGIN {
+    n = 141
+    for (i = 0; i < n; i++) for (k = 0; k < n; k++)
+      printf "v %d %d %d\n", i, k, (i * k) % 7
+    for (i = 1; i < n; i++) for (k = 1; k < n; k++) {
+      a = (i - 1) * n + k
+      printf "f %d %d %d %d\n", a, a + 1, a + n + 1, a + n
+    }
+  }' >sheet.obj
+}
+
 # run STATUS ARGUMENT... - whether the program exits so; what it says is kept
 # in the files out and err.
 run() {

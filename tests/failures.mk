@@ -1,5 +1,5 @@
 # tests/failures.mk - the tests of known failures.
-failures = %D%/failures.c %D%/failures.h
+failures = %D%/judged.c %D%/judged.h
 failures_libs = %D%/judge/libjudge.la %D%/scenes/libscenes.la $(LDADD)
 
 unit_tests += %D%/test_failures_long_lists

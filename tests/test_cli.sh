@@ -452,15 +452,7 @@ claim "/dev/stdout is a place to write to" to_dev_stdout
 
 # ---- What is too large, and what is read ------------------------------------
 
-awk 'BEGIN {
-  n = 141
-  for (i = 0; i < n; i++) for (k = 0; k < n; k++)
-    printf "v %d %d %d\n", i, k, (i * k) % 7
-  for (i = 1; i < n; i++) for (k = 1; k < n; k++) {
-    a = (i - 1) * n + k
-    printf "f %d %d %d %d\n", a, a + 1, a + n + 1, a + n
-  }
-}' >sheet.obj
+make_sheet
 too_large() {
   echo "as it was" >kept.svg
   (

@@ -4,16 +4,8 @@
 . "$(dirname "$0")/tap.sh"
 . "$(dirname "$0")/cli.sh"
 
-# A sheet of 20,000 squares, which brute force needs long for.
-awk 'BEGIN {
-  n = 141
-  for (i = 0; i < n; i++) for (k = 0; k < n; k++)
-    printf "v %d %d %d\n", i, k, (i * k) % 7
-  for (i = 1; i < n; i++) for (k = 1; k < n; k++) {
-    a = (i - 1) * n + k
-    printf "f %d %d %d %d\n", a, a + 1, a + n + 1, a + n
-  }
-}' >sheet.obj
+# Brute force needs long for it.
+make_sheet
 interrupt_cleans_up() { # SIGNAL
   local process status
   echo "as it was" >kept.svg

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "tests/failures.h"
+#include "tests/judged.h"
 #include "tests/judge/raster.h"
 #include "tests/scenes/random.h"
 
@@ -62,7 +62,7 @@ static void check_convex(const struct scene *scene,
   }
   double drawn = pipeline_length(&pipeline, RECTO_EDGES_ALL, false) +
                  pipeline_length(&pipeline, RECTO_EDGES_ALL, true);
-  failures_assert_near(drawn, length, 1e-4, "visible and hidden");
+  judged_assert_near(drawn, length, 1e-4, "visible and hidden");
   pipeline_fini(&pipeline);
 }
 
@@ -97,7 +97,7 @@ static void a_corner_view_of_a_cube_has_nine_edges(void **state) {
     scene_init(&scene);
     scenes_cube(&scene, &options, turn < 5e-12 ? 0 : turn / 10);
     run(&pipeline, &scene, &options);
-    failures_count_states(&pipeline, count);
+    judged_count_states(&pipeline, count);
     assert_int_equal(count[MAP_VISIBLE], 9);
     assert_int_equal(count[MAP_HIDDEN], 3);
     assert_int_equal(count[MAP_MIXED], 0);
@@ -123,7 +123,7 @@ static void a_cube_seen_square_on_keeps_its_outline(void **state) {
     assert_true(drawn > 360 - 0.2);
     assert_true(drawn < 450 + 0.4);
     if (turn < 5e-10)
-      failures_assert_near(drawn, 360, 1e-5, "outline");
+      judged_assert_near(drawn, 360, 1e-5, "outline");
     pipeline_fini(&pipeline);
     scene_fini(&scene);
   }
@@ -139,16 +139,16 @@ static void pierced_scenes_have_their_exact_areas(void **state) {
   pipeline_fill(&scene, &options, scenes_find("pierced rectangle"));
   options.ink.fill = RECTO_FILL_PAINT;
   run(&pipeline, &scene, &options);
-  failures_assert_near(failures_area(&pipeline, 0), 275, 1e-7, "1");
-  failures_assert_near(failures_area(&pipeline, 1), 25 + 100 / 3.0, 1e-7, "2");
+  judged_assert_near(judged_area(&pipeline, 0), 275, 1e-7, "1");
+  judged_assert_near(judged_area(&pipeline, 1), 25 + 100 / 3.0, 1e-7, "2");
   pipeline_fini(&pipeline);
   scene_fini(&scene);
   pipeline_fill(&scene, &options, scenes_find("two rectangles"));
   options.ink.fill = RECTO_FILL_PAINT;
   run(&pipeline, &scene, &options);
-  failures_assert_near(failures_area(&pipeline, 0), 1175 / 4.0, 1e-7, "1");
-  failures_assert_near(failures_area(&pipeline, 1), 178 / 3.0, 1e-7, "2");
-  failures_assert_near(failures_area(&pipeline, 2), 661 / 12.0, 1e-7, "3");
+  judged_assert_near(judged_area(&pipeline, 0), 1175 / 4.0, 1e-7, "1");
+  judged_assert_near(judged_area(&pipeline, 1), 178 / 3.0, 1e-7, "2");
+  judged_assert_near(judged_area(&pipeline, 2), 661 / 12.0, 1e-7, "3");
   pipeline_fini(&pipeline);
   scene_fini(&scene);
 }
@@ -161,9 +161,8 @@ static void lines_where_faces_pierce_are_drawn(void **state) {
   pipeline_fill(&scene, &options, scenes_find("pierced rectangle"));
   run(&pipeline, &scene, &options);
   /* From (20, 20) to (45/2, 25/2). */
-  failures_assert_near(
-      pipeline_length(&pipeline, RECTO_EDGE_INTERSECTION, false),
-      hypot(2.5, 7.5), 1e-5, "intersection");
+  judged_assert_near(pipeline_length(&pipeline, RECTO_EDGE_INTERSECTION, false),
+                     hypot(2.5, 7.5), 1e-5, "intersection");
   pipeline_fini(&pipeline);
   options.ink.edges &= ~(unsigned)RECTO_EDGE_INTERSECTION;
   run(&pipeline, &scene, &options);
@@ -205,7 +204,7 @@ static double sum_areas(const struct pipeline *pipeline,
                         const struct scene *scene) {
   double sum = 0;
   for (uint32_t i = 0; i < scene_face_count(scene); i++)
-    sum += failures_area(pipeline, i);
+    sum += judged_area(pipeline, i);
   return sum;
 }
 
@@ -227,8 +226,8 @@ static void a_field_of_100_cycles_is_100_times_one(void **state) {
   run(&one, &scene_one, &options);
   run(&field, &scene_field, &options);
   assert_int_equal(field.map.fragment.count, 100 * one.map.fragment.count);
-  failures_assert_near(sum_areas(&field, &scene_field),
-                       100 * sum_areas(&one, &scene_one), 1e-3, "areas");
+  judged_assert_near(sum_areas(&field, &scene_field),
+                     100 * sum_areas(&one, &scene_one), 1e-3, "areas");
   pipeline_fini(&one);
   pipeline_fini(&field);
   scene_fini(&scene_one);
@@ -295,8 +294,7 @@ static void areas_of_1000_sticks_add_up_to_their_union(void **state) {
   }
   for (unsigned row = 0; row < rows; row++)
     area += covered(at, sticks, 100 * (row + 0.5) / rows, span) * 100 / rows;
-  failures_assert_near(sum_areas(&pipeline, &scene), area, 1e-4 * area,
-                       "union");
+  judged_assert_near(sum_areas(&pipeline, &scene), area, 1e-4 * area, "union");
   pipeline_fini(&pipeline);
   scene_fini(&scene);
 }
@@ -338,7 +336,7 @@ static void check_against_raster(const char *name, unsigned n) {
   pipeline_fill(&scene, &options, scenes_find(name));
   options.ink.fill = RECTO_FILL_PAINT;
   run(&pipeline, &scene, &options);
-  failures_camera(&camera, &pipeline);
+  judged_camera(&camera, &pipeline);
   judge_raster_init(&exact, n, 100);
   judge_raster_init(&raster, n, 100);
   raster_fragments(&exact, &pipeline);
@@ -386,12 +384,12 @@ static void a_doubled_mesh_is_drawn_once(void **state) {
   run(&alone, &once, &options);
   for (uint32_t i = 0; i < half; i++) {
     /* What ties in depth is seen of the earlier face alone. */
-    assert_true(failures_area(&pipeline, i) == failures_area(&alone, i));
-    assert_true(failures_area(&pipeline, half + i) == 0);
+    assert_true(judged_area(&pipeline, i) == judged_area(&alone, i));
+    assert_true(judged_area(&pipeline, half + i) == 0);
   }
-  failures_assert_near(pipeline_length(&pipeline, RECTO_EDGES_ALL, false),
-                       pipeline_length(&alone, RECTO_EDGES_ALL, false), 1e-5,
-                       "lines");
+  judged_assert_near(pipeline_length(&pipeline, RECTO_EDGES_ALL, false),
+                     pipeline_length(&alone, RECTO_EDGES_ALL, false), 1e-5,
+                     "lines");
   pipeline_fini(&pipeline);
   pipeline_fini(&alone);
   scene_fini(&twice);
@@ -406,10 +404,10 @@ static void two_colours_in_one_plane_keep_their_areas(void **state) {
   pipeline_fill(&scene, &options, scenes_find("two colours"));
   options.ink.fill = RECTO_FILL_PAINT;
   run(&pipeline, &scene, &options);
-  double field = failures_area(&pipeline, 0);
+  double field = judged_area(&pipeline, 0);
   assert_true(field > 1);
   for (uint32_t i = 0; i < 16; i++)
-    failures_assert_near(failures_area(&pipeline, i), field, 1e-4, "field");
+    judged_assert_near(judged_area(&pipeline, i), field, 1e-4, "field");
   pipeline_fini(&pipeline);
   scene_fini(&scene);
 }
@@ -430,7 +428,7 @@ static void check_turned(void (*fill)(struct scene *, recto_options *, double),
     double length = pipeline_length(&pipeline, RECTO_EDGES_ALL, false);
     if (turn == 0)
       still = length;
-    failures_assert_near(length, still, 1e-3, name);
+    judged_assert_near(length, still, 1e-3, name);
     pipeline_fini(&pipeline);
     scene_fini(&scene);
   }

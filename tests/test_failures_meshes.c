@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "scene/read.h"
-#include "tests/failures.h"
+#include "tests/judged.h"
 #include "tests/temporary.h"
 
 static void run(struct pipeline *pipeline, const struct scene *scene,
@@ -82,7 +82,7 @@ static void flawed_faces_are_drawn_as_the_judge_sees_them(void **state) {
     struct scene scene;
     recto_options options;
     pipeline_fill(&scene, &options, scenes_find(name[i]));
-    failures_assert_judged(&scene, &options, options.ink.edges, name[i]);
+    judged_assert(&scene, &options, options.ink.edges, name[i]);
     scene_fini(&scene);
   }
 }
@@ -103,8 +103,8 @@ static void a_seam_with_hanging_vertices_is_drawn_once(void **state) {
   double up = hypot(matrix[1] + 0.25 * matrix[2], matrix[5] + 0.25 * matrix[6]);
   double down =
       hypot(matrix[1] - 0.25 * matrix[2], matrix[5] - 0.25 * matrix[6]);
-  failures_assert_near(pipeline_length(&pipeline, RECTO_EDGES_ALL, false),
-                       3 * 4 * x + 2 * 4 * up + 2 * 1 * down, 1e-4, "seam");
+  judged_assert_near(pipeline_length(&pipeline, RECTO_EDGES_ALL, false),
+                     3 * 4 * x + 2 * 4 * up + 2 * 1 * down, 1e-4, "seam");
   end(&pipeline, &scene);
 }
 
@@ -119,8 +119,8 @@ static void unwelded_is_drawn_as_welded(void **state) {
   assert_int_equal(two.topology.edge.count, 30);
   assert_true(unwelded.point.count == 60);
   for (unsigned i = 1; i < RECTO_EDGES_ALL; i *= 2)
-    failures_assert_near(pipeline_length(&one, i, false),
-                         pipeline_length(&two, i, false), 1e-4, "class");
+    judged_assert_near(pipeline_length(&one, i, false),
+                       pipeline_length(&two, i, false), 1e-4, "class");
   end(&one, &welded);
   end(&two, &unwelded);
 }
@@ -136,8 +136,8 @@ static void a_face_in_pieces_shows_no_line_inside(void **state) {
   assert_int_equal(pipeline.drawing.stroke.count, 1);
   assert_true(pipeline.drawing.stroke.item[0].closed);
   assert_int_equal(pipeline.drawing.stroke.item[0].count, 4);
-  failures_assert_near(pipeline_length(&pipeline, RECTO_EDGES_ALL, false), 160,
-                       1e-5, "square");
+  judged_assert_near(pipeline_length(&pipeline, RECTO_EDGES_ALL, false), 160,
+                     1e-5, "square");
   end(&pipeline, &scene);
 }
 
@@ -157,7 +157,7 @@ static void no_split_is_drawn(void **state) {
                  (RECTO_EDGE_BORDER | RECTO_EDGE_INTERSECTION)) != 0);
   pipeline_fini(&pipeline);
   /* And each of its points lies on a border or an intersection. */
-  failures_assert_judged(&scene, &options, options.ink.edges, "split faces");
+  judged_assert(&scene, &options, options.ink.edges, "split faces");
   scene_fini(&scene);
 }
 
@@ -172,8 +172,8 @@ static void a_box_seen_square_on_is_one_rectangle(void **state) {
   assert_int_equal(pipeline.drawing.stroke.count, 1);
   assert_true(pipeline.drawing.stroke.item[0].closed);
   assert_int_equal(pipeline.drawing.stroke.item[0].count, 4);
-  failures_assert_near(pipeline_length(&pipeline, RECTO_EDGES_ALL, false), 180,
-                       1e-5, "box");
+  judged_assert_near(pipeline_length(&pipeline, RECTO_EDGES_ALL, false), 180,
+                     1e-5, "box");
   end(&pipeline, &scene);
 }
 
@@ -249,9 +249,9 @@ static void a_straight_edge_is_two_points(void **state) {
   build_box(&box, vector_of(0, 0, 0), vector_of(3, 2, 1));
   run(&plain, &box, &options);
   assert_int_equal(divided.drawing.point.count, plain.drawing.point.count);
-  failures_assert_near(pipeline_length(&divided, RECTO_EDGES_ALL, false),
-                       pipeline_length(&plain, RECTO_EDGES_ALL, false), 1e-4,
-                       "length");
+  judged_assert_near(pipeline_length(&divided, RECTO_EDGES_ALL, false),
+                     pipeline_length(&plain, RECTO_EDGES_ALL, false), 1e-4,
+                     "length");
   end(&divided, &scene);
   end(&plain, &box);
 }

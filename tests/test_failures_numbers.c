@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "tests/comma_locale.h"
-#include "tests/failures.h"
+#include "tests/judged.h"
 
 static char *draw(const struct scene *scene, const recto_options *options) {
   size_t length;

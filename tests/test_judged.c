@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "scene/read.h"
-#include "tests/failures.h"
+#include "tests/judged.h"
 #include "tests/scenes/judge_camera.h"
 #include "tests/temporary.h"
 #include "view/camera_aim.h"
@@ -27,7 +27,7 @@ static void the_shared_scenes_are_drawn_right(void **state) {
      * are moved are left to test_failures_lines. */
     if (strncmp(entry->name, "sheets ", 7) != 0 ||
         strstr(entry->name, "1e-3") != NULL)
-      failures_assert_judged(&scene, &options, options.ink.edges, entry->name);
+      judged_assert(&scene, &options, options.ink.edges, entry->name);
     scene_fini(&scene);
   }
 }
@@ -45,7 +45,7 @@ static void eyes_in_degenerate_positions_see_all_that_is_visible(void **state) {
     options.ink.min_stroke_mm = 0;
     options.output.precision = 6;
     options.ink.edges = RECTO_EDGES_ALL;
-    failures_assert_judged(&scene, &options, options.ink.edges, name);
+    judged_assert(&scene, &options, options.ink.edges, name);
     struct pipeline pipeline;
     pipeline_run(&pipeline, &scene, &options, &solver_newell);
     assert_true(pipeline_length(&pipeline, RECTO_EDGES_ALL, false) > 50);
@@ -69,7 +69,7 @@ static void surfaces_do_not_leak_at_any_step(void **state) {
       fill[i](&scene, &options, n);
       options.ink.min_stroke_mm = 0;
       options.output.precision = 6;
-      failures_assert_judged(&scene, &options, options.ink.edges, name);
+      judged_assert(&scene, &options, options.ink.edges, name);
       scene_fini(&scene);
     }
   }
@@ -92,9 +92,9 @@ static void random_small_scenes_are_drawn_right(void **state) {
     /* Without a contact tolerance the grid decides, which doubles cannot. */
     options.solver.contact = -1;
     if (camera_aim(&camera, &scene, &options, NULL) == RECTO_OK)
-      failures_assert_judged(
-          &scene, &options,
-          options.ink.edges & ~(unsigned)RECTO_EDGE_INTERSECTION, name);
+      judged_assert(&scene, &options,
+                    options.ink.edges & ~(unsigned)RECTO_EDGE_INTERSECTION,
+                    name);
     scene_fini(&scene);
   }
 }

@@ -12,39 +12,42 @@
 
 #include "visibility/watkins/pitch/watkins.h"
 
-/* A walk of the lists themselves. */
-struct walk {
+/* The lists of a sheet, line by line. */
+struct scanned {
   struct sheet sheet;
   struct facets facets;
   struct watkins watkins;
 };
 
-static void start_walk(struct walk *walk, const struct pixels_scene *scene,
-                       double pitch_mm) {
+static void start_scan(struct scanned *scanned,
+                       const struct pixels_scene *scene, double pitch_mm) {
   struct scan_grid grid;
-  pixels_sheet(&walk->sheet, scene);
-  assert_true(facets_init(&walk->facets, &walk->sheet));
-  assert_int_equal(watkins_grid(&grid, &walk->sheet, pitch_mm, NULL), RECTO_OK);
-  assert_true(watkins_init(&walk->watkins, &walk->sheet, &walk->facets, &grid));
+  pixels_sheet(&scanned->sheet, scene);
+  assert_true(facets_init(&scanned->facets, &scanned->sheet));
+  assert_int_equal(watkins_grid(&grid, &scanned->sheet, pitch_mm, NULL),
+                   RECTO_OK);
+  assert_true(watkins_init(&scanned->watkins, &scanned->sheet, &scanned->facets,
+                           &grid));
 }
 
-static void end_walk(struct walk *walk) {
-  watkins_fini(&walk->watkins);
-  facets_fini(&walk->facets);
-  exact_sheet_fini(&walk->sheet);
+static void end_scan(struct scanned *scanned) {
+  watkins_fini(&scanned->watkins);
+  facets_fini(&scanned->facets);
+  exact_sheet_fini(&scanned->sheet);
 }
 
-static bool next_line(struct walk *walk) {
+static bool next_line(struct scanned *scanned) {
   bool more;
-  assert_true(watkins_next(&walk->watkins, &more));
+  assert_true(watkins_next(&scanned->watkins, &more));
   return more;
 }
 
 /* x on the line, as the scene has it. */
 static double scene_x(double x) { return x / PIXELS_UNIT + PIXELS_SIDE / 2; }
 
-static int face_of(const struct walk *walk, const struct watkins_span *span) {
-  return (int)walk->watkins.facet.item[span->facet].face;
+static int face_of(const struct scanned *scanned,
+                   const struct watkins_span *span) {
+  return (int)scanned->watkins.facet.item[span->facet].face;
 }
 
 static void assert_near(double got, double want) {
@@ -55,17 +58,18 @@ static void assert_near(double got, double want) {
 /* ---- Frames -------------------------------------------------------------- */
 
 /* Is the facet's depth at x above that of another by more than rounding? */
-static bool is_nearer(const struct walk *walk, uint32_t f, uint32_t g,
+static bool is_nearer(const struct scanned *scanned, uint32_t f, uint32_t g,
                       double x) {
-  return watkins_depth(&walk->watkins, f, x) -
-             watkins_depth(&walk->watkins, g, x) >
+  return watkins_depth(&scanned->watkins, f, x) -
+             watkins_depth(&scanned->watkins, g, x) >
          1;
 }
 
 /* The face at the centre of a column.  Pieces are tested with their ends: where
  * two meet at the centre, the nearer, the earlier where equally near. */
-static int seen_at_column(const struct walk *walk, int column, int columns) {
-  const struct watkins *watkins = &walk->watkins;
+static int seen_at_column(const struct scanned *scanned, int column,
+                          int columns) {
+  const struct watkins *watkins = &scanned->watkins;
   double x =
       ((column + 0.5) * PIXELS_SIDE / columns - PIXELS_SIDE / 2) * PIXELS_UNIT;
   const struct watkins_span *seen = NULL;
@@ -73,16 +77,16 @@ static int seen_at_column(const struct walk *walk, int column, int columns) {
     const struct watkins_span *span = &watkins->span.item[i];
     if (x < span->x0 - 0x1p-8 || x > span->x1 + 0x1p-8)
       continue;
-    if (seen == NULL || is_nearer(walk, span->facet, seen->facet, x) ||
-        (!is_nearer(walk, seen->facet, span->facet, x) &&
-         face_of(walk, span) < face_of(walk, seen)))
+    if (seen == NULL || is_nearer(scanned, span->facet, seen->facet, x) ||
+        (!is_nearer(scanned, seen->facet, span->facet, x) &&
+         face_of(scanned, span) < face_of(scanned, seen)))
       seen = span;
   }
-  return seen == NULL ? -1 : face_of(walk, seen);
+  return seen == NULL ? -1 : face_of(scanned, seen);
 }
 
-static void assert_spans_in_order(const struct walk *walk) {
-  const struct watkins *watkins = &walk->watkins;
+static void assert_spans_in_order(const struct scanned *scanned) {
+  const struct watkins *watkins = &scanned->watkins;
   for (size_t i = 0; i < watkins->span.count; i++) {
     assert_true(watkins->span.item[i].x0 <= watkins->span.item[i].x1);
     if (i > 0)
@@ -93,18 +97,18 @@ static void assert_spans_in_order(const struct walk *walk) {
 /* Compares every pixel with the oracle, at `lines` lines over the page. */
 static void assert_frame_is_judged(const struct pixels_scene *scene,
                                    int lines) {
-  struct walk walk;
+  struct scanned scanned;
   int32_t next = lines - 1;
-  start_walk(&walk, scene, (double)PIXELS_SIDE / lines);
-  assert_int_equal(walk.watkins.table.grid.lines, lines);
-  while (next_line(&walk)) {
-    int32_t line = walk.watkins.table.line;
+  start_scan(&scanned, scene, (double)PIXELS_SIDE / lines);
+  assert_int_equal(scanned.watkins.table.grid.lines, lines);
+  while (next_line(&scanned)) {
+    int32_t line = scanned.watkins.table.line;
     for (; next >= line; next--) {
       if (next == line)
-        assert_spans_in_order(&walk);
+        assert_spans_in_order(&scanned);
       for (int column = 0; column < lines; column++) {
         int want = pixels_seen(scene, lines, column, next, NULL);
-        int got = next == line ? seen_at_column(&walk, column, lines) : -1;
+        int got = next == line ? seen_at_column(&scanned, column, lines) : -1;
         if (got != want)
           fail_msg("%d lines, pixel %d %d: face %d, not %d", lines, column,
                    (int)next, got, want);
@@ -114,7 +118,7 @@ static void assert_frame_is_judged(const struct pixels_scene *scene,
   for (; next >= 0; next--)
     for (int column = 0; column < lines; column++)
       assert_int_equal(pixels_seen(scene, lines, column, next, NULL), -1);
-  end_walk(&walk);
+  end_scan(&scanned);
 }
 
 static void assert_worked_frame(const struct pixels_scene *scene,
@@ -157,9 +161,9 @@ struct listed_edge {
   int face;
 };
 
-static void assert_active(const struct walk *walk,
+static void assert_active(const struct scanned *scanned,
                           const struct listed_edge want[4]) {
-  const struct watkins *watkins = &walk->watkins;
+  const struct watkins *watkins = &scanned->watkins;
   const struct scan_table *table = &watkins->table;
   assert_int_equal(table->active_count, 4);
   for (size_t i = 0; i < 4; i++) {
@@ -174,11 +178,11 @@ static void assert_active(const struct walk *walk,
   }
 }
 
-static void walk_to_line(struct walk *walk, int32_t line) {
+static void scan_to_line(struct scanned *scanned, int32_t line) {
   do
-    assert_true(next_line(walk));
-  while (walk->watkins.table.line > line);
-  assert_int_equal(walk->watkins.table.line, line);
+    assert_true(next_line(scanned));
+  while (scanned->watkins.table.line > line);
+  assert_int_equal(scanned->watkins.table.line, line);
 }
 
 static void active_edges_are_as_listed(void **state) {
@@ -196,28 +200,28 @@ static void active_edges_are_as_listed(void **state) {
                                                {16.5, 3, 4, 14, -2, 1},
                                                {25, 0, 9, 10, 0, 0},
                                                {28.5, 1 / 3., 4, 5, 0, 1}};
-  struct walk walk;
+  struct scanned scanned;
   (void)state;
-  start_walk(&walk, &pixels_pierced_rectangle, 1);
-  walk_to_line(&walk, 24);
-  assert_active(&walk, line_24);
-  walk_to_line(&walk, 15);
-  assert_active(&walk, line_15);
-  walk_to_line(&walk, 14);
-  assert_active(&walk, line_14);
-  walk_to_line(&walk, 9);
-  assert_int_equal(walk.watkins.table.active_count, 2);
-  end_walk(&walk);
+  start_scan(&scanned, &pixels_pierced_rectangle, 1);
+  scan_to_line(&scanned, 24);
+  assert_active(&scanned, line_24);
+  scan_to_line(&scanned, 15);
+  assert_active(&scanned, line_15);
+  scan_to_line(&scanned, 14);
+  assert_active(&scanned, line_14);
+  scan_to_line(&scanned, 9);
+  assert_int_equal(scanned.watkins.table.active_count, 2);
+  end_scan(&scanned);
 }
 
 static void edges_wait_in_the_order_of_y_x_and_dx(void **state) {
   (void)state;
   for (uint64_t seed = 300; seed < 340; seed++) {
     struct pixels_scene scene;
-    struct walk walk;
-    const struct scan_table *table = &walk.watkins.table;
+    struct scanned scanned;
+    const struct scan_table *table = &scanned.watkins.table;
     pixels_random_scene(&scene, seed);
-    start_walk(&walk, &scene, 1);
+    start_scan(&scanned, &scene, 1);
     for (size_t i = 1; i < table->edge.count; i++) {
       const struct scan_edge *a = &table->edge.item[table->order[i - 1]];
       const struct scan_edge *b = &table->edge.item[table->order[i]];
@@ -225,7 +229,7 @@ static void edges_wait_in_the_order_of_y_x_and_dx(void **state) {
       if (a->line == b->line)
         assert_true(scan_edge_compare(a, b, &table->grid) <= 0);
     }
-    end_walk(&walk);
+    end_scan(&scanned);
   }
 }
 
@@ -234,22 +238,22 @@ struct listed_span {
   int face;
 };
 
-static void assert_spans(const struct walk *walk,
+static void assert_spans(const struct scanned *scanned,
                          const struct listed_span *want, size_t count) {
-  assert_int_equal(walk->watkins.span.count, count);
+  assert_int_equal(scanned->watkins.span.count, count);
   for (size_t i = 0; i < count; i++) {
-    const struct watkins_span *span = &walk->watkins.span.item[i];
+    const struct watkins_span *span = &scanned->watkins.span.item[i];
     assert_near(scene_x(span->x0), want[i].x0);
     assert_near(scene_x(span->x1), want[i].x1);
-    assert_int_equal(face_of(walk, span), want[i].face);
+    assert_int_equal(face_of(scanned, span), want[i].face);
   }
 }
 
 static double grid_x(double x) { return (x - PIXELS_SIDE / 2) * PIXELS_UNIT; }
 
 /* The interval from 15.5 to 25 has different signs at its ends. */
-static void assert_depths_of_line_15(struct walk *walk) {
-  struct watkins *watkins = &walk->watkins;
+static void assert_depths_of_line_15(struct scanned *scanned) {
+  struct watkins *watkins = &scanned->watkins;
   static const struct {
     double x, depth;
     int sign;
@@ -269,52 +273,52 @@ static void assert_depths_of_line_15(struct walk *walk) {
 static void line_15_is_split_as_listed(void **state) {
   static const struct listed_span spans[] = {
       {10, 15.5, 0}, {15.5, 21.5, 1}, {21.5, 25, 0}, {25, 28 + 1 / 6., 1}};
-  struct walk walk;
+  struct scanned scanned;
   int64_t before;
   (void)state;
-  start_walk(&walk, &pixels_pierced_rectangle, 1);
-  walk_to_line(&walk, 16);
-  before = walk.watkins.counts.splits;
-  walk_to_line(&walk, 15);
-  assert_int_equal(walk.watkins.counts.splits, before + 1);
-  assert_spans(&walk, spans, 4);
-  assert_int_equal(walk.watkins.span.item[1].right, WATKINS_NONE);
-  assert_int_equal(walk.watkins.span.item[2].left, WATKINS_NONE);
-  assert_depths_of_line_15(&walk);
-  end_walk(&walk);
+  start_scan(&scanned, &pixels_pierced_rectangle, 1);
+  scan_to_line(&scanned, 16);
+  before = scanned.watkins.counts.splits;
+  scan_to_line(&scanned, 15);
+  assert_int_equal(scanned.watkins.counts.splits, before + 1);
+  assert_spans(&scanned, spans, 4);
+  assert_int_equal(scanned.watkins.span.item[1].right, WATKINS_NONE);
+  assert_int_equal(scanned.watkins.span.item[2].left, WATKINS_NONE);
+  assert_depths_of_line_15(&scanned);
+  end_scan(&scanned);
 }
 
 static void line_14_is_split_as_listed(void **state) {
   /* 3 x + y = 80 at y = 14.5. */
   static const struct listed_span spans[] = {
       {10, 16.5, 0}, {16.5, 65.5 / 3, 1}, {65.5 / 3, 25, 0}, {25, 28.5, 1}};
-  struct walk walk;
+  struct scanned scanned;
   (void)state;
-  start_walk(&walk, &pixels_pierced_rectangle, 1);
-  walk_to_line(&walk, 14);
-  assert_spans(&walk, spans, 4);
-  end_walk(&walk);
+  start_scan(&scanned, &pixels_pierced_rectangle, 1);
+  scan_to_line(&scanned, 14);
+  assert_spans(&scanned, spans, 4);
+  end_scan(&scanned);
 }
 
 /* Tangents of a parabola: each of the nine is seen between two others, and the
  * stack holds several parts. */
 static void an_interval_is_split_wherever_two_seen_faces_pierce(void **state) {
   struct pixels_scene fan = {9, {{0}}};
-  struct walk walk;
+  struct scanned scanned;
   (void)state;
   for (int f = 0; f < 9; f++) {
     int t = f - 4, left = 48 - 8 * t - t * t, right = 48 + 8 * t - t * t;
     fan.face[f] = (struct pixels_face){
         4, {{0, 0, left}, {32, 0, right}, {32, 32, right}, {0, 32, left}}};
   }
-  start_walk(&walk, &fan, 1);
-  assert_true(next_line(&walk));
-  assert_int_equal(walk.watkins.counts.intervals, 1);
-  assert_int_equal(walk.watkins.counts.splits, 8);
-  assert_int_equal(walk.watkins.span.count, 9);
+  start_scan(&scanned, &fan, 1);
+  assert_true(next_line(&scanned));
+  assert_int_equal(scanned.watkins.counts.intervals, 1);
+  assert_int_equal(scanned.watkins.counts.splits, 8);
+  assert_int_equal(scanned.watkins.span.count, 9);
   for (size_t i = 0; i < 9; i++)
-    assert_int_equal(face_of(&walk, &walk.watkins.span.item[i]), i);
-  end_walk(&walk);
+    assert_int_equal(face_of(&scanned, &scanned.watkins.span.item[i]), i);
+  end_scan(&scanned);
   assert_frame_is_judged(&fan, 32);
 }
 
@@ -324,9 +328,9 @@ static void an_interval_is_split_wherever_two_seen_faces_pierce(void **state) {
  * line above is forgotten; the spans of each line are the same. */
 static void compare_coherence(const struct pixels_scene *scene, double pitch_mm,
                               int64_t *with, int64_t *without) {
-  struct walk kept, anew;
-  start_walk(&kept, scene, pitch_mm);
-  start_walk(&anew, scene, pitch_mm);
+  struct scanned kept, anew;
+  start_scan(&kept, scene, pitch_mm);
+  start_scan(&anew, scene, pitch_mm);
   while (next_line(&kept)) {
     anew.watkins.record[0].count = anew.watkins.record[1].count = 0;
     assert_true(next_line(&anew));
@@ -341,8 +345,8 @@ static void compare_coherence(const struct pixels_scene *scene, double pitch_mm,
   *with = kept.watkins.counts.comparisons;
   *without = anew.watkins.counts.comparisons;
   assert_int_equal(anew.watkins.counts.coherent, 0);
-  end_walk(&kept);
-  end_walk(&anew);
+  end_scan(&kept);
+  end_scan(&anew);
 }
 
 static void coherence_saves_comparisons_and_changes_nothing(void **state) {

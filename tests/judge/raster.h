@@ -1,6 +1,6 @@
 /* raster.h - a plain depth buffer, to compare visible fragments with. */
-#ifndef JUDGE_RASTER_H
-#define JUDGE_RASTER_H
+#ifndef TESTS_JUDGE_RASTER_H
+#define TESTS_JUDGE_RASTER_H
 
 #include "judge/judge.h"
 

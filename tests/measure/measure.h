@@ -7,8 +7,8 @@
  *          1e-12 of the page's area a pair of fragments.
  * Ink      along each drawable edge, the visible intervals of the two are
  *          compared as the exact ratios that they are. */
-#ifndef MEASURE_MEASURE_H
-#define MEASURE_MEASURE_H
+#ifndef TESTS_MEASURE_MEASURE_H
+#define TESTS_MEASURE_MEASURE_H
 
 #include "visibility/map.h"
 

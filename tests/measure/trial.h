@@ -1,6 +1,6 @@
 /* trial.h - a scene by one method: the map, and the CPU time to find it. */
-#ifndef MEASURE_TRIAL_H
-#define MEASURE_TRIAL_H
+#ifndef TESTS_MEASURE_TRIAL_H
+#define TESTS_MEASURE_TRIAL_H
 
 #include "tests/measure/measure.h"
 #include "visibility/solver.h"

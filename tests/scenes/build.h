@@ -3,8 +3,8 @@
  * These serve tests, so running out of memory ends the program with a
  * message instead of a status.  Faces that the scene's own checks refuse
  * (zero area, fewer than three distinct corners) are left out silently. */
-#ifndef SCENES_BUILD_H
-#define SCENES_BUILD_H
+#ifndef TESTS_SCENES_BUILD_H
+#define TESTS_SCENES_BUILD_H
 
 #include "scene/scene.h"
 

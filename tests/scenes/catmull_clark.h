@@ -1,6 +1,6 @@
 /* catmull_clark.h - smooth meshes of quadrilaterals from coarse ones. */
-#ifndef SCENES_CATMULL_CLARK_H
-#define SCENES_CATMULL_CLARK_H
+#ifndef TESTS_SCENES_CATMULL_CLARK_H
+#define TESTS_SCENES_CATMULL_CLARK_H
 
 #include "scene/scene.h"
 

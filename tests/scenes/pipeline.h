@@ -1,6 +1,6 @@
 /* pipeline.h - a scene through all stages of the library in one call. */
-#ifndef SCENES_PIPELINE_H
-#define SCENES_PIPELINE_H
+#ifndef TESTS_SCENES_PIPELINE_H
+#define TESTS_SCENES_PIPELINE_H
 
 #include "drawing/drawing.h"
 #include "tests/scenes/scenes.h"

@@ -1,6 +1,6 @@
 /* random.h - random numbers that are the same on every machine (splitmix64). */
-#ifndef SCENES_RANDOM_H
-#define SCENES_RANDOM_H
+#ifndef TESTS_SCENES_RANDOM_H
+#define TESTS_SCENES_RANDOM_H
 
 #include <stdint.h>
 

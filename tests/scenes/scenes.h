@@ -5,8 +5,8 @@
  * page and ink options that show the failure; all else in `options` is left
  * as recto_options_init made it.  The same arguments give the same scene on
  * every machine (up to the last bits of sin, cos and sqrt). */
-#ifndef SCENES_SCENES_H
-#define SCENES_SCENES_H
+#ifndef TESTS_SCENES_SCENES_H
+#define TESTS_SCENES_SCENES_H
 
 #include "scene/diagnostics.h"
 #include "tests/scenes/build.h"

@@ -1,6 +1,6 @@
 /* subdivide.h - finer meshes from coarse ones: each triangle becomes four. */
-#ifndef SCENES_SUBDIVIDE_H
-#define SCENES_SUBDIVIDE_H
+#ifndef TESTS_SCENES_SUBDIVIDE_H
+#define TESTS_SCENES_SUBDIVIDE_H
 
 #include "scene/scene.h"
 

@@ -1,5 +1,5 @@
-/* failures.c - see failures.h. */
-#include "tests/failures.h"
+/* judged.c - see judged.h. */
+#include "tests/judged.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -11,8 +11,8 @@
 
 #include "tests/scenes/judge_camera.h"
 
-void failures_camera(struct judge_camera *camera,
-                     const struct pipeline *pipeline) {
+void judged_camera(struct judge_camera *camera,
+                   const struct pipeline *pipeline) {
   const struct camera *used = &pipeline->camera;
   double matrix[12];
   camera_matrix(used, matrix);
@@ -22,9 +22,8 @@ void failures_camera(struct judge_camera *camera,
     camera->near_d = used->near_d;
 }
 
-void failures_assert_judged(const struct scene *scene,
-                            const recto_options *options, unsigned required,
-                            const char *name) {
+void judged_assert(const struct scene *scene, const recto_options *options,
+                   unsigned required, const char *name) {
   struct pipeline pipeline;
   struct judge_drawing drawing;
   struct judge_camera camera;
@@ -36,7 +35,7 @@ void failures_assert_judged(const struct scene *scene,
     fail_msg("%s: %s", name, pipeline.error.text);
   char *text = pipeline_svg(&pipeline, options, &length);
   assert_null(judge_read_svg(&drawing, text, length));
-  failures_camera(&camera, &pipeline);
+  judged_camera(&camera, &pipeline);
   judge_options_init(&judging);
   judging.edges = required;
   judging.contact = pipeline.camera.contact;
@@ -57,14 +56,14 @@ void failures_assert_judged(const struct scene *scene,
   pipeline_fini(&pipeline);
 }
 
-void failures_count_states(const struct pipeline *pipeline, unsigned count[3]) {
+void judged_count_states(const struct pipeline *pipeline, unsigned count[3]) {
   memset(count, 0, 3 * sizeof *count);
   for (size_t i = 0; i < pipeline->map.edge_count; i++)
     if (pipeline->sheet.edge.item[i].edge_class != 0)
       count[pipeline->map.edge_state[i]]++;
 }
 
-double failures_area(const struct pipeline *pipeline, uint32_t face) {
+double judged_area(const struct pipeline *pipeline, uint32_t face) {
   const struct map *map = &pipeline->map;
   double twice = 0;
   for (size_t i = 0; i < map->fragment.count; i++) {
@@ -81,7 +80,7 @@ double failures_area(const struct pipeline *pipeline, uint32_t face) {
   return twice / 2 / (SHEET_UNITS_PER_MM * SHEET_UNITS_PER_MM);
 }
 
-void failures_assert_near(double a, double b, double within, const char *name) {
+void judged_assert_near(double a, double b, double within, const char *name) {
   if (!(fabs(a - b) <= within))
     fail_msg("%s: %.9g is not %.9g (within %g)", name, a, b, within);
 }
