@@ -20,6 +20,7 @@ struct fit {
   struct corner_moves moves;
   uint32_t *new_half;   /* one a half-edge and one more: the first it becomes */
   uint32_t *new_corner; /* one a corner */
+  uint8_t *is_bent;     /* one a corner: a point of its side is moved */
   ARRAY(struct map_corner) corner; /* the new ones */
   ARRAY(struct map_half_edge) half_edge;
 };
@@ -122,11 +123,21 @@ static double map_coordinate(double x) {
   return rint(x * MAP_CORNER_SCALE) / MAP_CORNER_SCALE;
 }
 
-/* Whether a half-edge starts a side of its own: where sides are moved they bend
- * at each of their neighbours' corners. */
+/* Whether a half-edge starts a side of its own: sides of which a point is moved
+ * bend at each of their neighbours' corners. */
 static bool starts_side(const struct fit *f, const struct map_half_edge *half) {
-  return half->origin == half->side ||
-         corner_moves_at(&f->moves, half->origin) != NULL || is_along(f, half);
+  return half->origin == half->side || f->is_bent[half->side] ||
+         is_along(f, half);
+}
+
+static bool find_bent_sides(struct fit *f) {
+  const struct map_half_edge *half = f->map->half_edge.item;
+  f->is_bent = mem_calloc(f->map->corner.count, 1);
+  for (size_t h = 0; f->is_bent != NULL && h < f->map->half_edge.count; h++)
+    if (corner_moves_at(&f->moves, half[h].origin) != NULL ||
+        corner_moves_at(&f->moves, half[half[h].next].origin) != NULL)
+      f->is_bent[half[h].side] = 1;
+  return f->is_bent != NULL;
 }
 
 static bool add_half_edge(struct fit *f, struct map_half_edge half) {
@@ -228,12 +239,14 @@ bool fit_fragments(struct map *map, const struct sheet *sheet,
       .map = map,
       .moves = {
           .map = map, .sheet = sheet, .topology = topology, .first = first}};
-  bool ok = corner_moves_find(&f.moves) && count_points(&f) && make_loops(&f);
+  bool ok = corner_moves_find(&f.moves) && count_points(&f) &&
+            find_bent_sides(&f) && make_loops(&f);
   if (ok)
     replace_loops(&f);
   corner_moves_fini(&f.moves);
   mem_free(f.new_half);
   mem_free(f.new_corner);
+  mem_free(f.is_bent);
   ARRAY_FREE(&f.corner);
   ARRAY_FREE(&f.half_edge);
   return ok;
