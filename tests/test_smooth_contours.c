@@ -252,6 +252,73 @@ static void bodies_of_few_faces_keep_their_outline(void **state) {
   }
 }
 
+/* ---- Outlines ------------------------------------------------------------ */
+
+/* A body with bumps of few triangles each: their contours pass close to each
+ * other. */
+static void bumpy(double u, double v, double p[3]) {
+  double r = 1 + 0.08 * sin(3 * u) * sin(2 * v);
+  sphere(u, v, p);
+  for (int k = 0; k < 3; k++)
+    p[k] *= r;
+}
+
+/* How far along a direction of the page, of unit length, the image of an edge
+ * is crossed, mm; 0: it is not. */
+static double crossing_at(const double d[2], const double p[2],
+                          const double q[2]) {
+  double a = d[0] * p[1] - d[1] * p[0], b = d[0] * q[1] - d[1] * q[0];
+  if ((a < 0) == (b < 0))
+    return 0;
+  double t = a / (a - b);
+  return d[0] * (p[0] + t * (q[0] - p[0])) + d[1] * (p[1] + t * (q[1] - p[1]));
+}
+
+/* How far the ink is from the points of a mesh that lie farthest from the
+ * middle of the page in each direction, at most, mm. */
+static double distance_of_outline(const recto_drawing *drawing, surface *at,
+                                  int n, int m, const struct axes *axes) {
+  static double mm[24 * 13][2];
+  double most = 0;
+  for (int i = 0; i < n * (m + 1); i++) {
+    double p[3];
+    at(2 * M_PI * (i % n) / n, 2 * M_PI * (i / n) / m, p);
+    mm[i][0] = SCALE_MM * dot(p, axes->right);
+    mm[i][1] = SCALE_MM * dot(p, axes->up);
+  }
+  for (int k = 0; k < SAMPLES; k++) {
+    double angle = 2 * M_PI * k / SAMPLES, far = 0;
+    const double d[2] = {cos(angle), sin(angle)};
+    for (int i = 0; i < n * m; i++) {
+      int next = i % n == n - 1 ? i + 1 - n : i + 1;
+      far = fmax(far, crossing_at(d, mm[i], mm[next]));
+      far = fmax(far, crossing_at(d, mm[i], mm[i + n]));
+      far = fmax(far, crossing_at(d, mm[i], mm[next + n]));
+    }
+    const double outline[2] = {PAGE_MM / 2 + far * d[0],
+                               PAGE_MM / 2 + far * d[1]};
+    most = fmax(most, distance_to_ink(drawing, outline));
+  }
+  return most;
+}
+
+static void no_part_of_the_outline_is_missing(void **state) {
+  (void)state;
+  enum { N = 24, M = 12 };
+  recto_scene *scene = make_scene(bumpy, true, N, M);
+  for (int view = 0; view < 2 * VIEWS; view++) {
+    recto_options options;
+    init_view(&options, view);
+    struct axes axes = axes_of(&options);
+    recto_drawing *drawing = draw(scene, &options);
+    double distance = distance_of_outline(drawing, bumpy, N, M, &axes);
+    if (!(distance <= 2))
+      fail_msg("view %d: %g mm of the outline are missing", view, distance);
+    recto_drawing_destroy(drawing);
+  }
+  recto_scene_destroy(scene);
+}
+
 static void smooth_contours_are_not_verified(void **state) {
   (void)state;
   recto_scene *scene = smooth_scene(smooth_torus, false, 12, 8);
@@ -274,6 +341,7 @@ int main(void) {
       cmocka_unit_test(a_part_of_creases_is_drawn_by_its_own_edges),
       cmocka_unit_test(smooth_contours_are_the_same_by_all_methods),
       cmocka_unit_test(bodies_of_few_faces_keep_their_outline),
+      cmocka_unit_test(no_part_of_the_outline_is_missing),
       cmocka_unit_test(smooth_contours_are_not_verified),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

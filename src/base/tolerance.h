@@ -22,6 +22,7 @@
  *             ink/lines/overlap_collinear.c,
  *             ink/lines/overlap.c, ink/lines/overlap_output.c,
  *             ink/hatch/hatch_lines.c, ink/hatch/inset.c,
+ *             visibility/contour/outline_gaps.c,
  *             visibility/index/bsp_plane.h,
  *             visibility/intersection/edge_crossing.c
  * Ten times   lines 20 nm apart, such as two models side by side, become one:
@@ -37,6 +38,15 @@
  * Ten times   a finely divided circle loses points where it bends by less
  *             than 20 nm: shorter files, no visible change. */
 #define TOLERANCE_COLLINEAR_UNITS 2.0
+
+/* Parts of the outline that smooth contours leave open are found to within
+ * this, and contours that end no farther apart leave none.
+ * Unit        page grid units (2^-20 mm)
+ * Derivation  an eighth of a millimetre, less than half of a common pen's
+ *             width: a gap that ink fills.
+ * Users       visibility/contour/outline_gaps.c
+ * Ten times   gaps of a millimetre stay open. */
+#define TOLERANCE_OUTLINE_UNITS (1 << 17)
 
 /* Two faces bend only if the cosine between their normals is below that of the
  * crease angle by more than this.

@@ -32,6 +32,7 @@ librecto_core_la_SOURCES += \
   %D%/contour/facing.c %D%/contour/facing.h \
   %D%/contour/fit_fragments.c %D%/contour/fit_fragments.h \
   %D%/contour/line_ends.c %D%/contour/line_ends.h \
+  %D%/contour/outline_gaps.c %D%/contour/outline_gaps.h \
   %D%/contour/page_crossings.c %D%/contour/page_crossings.h \
   %D%/contour/segment_grid.c %D%/contour/segment_grid.h \
   %D%/contour/zero_creases.c %D%/contour/zero_finder.h \

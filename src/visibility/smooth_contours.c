@@ -12,6 +12,7 @@
 #include "view/clip.h"
 #include "visibility/contour/fit_fragments.h"
 #include "visibility/contour/line_ends.h"
+#include "visibility/contour/outline_gaps.h"
 #include "visibility/contour/page_crossings.h"
 #include "visibility/index/triangle_grid.h"
 
@@ -166,14 +167,6 @@ static bool sample_piece(struct contour_pieces *c,
 
 /* ---- Edges --------------------------------------------------------------- */
 
-static uint32_t first_triangle_of(const struct sheet *sheet, uint32_t face) {
-  size_t t = 0;
-  LOWER_BOUND(t, 0, sheet->triangle.count, sheet->triangle.item[t].face < face);
-  return t < sheet->triangle.count && sheet->triangle.item[t].face == face
-             ? (uint32_t)t
-             : SHEET_NONE;
-}
-
 static bool add_sheet_point(struct sheet *sheet, struct geom_point at,
                             uint32_t *point) {
   *point = (uint32_t)sheet->point.count;
@@ -231,7 +224,7 @@ static bool add_edges(struct contour_pieces *c,
         c->set->segment.item[c->curves->step.item[at.step].segment].face;
     struct sheet_edge edge = {
         .point = {*point},
-        .triangle = {first_triangle_of(sheet, face), SHEET_NONE},
+        .triangle = {first_triangle_of_face(sheet, face), SHEET_NONE},
         .source = SHEET_NONE,
         .group = sheet->face_group[face],
         .edge_class = RECTO_EDGE_SILHOUETTE};
@@ -291,21 +284,30 @@ static bool divide(struct contour_pieces *c, const struct contour_curve *curve,
   return true;
 }
 
+static bool runs_along_crease(const struct contour_pieces *c,
+                              const struct contour_piece *piece) {
+  return contour_curves_segment(c->curves, piece->from.step)->along_crease;
+}
+
 /* Makes short pieces like the two beside them, if these are alike; not where
- * both ends are crossings, which are known to be some. */
+ * both ends are crossings or creases, which are known to be some. */
 static void absorb_short_pieces(struct contour_pieces *c,
                                 const struct contour_curve *curve) {
   size_t count = c->piece.count;
   for (size_t i = 0; i < count; i++) {
     struct contour_piece *piece = &c->piece.item[i];
     if ((!curve->closed && (i == 0 || i + 1 == count)) || count < 3 ||
-        contour_curves_segment(c->curves, piece->from.step)->along_crease ||
-        (piece->from.crossing && piece->to.crossing) ||
+        runs_along_crease(c, piece) ||
         position(piece->to) - position(piece->from) > SHORT_SEGMENTS)
       continue;
-    bool before = c->piece.item[(i + count - 1) % count].is_visible;
-    if (before == c->piece.item[(i + 1) % count].is_visible)
-      piece->is_visible = before;
+    const struct contour_piece *before =
+        &c->piece.item[(i + count - 1) % count];
+    const struct contour_piece *after = &c->piece.item[(i + 1) % count];
+    bool from_is_known = piece->from.crossing || runs_along_crease(c, before);
+    bool to_is_known = piece->to.crossing || runs_along_crease(c, after);
+    if (before->is_visible == after->is_visible &&
+        !(from_is_known && to_is_known))
+      piece->is_visible = before->is_visible;
   }
 }
 
@@ -346,16 +348,20 @@ static bool add_all_curves(struct contour_pieces *c) {
 /* ---- The whole ----------------------------------------------------------- */
 
 static bool add_pieces(struct contour_pieces *c) {
-  bool ok = contour_curves_join(c->curves, c->set, c->crease_deg);
-  if (!ok || c->curves->curve.count == 0)
-    return ok;
-  ok = contour_curves_cut_at_cusps(c->curves) &&
-       page_crossings_cut(c->curves, c->sheet) &&
-       contour_curves_sort_cuts(c->curves) &&
-       triangle_grid_init(&c->grid, c->sheet);
+  uint32_t first = (uint32_t)c->sheet->edge.count;
+  uint32_t first_point = (uint32_t)c->sheet->point.count;
+  if (c->set->outline.count == 0 && c->set->segment.count == 0)
+    return true;
+  bool ok = contour_curves_join(c->curves, c->set, c->crease_deg) &&
+            contour_curves_cut_at_cusps(c->curves) &&
+            page_crossings_cut(c->curves, c->sheet) &&
+            contour_curves_sort_cuts(c->curves) &&
+            triangle_grid_init(&c->grid, c->sheet);
   if (!ok)
     return false;
-  ok = triangle_grid_query_init(&c->query, &c->grid) && add_all_curves(c);
+  ok = triangle_grid_query_init(&c->query, &c->grid) && add_all_curves(c) &&
+       outline_gaps_close(c->sheet, c->map, c->set, first, first_point,
+                          &c->grid, &c->query);
   triangle_grid_query_fini(&c->query);
   triangle_grid_fini(&c->grid);
   ARRAY_FREE(&c->piece);

@@ -129,21 +129,45 @@ static bool is_occluding(const struct facing *f, uint32_t edge) {
          (is_front(f, e->first) == is_front(f, e->second)) == e->same_way;
 }
 
-bool zero_finder_add_border(struct zero_finder *z, uint32_t edge) {
+/* Finds the image of an edge; returns whether any of it is on the page. */
+static bool find_image(const struct zero_finder *z, const uint32_t point[2],
+                       struct geom_segment *image) {
   struct view_point end[2];
   bool moved[2], outside = false;
-  if (!is_occluding(z->facing, edge))
-    return true;
   for (int k = 0; k < 2; k++) {
     double at[3];
-    facing_position(z->facing, z->facing->topology->edge.item[edge].point[k],
-                    at);
+    facing_position(z->facing, point[k], at);
     end[k] = zero_finder_view(z, at);
     outside = outside || clip_outcode(&z->projection, end[k]) != 0;
   }
   if (outside && !clip_segment(&z->projection, end, moved))
+    return false;
+  *image = (struct geom_segment){project_point(&z->projection, end[0]),
+                                 project_point(&z->projection, end[1])};
+  return true;
+}
+
+bool zero_finder_add_border(struct zero_finder *z, uint32_t edge) {
+  struct geom_segment image;
+  return !is_occluding(z->facing, edge) ||
+         !find_image(z, z->facing->topology->edge.item[edge].point, &image) ||
+         ARRAY_PUSH(&z->set->border, image);
+}
+
+bool zero_finder_add_outline(struct zero_finder *z, uint32_t edge) {
+  const struct facing *f = z->facing;
+  const struct topology_edge *e = &f->topology->edge.item[edge];
+  if (e->uses != 2 || e->same_way || f->coarse[e->point[0]] ||
+      f->face_sign[e->first] == f->face_sign[e->second])
     return true;
-  struct geom_segment image = {project_point(&z->projection, end[0]),
-                               project_point(&z->projection, end[1])};
-  return ARRAY_PUSH(&z->set->border, image);
+  struct contour_outline made = {
+      .face = f->face_sign[e->first] == FACING_FRONT ? e->first : e->second};
+  uint32_t c = facing_corner_of_edge(f, made.face, edge);
+  if (c == SHEET_NONE)
+    return true;
+  const uint32_t point[2] = {
+      facing_point(f, c),
+      facing_point(f, scene_next_corner(f->scene, made.face, c))};
+  return !find_image(z, point, &made.image) ||
+         ARRAY_PUSH(&z->set->outline, made);
 }

@@ -41,6 +41,10 @@ USE_RESULT bool zero_finder_cross_crease(struct zero_finder *finder,
 USE_RESULT bool zero_finder_add_border(struct zero_finder *finder,
                                        uint32_t edge);
 
+/* Adds the image of an edge at which the faces of a smooth part fold over. */
+USE_RESULT bool zero_finder_add_outline(struct zero_finder *finder,
+                                        uint32_t edge);
+
 static inline struct view_point zero_finder_view(const struct zero_finder *z,
                                                  const double at[3]) {
   return camera_view(z->facing->camera,

@@ -12,6 +12,7 @@ void zero_set_fini(struct zero_set *set) {
   ARRAY_FREE(&set->node);
   ARRAY_FREE(&set->segment);
   ARRAY_FREE(&set->border);
+  ARRAY_FREE(&set->outline);
 }
 
 /* ---- Nodes and segments -------------------------------------------------- */
@@ -233,13 +234,12 @@ static bool cross_all(struct zero_finder *z) {
   for (size_t i = 0; i < f->mixed.count; i++)
     if (!poll_at(i) || !cross_face(z, f->mixed.item[i]))
       return false;
-  for (uint32_t e = 0; e < edges && f->split != NULL; e++) {
-    if (!poll_at(e))
-      return false;
+  for (uint32_t e = 0; e < edges; e++) {
     const struct topology_edge *edge = &f->topology->edge.item[e];
-    if (!zero_finder_add_border(z, e))
+    if (!poll_at(e) || !zero_finder_add_outline(z, e) ||
+        !zero_finder_add_border(z, e))
       return false;
-    if (edge->uses == 2 && edge->first != edge->second &&
+    if (f->split != NULL && edge->uses == 2 && edge->first != edge->second &&
         !f->coarse[edge->point[0]] && facing_is_split(f, e) &&
         !zero_finder_cross_crease(z, e))
       return false;
