@@ -387,8 +387,9 @@ static bool write_contents(struct svg *svg, uint32_t index) {
 static bool write_layer(struct svg *svg, uint32_t index) {
   const struct drawing_layer *layer = &svg->drawing->layer.item[index];
   struct stream *out = svg->out;
-  stream_text(out, "<g id=\"layer");
-  stream_int(out, (int64_t)index + 1);
+  stream_text(out, layer->pen > 0 ? "<g id=\"layer" : "<g id=\"fills");
+  if (layer->pen > 0)
+    stream_int(out, layer->pen);
   stream_text(out, "\" inkscape:groupmode=\"layer\" inkscape:label=\"");
   write_escaped(out, layer->label);
   stream_text(out, "\" fill=\"none\" stroke=\"");
@@ -459,4 +460,5 @@ const struct writer writer_svg = {.name = "svg",
                                   .compressed = "svgz svg.gz",
                                   .unit_mm = svg_unit,
                                   .seam_mm = svg_seam,
+                                  .has_layers = true,
                                   .write = write_svg};

@@ -147,7 +147,8 @@ typedef enum recto_fill {
 typedef enum recto_order {
   RECTO_ORDER_NONE = 0, /* by layer, then as the edges come */
   RECTO_ORDER_NEAR,     /* short pen-up travel */
-  RECTO_ORDER_AUTO      /* near where the format is for plotters; none */
+  RECTO_ORDER_AUTO      /* near where the format is for plotters, and in SVG
+                           with hatching or several pens; else none */
 } recto_order;
 
 typedef enum recto_fit {
@@ -383,7 +384,7 @@ typedef struct recto_ink_options {
 typedef struct recto_output_options {
   /* The format that the drawing is made for, such as "svg", as of
    * recto_output_format; NULL: none.  It decides the resolution, where unit_mm
-   * is 0, the width of seams, and for plotters the margin, the order and the
+   * is 0, the width of seams and the order, and for plotters the margin and the
    * weights, where they are the defaults. */
   const char *format;
   /* The output's resolution: lines that coincide at it are drawn once; 0: that

@@ -50,9 +50,9 @@ static void hidden_lines_have_a_layer_of_their_own(void **state) {
   ink_fixture_line(&k, 10, 20, 50, 20, CREASE);
   ink_fixture_draw(&k);
   assert_int_equal(k.drawing.layer.count, 2);
-  assert_layer(&k, 0, 1, "1 visible");
-  assert_layer(&k, 1, 2, "2 hidden");
-  assert_int_not_equal(k.drawing.layer.item[1].colour, 0x000000);
+  assert_layer(&k, 0, 2, "2 hidden"); /* below the visible ones */
+  assert_layer(&k, 1, 1, "1 visible");
+  assert_int_not_equal(k.drawing.layer.item[0].colour, 0x000000);
   assert_int_equal(k.drawing.stroke.item[0].layer, 0);
   assert_int_equal(k.drawing.stroke.item[1].layer, 1);
   ink_fixture_end(&k);
@@ -73,11 +73,11 @@ static void groups_are_assigned_to_the_pens(void **state) {
   ink_fixture_hide(&k, ink_fixture_line(&k, 10, 30, 50, 30, CREASE));
   ink_fixture_draw(&k);
   assert_int_equal(k.drawing.layer.count, 3);
-  assert_layer(&k, 0, 1, "1 thing, axle");
-  assert_layer(&k, 1, 2, "2 wheel");
-  assert_layer(&k, 2, 3, "3 hidden");
+  assert_layer(&k, 0, 3, "3 hidden");
+  assert_layer(&k, 1, 1, "1 thing, axle");
+  assert_layer(&k, 2, 2, "2 wheel");
   /* By layer, and as the edges come within one. */
-  static const uint32_t group[] = {2, 0, 1, 0}, layer[] = {0, 0, 1, 2};
+  static const uint32_t group[] = {0, 2, 0, 1}, layer[] = {0, 1, 1, 2};
   assert_int_equal(k.drawing.stroke.count, 4);
   for (int i = 0; i < 4; i++) {
     assert_int_equal(k.drawing.stroke.item[i].group, group[i]);
@@ -131,6 +131,22 @@ static void long_names_are_cut_between_characters(void **state) {
     assert_in_range(strlen(label), 44,
                     sizeof k.drawing.layer.item[0].label - 1);
     assert_int_equal((strlen(label) - 2 - (size_t)pad) % 3, 0);
+    ink_fixture_end(&k);
+  }
+}
+
+static void digits_of_names_are_no_digits_of_labels(void **state) {
+  const char *const row[][2] = {
+      {"part7_a2", "2 part_a"}, {"42", "2 unnamed"}, {"4 x 4", "2  x "}};
+  (void)state;
+  for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+    struct ink_fixture k;
+    ink_fixture_start(&k);
+    k.options.ink.pens = 2;
+    uint32_t edge = ink_fixture_line(&k, 1, 1, 5, 5, CREASE);
+    k.sheet.edge.item[edge].group = ink_fixture_group(&k, row[i][0]);
+    ink_fixture_draw(&k);
+    assert_layer(&k, 0, 2, row[i][1]);
     ink_fixture_end(&k);
   }
 }
@@ -657,6 +673,7 @@ int main(void) {
       cmocka_unit_test(empty_layers_are_left_out_and_pens_keep_their_numbers),
       cmocka_unit_test(empty_drawing_has_its_first_layer),
       cmocka_unit_test(long_names_are_cut_between_characters),
+      cmocka_unit_test(digits_of_names_are_no_digits_of_labels),
       cmocka_unit_test(group_without_name_has_a_label),
       cmocka_unit_test(fragments_become_fills_with_their_holes),
       cmocka_unit_test(groups_are_painted_in_their_colour_or_one_of_their_own),

@@ -47,6 +47,32 @@ labels_open_with() {
   done
 }
 
+# Groups whose names have digits, as CAD programs write them.
+draw_digits() {
+  sed 's/^o .*/o part7_a1/; s/^g .*/g 42/' "$models/castle.obj" >digits.obj
+  "$recto" digits.obj --pen-for crease=2 --fill paint --ids -o digits.svg
+}
+
+# The labels of the layers, one a line.
+labels() {
+  xmllint --xpath "$at_top/@*[name()='inkscape:label']" "$1.svg" |
+    sed 's/.*="\(.*\)"/\1/'
+}
+
+# vpype_reads NAME - by vpype's rule, which takes all digits of a label as the
+# layer's number, each layer has a number of its own: that of its pen, with
+# which the label also opens, or for fills one that no pen has.
+vpype_reads() {
+  labels "$1" >labels
+  test -s labels && test -z "$(tr -cd '0-9\n' <labels | sort | uniq -d)" &&
+    ! grep -qvE '^%?[0-9]+ [^0-9]*$' labels
+}
+
+ids_end_with_pens() {
+  test "$(xmllint --xpath "$at_top/@id" classes.svg | tr -d ' \n')" = \
+    'id="layer4"id="layer1"id="layer2"id="layer3"'
+}
+
 # A page of A4 is 210 / 25.4 * 96 = 793.7 pixels wide, both programs' default.
 show_librsvg() {
   rsvg-convert -b white "$1.svg" -o "$1.librsvg.png"
@@ -92,13 +118,20 @@ if command -v xmllint >/dev/null; then
     claim "$name: well-formed XML" xmllint --noout "$name.svg"
   done
   claim "one pen has one layer" has_layers lines 1
-  claim "faces are on the layer of their pen" has_layers painted 1
+  claim "faces have a layer of their own" has_layers painted 2
   claim "hidden lines have a layer" has_layers hidden 2
   claim "each pen has a layer" has_layers pens 2
   claim "its label opens with the pen" labels_open_with lines 1
-  claim "hidden lines come after" labels_open_with hidden "1 2"
+  claim "hidden lines lie below" labels_open_with hidden "2 1"
+  claim "fills lie below all" labels_open_with painted "%2 1"
   claim "pens come in order" labels_open_with pens "1 2"
-  claim "pens of classes too" labels_open_with classes "1 2 3 4"
+  claim "pens of classes too" labels_open_with classes "4 1 2 3"
+  draw_digits
+  claim "digits of names are in no label" labels_open_with digits "%3 1 2"
+  claim "an id ends with the pen" ids_end_with_pens
+  for name in lines hidden pens classes painted digits; do
+    claim "$name: vpype reads each layer's number" vpype_reads "$name"
+  done
 else
   skip "layers and XML" "no xmllint"
 fi

@@ -71,6 +71,13 @@ static void fit_margin(recto_options *o, const struct writer *writer) {
     o->page.margin_mm = needed;
 }
 
+/* Whether a drawing looks as if it were for a plotter: it has hatching, or
+ * several pens. */
+static bool suggests_plotter(const recto_options *o) {
+  return o->ink.fill == RECTO_FILL_HATCH || o->ink.pens > 1 ||
+         o->ink.pen_use_count > 0 || o->ink.hidden == RECTO_HIDDEN_LAYER;
+}
+
 recto_status options_adapt(recto_options *options, recto_error *error) {
   const char *format = options->output.format;
   if (format == NULL)
@@ -85,11 +92,11 @@ recto_status options_adapt(recto_options *options, recto_error *error) {
     fit_margin(options, writer);
   if (options->ink.seam_mm < 0)
     options->ink.seam_mm = writer->seam_mm != NULL ? writer->seam_mm(&how) : 0;
-  if (writer->by_pens) {
+  if (writer->by_pens)
     options->ink.has_weights = true;
-    if (options->ink.order == RECTO_ORDER_AUTO)
-      options->ink.order = RECTO_ORDER_NEAR;
-  }
+  if (options->ink.order == RECTO_ORDER_AUTO &&
+      (writer->by_pens || (writer->has_layers && suggests_plotter(options))))
+    options->ink.order = RECTO_ORDER_NEAR;
   return RECTO_OK;
 }
 

@@ -333,7 +333,7 @@ const struct option_entry option_table[] = {
      .given = AT(options.ink.has_weights), .words = "none",
      .parse_item = lists_set_weight, .use = {USED_BY_LINES, USED_BY_SCREENS}},
     {OPTION_WORD, "order", 0, "HOW", "none or near",
-     "near (default for HPGL): short ways with the pen up",
+     "near (plots, hatching, pens: default) or none",
      .offset = AT(options.ink.order), .words = "none near",
      .use = {USED_BY_STROKES}},
     {OPTION_LENGTH, "simplify", 0, "LENGTH", "a length, 0 or more",

@@ -72,6 +72,7 @@ struct drawing {
   /* The width of a class's visible lines as a multiple of their pen's width,
    * indexed by the number of the class's bit.  0 stands for 1. */
   double weight[RECTO_EDGE_CLASS_COUNT];
+  bool weighted; /* they differ; the strokes of a class are consecutive then */
   ARRAY(struct drawing_layer) layer;
   ARRAY(struct drawing_stroke) stroke; /* in drawing order within a layer */
   ARRAY(struct drawing_fill) fill;

@@ -1,4 +1,9 @@
-/* layers.c - the layers of a drawing: one a pen, one for hidden lines. */
+/* layers.c - the layers of a drawing: one a pen, one for hidden lines, one for
+ * fills.
+ *
+ * Programs for plotters read a layer's number from its label: vpype takes all
+ * digits of it as one number, others those that it opens with.  So a label has
+ * no digits but its number. */
 #include "ink/layers.h"
 
 #include <stdio.h>
@@ -9,16 +14,21 @@
 #define BLACK 0x000000u
 #define GREY 0x808080u /* of hidden lines on a screen */
 
-/* Appends as much of `text` as fits, without splitting a UTF-8 sequence. */
+/* Appends as much of `text` without its digits as fits, without splitting a
+ * UTF-8 sequence. */
 static void append_text(char label[], size_t size, const char *text) {
-  size_t used = strlen(label), length = strlen(text);
-  if (length > size - 1 - used) {
-    length = size - 1 - used;
-    while (length > 0 && ((unsigned char)text[length] & 0xc0) == 0x80)
-      length--;
+  size_t used = strlen(label);
+  for (const char *at = text; *at != '\0'; at++) {
+    bool begins = ((unsigned char)*at & 0xc0) != 0x80;
+    size_t length = 1;
+    while (((unsigned char)at[length] & 0xc0) == 0x80)
+      length++;
+    if (begins && used + length >= size)
+      break;
+    if (*at < '0' || *at > '9')
+      label[used++] = *at;
   }
-  memcpy(label + used, text, length);
-  label[used + length] = '\0';
+  label[used] = '\0';
 }
 
 struct label {
@@ -37,7 +47,8 @@ static void add_groups(struct label *label, const struct pens *pens,
                        const struct scene *scene) {
   for (size_t g = 0; g < scene->group.count; g++) {
     const char *name = scene->group.item[g].name;
-    if (pens->of_group[g] == label->layer->pen - 1 && name != NULL && *name)
+    if (pens->of_group[g] == label->layer->pen - 1 && name != NULL &&
+        name[strspn(name, "0123456789")] != '\0')
       add_word(label, name);
   }
 }
@@ -113,11 +124,20 @@ static uint32_t number_used(const struct drawing *drawing, uint32_t *number) {
   return used;
 }
 
-/* Adds a layer for fills below all others. */
+/* Makes a layer for fills below all others, with a number that no pen has: what
+ * reads fills as lines keeps them apart. */
 static bool add_fill_layer(struct drawing *drawing) {
   struct drawing_layer layer = drawing->layer.item[0];
+  unsigned greatest = 0;
+  for (size_t i = 0; i < drawing->layer.count; i++)
+    if (drawing->layer.item[i].pen > greatest)
+      greatest = drawing->layer.item[i].pen;
   layer.pen = 0;
-  (void)snprintf(layer.label, sizeof layer.label, "%% fills");
+  (void)snprintf(layer.label, sizeof layer.label, "%%%u fills", greatest + 1);
+  if (drawing->stroke.count == 0) {
+    drawing->layer.item[0] = layer;
+    return true;
+  }
   if (!ARRAY_PUSH(&drawing->layer, layer))
     return false;
   memmove(drawing->layer.item + 1, drawing->layer.item,
@@ -128,8 +148,27 @@ static bool add_fill_layer(struct drawing *drawing) {
   return true;
 }
 
-/* Removes the layers without strokes. */
-static bool drop_empty(struct drawing *drawing) {
+/* Moves the layers that have nothing but hidden lines below the others, and
+ * sets number[old] accordingly. */
+static void move_hidden_down(struct drawing *drawing, uint32_t *number,
+                             struct drawing_layer *layer) {
+  uint32_t count = (uint32_t)drawing->layer.count, next = 0;
+  memset(number, 0, count * sizeof *number);
+  for (size_t i = 0; i < drawing->stroke.count; i++)
+    number[drawing->stroke.item[i].layer] |= !drawing->stroke.item[i].hidden;
+  memcpy(layer, drawing->layer.item, count * sizeof *layer);
+  for (uint32_t visible = 0; visible < 2; visible++)
+    for (uint32_t i = 0; i < count; i++)
+      if (number[i] == visible) {
+        drawing->layer.item[next] = layer[i];
+        number[i] = 2 + next++;
+      }
+  for (size_t i = 0; i < drawing->stroke.count; i++)
+    drawing->stroke.item[i].layer = number[drawing->stroke.item[i].layer] - 2;
+}
+
+/* Removes the layers without strokes, and puts the others in order. */
+static bool arrange_layers(struct drawing *drawing) {
   uint32_t *number = mem_alloc(drawing->layer.count, sizeof *number);
   if (number == NULL)
     return false;
@@ -139,25 +178,29 @@ static bool drop_empty(struct drawing *drawing) {
       drawing->layer.item[number[i]] = drawing->layer.item[i];
   for (size_t i = 0; i < drawing->stroke.count; i++)
     drawing->stroke.item[i].layer = number[drawing->stroke.item[i].layer];
-  mem_free(number);
   if (drawing->layer.count > used)
     drawing->layer.count = used > 0 ? used : 1;
-  return true;
+  struct drawing_layer *layer = mem_alloc(drawing->layer.count, sizeof *layer);
+  if (layer != NULL && used > 1)
+    move_hidden_down(drawing, number, layer);
+  mem_free(layer);
+  mem_free(number);
+  return layer != NULL;
 }
 
-/* With several weights the strokes of a class are consecutive, the lightest
- * classes first, so that heavy lines lie on top. */
+/* With several weights the strokes of a class are consecutive: hidden ones, then
+ * the lightest classes first, so that heavy lines lie on top. */
 static int compare_strokes(const void *first, const void *second, void *user) {
   const struct drawing_stroke *a = first, *b = second;
   const struct drawing *drawing = user;
   if (a->layer != b->layer)
     return a->layer > b->layer ? 1 : -1;
+  if (a->hidden != b->hidden)
+    return a->hidden ? -1 : 1;
   double a_mm = drawing_width_mm(drawing, a),
          b_mm = drawing_width_mm(drawing, b);
   if (a_mm != b_mm)
     return a_mm > b_mm ? 1 : -1;
-  if (a->hidden != b->hidden)
-    return a->hidden ? -1 : 1;
   return (a->edge_class < b->edge_class) - (a->edge_class > b->edge_class);
 }
 
@@ -175,14 +218,13 @@ static bool has_weights(const struct drawing *drawing) {
 }
 
 bool layers_pack(struct drawing *drawing) {
-  if (!drop_empty(drawing) ||
-      (drawing->layer.count > 1 && drawing->fill.count > 0 &&
-       !add_fill_layer(drawing)))
+  if (!arrange_layers(drawing) ||
+      (drawing->fill.count > 0 && !add_fill_layer(drawing)))
     return false;
-  bool weighted = has_weights(drawing);
-  if (drawing->layer.count < 2 && !weighted)
+  drawing->weighted = has_weights(drawing);
+  if (drawing->layer.count < 2 && !drawing->weighted)
     return true;
-  return sort_stable(drawing->stroke.item, drawing->stroke.count,
-                     sizeof *drawing->stroke.item,
-                     weighted ? compare_strokes : compare_layers, drawing);
+  return sort_stable(
+      drawing->stroke.item, drawing->stroke.count, sizeof *drawing->stroke.item,
+      drawing->weighted ? compare_strokes : compare_layers, drawing);
 }

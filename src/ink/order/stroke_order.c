@@ -233,6 +233,16 @@ static struct drawing_point pen_after(const struct drawing *drawing,
   return drawing->point.item[stroke->point + last];
 }
 
+/* Whether strokes are ordered together: those of a layer, but not of different
+ * widths, as heavy lines are drawn last, nor hidden ones with others. */
+static bool may_mix(const struct drawing *drawing,
+                    const struct drawing_stroke *a,
+                    const struct drawing_stroke *b) {
+  return a->layer == b->layer &&
+         (!drawing->weighted ||
+          (a->hidden == b->hidden && a->edge_class == b->edge_class));
+}
+
 bool stroke_order_improve(struct drawing *drawing,
                           const struct tour_effort *effort) {
   struct drawing_point pen = {0, 0};
@@ -240,7 +250,7 @@ bool stroke_order_improve(struct drawing *drawing,
   for (size_t i = 0, end; ok && i < drawing->stroke.count; i = end) {
     struct drawing_stroke *stroke = drawing->stroke.item + i;
     for (end = i; end < drawing->stroke.count &&
-                  drawing->stroke.item[end].layer == stroke->layer;
+                  may_mix(drawing, stroke, &drawing->stroke.item[end]);
          end++)
       continue;
     struct order_work order = {.drawing = drawing,

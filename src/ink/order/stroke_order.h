@@ -9,7 +9,8 @@ extern const struct tour_effort stroke_order_usual_effort;
 
 /* Reorders and reverses the strokes of each layer, and chooses the starting
  * points of loops, to make the travel with the pen up short.  The strokes of a
- * layer must be consecutive.  Every stroke keeps its shape and its ids.
+ * layer must be consecutive; where classes differ in weight, those of a class
+ * are, and remain so.  Every stroke keeps its shape and its ids.
  * Guarantees  Equal drawings give equal results.  The travel does not become
  *             longer.
  * Cost        n log n for n points; see stroke_order_usual_effort.
