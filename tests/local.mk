@@ -119,7 +119,8 @@ unit_tests += %D%/test_parallel
 %C%_test_parallel_SOURCES = %D%/test_parallel.c %D%/sheet_fixture.c %D%/sheet_fixture.h
 %C%_test_parallel_LDADD = %D%/scenes/libscenes.la $(LDADD)
 unit_tests += %D%/test_parallel_stages
-%C%_test_parallel_stages_SOURCES = %D%/test_parallel_stages.c
+%C%_test_parallel_stages_SOURCES = %D%/test_parallel_stages.c %D%/sheet_fixture.c %D%/sheet_fixture.h
+%C%_test_parallel_stages_LDADD = %D%/scenes/libscenes.la $(LDADD)
 
 unit_tests += %D%/test_memory
 %C%_test_memory_SOURCES = %D%/test_memory.c

@@ -12,10 +12,12 @@
 
 #include <cmocka.h>
 
+#include "api/handle.h"
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "recto.h"
 #include "tests/scenes/random.h"
+#include "tests/sheet_fixture.h"
 
 /* ---- Models, as OBJ files in memory -------------------------------------- */
 
@@ -237,6 +239,71 @@ static void threads_change_no_byte(void **state) {
   }
 }
 
+/* ---- Edges and sheets ---------------------------------------------------- */
+
+/* Lays out a sheet of a scene in so many threads. */
+static void lay_out(struct sheet_fixture *fixture, const struct scene *scene,
+                    bool all_edges, int threads) {
+  struct poll poll;
+  sheet_fixture_start(fixture);
+  fixture->scene = *scene;
+  fixture->options.solver.threads = threads;
+  poll_open(&poll, &fixture->options);
+  sheet_fixture_out(fixture, all_edges);
+  poll_close(&poll);
+}
+
+#define ASSERT_SAME_ITEMS(a, b, count)                                         \
+  assert_memory_equal(a, b, (count) * sizeof *(a))
+
+/* Drawings show but some of what edges and triangles know of each other. */
+static void assert_laid_out_alike(const struct scene *scene, bool all_edges) {
+  struct sheet_fixture one, two;
+  lay_out(&one, scene, all_edges, 1);
+  lay_out(&two, scene, all_edges, 2);
+  assert_int_equal(one.topology.edge.count, two.topology.edge.count);
+  ASSERT_SAME_ITEMS(one.topology.edge.item, two.topology.edge.item,
+                    one.topology.edge.count);
+  ASSERT_SAME_ITEMS(one.topology.corner_edge, two.topology.corner_edge,
+                    scene->corner.count);
+  assert_int_equal(one.sheet.edge.count, two.sheet.edge.count);
+  ASSERT_SAME_ITEMS(one.sheet.edge.item, two.sheet.edge.item,
+                    one.sheet.edge.count);
+  assert_int_equal(one.sheet.triangle.count, two.sheet.triangle.count);
+  ASSERT_SAME_ITEMS(one.sheet.triangle.item, two.sheet.triangle.item,
+                    one.sheet.triangle.count);
+  assert_int_equal(one.sheet.contour.count, two.sheet.contour.count);
+  ASSERT_SAME_ITEMS(one.sheet.contour.item, two.sheet.contour.item,
+                    one.sheet.contour.count);
+  scene_init(&one.scene); /* it is the caller's */
+  scene_init(&two.scene);
+  sheet_fixture_fini(&one);
+  sheet_fixture_fini(&two);
+}
+
+static void threads_change_no_edge(void **state) {
+  (void)state;
+  if (parallel_processors() < 2)
+    skip();
+  for (size_t m = 0; m < sizeof models / sizeof *models; m++) {
+    char *text;
+    size_t length;
+    recto_scene *scene;
+    FILE *to = open_memstream(&text, &length);
+    assert_non_null(to);
+    models[m].write(to);
+    fclose(to);
+    assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+    assert_int_equal(
+        recto_scene_read_memory(scene, text, length, "obj", NULL, NULL, NULL),
+        RECTO_OK);
+    assert_laid_out_alike(&scene->scene, false);
+    assert_laid_out_alike(&scene->scene, true);
+    recto_scene_destroy(scene);
+    free(text);
+  }
+}
+
 /* ---- What is wrong with a file ------------------------------------------- */
 
 /* Few faults between long runs of plain statements, of which `worst`, a
@@ -317,6 +384,7 @@ static void threads_change_no_message(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(threads_change_no_edge),
       cmocka_unit_test(threads_change_no_byte),
       cmocka_unit_test(threads_change_no_message),
   };
