@@ -105,7 +105,7 @@ static void print_row(const char *method, int count, const struct row *row) {
   fflush(stdout);
 }
 
-/* A method's rows, one a number of lines; where that is nothing to it, one. */
+/* A method's rows: one for each number of lines; one for a method without. */
 static void take_method(struct chart *chart, const struct scene *scene,
                         const recto_options *options, const char *name,
                         bool has_lines, const struct trial truth[2]) {

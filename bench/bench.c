@@ -131,11 +131,11 @@ static void print_yardstick(const struct bench *bench,
          median_of(peak, runs));
 }
 
-/* The median CPU seconds of the solver by a method with a knob, drawing these
- * edges; *pixels gets how many pixels are covered, where the method says.  NAN
- * where a run failed. */
+/* The median CPU seconds of the solver by a method with an option, drawing
+ * these edges; *pixels gets how many pixels are covered, where the method says.
+ * NAN where a run failed. */
 static double take_solver(const struct bench *bench, const struct model *model,
-                          const char *method, const char *knob,
+                          const char *method, const char *option,
                           const char *edges, double *pixels) {
   char stats[100], report[90], output[90];
   double cpu[RUNS_MAX];
@@ -143,7 +143,7 @@ static double take_solver(const struct bench *bench, const struct model *model,
   snprintf(stats, sizeof stats, "--stats=%s", report);
   snprintf(output, sizeof output, "%s/drawing.svg", bench->folder);
   const char *const argv[] = {bench->recto, model->path, "-m",   method,
-                              knob,         "-e",        edges,  "-p",
+                              option,       "-e",        edges,  "-p",
                               "200x200mm",  "--margin",  "5mm",  "-q",
                               stats,        "--azimuth", "15",   "--elevation",
                               "30",         "-o",        output, NULL};

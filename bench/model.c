@@ -20,7 +20,7 @@ static const char *const stage_key[MODEL_STAGES] = {
 const char model_features[] =
     "silhouette,border,crease,group,intersection,wire";
 
-/* Looks from three radii away, along a direction without meaning. */
+/* Looks from three radii away, along an arbitrary direction. */
 static void choose_view(struct model *model, const struct scene *scene) {
   const double direction[3] = {0.6, 0.5, 0.62};
   double radius = box_measure(scene, model->middle);

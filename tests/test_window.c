@@ -93,7 +93,7 @@ static void assert_octants(const struct geom_point *corner, int count,
   const struct box2 window = {8, 8, 32, 32};
   for (int k = 0; k < count; k++) {
     int next = (k + 1) % count, d = octant[next] - octant[k];
-    assert_int_equal(window_octant(&window, corner[k].x, corner[k].y),
+    assert_int_equal(window_octant(&window, corner[k].x, corner[k].y, 0),
                      octant[k]);
     assert_false(window_meets_edge(&window, corner[k], corner[next]));
     assert_int_equal(d > 4 ? d - 8 : d < -4 ? d + 8 : d, difference[k]);
@@ -130,9 +130,9 @@ static void octants_run_counter_clockwise_from_the_right(void **state) {
                                {20, 7, 6},  {33, 7, 7},  {20, 20, -1}};
   (void)state;
   for (int i = 0; i < 9; i++)
-    assert_int_equal(window_octant(&window, at[i][0], at[i][1]), at[i][2]);
-  assert_int_equal(window_octant(&window, 8, 32), -1);
-  assert_int_equal(window_octant(&window, 32, 33), 2);
+    assert_int_equal(window_octant(&window, at[i][0], at[i][1], 0), at[i][2]);
+  assert_int_equal(window_octant(&window, 8, 32, 0), -1);
+  assert_int_equal(window_octant(&window, 32, 33, 0), 2);
 }
 
 /* ---- The ambiguous case -------------------------------------------------- */
@@ -165,8 +165,8 @@ static void a_difference_of_4_is_split(void **state) {
         turn((struct geom_point){-40, 60, 0}, quarter);
     const struct geom_point lower =
         turn((struct geom_point){80, -40, 0}, quarter);
-    assert_int_equal(abs(window_octant(&window, p.x, p.y) -
-                         window_octant(&window, q.x, q.y)),
+    assert_int_equal(abs(window_octant(&window, p.x, p.y, 0) -
+                         window_octant(&window, q.x, q.y, 0)),
                      4);
     assert_false(window_meets_edge(&window, p, q));
     assert_counts(&window, (const struct geom_point[]){p, q, upper}, 8);

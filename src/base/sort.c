@@ -29,8 +29,7 @@ static size_t digit(uint64_t key, int pass) {
   return (size_t)(key >> (pass * DIGIT_BITS)) & (DIGIT_COUNT - 1);
 }
 
-/* Deals the items to their places by one digit; `start` holds how many items
- * have each digit. */
+/* Distributes the items by one digit; `start` has the count of each digit. */
 static void distribute(const struct sort_key *from, struct sort_key *to,
                        size_t count, int pass, size_t start[DIGIT_COUNT]) {
   size_t sum = 0;
@@ -51,8 +50,8 @@ void sort_keys(struct sort_key *item, struct sort_key *scratch, size_t count) {
     insert_keys(item, count);
     return;
   }
-  /* One look finds the bits in which any two keys differ, so that passes
-   * over digits that are all alike cost nothing. */
+  /* One pass finds the bits in which any two keys differ; digits in which none
+   * do need no pass. */
   uint64_t differing = 0;
   for (size_t i = 1; i < count; i++)
     differing |= item[i].key ^ item[0].key;

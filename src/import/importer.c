@@ -50,7 +50,7 @@ struct import {
 
 /* ---- Writing ------------------------------------------------------------- */
 
-/* Ignores errors: if the reader is gone there is nothing to do. */
+/* Ends the process where the reader is gone: there is nothing left to do. */
 static void write_bytes(FILE *to, const void *bytes, size_t count) {
   if (count > 0 && fwrite(bytes, count, 1, to) != 1)
     _exit(1);
@@ -154,7 +154,7 @@ static void push(struct import *import, struct visit visit) {
     exit_with(import->to, IMPORT_NO_MEMORY, "");
 }
 
-/* Walks the tree, each node before its children and those in their order. */
+/* Traverses the tree, each node before its children, these in their order. */
 static void put_nodes(struct import *import) {
   push(import, (struct visit){import->from->mRootNode,
                               {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}});

@@ -167,7 +167,7 @@ find_near(const struct ear_ring *ring, struct judge_point2 a,
 
 /* ---- Ears ---------------------------------------------------------------- */
 
-/* Whether a corner can be cut_off off. */
+/* Whether a corner is an ear, which can be cut off. */
 static bool is_ring_ear(const struct ear_ring *ring, uint32_t here) {
   uint32_t before = ring->before[here], after = ring->next[here];
   struct judge_point2 a = ring->at[before], b = ring->at[here];

@@ -153,7 +153,7 @@ static enum judge_visibility visibility_at(const struct judge_context *context,
 }
 
 /* Whether an edge is an intersection so shallow that on the page grid the faces
- * may not intersect, or elsewhere. */
+ * may intersect elsewhere, or not at all. */
 static bool is_doubtful(const struct judge_edge *edge) {
   return edge->source.point[0] == SCENE_NONE && edge->source.class_mask == 0;
 }

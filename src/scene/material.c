@@ -2,7 +2,7 @@
  * groups.
  *
  * Robustness  Names come from a file that may be hostile: each library is read
- * once, at most LIBRARY_MAX of them, and none but plain files. */
+ * once, at most LIBRARY_MAX of them, and only regular files. */
 #include "scene/material.h"
 
 #include <string.h>

@@ -142,7 +142,7 @@ static recto_status read_mtllib(struct obj_parser *p, size_t keyword) {
 }
 
 /* The current group is named by those of object, group and material that
- * there are, with strokes between them: each combination is a group. */
+ * there are, with slashes between them: each combination is a group. */
 static recto_status use_named_group(struct obj_parser *p) {
   p->group.count = 0;
   for (int i = 0; i < NAME_COUNT; i++) {
@@ -168,7 +168,7 @@ static recto_status use_named_group(struct obj_parser *p) {
 /* ---- Faces and polylines ------------------------------------------------- */
 
 /* Reads [+-]digits; NULL where there are none.  Numbers too long for any file
- * stay out of range: the sum of so many digits may have gone round. */
+ * stay out of range: the sum of so many digits may have wrapped around. */
 static inline const char *parse_index(const char *at, const char *end,
                                       int64_t *index) {
   static const int64_t beyond = INT64_C(1) << 40;

@@ -33,7 +33,8 @@
 #include "base/tolerance.h"
 #include "scene/cluster.h"
 
-/* Lengths beyond these are as good as these: coordinates are within. */
+/* A longer length is taken as LENGTH_MAX; at one below LENGTH_LEAST nothing is
+ * joined.  Their squares neither overflow nor vanish. */
 #define LENGTH_MAX 0x1p200
 #define LENGTH_LEAST 0x1p-900
 

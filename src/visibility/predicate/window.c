@@ -47,18 +47,12 @@ bool window_meets_edge(const struct box2 *window, struct geom_point p,
   return left && right;
 }
 
-/* window_octant of the point (x, y) / 2^bits. */
-static int octant_scaled(const struct box2 *window, int64_t x, int64_t y,
-                         int bits) {
+int window_octant(const struct box2 *window, int64_t x, int64_t y, int bits) {
   static const int octant[3][3] = {{5, 6, 7}, {4, -1, 0}, {3, 2, 1}};
   int64_t scale = INT64_C(1) << bits;
   int column = x < window->x0 * scale ? 0 : x > window->x1 * scale ? 2 : 1;
   int row = y < window->y0 * scale ? 0 : y > window->y1 * scale ? 2 : 1;
   return octant[row][column];
-}
-
-int window_octant(const struct box2 *window, int64_t x, int64_t y) {
-  return octant_scaled(window, x, y, 0);
 }
 
 /* A difference of octants, reduced modulo 8 to -4 .. 4. */
@@ -82,12 +76,12 @@ static int count_octants(const struct box2 *window, struct geom_point p,
   int64_t px = p.x, py = p.y, qx = q.x, qy = q.y;
   int sum = 0, bits = 0;
   for (;; bits++) {
-    int a = octant_scaled(window, px, py, bits),
-        b = octant_scaled(window, qx, qy, bits), d = wrap_octants(b - a), m;
+    int a = window_octant(window, px, py, bits),
+        b = window_octant(window, qx, qy, bits), d = wrap_octants(b - a), m;
     int64_t mx = px + qx, my = py + qy;
     if (!is_ambiguous(d) || bits == 31)
       return sum + d;
-    m = octant_scaled(window, mx, my, bits + 1);
+    m = window_octant(window, mx, my, bits + 1);
     if (is_ambiguous(wrap_octants(m - a))) { /* continue with the first half */
       sum += wrap_octants(b - m);
       px *= 2;

@@ -46,9 +46,10 @@ void window_line_function(const struct box2 *window, struct geom_point p,
 bool window_meets_edge(const struct box2 *window, struct geom_point p,
                        struct geom_point q);
 
-/* In which of the eight regions around the window a point lies: 0 to its
- * right, 1 to its upper right, and on counter-clockwise; -1 inside it. */
-int window_octant(const struct box2 *window, int64_t x, int64_t y);
+/* In which of the eight regions around the window the point (x, y) / 2^bits
+ * lies: 0 to its right, 1 to its upper right, and on counter-clockwise; -1
+ * inside it. */
+int window_octant(const struct box2 *window, int64_t x, int64_t y, int bits);
 
 /* The winding number of a polygon about the window, in octants: the sum of the
  * differences of octants along its edges, none of which may meet the window.
