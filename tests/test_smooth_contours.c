@@ -258,7 +258,7 @@ static void bodies_of_few_faces_keep_their_outline(void **state) {
  * other. */
 static void bumpy(double u, double v, double p[3]) {
   double r = 1 + 0.08 * sin(3 * u) * sin(2 * v);
-  sphere(u, v, p);
+  smooth_sphere(u, v, p);
   for (int k = 0; k < 3; k++)
     p[k] *= r;
 }
@@ -276,15 +276,16 @@ static double crossing_at(const double d[2], const double p[2],
 
 /* How far the ink is from the points of a mesh that lie farthest from the
  * middle of the page in each direction, at most, mm. */
-static double distance_of_outline(const recto_drawing *drawing, surface *at,
-                                  int n, int m, const struct axes *axes) {
+static double distance_of_outline(const recto_drawing *drawing,
+                                  smooth_surface *at, int n, int m,
+                                  const struct smooth_axes *axes) {
   static double mm[24 * 13][2];
   double most = 0;
   for (int i = 0; i < n * (m + 1); i++) {
     double p[3];
     at(2 * M_PI * (i % n) / n, 2 * M_PI * (i / n) / m, p);
-    mm[i][0] = SCALE_MM * dot(p, axes->right);
-    mm[i][1] = SCALE_MM * dot(p, axes->up);
+    mm[i][0] = SMOOTH_SCALE_MM * smooth_dot(p, axes->right);
+    mm[i][1] = SMOOTH_SCALE_MM * smooth_dot(p, axes->up);
   }
   for (int k = 0; k < SAMPLES; k++) {
     double angle = 2 * M_PI * k / SAMPLES, far = 0;
@@ -295,9 +296,10 @@ static double distance_of_outline(const recto_drawing *drawing, surface *at,
       far = fmax(far, crossing_at(d, mm[i], mm[i + n]));
       far = fmax(far, crossing_at(d, mm[i], mm[next + n]));
     }
-    const double outline[2] = {PAGE_MM / 2 + far * d[0],
-                               PAGE_MM / 2 + far * d[1]};
-    most = fmax(most, distance_to_ink(drawing, outline));
+    const double outline[2] = {SMOOTH_PAGE_MM / 2 + far * d[0],
+                               SMOOTH_PAGE_MM / 2 + far * d[1]};
+    most =
+        fmax(most, smooth_distance_to_ink(drawing, RECTO_EDGES_ALL, outline));
   }
   return most;
 }
@@ -305,12 +307,12 @@ static double distance_of_outline(const recto_drawing *drawing, surface *at,
 static void no_part_of_the_outline_is_missing(void **state) {
   (void)state;
   enum { N = 24, M = 12 };
-  recto_scene *scene = make_scene(bumpy, true, N, M);
-  for (int view = 0; view < 2 * VIEWS; view++) {
+  recto_scene *scene = smooth_scene(bumpy, true, N, M);
+  for (int view = 0; view < 2 * SMOOTH_VIEWS; view++) {
     recto_options options;
-    init_view(&options, view);
-    struct axes axes = axes_of(&options);
-    recto_drawing *drawing = draw(scene, &options);
+    smooth_view(&options, view);
+    struct smooth_axes axes = smooth_axes_of(&options);
+    recto_drawing *drawing = smooth_draw(scene, &options);
     double distance = distance_of_outline(drawing, bumpy, N, M, &axes);
     if (!(distance <= 2))
       fail_msg("view %d: %g mm of the outline are missing", view, distance);
