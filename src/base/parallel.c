@@ -92,11 +92,11 @@ struct ranges {
   atomic_bool ended;
 };
 
-static void do_ranges(void *user, bool callers) {
+static void do_ranges(void *user, bool is_caller) {
   struct ranges *ranges = user;
   size_t count = parallel_range_count(ranges->count, ranges->items), i;
-  int worker = callers ? 0 : 1 + atomic_fetch_add(&ranges->workers, 1);
-  if (!callers)
+  int worker = is_caller ? 0 : 1 + atomic_fetch_add(&ranges->workers, 1);
+  if (!is_caller)
     poll_follow(&ranges->ended);
   while ((i = atomic_fetch_add(&ranges->next, 1)) < count && poll_now()) {
     struct parallel_range range = {i * ranges->items, (i + 1) * ranges->items,
@@ -108,7 +108,7 @@ static void do_ranges(void *user, bool callers) {
   }
   if (i < count)
     atomic_store(&ranges->ended, true);
-  if (!callers)
+  if (!is_caller)
     poll_follow(NULL);
 }
 

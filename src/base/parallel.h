@@ -8,8 +8,8 @@
 #include "base/poll.h"
 
 /* Does a share of the work, which the threads take from a common counter.
- * callers  whether this is the thread that called parallel_run */
-typedef void parallel_worker(void *user, bool callers);
+ * is_caller  whether this is the thread that called parallel_run */
+typedef void parallel_worker(void *user, bool is_caller);
 
 /* Runs the worker in the caller's thread and in up to `threads` - 1 others,
  * and returns when all of them have ended.

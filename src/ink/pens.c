@@ -5,7 +5,7 @@
 #include <string.h>
 
 /* ISO 128: wide lines are twice as wide as narrow ones. */
-#define WIDE 2.0
+#define WIDE_WEIGHT 2.0
 
 /* In pen widths: shorter creases that end free are no line to the eye. */
 #define SHORTEST_CREASE_PENS 10
@@ -79,7 +79,7 @@ static void set_weights(struct pens *pens, const recto_options *options) {
     pens->weight[i] = 1;
   if (!options->ink.has_weights && !pens->several)
     pens->weight[class_index(RECTO_EDGE_SILHOUETTE)] =
-        pens->weight[class_index(RECTO_EDGE_BORDER)] = WIDE;
+        pens->weight[class_index(RECTO_EDGE_BORDER)] = WIDE_WEIGHT;
   for (size_t i = 0; options->ink.has_weights && i < options->ink.weight_count;
        i++)
     pens->weight[class_index(options->ink.weight[i].edge_class)] =

@@ -3,14 +3,15 @@
  * Douglas-Peucker: of the points between two that are kept, the one farthest
  * from the segment between them is kept too, while it is farther than the
  * tolerance; then both halves are treated, by an explicit stack.
- * Cost  A line is first split into runs of at most RUN points, whose ends are
- *   kept, so that the worst case is RUN times the points, not their square. */
+ * Cost  A line is first split into runs of at most RUN_POINTS_MAX points, whose
+ *   ends are kept, so that the worst case is that many times the points, not
+ *   their square. */
 #include "base/poll.h"
 #include "ink/lines/paths.h"
 
 #include <string.h>
 
-enum { RUN = 4096 };
+enum { RUN_POINTS_MAX = 4096 };
 
 struct simplify_span {
   uint32_t first, last; /* points that are kept */
@@ -86,7 +87,8 @@ static bool simplify_run(struct simplify *s, struct simplify_span run,
 static bool simplify_line(struct simplify *s, uint32_t first, uint32_t last,
                           double tolerance2) {
   while (first < last) {
-    uint32_t end = last - first > RUN ? first + RUN : last;
+    uint32_t end =
+        last - first > RUN_POINTS_MAX ? first + RUN_POINTS_MAX : last;
     if (!simplify_run(s, (struct simplify_span){first, end}, tolerance2))
       return false;
     first = end;

@@ -23,8 +23,7 @@ static void list_segment(struct segment_grid *grid, uint32_t segment,
     int x0, x1;
     triangle_grid_row(cell, s->p, s->q, range, y, &x0, &x1);
     for (int x = x0; x <= x1; x++) {
-      uint32_t *end =
-          &cell->start[(size_t)y * (size_t)cell->columns + (size_t)x];
+      uint32_t *end = &cell->start[triangle_grid_index(cell, x, y)];
       if (store)
         cell->item[--*end] = segment;
       else

@@ -22,12 +22,12 @@
 enum {
   SORT_SHIFT = 19, /* triangles are sorted by 2^12 ranges of steps */
   SORT_RANGES = 1 << (SHEET_Z_BITS - OCCLUSION_DEPTH_SHIFT - SORT_SHIFT),
-  COMPLEXITY_MIN = 5, /* a closed convex body has about 3 */
-  COVERAGE_MIN = 2,   /* times that large triangles cover the page */
-  SLOPE = 8,          /* in the scene; few triangles are steeper */
-  TESTS = 256,        /* of rows and blocks, for a triangle, on average */
+  COMPLEXITY_MIN = 5,       /* a closed convex body has about 3 */
+  COVERAGE_MIN = 2,         /* times that large triangles cover the page */
+  TYPICAL_SLOPE = 8,        /* in the scene; few triangles are steeper */
+  TESTS_PER_TRIANGLE = 256, /* of rows and blocks, for a triangle, on average */
   BOX_PER_AREA = 4, /* a typical triangle's box has this multiple of its area */
-  SAMPLE = 1 << 12  /* triangles that estimate the complexity */
+  SAMPLES_MAX = 1 << 12 /* triangles that estimate the complexity */
 };
 
 /* A triangle to be tested: its cells, and its nearest depth with the margin, in
@@ -55,7 +55,7 @@ static double box_area(struct box2 box) {
 }
 
 double occlusion_culling_complexity(const struct sheet *sheet, double area) {
-  size_t n = sheet->triangle.count, stride = n / SAMPLE + 1;
+  size_t n = sheet->triangle.count, stride = n / SAMPLES_MAX + 1;
   double sum = 0;
   for (size_t t = 0; t < n; t += stride) {
     struct geom_triangle c = sheet_corners(sheet, t);
@@ -221,7 +221,7 @@ static bool cull_triangles(struct culling_work *work) {
 /* ---- Phase 4 ------------------------------------------------------------- */
 
 /* Raises the contact tolerances, in steps, of the cells that a triangle meets
- * to its own; they start as that of a slope of SLOPE, which few triangles
+ * to its own; they start as that of TYPICAL_SLOPE, which few triangles
  * exceed. */
 static void add_thickness(struct culling_work *work,
                           const struct candidate *candidate, int32_t least,
@@ -252,14 +252,15 @@ static bool lower_bounds(struct culling_work *work) {
   struct occlusion_culling *culling = work->culling;
   size_t n = triangle_grid_cell_count(&culling->buffer.cells);
   const struct camera *camera = &work->sheet->camera;
-  double slope = SLOPE * work->sheet->z_scale / work->sheet->units_per_view /
+  double slope = TYPICAL_SLOPE * work->sheet->z_scale /
+                 work->sheet->units_per_view /
                  (camera->perspective ? camera->d_max : 1);
   int32_t least =
       occlusion_steps_up(1 + work->contact.slope * slope + work->contact.level);
   int32_t *thickness = mem_alloc(n, sizeof *thickness);
   if (thickness == NULL)
     return false;
-  work->tests = TESTS * (int64_t)work->sheet->triangle.count;
+  work->tests = TESTS_PER_TRIANGLE * (int64_t)work->sheet->triangle.count;
   for (size_t i = 0; i < n; i++)
     thickness[i] = least;
   for (size_t i = 0; i < work->sheet->triangle.count; i++) {
@@ -278,7 +279,7 @@ static bool lower_bounds(struct culling_work *work) {
  * when the caller cancelled. */
 static bool retest_culled(struct culling_work *work) {
   struct occlusion_culling *culling = work->culling;
-  work->tests = TESTS * (int64_t)work->sheet->triangle.count;
+  work->tests = TESTS_PER_TRIANGLE * (int64_t)work->sheet->triangle.count;
   for (size_t i = 0; i < work->sheet->triangle.count; i++) {
     const struct candidate *candidate = &work->candidate[i];
     uint8_t *culled = &culling->culled[candidate->triangle];
@@ -343,7 +344,7 @@ bool occlusion_culling_init(struct occlusion_culling *culling,
   if (ok && work.candidate != NULL) {
     culling->culled = mem_calloc(sheet->triangle.count, 1);
     ok = culling->culled != NULL && occlusion_buffer_init(&culling->buffer);
-    work.tests = TESTS * (int64_t)sheet->triangle.count;
+    work.tests = TESTS_PER_TRIANGLE * (int64_t)sheet->triangle.count;
     ok = ok && cull_triangles(&work);
     if (fragments && culling->count > 0)
       ok = ok && lower_bounds(&work) && retest_culled(&work);

@@ -222,8 +222,8 @@ bool line_index_find(const struct line_index *index,
     int x0, x1;
     find_index_columns(shape, p, q, y, &x0, &x1);
     for (int x = x0; x <= x1; x++)
-      if (!find_in_cell(index, (size_t)y * (size_t)shape->columns + (size_t)x,
-                        (uint32_t)key, found))
+      if (!find_in_cell(index, triangle_grid_index(shape, x, y), (uint32_t)key,
+                        found))
         return false;
   }
   return true;
