@@ -62,7 +62,7 @@ azimuth nan 1e999 30deg
 elevation 91 -91 x
 camera 1,2 1,2,3,4 1,2,x 1,,3 nan,0,0 1;2;3
 lookat 1,2
-up 0 0,0,0
+up 0 0,0,0 w zz - +z
 fov 0 -1 180 x
 scale 0 1: :1 1:0 -1:2 1:2:3 x
 near 0 -1 x
@@ -72,7 +72,10 @@ subpixels 0 17 x
 resolution 0 65537 x
 page A7 200 200x x200 200x-100 0x100 200x100m nanx100 200x100mmx
 margin -1 x 1,5 nan 1e999mm 10furlongs
-edges x silhouette, ,crease silhouette,,crease
+edges x silhouette, ,crease silhouette,,crease - -x all,- --smooth
+unit x 1 km 5mm
+pen-colour 2=blurple 2= 2=#12345 2=#gg0000 2=Red
+pen-color 2=blurple
 crease -1 181 x 30,20 30,181 30, ,40 30,x 30,40,50
 contours x exact 1 smooth,mesh
 hidden x 0 -1 none,2 layer,0 dashed,x ,2 1,2
@@ -107,7 +110,7 @@ for option in output format from method pitch resolution depth-bits subpixels \
   remove-backs contact view azimuth \
   elevation camera lookat up fov ortho fit no-fit scale near section page \
   landscape margin edges crease contours hidden fill hatch-pitch hatch-angle hatch-inset light pen \
-  pens pen-for pen-width pen-colour weights path order simplify curves min-stroke exact precision ids stats verify check threads progress quiet \
+  pens pen-for pen-width pen-colour pen-color unit portrait weights path order simplify curves min-stroke exact precision ids stats verify check threads progress quiet \
   completion version help; do
   claim "--$option is there, or refused by name" offered_or_refused "$option"
 done
@@ -376,6 +379,26 @@ claim "nothing half-written is left" none_left
 # The default up gives way to an eye right above; one that was named does not.
 claim "an eye right above needs no --up" run 0 cube.obj -o above.svg \
   --camera 0,10,0
+same_drawing() { # OPTION... -- OPTION...
+  local first=()
+  while test "$1" != --; do
+    first+=("$1")
+    shift
+  done
+  shift
+  run 0 cube.obj -o one.svg "${first[@]}" && run 0 cube.obj -o two.svg "$@" &&
+    cmp one.svg two.svg
+}
+claim "an axis may be up" same_drawing --up z -- --up 0,0,1
+claim "and its negative" same_drawing -u -x -- --up=-1,0,0
+claim "classes may be left out" same_drawing -e all,-smooth -- -e \
+  silhouette,border,crease,group,intersection,wire
+claim "of the default too" same_drawing -e=-crease -- -e \
+  silhouette,border,group,intersection,wire
+claim "colours have names" same_drawing --pen-colour 1=firebrick -- \
+  --pen-color 1=#b22222
+claim "a unit may be a metre" same_drawing --scale 1:100 --unit m -- --scale 10:1
+claim "or an inch, said first" same_drawing --unit in --scale 1:1 -- --scale 25.4:1
 claim "--up along the view is refused" refuses 'up points along the view' \
   cube.obj -o no.svg --camera 0,10,0 --up 0,1,0
 

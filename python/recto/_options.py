@@ -33,7 +33,7 @@ class Options(TypedDict, total=False):
     elevation: float
     camera: Vector
     lookat: Vector
-    up: Vector
+    up: Union[str, Vector]  # "z", "-y", or such as (0, 0, 1)
     fov: float
     ortho: bool
     fit: str  # page (default), none, scale, sphere
@@ -60,7 +60,8 @@ class Options(TypedDict, total=False):
     pens: int
     pen_for: Mapping[str, int]  # {"crease": 2, "hidden": 3}
     pen_width: Mapping[int, float]
-    pen_colour: Mapping[int, str]  # {2: "#cc0000"}
+    pen_colour: Mapping[int, str]  # {2: "#cc0000"}, or {2: "firebrick"}
+    pen_color: Mapping[int, str]  # the same
     weights: Mapping[str, float]
     order: str
     simplify: float
@@ -70,7 +71,7 @@ class Options(TypedDict, total=False):
     ids: bool
 
     format: Union[str, None]
-    unit: float  # the output's resolution, mm
+    unit: Union[float, str]  # the output's resolution, mm; or of scale: "m"
     precision: int
     path: str
     device: str
@@ -129,6 +130,15 @@ _HIDDEN = {
     "dashed": lib.RECTO_HIDDEN_DASHED,
     "layer": lib.RECTO_HIDDEN_LAYER,
 }
+_UNITS = {"um": 0.001, "mm": 1, "cm": 10, "m": 1000, "in": 25.4, "ft": 304.8}
+_AXES = {
+    "x": (1, 0, 0),
+    "y": (0, 1, 0),
+    "z": (0, 0, 1),
+    "-x": (-1, 0, 0),
+    "-y": (0, -1, 0),
+    "-z": (0, 0, -1),
+}
 _FILLS = {
     "none": lib.RECTO_FILL_NONE,
     "paint": lib.RECTO_FILL_PAINT,
@@ -164,8 +174,6 @@ _FIELDS = {
     "min_stroke": ("ink", "min_stroke_mm"),
     "exact": ("ink", "exact"),
     "ids": ("ink", "ids"),
-    "up": ("camera", "up"),
-    "unit": ("output", "unit_mm"),
     "precision": ("output", "precision"),
     "tight": ("output", "tight"),
     "dpi": ("output", "dpi"),
@@ -246,6 +254,21 @@ class _Setter:
         self.options.camera.fit = lib.RECTO_FIT_SCALE
         self.options.camera.scale = value
 
+    def unit(self, value: Union[float, str]) -> None:
+        """A number is the output's; a word the model's, for the scale, which
+        is set before."""
+        if not isinstance(value, str):
+            self.options.output.unit_mm = value
+        elif self.options.camera.fit == lib.RECTO_FIT_SCALE:
+            self.options.camera.scale *= _word("unit", value, _UNITS)
+        else:
+            _word("unit", value, _UNITS)
+
+    def up(self, value: Union[str, Vector]) -> None:
+        if isinstance(value, str):
+            value = _word("up", value, _AXES)
+        self.options.camera.up = _vector(value)
+
     def section(self, value: float) -> None:
         self.options.camera.section = value
         self.options.camera.has_section = True
@@ -274,7 +297,14 @@ class _Setter:
 
     def edges(self, value: Any) -> None:
         known = {"none": 0, "all": lib.RECTO_EDGES_ALL, **EDGE_CLASSES}
-        self.options.ink.edges = _mask("edges", value, known)
+        words = value.replace(",", " ").split() if isinstance(value, str) else value
+        words = list(words)
+        without = bool(words) and words[0].startswith("-")
+        mask = lib.RECTO_EDGES_DEFAULT if without else 0
+        for word in words:
+            bits = _word("edges", word.removeprefix("-"), known)
+            mask = mask & ~bits if word.startswith("-") else mask | bits
+        self.options.ink.edges = mask
 
     def hidden(self, value: Any) -> None:
         if not isinstance(value, str) and len(value) != 2:
@@ -341,13 +371,13 @@ class _Setter:
     def pen_colour(self, value: Mapping[int, str]) -> None:
         changes = {}
         for number, colour in value.items():
-            digits = colour.lstrip("#")
-            if len(digits) == 3:
-                digits = "".join(2 * digit for digit in digits)
-            if len(digits) != 6:
+            read = ffi.new("uint32_t *")
+            if not lib.recto_colour_parse(text_to(colour), read):
                 raise ValueError(f"pen_colour: not {colour!r}, but as #cc0000")
-            changes[number] = {"has_colour": True, "colour": int(digits, 16)}
+            changes[number] = {"has_colour": True, "colour": read[0]}
         self._change_pens(changes)
+
+    pen_color = pen_colour
 
     def weights(self, value: Mapping[str, float]) -> None:
         items = [
@@ -404,7 +434,7 @@ class Filled:
         self._setter = _Setter(self.at)
         # A view sets both angles, which may be given too; a page is turned
         # once its size is known.
-        first, last = ("view", "page"), ("landscape", "portrait")
+        first, last = ("view", "page", "scale"), ("landscape", "portrait")
         names = [n for n in first if n in given]
         names += [n for n in given if n not in first + last]
         names += [n for n in last if n in given]

@@ -3,6 +3,7 @@ librecto_core_la_SOURCES += \
   src/recto.h \
   %D%/check.c \
   %D%/clip_warning.c %D%/clip_warning.h \
+  %D%/colour.c \
   %D%/draw_file.c \
   %D%/handle.h \
   %D%/mesh.c \

@@ -58,20 +58,12 @@ recto_status lists_set_width(struct arguments *a, const char *name,
   return RECTO_OK;
 }
 
-/* #c00 is #cc0000. */
 recto_status lists_set_colour(struct arguments *a, const char *name,
                               const char *value) {
   recto_pen *pen = find_named_pen(a, name);
-  const char *digits = value + (*value == '#');
-  size_t count = strlen(digits);
-  if (pen == NULL || strspn(digits, "0123456789abcdefABCDEF") != count ||
-      (count != 3 && count != 6))
+  if (pen == NULL || !recto_colour_parse(value, &pen->colour))
     return RECTO_ERROR_ARGUMENT;
-  uint32_t read = (uint32_t)strtoul(digits, NULL, 16);
   pen->has_colour = true;
-  pen->colour = count == 6 ? read
-                           : (read & 0xf00) * 0x1100 + (read & 0xf0) * 0x110 +
-                                 (read & 0xf) * 0x11;
   return RECTO_OK;
 }
 

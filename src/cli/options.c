@@ -87,6 +87,34 @@ static bool parse_depth_bits(struct arguments *arguments, const char *text) {
   return false;
 }
 
+/* A direction, or an axis: x, -y, z. */
+static bool parse_up(struct arguments *arguments, const char *text) {
+  static const char axis[] = "xyz";
+  const char *letter = strchr(axis, text[*text == '-']);
+  double up[3] = {0, 0, 0};
+  if (letter != NULL && *letter != '\0' && text[(*text == '-') + 1] == '\0')
+    up[letter - axis] = *text == '-' ? -1 : 1;
+  else if (!value_vector(text, up) || (up[0] == 0 && up[1] == 0 && up[2] == 0))
+    return false;
+  memcpy(arguments->options.camera.up, up, sizeof up);
+  return true;
+}
+
+/* The size of the model's unit, for --scale. */
+static bool parse_unit(struct arguments *arguments, const char *text) {
+  static const struct {
+    const char *word;
+    double mm;
+  } unit[] = {{"um", 0.001}, {"mm", 1},    {"cm", 10},
+              {"m", 1000},   {"in", 25.4}, {"ft", 304.8}};
+  for (size_t i = 0; i < sizeof unit / sizeof unit[0]; i++)
+    if (strcmp(text, unit[i].word) == 0) {
+      arguments->unit_mm = unit[i].mm;
+      return true;
+    }
+  return false;
+}
+
 /* 0: no pitch at all, which also is the default. */
 static bool parse_pitch(struct arguments *arguments, const char *text) {
   double mm = 0;
@@ -162,6 +190,7 @@ static bool parse_verify(struct arguments *arguments, const char *text) {
 
 #define HEADING(text)                                                          \
   { .kind = OPTION_HEADING, .help = (text) }
+#define PEN_COLOURS "pens and their colours, such as 2=#c00 or 2=firebrick"
 #define ABSENT(text, word)                                                     \
   { .kind = OPTION_ABSENT, .name = (text), .argument = (word) }
 
@@ -230,9 +259,10 @@ const struct option_entry option_table[] = {
     {OPTION_VECTOR, "lookat", 'l', "X,Y,Z", "three numbers such as 1,2,3",
      "what the eye looks at (the middle)", .offset = AT(options.camera.target),
      .given = AT(options.camera.has_target), .use = {USED_BY_TARGET}},
-    {OPTION_VECTOR, "up", 'u', "X,Y,Z", "a direction such as 0,0,1",
-     "up (+Z in .stl, else +Y)", .offset = AT(options.camera.up),
-     .least = DBL_MIN},
+    {OPTION_PARSED, "up", 'u', "AXIS",
+     "x, y, z, -x, -y or -z, or a direction such as 0,0,1",
+     "up: z, -z, y or X,Y,Z (+Z in .stl and .3mf, else +Y)", .parse = parse_up,
+     .words = "x y z -x -y -z"},
     {OPTION_NUMBER, "fov", 'F', "DEG", "an angle above 0, at most 179",
      "perspective; vertical angle (30 with --camera)",
      .offset = AT(options.camera.fov_deg), .given = AT(fov_given),
@@ -244,8 +274,11 @@ const struct option_entry option_table[] = {
     {OPTION_PARSED, "no-fit", 0, NULL, NULL,
      "--fov spans the height inside the margins", .parse = parse_no_fit},
     {OPTION_PARSED, "scale", 0, "A:B", "a scale such as 1:2",
-     "A mm of page for B model units", .parse = parse_scale,
+     "A mm of page for B mm of the model, or of --unit", .parse = parse_scale,
      .use = {USED_BY_SCALE}},
+    {OPTION_PARSED, "unit", 0, "UNIT", "um, mm, cm, m, in or ft",
+     "what a model unit is, for --scale (mm)", .parse = parse_unit,
+     .words = "um mm cm m in ft", .use = {USED_BY_SCALE}},
     {OPTION_NUMBER, "near", 0, "D", "a distance above 0",
      "draw nothing nearer than this, in model units",
      .offset = AT(options.camera.near_distance), .least = DBL_TRUE_MIN,
@@ -273,7 +306,7 @@ const struct option_entry option_table[] = {
     HEADING("Ink"),
     {OPTION_PARSED, "edges", 'e', "LIST",
      "all, none, or a list of silhouette, border, crease, group, "
-     "intersection, wire and smooth",
+     "intersection, wire and smooth, each with or without a -",
      "classes to draw (see below)", .parse = parse_edges, .words = "all none",
      .word = name_edge_class},
     {OPTION_PARSED, "crease", 0, "DEG[,DEG]",
@@ -323,10 +356,11 @@ const struct option_entry option_table[] = {
      "pens and their widths, 0.01 to 100 mm, such as 2=0.5mm",
      "2=0.5mm,3=0.7: widths of pens (--pen)", .parse_item = lists_set_width,
      .use = {USED_BY_STROKES_AND_CHECK}},
-    {OPTION_LIST, "pen-colour", 0, "LIST",
-     "pens and their colours, such as 2=#c00 or 2=#cc0000",
-     "2=#c00,3=00ff00: colours of pens (black)", .parse_item = lists_set_colour,
+    {OPTION_LIST, "pen-colour", 0, "LIST", PEN_COLOURS,
+     "2=#c00,3=navy: colours of pens (black)", .parse_item = lists_set_colour,
      .use = {USED_BY_STROKES, USED_BY_SCREENS}},
+    {OPTION_LIST, "pen-color", 0, "LIST", PEN_COLOURS, "the same",
+     .parse_item = lists_set_colour, .use = {USED_BY_STROKES, USED_BY_SCREENS}},
     {OPTION_LIST, "weights", 0, "LIST",
      "classes and their weights, 0.01 to 100, such as crease=2, or none",
      "widths of classes in pens (silhouette=2,border=2)",

@@ -150,15 +150,18 @@ unsigned value_edge_class(const char *name) {
 }
 
 bool value_edges(const char *text, unsigned *edges) {
-  unsigned mask = RECTO_EDGES_NONE;
+  /* A list that begins by leaving out leaves out of the default. */
+  unsigned mask = *text == '-' ? RECTO_EDGES_DEFAULT : RECTO_EDGES_NONE;
   if (strcmp(text, "none") != 0)
     for (;;) {
+      bool without = *text == '-';
+      text += without;
       size_t length = strcspn(text, ",");
       bool all = length == 3 && memcmp(text, "all", 3) == 0;
       unsigned found = all ? RECTO_EDGES_ALL : find_class(text, length);
       if (found == 0)
         return false;
-      mask |= found;
+      mask = without ? mask & ~found : mask | found;
       text += length;
       if (*text == '\0')
         break;

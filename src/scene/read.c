@@ -12,8 +12,14 @@
 
 /* ---- The reader ---------------------------------------------------------- */
 
-static const struct reader *const readers[] = {&reader_obj, &reader_ply,
-                                               &reader_stl};
+static const struct reader *const readers[] = {
+    &reader_obj,
+    &reader_ply,
+    &reader_stl,
+#ifdef HAVE_ASSIMP
+    &reader_3mf,
+#endif
+};
 enum { READER_COUNT = sizeof readers / sizeof readers[0] };
 
 #ifdef HAVE_ASSIMP

@@ -23,6 +23,7 @@ struct reader {
 extern const struct reader reader_obj;
 extern const struct reader reader_ply;
 extern const struct reader reader_stl;
+extern const struct reader reader_3mf;
 extern const struct reader reader_import; /* all other formats */
 
 /* Reads `path` ("-": standard input) and adds it to the scene; the first file
