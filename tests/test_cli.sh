@@ -178,7 +178,12 @@ orders_like() {
     cmp -s "said.$2" "unsaid.$2"
 }
 claim "HPGL is ordered for a short way" orders_like near hpgl
-claim "SVG comes as it does" orders_like none svg
+claim "so is SVG where it is hatched or has several pens" orders_like near svg
+order_is_kept() {
+  run 0 cube.obj -o said.svg --order none && run 0 cube.obj -o unsaid.svg &&
+    cmp -s said.svg unsaid.svg
+}
+claim "other SVG comes as it does" order_is_kept
 claim "a drawing fits what a plotter reaches" fits_a_sheet A4 hp7475a
 claim "on any of its sheets" fits_a_sheet A3 hp7550a
 
@@ -186,8 +191,8 @@ claim "on any of its sheets" fits_a_sheet A3 hp7550a
 reports_what_pens_draw() {
   run 0 cube.obj -o out.svg --stats=stats.json --hidden layer \
     --pen-for hidden=3 &&
-    grep -q '"layer_pen": \[1, 3\]' stats.json &&
-    sed -n 's/.*"layer_length_mm": \[\(.*\), \(.*\)\].*/\1 \2/p' stats.json |
+    grep -q '"layer_pen": \[3, 1\]' stats.json &&
+    sed -n 's/.*"layer_length_mm": \[\(.*\), \(.*\)\].*/\2 \1/p' stats.json |
     awk '{ off = $1 - 3 * $2; exit !($2 > 100 && off * off < 1e-6) }'
 }
 claim "--stats reports how much each pen draws" reports_what_pens_draw
@@ -393,7 +398,7 @@ claim "an axis may be up" same_drawing --up z -- --up 0,0,1
 claim "and its negative" same_drawing -u -x -- --up=-1,0,0
 claim "classes may be left out" same_drawing -e all,-smooth -- -e \
   silhouette,border,crease,group,intersection,wire
-claim "of the default too" same_drawing -e=-crease -- -e \
+claim "of the default too" same_drawing --edges=-crease -- -e \
   silhouette,border,group,intersection,wire
 claim "colours have names" same_drawing --pen-colour 1=firebrick -- \
   --pen-color 1=#b22222
