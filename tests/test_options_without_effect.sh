@@ -66,6 +66,7 @@ done <<'END_OF_ROWS'
 --lookat 0,0,1|a.svg --fov 20|a.svg|--camera, --fov, --no-fit and --scale; --fit
 --fov 20|a.svg --view top|a.svg -c 5,4,3|named views and for --no-fit; --fit
 --fov 20|a.svg -c 5,4,3 --no-fit|a.svg -c 5,4,3 --scale 1:2|named views and for --no-fit; --scale
+--unit m|a.svg --scale 1:2|a.svg|true scale; --fit
 --scale 1:2|a.svg|a.svg --no-fit|true scale; --no-fit
 --crease 20|a.svg|a.svg -e silhouette|edges of the classes crease and smooth, fills and smooth contours; this --edges
 --crease 20|a.svg -e none --fill shade|a.svg -e border|edges of the classes crease and smooth, fills and smooth contours; this --edges
@@ -80,6 +81,7 @@ done <<'END_OF_ROWS'
 --pens 2|a.svg|a.svg -e none --fill paint|lines and hatching; --edges none
 --pen-for hatch=2|a.svg --fill hatch|a.svg -e none --fill paint|lines and hatching; --edges none
 --pen-width 1=1|a.hpgl|a.svg -e none --fill paint|lines and hatching; --edges none
+--pen-color 1=00f|a.svg|a.hpgl|svg, pdf, eps, ps and png; hpgl
 --pen-colour 1=00f|a.svg|a.hpgl|svg, pdf, eps, ps and png; hpgl
 --order near|a.svg|a.svg -e none --fill paint|lines and hatching; --edges none
 --min-stroke 1|a.svg|a.svg -e none --fill paint|lines and hatching; --edges none
