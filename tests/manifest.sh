@@ -51,7 +51,9 @@ options() {
     '--precision 0 --path polyline' '--contact 0' '--section 0.1' \
     '--weld 0.001 --crease 50' '--threads 1 --stats=/dev/null -e all,smooth' \
     '--exact' '--curves 0.1' '--contours smooth --curves 0.2' \
-    '--contours smooth --hidden dashed --fill hatch'; do
+    '--contours smooth --hidden dashed --fill hatch' \
+    '--fill shade --seam 0 --portrait' '--fill paint --tight --edges all,-smooth' \
+    '--fill hatch --order none --pen-color 1=firebrick --up z'; do
     echo "$near $more"
   done
 }
