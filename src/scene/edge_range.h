@@ -2,7 +2,8 @@
 #ifndef SCENE_EDGE_RANGE_H
 #define SCENE_EDGE_RANGE_H
 
-#include "scene/topology.h"
+#include "scene/scene.h"
+#include "scene/topology_edge.h"
 
 /* The ranges of one scene; each is made by a thread of its own. */
 struct edge_range {

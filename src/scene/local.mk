@@ -30,6 +30,7 @@ librecto_core_la_SOURCES += \
   %D%/self_intersection.c %D%/self_intersection.h \
   %D%/side_iterator.h \
   %D%/topology.c %D%/topology.h \
+  %D%/topology_edge.h \
   %D%/unusable.c %D%/unusable.h \
   %D%/weld_equal.c %D%/weld_equal.h \
   %D%/weld_near.c %D%/weld_near.h

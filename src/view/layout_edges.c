@@ -86,7 +86,7 @@ static struct sheet_edge sheet_edge_of(struct layout_cut ends, uint32_t source,
 }
 
 /* What the phases know, of all edges of the topology. */
-struct edge_work {
+struct edge_layout {
   struct layout *layout;
   struct edge_ids ids;
   uint64_t *special;    /* a bit an edge: it is a contour or leaves the page */
@@ -96,9 +96,9 @@ struct edge_work {
   struct link_range *link;
 };
 
-static bool edge_work_init(struct edge_work *work, struct layout *layout) {
+static bool edge_layout_init(struct edge_layout *work, struct layout *layout) {
   size_t words = layout->topology->edge.count / 64 + 1;
-  *work = (struct edge_work){.layout = layout};
+  *work = (struct edge_layout){.layout = layout};
   work->ids.bits = mem_calloc(words, sizeof *work->ids.bits);
   work->ids.before = mem_alloc(words, sizeof *work->ids.before);
   work->special = mem_calloc(words, sizeof *work->special);
@@ -106,7 +106,7 @@ static bool edge_work_init(struct edge_work *work, struct layout *layout) {
          work->special != NULL;
 }
 
-static void edge_work_fini(struct edge_work *work) {
+static void edge_layout_fini(struct edge_layout *work) {
   mem_free(work->ids.bits);
   mem_free(work->ids.before);
   mem_free(work->special);
@@ -121,7 +121,7 @@ static bool is_contour(const struct layout *layout, uint32_t edge) {
 
 /* Chooses the requested edges of a range, and contours. */
 static bool choose_edges(void *user, struct parallel_range range) {
-  struct edge_work *work = user;
+  struct edge_layout *work = user;
   const struct layout *layout = work->layout;
   const uint32_t *map = layout->point_map;
   unsigned wanted = layout->options->ink.edges & face_classes;
@@ -151,7 +151,7 @@ static bool choose_edges(void *user, struct parallel_range range) {
 
 /* Clips a special edge, adds it if it is a contour, and does not make it where
  * nothing is left of it. */
-static recto_status clip_edge(struct edge_work *work, uint32_t edge) {
+static recto_status clip_edge(struct edge_layout *work, uint32_t edge) {
   struct layout *layout = work->layout;
   struct layout_cut ends;
   recto_status status = find_end_points(layout, edge, &ends);
@@ -163,7 +163,7 @@ static recto_status clip_edge(struct edge_work *work, uint32_t edge) {
 }
 
 /* Clips the special edges, and counts the edges that are made. */
-static recto_status clip_edges(struct edge_work *work, size_t *count) {
+static recto_status clip_edges(struct edge_layout *work, size_t *count) {
   size_t words = work->layout->topology->edge.count / 64 + 1;
   *count = 0;
   for (size_t w = 0; w < words; w++) {
@@ -183,7 +183,7 @@ static recto_status clip_edges(struct edge_work *work, size_t *count) {
 
 /* Makes the chosen edges of a range; all that are clipped are known. */
 static bool make_edges_of_range(void *user, struct parallel_range range) {
-  const struct edge_work *work = user;
+  const struct edge_layout *work = user;
   struct layout *layout = work->layout;
   const uint32_t *group = layout->scene->face_group.item;
   struct sheet_edge *to =
@@ -203,7 +203,7 @@ static bool make_edges_of_range(void *user, struct parallel_range range) {
 }
 
 /* Makes the requested edges, and contours. */
-static recto_status make_edges(struct edge_work *work) {
+static recto_status make_edges(struct edge_layout *work) {
   struct layout *layout = work->layout;
   size_t edges = layout->topology->edge.count, count;
   int workers = parallel_workers(edges, PARALLEL_ITEMS);
@@ -259,7 +259,8 @@ static inline void use_sheet_edge(struct sheet_edge *edge, uint32_t triangle) {
 
 /* The first topology edge that no triangle before this one has: edges are in
  * the order of their first faces. */
-static uint32_t first_own_edge(const struct edge_work *work, size_t triangle) {
+static uint32_t first_own_edge(const struct edge_layout *work,
+                               size_t triangle) {
   const struct topology *topology = work->layout->topology;
   size_t first = 0;
   if (triangle > 0) {
@@ -271,7 +272,7 @@ static uint32_t first_own_edge(const struct edge_work *work, size_t triangle) {
 }
 
 static bool link_sides_of_range(void *user, struct parallel_range range) {
-  struct edge_work *work = user;
+  struct edge_layout *work = user;
   struct layout *layout = work->layout;
   struct sheet *sheet = layout->sheet;
   struct link_range *link = &work->link[range.begin / PARALLEL_ITEMS];
@@ -303,7 +304,7 @@ static bool link_sides_of_range(void *user, struct parallel_range range) {
 
 /* Makes the triangles' sides refer to sheet edges instead of topology edges,
  * and the edges to their first two triangles; marks the inner sides. */
-static bool link_sides(struct edge_work *work) {
+static bool link_sides(struct edge_layout *work) {
   struct sheet *sheet = work->layout->sheet;
   size_t count = sheet->triangle.count;
   size_t ranges = parallel_range_count(count, PARALLEL_ITEMS);
@@ -327,7 +328,7 @@ static bool link_sides(struct edge_work *work) {
 
 /* Finds the classes of edges that do not depend on the camera, if any is
  * requested, and the parts that sample no smooth surface. */
-static bool find_classes(struct edge_work *work) {
+static bool find_camera_free_classes(struct edge_layout *work) {
   const struct layout *layout = work->layout;
   const struct topology *topology = layout->topology;
   const struct scene *scene = layout->scene;
@@ -350,16 +351,16 @@ static bool find_classes(struct edge_work *work) {
 }
 
 recto_status layout_edges(struct layout *layout) {
-  struct edge_work work;
+  struct edge_layout work;
   recto_status status;
-  if (!edge_work_init(&work, layout) || !find_classes(&work))
+  if (!edge_layout_init(&work, layout) || !find_camera_free_classes(&work))
     status = error_memory(layout->error);
   else
     status = make_edges(&work);
   if (status == RECTO_OK &&
       (!make_folds(layout, work.coarse) || !link_sides(&work)))
     status = error_memory(layout->error);
-  edge_work_fini(&work);
+  edge_layout_fini(&work);
   return status;
 }
 

@@ -1,0 +1,34 @@
+/* topology_edge.h - an edge of a scene: an unordered pair of points, and the
+ * faces that meet there. */
+#ifndef SCENE_TOPOLOGY_EDGE_H
+#define SCENE_TOPOLOGY_EDGE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+struct topology_edge {
+  uint32_t point[2]; /* scene points, welded, point[0] < point[1] */
+  /* The first two faces in file order; they fit, as each has three corners at
+   * least (limit.h). */
+  uint32_t first : 30;
+  uint32_t uses : 2;     /* how many faces, capped at 3 */
+  uint32_t second : 31;  /* TOPOLOGY_NONE: there is but one */
+  uint32_t same_way : 1; /* of two faces: both run along it in one direction,
+                            so their windings disagree */
+};
+
+enum { TOPOLOGY_NONE = 0x7fffffff, TOPOLOGY_FACE_BITS = (1 << 30) - 1 };
+
+/* Adds a face to an edge that has one.
+ * forward  it runs along it from its lower point to its upper one */
+static inline void topology_use_edge(struct topology_edge *edge, uint32_t face,
+                                     bool forward) {
+  if (edge->uses == 1) {
+    edge->second = face & TOPOLOGY_FACE_BITS;
+    edge->same_way = edge->same_way == forward;
+  }
+  if (edge->uses < 3)
+    edge->uses++;
+}
+
+#endif
