@@ -4,7 +4,8 @@
 
 #include "recto.h"
 
-/* The named colours of CSS Color Module Level 4, in the order of their names. */
+/* The named colours of CSS Color Module Level 4, in the order of their names.
+ * */
 static const struct named_colour {
   const char *name;
   uint32_t colour;
