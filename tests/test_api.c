@@ -13,7 +13,7 @@
 #include <cmocka.h>
 
 #include "api/handle.h"
-#include "api/output.h"
+#include "api/output_format.h"
 #include "base/memory.h"
 #include "base/stream.h"
 #include "tests/box_mesh.h"

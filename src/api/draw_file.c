@@ -2,7 +2,7 @@
  * the drawing. */
 #include "api/handle.h"
 #include "api/options.h"
-#include "api/output.h"
+#include "api/output_format.h"
 #include "base/path.h"
 #include "base/status.h"
 

@@ -9,7 +9,8 @@ librecto_core_la_SOURCES += \
   %D%/mesh.c \
   %D%/judge_input.c %D%/judge_input.h \
   %D%/options.c %D%/options.h \
-  %D%/output.c %D%/output.h \
+  %D%/output.c \
+  %D%/output_format.c %D%/output_format.h \
   %D%/render.c \
   %D%/preparation.c %D%/preparation.h \
   %D%/result.c %D%/result.h %D%/result_edges.c %D%/result_faces.c \

@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 #include "api/handle.h"
-#include "api/output.h"
+#include "api/output_format.h"
 #include "api/sized.h"
 #include "backends/device.h"
 

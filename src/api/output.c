@@ -5,7 +5,7 @@
 
 #include "api/handle.h"
 #include "api/options.h"
-#include "api/output.h"
+#include "api/output_format.h"
 #include "api/shares.h"
 #include "api/stats.h"
 #include "backends/writer.h"
@@ -15,96 +15,6 @@
 #include "base/target.h"
 
 /* ---- Writing ------------------------------------------------------------- */
-
-static const struct writer *find_writer(const char *path, const char *format) {
-  if (format != NULL)
-    return writer_by_name(format);
-  if (path == NULL)
-    return NULL;
-  return path_is_standard_output(path) || path_descriptor(path) >= 0
-             ? &writer_svg
-             : writer_by_path(path);
-}
-
-const char *recto_output_format(const char *path, const char *format) {
-  const struct writer *writer = find_writer(path, format);
-  return writer != NULL ? writer->name : NULL;
-}
-
-const char *recto_output_format_name(size_t index) {
-  const struct writer *const *writer = writers();
-  for (size_t i = 0; writer[i] != NULL; i++)
-    if (i == index)
-      return writer[i]->name;
-  return NULL;
-}
-
-static struct writer_options writer_options_of(const recto_options *options) {
-  return (struct writer_options){.precision = options->output.precision,
-                                 .polyline = options->output.polyline,
-                                 .tight = options->output.tight,
-                                 .dpi = options->output.dpi,
-                                 .device = options->output.device,
-                                 .velocity = options->output.velocity_cm_s,
-                                 .warning = options->warning,
-                                 .user = options->user};
-}
-
-/* Reports why find_writer returned NULL. */
-static recto_status no_writer(const char *path, const char *format,
-                              recto_error *error) {
-  if (format != NULL)
-    return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
-                     "there is no output format \"%s\"", format);
-  return error_set(error, RECTO_ERROR_UNSUPPORTED, path, 0,
-                   "there is no output format of that extension");
-}
-
-/* Sets the margin that the writer's device needs.  The default margin is kept
- * where it is wide enough, and where the page is so small that the needed
- * margins would leave no room. */
-static void fit_margin(recto_options *o, const struct writer *writer) {
-  struct writer_options how = writer_options_of(o);
-  double needed = writer->margin_mm(&how, o->page.width_mm, o->page.height_mm);
-  if (needed > RECTO_USUAL_MARGIN_MM &&
-      2 * needed < fmin(o->page.width_mm, o->page.height_mm))
-    o->page.margin_mm = needed;
-}
-
-/* Whether a drawing looks as if it were for a plotter: it has hatching, or
- * several pens. */
-static bool suggests_plotter(const recto_options *o) {
-  return o->ink.fill == RECTO_FILL_HATCH || o->ink.pens > 1 ||
-         o->ink.pen_use_count > 0 || o->ink.hidden == RECTO_HIDDEN_LAYER;
-}
-
-recto_status options_adapt(recto_options *options, recto_error *error) {
-  const char *format = options->output.format;
-  if (format == NULL)
-    return RECTO_OK;
-  const struct writer *writer = writer_by_name(format);
-  if (writer == NULL)
-    return no_writer(NULL, format, error);
-  struct writer_options how = writer_options_of(options);
-  if (options->output.unit_mm == 0)
-    options->output.unit_mm = writer->unit_mm(&how);
-  if (options->page.margin_mm < 0 && writer->margin_mm != NULL)
-    fit_margin(options, writer);
-  if (options->ink.seam_mm < 0)
-    options->ink.seam_mm = writer->seam_mm != NULL ? writer->seam_mm(&how) : 0;
-  if (writer->by_pens)
-    options->ink.has_weights = true;
-  if (options->ink.order == RECTO_ORDER_AUTO &&
-      (writer->by_pens || (writer->has_layers && suggests_plotter(options))))
-    options->ink.order = RECTO_ORDER_NEAR;
-  return RECTO_OK;
-}
-
-recto_status output_check_format(const char *path, const char *format,
-                                 recto_error *error) {
-  return find_writer(path, format) != NULL ? RECTO_OK
-                                           : no_writer(path, format, error);
-}
 
 static bool output_is_compressed(const char *path, const char *format) {
   return format != NULL ? writer_name_is_compressed(format)
@@ -156,7 +66,7 @@ static recto_status fill_outputs(struct outputs *outputs,
                                  const recto_options *options,
                                  recto_error *error) {
   double cpu = clock_cpu(), wall = clock_wall();
-  struct writer_options how = writer_options_of(options);
+  struct writer_options how = output_writer_options(options);
   recto_status status =
       writer->write(&drawing->drawing, &how, outputs->drawing, error);
   report_lock(drawing->report);
@@ -178,9 +88,9 @@ recto_status recto_drawing_write_with_stats(
   recto_status status = options_copy_valid(&own, options, error);
   if (status != RECTO_OK)
     return status;
-  const struct writer *writer = find_writer(path, format);
+  const struct writer *writer = output_writer(path, format);
   if (writer == NULL)
-    return no_writer(path, format, error);
+    return output_no_writer(path, format, error);
   status = open_outputs(&outputs, drawing, path, format, stats, error);
   if (status == RECTO_OK) {
     struct poll poll;
@@ -231,9 +141,9 @@ recto_status recto_drawing_write_to(const recto_drawing *drawing,
   recto_status status = options_copy_valid(&own, options, error);
   if (status != RECTO_OK)
     return status;
-  const struct writer *writer = find_writer(NULL, format);
+  const struct writer *writer = output_writer(NULL, format);
   if (writer == NULL)
-    return no_writer(NULL, format, error);
+    return output_no_writer(NULL, format, error);
   struct poll poll;
   shares_open_poll(&poll, &own, SHARE_WRITE, "write");
   status = stream_open_memory(&outputs.drawing, error);

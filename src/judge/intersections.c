@@ -382,8 +382,8 @@ static bool add_common(struct intersection_finder *finder,
   snap_to_corner(one, two, &a, &b);
   const struct judge_camera *camera = finder->camera;
   /* It is sure where both triangles extend to either side of the other's plane
-   * by far more than contact and rounding, which cannot move it either, and both
-   * triangulations are known. */
+   * by far more than contact and rounding, which cannot move it either, and
+   * both triangulations are known. */
   double rounding = fmax(judge_rounding_at(camera, finder->ray_offset_mm, a),
                          judge_rounding_at(camera, finder->ray_offset_mm, b));
   double contact = fmax(one->contact, two->contact);
@@ -401,7 +401,7 @@ static bool add_common(struct intersection_finder *finder,
   return judge_edges_add(finder->edges, finder->camera, a, b, &source);
 }
 
-/* ---- Nearly in one plane -------------------------------------------------- */
+/* ---- Nearly in one plane ------------------------------------------------- */
 
 /* A triangle clipped by a slab and by three sides has eight corners at most. */
 struct near_polygon {

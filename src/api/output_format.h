@@ -1,8 +1,19 @@
-/* output.h - checks of an output that are made before the work begins. */
-#ifndef API_OUTPUT_H
-#define API_OUTPUT_H
+/* output_format.h - the writer of an output, and what options it asks for. */
+#ifndef API_OUTPUT_FORMAT_H
+#define API_OUTPUT_FORMAT_H
 
+#include "backends/writer.h"
 #include "base/status.h"
+
+/* The writer of that format, or where it is NULL, of the path's extension; NULL
+ * where there is none. */
+const struct writer *output_writer(const char *path, const char *format);
+
+/* Reports why there is none. */
+recto_status output_no_writer(const char *path, const char *format,
+                              recto_error *error);
+
+struct writer_options output_writer_options(const recto_options *options);
 
 /* Errors  RECTO_ERROR_UNSUPPORTED: no writer has that format, or the path's
  *         extension; RECTO_ERROR_ARGUMENT: standard output without a format. */
