@@ -296,8 +296,10 @@ typedef struct recto_mesh_options {
    * from files the precision follows from the file. */
   int coordinate_bits;
   char unused[4]; /* 0 */
-  /* Creases that are joined at points are drawn if faces meet at a larger angle
-   * than this at one of them at least; 0: all are. */
+  /* Creases that are joined end to end are drawn only if faces meet at a larger
+   * angle than this at one of them at least.  0: this holds, with 1.5 times
+   * `crease_deg`, for lines that end free alone; for none where `ink.exact` is
+   * set or `ink.min_stroke_mm` is 0. */
   double crease_start_deg;
   uint64_t reserved[7];
 } recto_mesh_options;

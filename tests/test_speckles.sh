@@ -122,6 +122,28 @@ found() {
 }
 claim "default drawings are found right" found
 
+# A roof of 120 x 10 whose ridge starts END from its ends.
+roof() { # HEIGHT END
+  printf '%s\n' 'v -60 0 5' 'v 60 0 5' 'v 60 0 -5' 'v -60 0 -5' \
+    "v -$((60 - $2)) $1 0" "v $((60 - $2)) $1 0" 'f 1 2 6 5' 'f 3 4 5 6' \
+    'f 4 1 5' 'f 2 3 6' >roof.obj
+}
+ridges() { # COUNT OPTION...
+  local count=$1
+  shift
+  run 0 roof.obj --view=top -e crease,border -q -o roof.svg --verify "$@" &&
+    run 0 --check roof.svg roof.obj --view=top -e crease,border "$@" &&
+    test "$(strokes roof.svg crease | wc -l)" -eq "$count"
+}
+# Its sides meet at 40 degrees, then at 50.
+ridge() {
+  roof 1.82 50 && ridges 0 && ridges 1 --crease=26 && ridges 1 --exact &&
+    ridges 1 --crease=30,30 && ridges 1 --min-stroke=0 && ridges 1 --ids \
+    --crease=30,30 && ridges 0 --ids && roof 1.82 0 && ridges 1 &&
+    roof 2.33 50 && ridges 1
+}
+claim "a crease that ends free is drawn if it is sharp somewhere" ridge
+
 fewer() {
   run 0 "$RECTO_MODELS/stanford-bunny.obj" -q -o plain.svg &&
     run 0 "$RECTO_MODELS/stanford-bunny.obj" -q --exact -o exact.svg &&

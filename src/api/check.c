@@ -95,6 +95,8 @@ static recto_status judge_file_drawing(const struct scene *scene,
       o->ink.pen_mm / 4 + ink_deviation_mm(o);
   if (!o->ink.exact) /* half a pen, as of lines that others cover */
     options.ink_distance_mm += o->ink.pen_mm / 4;
+  if (options.crease_start_deg == 0)
+    options.crease_start_deg = pens_crease_start_deg(o);
   status = find_shortest(&options, scene, o, error);
   if (status == RECTO_OK &&
       !judge_drawing(verdict, drawing, &input.scene, &seen, &options))

@@ -71,7 +71,9 @@ static recto_status make_paths(const struct ink *ink, struct ink_paths *paths,
   recto_status status = paths_chain(paths, path_of_segment, graph, error);
   bool tidy = is_tidied(ink->options);
   if (status == RECTO_OK && tidy &&
-      !paths_find_free_ends(paths, graph, ink->sheet, step))
+      !(paths_find_free_ends(paths, graph, ink->sheet, step) &&
+        paths_find_weak(paths, graph, ink->sheet, ink->options->mesh.crease_deg,
+                        pens_crease_start_deg(ink->options))))
     status = error_memory(error);
   if (status != RECTO_OK)
     return status;
@@ -135,6 +137,7 @@ static bool is_too_short(const struct ink *ink, const struct ink_path *path,
   uint32_t layer = stroke_like(ink, path).layer;
   double length = stroke_line_length(line);
   return path->is_covered || length < pens_shortest_line_mm(ink->pens, layer) ||
+         path->is_weak ||
          (path->is_free && length < pens_shortest_crease_mm(ink->pens, layer));
 }
 

@@ -10,6 +10,11 @@
 /* In pen widths: shorter creases that end free are no line to the eye. */
 #define SHORTEST_CREASE_PENS 10
 
+/* In crease angles: creases that end free are no line of the object unless they
+ * bend by more somewhere; a chamfer's 45 degrees are not exceeded, but lines
+ * of chamfers do not end free. */
+#define CREASE_START 1.5
+
 /* The index of the bit of a class. */
 static unsigned class_index(unsigned edge_class) {
   unsigned index = 0;
@@ -142,6 +147,13 @@ double pens_shortest_hatch_mm(const struct pens *pens, uint32_t pen) {
 
 double pens_shortest_line_mm(const struct pens *pens, uint32_t pen) {
   return fmin(pens_shortest_hatch_mm(pens, pen), pens_width_mm(pens, pen) / 2);
+}
+
+double pens_crease_start_deg(const recto_options *options) {
+  bool exact = options->ink.exact || options->ink.min_stroke_mm == 0;
+  return exact || options->mesh.crease_start_deg > 0
+             ? 0
+             : fmin(CREASE_START * options->mesh.crease_deg, 180);
 }
 
 double pens_shortest_crease_mm(const struct pens *pens, uint32_t pen) {

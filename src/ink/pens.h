@@ -63,6 +63,10 @@ double pens_shortest_line_mm(const struct pens *pens, uint32_t pen);
 double pens_shortest_crease_mm(const struct pens *pens, uint32_t pen);
 double pens_shortest_hatch_mm(const struct pens *pens, uint32_t pen);
 
+/* The angle at which faces must meet somewhere along creases that end free, for
+ * them to be drawn; 0: none. */
+double pens_crease_start_deg(const recto_options *options);
+
 /* The width of visible lines of a class, in pen widths. */
 double pens_weight(const struct pens *pens, unsigned edge_class);
 

@@ -77,7 +77,7 @@ static struct measured_path measure_path(const struct covering *c,
   double shortest = pens_shortest_crease_mm(c->pens, m.layer);
   m.near = pens_width_mm(c->pens, m.layer) / 2 * SHEET_UNITS_PER_MM;
   m.is_drawn = mm >= pens_shortest_line_mm(c->pens, m.layer) &&
-               !(path->is_free && mm < shortest);
+               !path->is_weak && !(path->is_free && mm < shortest);
   m.is_hair = m.is_drawn && mm < shortest && !path->closed;
   return m;
 }

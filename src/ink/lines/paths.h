@@ -13,7 +13,8 @@ struct ink_path {
   uint32_t end[2]; /* its ends in the segment graph, if it is open */
   uint8_t classes; /* all classes of its segments */
   bool hidden, closed;
-  bool is_free, is_covered; /* see paths_find_free_ends, paths_find_covered */
+  bool is_free, is_weak; /* see paths_find_free_ends, paths_find_weak */
+  bool is_covered;       /* see paths_find_covered */
 };
 
 struct ink_paths {
@@ -57,6 +58,16 @@ USE_RESULT bool paths_find_free_ends(struct ink_paths *paths,
                                      const struct segment_graph *graph,
                                      const struct sheet *sheet,
                                      double output_step);
+
+/* Sets is_weak of the paths of creases that are free, where no edge that is
+ * joined to them at points of the mesh by creases, drawn as such or as
+ * silhouettes, bends by more than an angle.
+ * crease_deg, start_deg  the angle of creases; that angle, 0: none is weak
+ * Returns false when memory ran out.  Cost: linear in the edges and paths. */
+USE_RESULT bool paths_find_weak(struct ink_paths *paths,
+                                const struct segment_graph *graph,
+                                const struct sheet *sheet, double crease_deg,
+                                double start_deg);
 
 /* Removes points within TOLERANCE_COLLINEAR_UNITS of the straight line that
  * remains without them, if they are in order along it.  For approximate points
