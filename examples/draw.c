@@ -11,6 +11,7 @@ int main(int argc, char **argv) {
     return 2;
   }
   recto_options_init(&options);
+  options.page.may_turn = true; /* where that draws the model larger */
   if (recto_draw_file(argv[1], NULL, argv[2], NULL, &options, &error)) {
     fprintf(stderr, "draw: %s: %s\n", argv[1], error.text);
     return 1;

@@ -24,9 +24,9 @@ pixels() {
 }
 
 # Scenes that recto itself draws: their options.  No weights, which HPGL does not
-# have.  No dashes: where a hidden line
-# is as good as on a visible one in a plotter's units, but not in SVG's finer
-# ones, they are spread over what is left of it.
+# have, and upright pages.  No dashes: where a hidden line is as good as on a
+# visible one in a plotter's units, but not in SVG's finer ones, they are spread
+# over what is left of it.
 models=$srcdir/examples/models
 declare -A scene=(
   [castle]="castle.obj"
@@ -43,7 +43,7 @@ write() {
     # Options without spaces in them.
     # shellcheck disable=SC2086
     (cd "$models" &&
-      "$recto" --quiet --pen 0.5 --weights none --dpi 200 ${scene[$1]} \
+      "$recto" --quiet --pen 0.5 --weights none --dpi 200 --portrait ${scene[$1]} \
         -o "$scratch/page.$2")
   else
     "$tool" write "$1" "$2" "page.$2" dpi=200
