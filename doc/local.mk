@@ -10,7 +10,7 @@ EXTRA_DIST += %D%/recto.3.in %D%/manual.awk
 
 EXTRA_DIST += NEWS.md CONTRIBUTING.md BIBLIOGRAPHY.md \
 	%D%/algorithms.md %D%/decisions %D%/draw.sh %D%/glossary.md \
-	%D%/python.md %D%/testing.md \
+	%D%/python.md %D%/testing.md %D%/gallery.md \
 	%D%/plotting.md %D%/figures.md %D%/testing-with-recto.md
 
 # What completes command lines in bash and zsh, by the program's own table of
@@ -29,9 +29,10 @@ endif
 	@$(MKDIR_P) $(@D)
 	$(AM_V_GEN)./recto --completion zsh >$@
 
-# The README's pictures, as recto draws them now; a test compares them.
-PICTURES = %D%/images/castle.svg %D%/images/gears.svg %D%/images/knot.svg
-EXTRA_DIST += $(PICTURES)
+# The pictures of the README and of the gallery, as recto draws them now; a test
+# compares them.
+EXTRA_DIST += %D%/images/castle.svg %D%/images/gears.svg %D%/images/knot.svg \
+  %D%/images/gallery
 images: recto
 	bash '$(srcdir)/%D%/draw.sh' ./recto '$(srcdir)/examples/models' \
 	  '$(srcdir)/%D%/images'

@@ -218,9 +218,19 @@ claim "in the order of the alphabet" bash -c \
 
 # ---- Pictures -------------------------------------------------------------
 
-bash "$srcdir/doc/draw.sh" "$recto" "$srcdir/examples/models" "$scratch"
+mkdir "$scratch/images"
+bash "$srcdir/doc/draw.sh" "$recto" "$srcdir/examples/models" "$scratch/images"
 for picture in castle gears knot; do
   claim "the README's $picture is what recto draws (else: make images)" \
-    cmp "$srcdir/doc/images/$picture.svg" "$scratch/$picture.svg"
+    cmp "$srcdir/doc/images/$picture.svg" "$scratch/images/$picture.svg"
 done
+claim "the gallery is what recto draws (else: make images)" \
+  diff -rq "$srcdir/doc/images/gallery" "$scratch/images/gallery"
+gallery_shows_all() {
+  grep -o 'images/gallery/[a-z0-9-]*\.svg' "$srcdir/doc/gallery.md" |
+    sed 's|.*/||' | LC_ALL=C sort >"$scratch/shown"
+  (cd "$scratch/images/gallery" && printf '%s\n' *.svg) | LC_ALL=C sort |
+    same /dev/stdin "$scratch/shown"
+}
+claim "the gallery shows every picture" gallery_shows_all
 finish
