@@ -230,7 +230,7 @@ static double hidden_length(int layers, recto_method method) {
   for (size_t i = 0; i < recto_drawing_stroke_count(drawing); i++) {
     recto_stroke s;
     assert_true(recto_drawing_stroke(drawing, i, &s));
-    for (size_t k = 1; s.layer == 1 && k < s.count; k++)
+    for (size_t k = 1; s.hidden && k < s.count; k++)
       length += (s.points[2 * k] - s.points[2 * k - 2]) *
                     (s.points[2 * k] - s.points[2 * k - 2]) +
                 (s.points[2 * k + 1] - s.points[2 * k - 1]) *

@@ -613,6 +613,7 @@ static void count_strokes(const recto_scene *scene, double length,
   recto_error error;
   recto_options_init(&options);
   options.mesh.weld = length;
+  options.mesh.crease_start_deg = options.mesh.crease_deg;
   options.camera.up[1] = 1;
   options.ink.ids = true;
   options.solver.threads = 1;
