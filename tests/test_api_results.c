@@ -68,13 +68,14 @@ static void layers_have_their_pen_label_colour_and_width(void **state) {
   recto_drawing *drawing = draw(&options);
   recto_layer layer;
   assert_int_equal(recto_drawing_layer_count(drawing), 2);
+  /* The hidden lines lie below. */
   assert_true(recto_drawing_layer(drawing, 0, &layer));
+  assert_int_equal(layer.pen, 2);
+  assert_true(layer.width_mm == 0.25 && layer.colour == 0xcc0044);
+  assert_true(recto_drawing_layer(drawing, 1, &layer));
   assert_int_equal(layer.pen, 1);
   assert_true(layer.width_mm == 0.5 && layer.colour == 0);
   assert_true(strncmp(layer.label, "1 ", 2) == 0);
-  assert_true(recto_drawing_layer(drawing, 1, &layer));
-  assert_int_equal(layer.pen, 2);
-  assert_true(layer.width_mm == 0.25 && layer.colour == 0xcc0044);
   assert_false(recto_drawing_layer(drawing, 2, &layer));
   assert_int_equal(layer.pen, 0);
   assert_string_equal(layer.label, "");

@@ -56,7 +56,7 @@ static void items_that_make_no_sense_are_quoted(void **state) {
       {"--pen-width=2=101mm", "\"2=101mm\""},
       {"--pen-width=x=1", "\"x=1\""},
       {"--pen-colour=2=#12", "\"2=#12\""},
-      {"--pen-colour=2=red", "\"2=red\""},
+      {"--pen-colour=2=reddish", "\"2=reddish\""},
       {"--pen-colour=2=#1234567", "\"2=#1234567\""},
       {"--pen-colour=2=0x1234", "\"2=0x1234\""},
       {"--pen-colour=2=##c00", "\"2=##c00\""},
