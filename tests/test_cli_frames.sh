@@ -89,6 +89,19 @@ cp cube.obj cube1.obj
 claim "no frame replaces the model" \
   refuses 'cube1.obj: .*would replace' cube1.obj --turntable 3 --format svg \
   -o 'cube%d.obj'
+# Names that meet: drawing 1 is a11.svg, and so are the statistics of drawing 11.
+meets() {
+  ! "$recto" cube.obj "${@:2}" 2>err && grep -q "$1: would replace another" err
+}
+claim "no statistics replace another drawing" \
+  meets a11.svg --turntable 12 -o 'a%d1.svg' --stats='a%d.svg'
+claim "which is whole" grep -q '</svg>' a11.svg
+echo old >x0.svg && ln x0.svg x2.svg
+claim "no drawing replaces another that has two names" \
+  meets x2.svg --turntable 3 -o 'x%d.svg'
+ln -s y0.svg y2.svg
+claim "nor one by a link that led nowhere before" \
+  meets y2.svg --turntable 3 -o 'y%d.svg'
 claim "a number of absurd width is refused" \
   refuses 'neither' cube.obj --turntable 3 -o 'no%99999999d.svg'
 claim "so is a path that no system takes" \

@@ -9,7 +9,9 @@
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "cli/frames.h"
@@ -76,6 +78,49 @@ static void find_outputs(struct output_paths *outputs,
   outputs->stats = stats != NULL ? frame_path(arguments, stats, frame,
                                               outputs->path_buffer[1])
                                  : NULL;
+}
+
+/* ---- What the run has written -------------------------------------------- */
+
+/* The files of the drawings so far, by which the next ones are known that have
+ * another name: a link, or the name of another drawing's stats. */
+struct written {
+  struct written_file {
+    dev_t device;
+    ino_t inode;
+  } * file; /* of two a drawing */
+  size_t count;
+};
+
+static bool find_file(const char *path, struct written_file *file) {
+  struct stat state;
+  if (path == NULL || is_standard_output(path) || stat(path, &state) != 0 ||
+      !S_ISREG(state.st_mode))
+    return false;
+  *file = (struct written_file){state.st_dev, state.st_ino};
+  return true;
+}
+
+static recto_status check_written(const struct written *written,
+                                  const char *path, recto_error *error) {
+  struct written_file file;
+  if (!find_file(path, &file))
+    return RECTO_OK;
+  for (size_t i = 0; i < written->count; i++)
+    if (written->file[i].device == file.device &&
+        written->file[i].inode == file.inode) {
+      *error = (recto_error){.code = RECTO_ERROR_IO,
+                             .text = "would replace another drawing of this "
+                                     "run, or its stats"};
+      snprintf(error->file, sizeof error->file, "%s", path);
+      return error->code;
+    }
+  return RECTO_OK;
+}
+
+static void note_written(struct written *written, const char *path) {
+  if (find_file(path, &written->file[written->count]))
+    written->count++;
 }
 
 /* Checks that all outputs can be written and that none replaces a file that was
@@ -156,7 +201,7 @@ static recto_status check_drawing(const struct arguments *arguments,
 static recto_status write_outputs(const struct arguments *arguments,
                                   const recto_drawing *drawing, int frame,
                                   const recto_options *options,
-                                  recto_error *error) {
+                                  struct written *written, recto_error *error) {
   struct output_paths outputs;
   if (!arguments->quiet && recto_drawing_verdict(drawing) != NULL)
     message_print("", 0, recto_drawing_verdict(drawing));
@@ -164,9 +209,17 @@ static recto_status write_outputs(const struct arguments *arguments,
   if (isatty(STDOUT_FILENO))
     progress_bar_end();
   find_outputs(&outputs, arguments, frame);
-  recto_status status = recto_drawing_write_with_stats(
-      drawing, outputs.drawing, arguments->format, outputs.stats, options,
-      error);
+  recto_status status = check_written(written, outputs.drawing, error);
+  if (status == RECTO_OK)
+    status = check_written(written, outputs.stats, error);
+  if (status == RECTO_OK)
+    status = recto_drawing_write_with_stats(drawing, outputs.drawing,
+                                            arguments->format, outputs.stats,
+                                            options, error);
+  if (status == RECTO_OK) {
+    note_written(written, outputs.drawing);
+    note_written(written, outputs.stats);
+  }
   if (status == RECTO_OK && stats_use_stderr(arguments)) {
     progress_bar_end();
     fputs(recto_drawing_stats(drawing), stderr);
@@ -178,7 +231,7 @@ static recto_status write_outputs(const struct arguments *arguments,
  * in common are those of the first. */
 static recto_status draw_frame(const struct arguments *arguments,
                                const recto_scene *scene, int frame,
-                               recto_error *error) {
+                               struct written *written, recto_error *error) {
   struct current_frame current = {frame, frames_count(arguments)};
   recto_drawing *drawing = NULL;
   recto_options options;
@@ -190,7 +243,7 @@ static recto_status draw_frame(const struct arguments *arguments,
     options.warning = NULL;
   recto_status status = recto_scene_render(scene, &options, &drawing, error);
   if (status == RECTO_OK)
-    status = write_outputs(arguments, drawing, frame, &options, error);
+    status = write_outputs(arguments, drawing, frame, &options, written, error);
   recto_drawing_destroy(drawing);
   return status;
 }
@@ -199,7 +252,13 @@ static recto_status draw_models(const struct arguments *arguments,
                                 recto_error *error) {
   recto_scene *scene = NULL;
   int frames = frames_count(arguments);
+  struct written written = {calloc(2 * (size_t)frames, sizeof *written.file),
+                            0};
   recto_status status = recto_scene_create(&scene, error);
+  if (status == RECTO_OK && written.file == NULL) {
+    *error = (recto_error){.code = RECTO_ERROR_MEMORY, .text = "out of memory"};
+    status = error->code;
+  }
   if (status == RECTO_OK)
     status = check_outputs(arguments, scene, error);
   if (status == RECTO_OK)
@@ -210,9 +269,10 @@ static recto_status draw_models(const struct arguments *arguments,
   if (status == RECTO_OK && frames > 1)
     status = recto_scene_prepare(scene, &arguments->options, error);
   for (int i = 0; i < frames && status == RECTO_OK; i++)
-    status = draw_frame(arguments, scene, i, error);
+    status = draw_frame(arguments, scene, i, &written, error);
   progress_bar_end();
   recto_scene_destroy(scene);
+  free(written.file);
   return status;
 }
 
