@@ -38,9 +38,9 @@ struct writer {
   double (*seam_mm)(const struct writer_options *options);
   bool by_pens; /* a format for plotters: all lines of a pen have one width, and
                    travel with the pen up costs time */
-  bool
-      has_layers; /* each pen has a layer, which programs for plotters read: the
-                      order of strokes counts where a plotter is meant */
+  /* Each pen has a layer, which programs for plotters read: the order of
+   * strokes counts where a plotter is meant. */
+  bool has_layers;
   /* Writes the drawing.  Write errors are not returned, but kept by the
    * stream. */
   recto_status (*write)(const struct drawing *drawing,

@@ -4,8 +4,7 @@
 
 #include "recto.h"
 
-/* The named colours of CSS Color Module Level 4, in the order of their names.
- * */
+/* The named colours of CSS Color Module Level 4, by name. */
 static const struct named_colour {
   const char *name;
   uint32_t colour;

@@ -21,9 +21,9 @@ USE_RESULT recto_status output_check_format(const char *path,
                                             const char *format,
                                             recto_error *error);
 
-/* Adapts options to their output's format, if any: sets the unit, and where the
- * format is for plotters replaces defaults: the margin by the one that the
- * plotter needs, the order by RECTO_ORDER_NEAR, and the weights by none.
+/* Adapts options to their output's format, if any: sets the unit, the width of
+ * seams and the order, where they are the defaults, and for plotters the margin
+ * that they need and no weights.
  * Errors  RECTO_ERROR_UNSUPPORTED: there is no such format */
 USE_RESULT recto_status options_adapt(recto_options *options,
                                       recto_error *error);

@@ -26,7 +26,8 @@ bool value_tolerance(const char *text, double *mm, double *share);
 bool value_vector(const char *text, double vector[3]);
 
 /* A page: A0 to A6, letter or legal, upright, in any case; or WxH, two
- * lengths above 0, where a unit of the second serves the first too. */
+ * lengths above 0, where a unit of the second serves the first too.
+ * is_named  set to whether it was a name */
 bool value_page(const char *text, double *width_mm, double *height_mm,
                 bool *is_named);
 

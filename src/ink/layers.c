@@ -188,9 +188,8 @@ static bool arrange_layers(struct drawing *drawing) {
   return layer != NULL;
 }
 
-/* With several weights the strokes of a class are consecutive: hidden ones,
- * then
- * the lightest classes first, so that heavy lines lie on top. */
+/* With several weights the strokes of a class are consecutive: first hidden
+ * ones, then the lightest classes, so that heavy lines lie on top. */
 static int compare_strokes(const void *first, const void *second, void *user) {
   const struct drawing_stroke *a = first, *b = second;
   const struct drawing *drawing = user;
