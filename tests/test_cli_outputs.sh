@@ -164,6 +164,14 @@ owner_stays() {
   echo old >owned && chown 1234:2345 owned && draw_over owned &&
     test "$(stat -c %u:%g owned)" = 1234:2345 && none_left
 }
+# A file of two names is written in place, which may not fail half-way.
+limited_in_place() {
+  local model=$srcdir/examples/models/gears.obj
+  echo old >one.svg && ln one.svg two.svg &&
+    ! (ulimit -f 1 && exec "$recto" "$model" -o one.svg) 2>err &&
+    grep -q 'File too large' err && test "$(cat two.svg)" = old && none_left
+}
+claim "beyond the size limit a file of two names stays as it is" limited_in_place
 # Somebody else's file in a folder of one's own cannot be given away, and is
 # written in place; and so is one in a folder that may not be written to.
 as_nobody() { setpriv --reuid 65534 --regid 65534 --clear-groups "$@"; }

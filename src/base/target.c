@@ -12,6 +12,7 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/xattr.h>
 #include <unistd.h>
 
@@ -379,9 +380,21 @@ static bool write_bytes_all(int descriptor, const char *bytes, size_t count) {
   return true;
 }
 
+/* Whether the process may write a file of that size.  What reserves space does
+ * not ask, as it leaves the size of the file. */
+static bool is_within_limit(size_t count) {
+  struct rlimit limit;
+  return getrlimit(RLIMIT_FSIZE, &limit) != 0 ||
+         limit.rlim_cur == RLIM_INFINITY || count <= limit.rlim_cur;
+}
+
 /* Makes sure that there is room before a byte is changed, where the file system
  * can. */
 static bool reserve_space(int descriptor, size_t count) {
+  if (!is_within_limit(count)) {
+    errno = EFBIG;
+    return false;
+  }
 #ifdef FALLOC_FL_KEEP_SIZE
   if (count > 0 &&
       fallocate(descriptor, FALLOC_FL_KEEP_SIZE, 0, (off_t)count) != 0)
