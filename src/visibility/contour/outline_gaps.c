@@ -212,7 +212,7 @@ static bool add_open_parts(struct outline_gaps *g,
                            const struct contour_outline *outline) {
   struct geom_segment s = outline->image;
   double length = hypot((double)s.q.x - s.p.x, (double)s.q.y - s.p.y);
-  double radius = extent_of_face(g->sheet, outline->face);
+  double radius = fmin(extent_of_face(g->sheet, outline->face), SHEET_XY_MAX);
   bool ok = true;
   if (length == 0 || radius == 0)
     return true;
