@@ -177,7 +177,7 @@ const char *recto_view_name(size_t index, double *azimuth_deg,
 const char *recto_page_name(size_t index, double *width_mm, double *height_mm);
 
 /* Reads a colour: #cc0000, cc0000, #c00 or c00, or a name of CSS such as
- * "firebrick", in lower case; 0xRRGGBB goes to *colour.  Returns false where it
+ * "firebrick", in any case; 0xRRGGBB goes to *colour.  Returns false where it
  * is none of these, and leaves *colour. */
 bool recto_colour_parse(const char *text, uint32_t *colour);
 

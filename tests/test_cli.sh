@@ -74,7 +74,7 @@ page A7 200 200x x200 200x-100 0x100 200x100m nanx100 200x100mmx
 margin -1 x 1,5 nan 1e999mm 10furlongs
 edges x silhouette, ,crease silhouette,,crease - -x all,- --smooth
 unit x 1 km 5mm
-pen-colour 2=blurple 2= 2=#12345 2=#gg0000 2=Red
+pen-colour 2=blurple 2= 2=#12345 2=#gg0000 2=Reddish
 pen-color 2=blurple
 crease -1 181 x 30,20 30,181 30, ,40 30,x 30,40,50
 contours x exact 1 smooth,mesh
@@ -400,7 +400,7 @@ claim "classes may be left out" same_drawing -e all,-smooth -- -e \
   silhouette,border,crease,group,intersection,wire
 claim "of the default too" same_drawing --edges=-crease -- -e \
   silhouette,border,group,intersection,wire
-claim "colours have names" same_drawing --pen-colour 1=firebrick -- \
+claim "colours have names, in any case" same_drawing --pen-colour 1=FireBrick -- \
   --pen-color 1=#b22222
 claim "a unit may be a metre" same_drawing --scale 1:100 --unit m -- --scale 10:1
 claim "or an inch, said first" same_drawing --unit in --scale 1:1 -- --scale 25.4:1

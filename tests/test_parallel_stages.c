@@ -136,6 +136,16 @@ static const struct model {
               {"fins", "l", write_fins},
               {"soup", "l", write_soup}};
 
+/* The model as text of OBJ, *length bytes, to be freed by the caller. */
+static char *text_of_model(const struct model *model, size_t *length) {
+  char *text;
+  FILE *to = open_memstream(&text, length);
+  assert_non_null(to);
+  model->write(to);
+  assert_int_equal(fclose(to), 0);
+  return text;
+}
+
 /* ---- Drawings ------------------------------------------------------------ */
 
 static void set_lines(recto_options *options) { (void)options; }
@@ -224,12 +234,8 @@ static void threads_change_no_byte(void **state) {
   if (parallel_processors() < 2)
     skip();
   for (size_t m = 0; m < sizeof models / sizeof *models; m++) {
-    char *text;
     size_t length;
-    FILE *to = open_memstream(&text, &length);
-    assert_non_null(to);
-    models[m].write(to);
-    fclose(to);
+    char *text = text_of_model(&models[m], &length);
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
       if (strchr(models[m].kinds, kinds[k].letter) == NULL)
         continue;
@@ -286,13 +292,9 @@ static void threads_change_no_edge(void **state) {
   if (parallel_processors() < 2)
     skip();
   for (size_t m = 0; m < sizeof models / sizeof *models; m++) {
-    char *text;
     size_t length;
+    char *text = text_of_model(&models[m], &length);
     recto_scene *scene;
-    FILE *to = open_memstream(&text, &length);
-    assert_non_null(to);
-    models[m].write(to);
-    fclose(to);
     assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
     assert_int_equal(
         recto_scene_read_memory(scene, text, length, "obj", NULL, NULL, NULL),

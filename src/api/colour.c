@@ -1,6 +1,7 @@
 /* colour.c - reads colours: as hexadecimal digits, or by the names of CSS. */
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "recto.h"
 
@@ -160,7 +161,7 @@ static const struct named_colour {
 };
 
 static int compare_names(const void *name, const void *entry) {
-  return strcmp(name, ((const struct named_colour *)entry)->name);
+  return strcasecmp(name, ((const struct named_colour *)entry)->name);
 }
 
 static bool read_digits(const char *digits, uint32_t *colour) {
