@@ -39,8 +39,16 @@ struct parallel_range {
  * are false once it is. */
 typedef bool parallel_task(void *user, struct parallel_range range);
 
+/* How many items a range has; one in a fuzzer's build, so that the few items of
+ * its inputs are divided among threads too. */
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
+#define PARALLEL_RANGE(items) 1
+#else
+#define PARALLEL_RANGE(items) (items)
+#endif
+
 /* Items of a range where each takes some nanoseconds. */
-enum { PARALLEL_ITEMS = POLL_ITEMS };
+enum { PARALLEL_ITEMS = PARALLEL_RANGE(POLL_ITEMS) };
 
 /* How many workers are worth while for so many items: at most the threads that
  * the call may use.  Another call may return another number, as the processors

@@ -62,6 +62,9 @@ struct edge_ids {
   uint32_t *before;
 };
 
+/* Edges that a thread takes at once: whole words of that map. */
+enum { EDGES_IN_RANGE = 64 * PARALLEL_RANGE(POLL_ITEMS / 64) };
+
 /* The sheet edge of a topology edge; SHEET_NONE: it was not made. */
 static inline uint32_t edge_id_of(const struct edge_ids *edge_ids,
                                   uint32_t edge) {
@@ -206,14 +209,14 @@ static bool make_edges_of_range(void *user, struct parallel_range range) {
 static recto_status make_edges(struct edge_layout *work) {
   struct layout *layout = work->layout;
   size_t edges = layout->topology->edge.count, count;
-  int workers = parallel_workers(edges, PARALLEL_ITEMS);
-  if (!parallel_ranges(workers, edges, PARALLEL_ITEMS, choose_edges, work))
+  int workers = parallel_workers(edges, EDGES_IN_RANGE);
+  if (!parallel_ranges(workers, edges, EDGES_IN_RANGE, choose_edges, work))
     return error_memory(layout->error);
   recto_status status = clip_edges(work, &count);
-  if (status != RECTO_OK)
+  if (status != RECTO_OK || count == 0)
     return status;
   if (!ARRAY_RESERVE(&layout->sheet->edge, count + layout->fold.count) ||
-      !parallel_ranges(workers, edges, PARALLEL_ITEMS, make_edges_of_range,
+      !parallel_ranges(workers, edges, EDGES_IN_RANGE, make_edges_of_range,
                        work))
     return error_memory(layout->error);
   layout->sheet->edge.count = count;

@@ -2,6 +2,7 @@
 #ifndef INK_LINES_PATHS_H
 #define INK_LINES_PATHS_H
 
+#include "base/parallel.h"
 #include "ink/lines/segment_graph.h"
 
 /* A polyline of at least two points.  The last point of a closed path is joined
@@ -26,7 +27,7 @@ struct ink_paths {
 
 /* Paths that a thread takes at once: one has a hundred points on a dense
  * mesh. */
-enum { PATHS_IN_RANGE = 64 };
+enum { PATHS_IN_RANGE = PARALLEL_RANGE(64) };
 
 void paths_fini(struct ink_paths *paths);
 

@@ -11,7 +11,7 @@
 
 enum {
   PAIR_WORK = 16, /* cost of a pair in exact numbers, in units of progress.h */
-  SEARCH_CELLS = 1 << 8 /* that a thread takes at a time */
+  SEARCH_CELLS = PARALLEL_RANGE(1 << 8) /* that a thread takes at a time */
 };
 
 /* The search of one worker. */

@@ -14,7 +14,7 @@
 enum { LONG_LIST = 32, TILES_OF_TWO = 5 };
 
 /* Cells that a thread takes at once: a list has some ten triangles. */
-enum { CELLS_IN_RANGE = 1024 };
+enum { CELLS_IN_RANGE = PARALLEL_RANGE(1024) };
 
 /* If the sheet has more triangles, none is prepared as an occluder, to bound
  * the memory. */

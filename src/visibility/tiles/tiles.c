@@ -253,8 +253,8 @@ static bool classify_faces(struct tiles_work *work) {
 /* ---- 5. Pairs ------------------------------------------------------------ */
 
 enum {
-  BATCH_SIZE = 1024, /* edges */
-  POLL_INTERVAL = 16 /* edges between two polls */
+  BATCH_SIZE = PARALLEL_RANGE(1024), /* edges */
+  POLL_INTERVAL = 16                 /* edges between two polls */
 };
 
 /* Batches of consecutive deferred edges, each solved by one thread. */
