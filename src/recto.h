@@ -375,17 +375,23 @@ typedef struct recto_ink_options {
    * Other lines are dropped if they are shorter than that and than half a pen.
    */
   double min_stroke_mm;
-  bool ids;       /* one source for each stroke, written with it */
-  bool exact;     /* visible lines as they are: no crease is dropped because an
+  bool ids;   /* one source for each stroke, written with it */
+  bool exact; /* visible lines as they are: no crease is dropped because an
                      end is free, nor a line within half a pen of longer ones,
                      and no gap of less is closed; nor are they where
                      min_stroke_mm is 0 */
-  char unused[6]; /* 0 */
+  /* Whether `ambient` and `fill_light` below are given; 0.3 and 0.5 else. */
+  bool has_ambient, has_fill_light;
+  char unused[4];          /* 0 */
   recto_contours contours; /* silhouettes of the mesh, or of the smooth surface
                               that it samples; not with verify */
-  double curves_mm; /* smooth strokes become cubic Bezier curves, no point of
+  double curves_mm;  /* smooth strokes become cubic Bezier curves, no point of
                        which is farther from them; 0: polylines */
-  uint64_t reserved[6];
+  double ambient;    /* the brightness of what no light reaches, 0 to 1 */
+  double fill_light; /* the share of the rest that a second light gives, which
+                        comes from all around the first one, so that what turns
+                        away from that has tones too; 0 to 1 */
+  uint64_t reserved[4];
 } recto_ink_options;
 
 typedef struct recto_output_options {

@@ -83,6 +83,8 @@ pen 0 -1 101 x 1e-9 0.009mm
 hatch-pitch 0 1e-9 x
 pitch 0 1e-9 exactly
 light 0,0,0 x
+ambient -0.1 1.1 x 30%
+fill-light -0.1 1.1 x 30%
 pens 0 1001 1.5 x
 velocity 0 0.5 128 x
 velocity-up 0 0.5 1001 x
@@ -109,7 +111,7 @@ offered_or_refused() {
 for option in output format from method pitch resolution depth-bits subpixels \
   remove-backs contact view azimuth \
   elevation camera lookat up fov ortho fit no-fit scale near section page \
-  landscape margin edges crease contours hidden fill hatch-pitch hatch-angle hatch-inset light pen \
+  landscape margin edges crease contours hidden fill hatch-pitch hatch-angle hatch-inset light ambient fill-light pen \
   pens pen-for pen-width pen-colour pen-color unit portrait weights path order simplify curves min-stroke exact precision ids stats verify check threads progress quiet \
   completion version help; do
   claim "--$option is there, or refused by name" offered_or_refused "$option"

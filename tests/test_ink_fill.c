@@ -222,11 +222,16 @@ groups_are_painted_in_their_colour_or_one_of_their_own(void **state) {
   ink_fixture_end(&k);
 }
 
-static uint32_t shade(const double *face, uint32_t count,
-                      const double light[3]) {
+/* The grey of a face.  `ambient` and `fill`: negative for the defaults. */
+static uint32_t shade_by(const double *face, uint32_t count,
+                         const double light[3], double ambient, double fill) {
   struct ink_fixture k;
   ink_fixture_start(&k);
   k.options.ink.fill = RECTO_FILL_SHADE;
+  k.options.ink.has_ambient = ambient >= 0;
+  k.options.ink.ambient = ambient;
+  k.options.ink.has_fill_light = fill >= 0;
+  k.options.ink.fill_light = fill;
   memcpy(k.options.ink.light, light, sizeof k.options.ink.light);
   ink_fixture_fragment(&k, ink_fixture_face(&k, 0, face, count),
                        INK_FIXTURE_XY(outer));
@@ -236,6 +241,11 @@ static uint32_t shade(const double *face, uint32_t count,
   assert_int_equal(colour >> 16, colour & 0xff);
   assert_int_equal(colour >> 8 & 0xff, colour & 0xff);
   return colour & 0xff;
+}
+
+static uint32_t shade(const double *face, uint32_t count,
+                      const double light[3]) {
+  return shade_by(face, count, light, -1, -1);
 }
 
 static void shade_is_by_the_angle_to_the_light(void **state) {
@@ -249,10 +259,38 @@ static void shade_is_by_the_angle_to_the_light(void **state) {
   uint32_t lit = shade(flat, 4, front);
   assert_int_equal(lit, 255);
   assert_in_range(shade(flat, 4, slant), shade(flat, 4, side) + 1, lit - 1);
-  assert_int_equal(shade(flat, 4, side), shade(flat, 4, behind));
-  assert_in_range(shade(flat, 4, side), 50, 100);
+  assert_in_range(shade(flat, 4, side), shade(flat, 4, behind) + 1, 160);
+  assert_in_range(shade(flat, 4, behind), 50, 100);
   assert_in_range(shade(flat, 4, none), 150, 254);
   assert_int_equal(shade(turned, 5, slant), shade(flat, 4, slant));
+}
+
+static void no_two_angles_to_the_light_have_one_shade(void **state) {
+  uint32_t before = 256;
+  (void)state;
+  for (int i = 0; i <= 12; i++) {
+    double angle = i * 15 * atan(1) / 45;
+    const double light[] = {sin(angle), 0, cos(angle)};
+    uint32_t level = shade(flat, 4, light);
+    assert_true(level < before);
+    before = level;
+  }
+}
+
+static void
+what_a_single_light_does_not_reach_has_the_ambient_share(void **state) {
+  const double side[] = {1, 0, 0}, behind[] = {1, 0, -1}, front[] = {0, 0, 1};
+  const double slant[] = {sqrt(3), 0, 1};
+  (void)state;
+  assert_int_equal(shade_by(flat, 4, side, 0.2, 0), 51);
+  assert_int_equal(shade_by(flat, 4, behind, 0.2, 0), 51);
+  assert_int_equal(shade_by(flat, 4, front, 0.2, 0), 255);
+  assert_int_equal(shade_by(flat, 4, slant, 0.2, 0), 153);
+  assert_int_equal(shade_by(flat, 4, behind, 0, 0), 0);
+  assert_int_equal(shade_by(flat, 4, behind, 1, 0.5), 255);
+  /* The fill light alone: half of the rest from the side. */
+  assert_int_equal(shade_by(flat, 4, side, 0.2, 1), 153);
+  assert_int_equal(shade_by(flat, 4, slant, 0.2, 1), 204);
 }
 
 static void perspective_shades_the_side_that_the_eye_sees(void **state) {
@@ -678,6 +716,9 @@ int main(void) {
       cmocka_unit_test(fragments_become_fills_with_their_holes),
       cmocka_unit_test(groups_are_painted_in_their_colour_or_one_of_their_own),
       cmocka_unit_test(shade_is_by_the_angle_to_the_light),
+      cmocka_unit_test(no_two_angles_to_the_light_have_one_shade),
+      cmocka_unit_test(
+          what_a_single_light_does_not_reach_has_the_ambient_share),
       cmocka_unit_test(perspective_shades_the_side_that_the_eye_sees),
       cmocka_unit_test(rectangle_is_hatched_in_few_strokes),
       cmocka_unit_test(hatching_of_another_pen_leaves_the_lines_alone),

@@ -7,7 +7,6 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "ink/fill/light.h"
 #include "ink/hatch/hatch_runs.h"
 #include "ink/hatch/tone.h"
 #include "tests/ink_fixture.h"
@@ -120,9 +119,21 @@ static void short_gaps_in_a_face_are_closed(void **state) {
 static const double square[] = {10, 10, 90, 10, 90, 90, 10, 90};
 static const double facing[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
 
+/* The share of ambient light in these tests, and the greatest tone. */
+#define AMBIENT 0.3
+#define GREATEST_TONE (1 - AMBIENT)
+
+/* A single light, so that the tone is a plain function of the angle to it. */
+static void light_alone(recto_options *options) {
+  options->ink.has_ambient = options->ink.has_fill_light = true;
+  options->ink.ambient = AMBIENT;
+  options->ink.fill_light = 0;
+}
+
 /* A face seen square-on that the light leaves dark by so much. */
 static void light_for_tone(recto_options *options, double tone) {
-  double cosine = 1 - tone / (1 - LIGHT_DARKEST);
+  double cosine = 1 - tone / GREATEST_TONE;
+  light_alone(options);
   options->ink.fill = RECTO_FILL_HATCH;
   options->ink.light[0] = sqrt(1 - cosine * cosine);
   options->ink.light[2] = cosine;
@@ -159,7 +170,7 @@ static void white_and_dark_are_hatched_by_no_and_three_layers(void **state) {
   draw_tone(&k, 0);
   assert_int_equal(k.drawing.stroke.count, 0);
   ink_fixture_end(&k);
-  draw_tone(&k, 1 - LIGHT_DARKEST);
+  draw_tone(&k, GREATEST_TONE);
   int layers[3] = {0, 0, 0};
   for (size_t s = 0; s < k.drawing.stroke.count; s++) {
     const struct drawing_point *p =
@@ -297,6 +308,7 @@ static void lines_over_a_ball_cover_the_share_of_its_tone(void **state) {
   (void)state;
   recto_options_init(&options);
   options.ink.light[2] = 1;
+  light_alone(&options);
   draw_ball(&p, 40, &options);
   double ink = 0, angle;
   for (size_t s = 0; s < p.drawing.stroke.count; s++) {
@@ -312,7 +324,7 @@ static void lines_over_a_ball_cover_the_share_of_its_tone(void **state) {
   enum { RINGS = 10000 };
   for (int i = 0; i < RINGS; i++) {
     double r = (i + 0.5) / RINGS;
-    double tone = (1 - LIGHT_DARKEST) * (1 - sqrt(1 - r * r));
+    double tone = GREATEST_TONE * (1 - sqrt(1 - r * r));
     expected += fmin(tone, full) * 2 * pi() * r / RINGS * 40 * 40;
   }
   assert_true(fabs(ink / expected - 1) < 0.03);

@@ -91,6 +91,8 @@ done <<'END_OF_ROWS'
 --hatch-pitch 2|a.svg --fill hatch|a.svg --fill hatch --light 1,1,1|hatching of one pitch; hatching by --light
 --hatch-angle 2|a.svg --fill hatch --light 1,1,1|a.svg|--fill hatch; --fill none
 --hatch-inset|a.svg --fill hatch|a.svg --fill hatch --light 1,1,1|hatching of one pitch; hatching by --light
+--ambient 0.1|a.svg --fill shade|a.svg --fill hatch|--fill shade and for --fill hatch with --light; --fill hatch
+--fill-light 0.1|a.svg --fill hatch --light 1,1,1|a.svg --fill paint|--fill shade and --fill hatch; --fill paint
 --light 1,1,1|a.svg --fill shade|a.svg --fill paint|--fill shade and --fill hatch; --fill paint
 --ids|a.svg|a.hpgl|svg; hpgl
 --precision 2|a.svg|a.hpgl|svg; hpgl

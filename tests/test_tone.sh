@@ -22,9 +22,9 @@ fi
 
 # light TONE - the direction whose angle to a face seen square-on leaves that
 # share of it dark, in per cent.
-light() {
-  awk -v tone="$1" 'BEGIN {
-    cosine = 1 - tone / 70
+light() { # TONE [SHARE]
+  awk -v tone="$1" -v darkest="${2:-70}" 'BEGIN {
+    cosine = 1 - tone / darkest
     printf "%.15g,%.15g,%.15g\n", sqrt(1 - cosine * cosine) * 0.6,
       sqrt(1 - cosine * cosine) * 0.8, cosine }'
 }
@@ -41,12 +41,12 @@ near() {
 # The square is larger than the page: no end of a line is seen.
 flat_tone_is_met() {
   draw square.obj --scale 120 --view front --fill hatch "--light=$(light "$1")" \
-    -o hatch.png "${@:2}" && near "$("$tool" coverage hatch.png 0)" "$1"
+    --fill-light 0 -o hatch.png "${@:2}" && near "$("$tool" coverage hatch.png 0)" "$1"
 }
 
 flat_tone_is_met_in_svg() {
   draw square.obj --scale 120 --view front --fill hatch "--light=$(light "$1")" \
-    -o hatch.svg &&
+    --fill-light 0 -o hatch.svg &&
     rsvg-convert --dpi-x 600 --dpi-y 600 hatch.svg -b white -o hatch.png &&
     near "$("$tool" coverage hatch.png 0)" "$1"
 }
@@ -73,6 +73,13 @@ for tone in 5 10 20 30 36 37 45 55 60 61 66 70; do
   claim "$tone % of the paper are covered where that is requested" \
     flat_tone_is_met $tone
 done
+little_ambient_light_is_met() {
+  draw square.obj --scale 120 --view front --fill hatch --fill-light 0 \
+    --ambient 0.1 "--light=$(light 85 90)" -o hatch.png &&
+    near "$("$tool" coverage hatch.png 0)" 85
+}
+claim "85 % are covered where ambient light is little" \
+  little_ambient_light_is_met
 claim "a thin pen covers as much" flat_tone_is_met 20 --pen 0.1
 claim "a thick pen covers as much" flat_tone_is_met 50 --pen 0.7
 claim "at any angle" flat_tone_is_met 60 --hatch-angle 17
@@ -114,8 +121,12 @@ for direction in 0.2,0.3,1 -1,1.5,1 1,0.2,-0.4; do
 done
 as_shade "in perspective too" \
   ball.obj --camera 0,0,4 --light=-1,1.5,1 --fov 30
+as_shade "where the darkest is darker than usual" \
+  ball.obj --scale 48 --view front --light=-1,0.4,-0.6 --ambient 0.1 \
+  --fill-light 0.2
 as_shade "and facet by facet" \
-  ball.obj --scale 48 --view front --light=-1,1.5,1 --crease 0
+  ball.obj --scale 48 --view front --light=-1,1.5,1 --crease 0 \
+  --fill-light 0
 
 bunny=${RECTO_MODELS:-$srcdir/../shared/models}/stanford-bunny.obj
 if test -r "$bunny"; then

@@ -56,6 +56,8 @@ class Options(TypedDict, total=False):
     hatch_angle: float
     hatch_inset: bool
     light: Vector
+    ambient: float
+    fill_light: float
     pen: float
     pens: int
     pen_for: Mapping[str, int]  # {"crease": 2, "hidden": 3}
@@ -328,6 +330,14 @@ class _Setter:
 
     def fill(self, value: str) -> None:
         self.options.ink.fill = _word("fill", value, _FILLS)
+
+    def ambient(self, value: float) -> None:
+        self.options.ink.ambient = value
+        self.options.ink.has_ambient = True
+
+    def fill_light(self, value: float) -> None:
+        self.options.ink.fill_light = value
+        self.options.ink.has_fill_light = True
 
     def order(self, value: str) -> None:
         known = {

@@ -108,6 +108,8 @@ def test_options():
         (["--fill=hatch", "--light=1,2,3", "--hatch-angle=30"],
          {"fill": "hatch", "light": (1, 2, 3), "hatch_angle": 30}),
         (["--fill=shade", "--seam=0.1"], {"fill": "shade", "seam": 0.1}),
+        (["--fill=shade", "--ambient=0.1", "--fill-light=0"],
+         {"fill": "shade", "ambient": 0.1, "fill_light": 0}),
         (["--method=warnock", "--divide=box"],
          {"method": "warnock", "divide": "box"}),
         (["--order=near", "--ids", "--path=polyline", "--precision=5"],

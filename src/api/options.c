@@ -169,6 +169,8 @@ static recto_status check_options(const recto_options *o, recto_error *error) {
       {"the light", o->ink.light[0], -huge, huge},
       {"the light", o->ink.light[1], -huge, huge},
       {"the light", o->ink.light[2], -huge, huge},
+      {"the ambient light", o->ink.ambient, 0, 1},
+      {"the fill light", o->ink.fill_light, 0, 1},
       {"the pen width", o->ink.pen_mm, RECTO_FINEST_MM, 100},
       {"the number of pens", o->ink.pens, 1, 1000},
       {"the order", o->ink.order, 0, RECTO_ORDER_AUTO},

@@ -20,6 +20,7 @@ enum {
   NAMED_VIEW,
   PERSPECTIVE,
   NO_LIGHT,
+  LIGHT,
   WARNOCK_PIXELS,
   SMOOTH_CONTOURS
 };
@@ -63,6 +64,8 @@ static uint64_t find_requests(const struct arguments *a) {
     bits |= BIT(PERSPECTIVE);
   if (o->ink.light[0] == 0 && o->ink.light[1] == 0 && o->ink.light[2] == 0)
     bits |= BIT(NO_LIGHT);
+  else
+    bits |= BIT(LIGHT);
   if (o->solver.method == RECTO_METHOD_WARNOCK && o->solver.resolution > 0)
     bits |= BIT(WARNOCK_PIXELS);
   if (o->ink.contours == RECTO_CONTOURS_SMOOTH)
@@ -119,6 +122,8 @@ static const struct {
     [USED_BY_ONE_PITCH] = {"hatching of one pitch", BIT(NO_LIGHT)},
     [USED_BY_LIGHT] = {"--fill shade and --fill hatch",
                        FILL(SHADE) | FILL(HATCH)},
+    [USED_BY_TONES] = {"--fill shade and for --fill hatch with --light",
+                       FILL(SHADE) | BIT(LIGHT)},
     [USED_BY_SVG] = {"svg", BIT(SVG)},
     [USED_BY_SCREENS] = {"svg, pdf, eps, ps and png",
                          BIT(SVG) | BIT(PNG) | BIT(VECTOR_PAGES)},

@@ -23,7 +23,7 @@ static uint32_t colour_of_group(const struct scene *scene, uint32_t group) {
 /* The brightness of a face by its angle to the light.  The normal is turned
  * towards the viewer first, so both sides of a face are shaded alike. */
 static double shade(const struct scene *scene, uint32_t face,
-                    const struct camera *camera, const double light[3],
+                    const struct camera *camera, const struct light *light,
                     bool *is_back) {
   double normal[3];
   newell_normal_of_face(scene, face, normal);
@@ -39,8 +39,7 @@ struct face_shading face_shading_of(const struct scene *scene, uint32_t face,
                                     const recto_options *options) {
   struct face_shading shading = {
       .colour = colour_of_group(scene, scene->face_group.item[face])};
-  double light[3];
-  light_direction(camera, options, light);
-  shading.brightness = shade(scene, face, camera, light, &shading.is_back);
+  struct light light = light_of(camera, options);
+  shading.brightness = shade(scene, face, camera, &light, &shading.is_back);
   return shading;
 }

@@ -59,6 +59,7 @@ static const char *const alternatives[][MAX_ALTERNATIVES] = {
     {"", "--divide=box"},
     {"", "", "--contours=smooth"},
     {"", "", "--curves=0.1", "--curves=4"},
+    {"", "", "--ambient=0", "--ambient=1 --fill-light=0", "--fill-light=1"},
 };
 
 /* ---- Words --------------------------------------------------------------- */

@@ -27,7 +27,7 @@ struct tone_normal {
 struct tone_work {
   const struct scene *scene;
   const struct sheet *sheet;
-  double light[3];
+  struct light light;
   double crease_deg;
   struct tone_normal *face; /* of each face */
   struct tone_normal *sum;  /* of each set of corners, at its root */
@@ -93,9 +93,8 @@ static float tone_of_corner(struct tone_work *w, uint32_t corner, bool away) {
   struct tone_normal n = w->sum[union_find_root(w->corner_root, corner)];
   for (int k = 0; away && k < 3; k++)
     n.xyz[k] = -n.xyz[k];
-  if (!vector_normalise(n.xyz))
-    return (float)(1 - LIGHT_DARKEST);
-  return (float)(1 - light_brightness(n.xyz, w->light));
+  (void)vector_normalise(n.xyz);
+  return (float)(1 - light_brightness(n.xyz, &w->light));
 }
 
 /* The projection of a corner; NaN in front of the near plane. */
@@ -197,7 +196,7 @@ bool tones_init(struct tones *tones, const struct sheet *sheet,
                 const struct scene *scene, const recto_options *options) {
   struct tone_work w = {
       .scene = scene, .sheet = sheet, .crease_deg = options->mesh.crease_deg};
-  light_direction(&sheet->camera, options, w.light);
+  w.light = light_of(&sheet->camera, options);
   *tones = (struct tones){.scene = scene};
   tones->corner = mem_alloc(scene->corner.count, sizeof *tones->corner);
   tones->position = mem_alloc(scene->corner.count, sizeof *tones->position);

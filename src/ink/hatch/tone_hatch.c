@@ -51,13 +51,9 @@
 
 enum { DIRECTIONS = 3, DIRECTION_DEG = 60, THRESHOLD_BITS = 8 };
 
-/* The coverage of a direction of a curved region with all its lines, such that
- * three directions give the greatest tone, 1 - LIGHT_DARKEST:
- *     FULL_COVERAGE = 1 - sqrt(0.4). */
-#define FULL_COVERAGE 0.36754446796632406
-/* The tone of directions 0 to k - 1 with all their lines. */
-static const double tone_below[DIRECTIONS + 1] = {0, FULL_COVERAGE, 0.6,
-                                                  1 - LIGHT_DARKEST};
+/* The least of the greatest tones for which the lines' pitch is chosen, so that
+ * brighter light does not thicken the hatching of what is in the light. */
+#define LEAST_GREATEST_TONE 0.7
 
 /* Hatching in progress. */
 struct tone_hatching {
@@ -66,6 +62,9 @@ struct tone_hatching {
   const struct pens *pens;
   struct tones tones;
   struct hatch_lines lines[DIRECTIONS];
+  /* The coverage of a direction of a curved region with all its lines, and the
+   * tone of directions 0 to k - 1 with all their lines. */
+  double full_coverage, tone_below[DIRECTIONS + 1];
   double pen_mm; /* the width of the pen for the current face */
   struct hatch_runs runs;
   struct tone tone;   /* of the current face */
@@ -74,25 +73,38 @@ struct tone_hatching {
 
 /* ---- Coverage ------------------------------------------------------------ */
 
+/* Sets the coverage of a direction such that three of them give the greatest
+ * tone that the ambient light leaves. */
+static void set_coverage(struct tone_hatching *h, double ambient) {
+  double greatest = fmax(1 - ambient, LEAST_GREATEST_TONE);
+  h->full_coverage = 1 - 2 * sqrt((1 - greatest) / 3);
+  h->tone_below[0] = 0;
+  h->tone_below[1] = h->full_coverage;
+  h->tone_below[2] = h->full_coverage * (2 - h->full_coverage);
+  h->tone_below[3] = greatest;
+}
+
 /* The tone above which line `line` of a direction is drawn. */
-static double threshold(int direction, int64_t line) {
+static double threshold(const struct tone_hatching *h, int direction,
+                        int64_t line) {
   uint32_t bits = (uint32_t)line, reversed = 0;
   for (int k = 0; k < THRESHOLD_BITS; k++)
     reversed |= (bits >> k & 1) << (THRESHOLD_BITS - 1 - k);
   double share = (reversed + 0.5) / (1 << THRESHOLD_BITS);
-  return tone_below[direction] +
-         share * (tone_below[direction + 1] - tone_below[direction]);
+  const double *below = &h->tone_below[direction];
+  return below[0] + share * (below[1] - below[0]);
 }
 
 /* The number of directions for a uniform tone; sets *each to the coverage
  * of each of them.  Inverts the formulas for T above. */
-static int directions_for_tone(double tone, double *each) {
+static int directions_for_tone(const struct tone_hatching *h, double tone,
+                               double *each) {
   const double third = 1.0 / 3;
-  if (tone <= tone_below[1]) {
+  if (tone <= h->tone_below[1]) {
     *each = tone;
     return 1;
   }
-  if (tone <= tone_below[2]) {
+  if (tone <= h->tone_below[2]) {
     *each = 1 - sqrt(1 - tone);
     return 2;
   }
@@ -166,7 +178,7 @@ static void clip_to_tone(const struct tone_hatching *h, int direction,
 static bool add_curved_span(struct tone_hatching *h, int direction,
                             const struct hatch_span *span) {
   double v = hatch_lines_height(&h->lines[direction], span->left.line);
-  double level = threshold(direction, span->left.line);
+  double level = threshold(h, direction, span->left.line);
   double left = span->left.u, right = span->right.u, u0[2], u1[2];
   for (int i = 0; i < h->tone.planes; i++) {
     clip_to_tone(h, direction, i, v, level, &u0[i], &u1[i]);
@@ -195,9 +207,9 @@ static bool add_curved(struct tone_hatching *h, const struct map *map,
                        const struct map_fragment *fragment) {
   for (int k = 0; k < DIRECTIONS; k++) {
     struct hatch_lines *lines = &h->lines[k];
-    if (h->tone.max <= threshold(k, 0))
+    if (h->tone.max <= threshold(h, k, 0))
       break;
-    lines->pitch = h->pen_mm / FULL_COVERAGE;
+    lines->pitch = h->pen_mm / h->full_coverage;
     hatch_lines_clear(lines);
     if (!hatch_lines_add_fragment(lines, map, fragment, NULL) ||
         !hatch_lines_find_spans(lines))
@@ -213,7 +225,7 @@ static bool add_curved(struct tone_hatching *h, const struct map *map,
 static bool add_uniform(struct tone_hatching *h, const struct map *map,
                         const struct map_fragment *fragment) {
   double each;
-  int directions = directions_for_tone(h->tone.max, &each);
+  int directions = directions_for_tone(h, h->tone.max, &each);
   for (int k = 0; each > 0 && k < directions; k++) {
     struct hatch_lines *lines = &h->lines[k];
     lines->pitch = h->pen_mm / each;
@@ -239,9 +251,9 @@ static bool add_tone_stroke(struct tone_hatching *h,
   if (!(u1 - u0 >= pens_shortest_hatch_mm(h->pens, piece->pen)) || u1 <= u0)
     return true;
   struct hatch_lines *lines = &h->lines[piece->direction];
-  double each = FULL_COVERAGE;
+  double each = h->full_coverage;
   if (piece->tone_steps > 0)
-    (void)directions_for_tone((double)piece->tone_steps / TONE_STEPS, &each);
+    (void)directions_for_tone(h, (double)piece->tone_steps / TONE_STEPS, &each);
   lines->pitch = piece->width_mm / each;
   double v = hatch_lines_height(lines, piece->line);
   /* Consecutive lines have opposite directions: less pen travel. */
@@ -305,6 +317,7 @@ bool tone_hatch_add(struct drawing *drawing, const struct sheet *sheet,
                     const struct pens *pens, const recto_options *options) {
   struct tone_hatching h = {
       .drawing = drawing, .options = options, .pens = pens};
+  set_coverage(&h, light_ambient(options));
   /* Gaps below an eighth of the pen width would be closed by the ink. */
   h.runs.max_gap = 1.0 / 8;
   h.runs.min_length = TOLERANCE_TONE_PENS;
