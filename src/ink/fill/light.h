@@ -21,9 +21,9 @@ struct light light_of(const struct camera *camera,
 double light_ambient(const recto_options *options);
 
 /* The brightness of a surface, from the ambient share where it faces away from
- * the light to 1 where it faces the light.  The key light is Lambert's law.  The
- * fill light is a hemisphere light about the same direction, which shades every
- * surface by its angle: none is as dark as another at another angle.
+ * the light to 1 where it faces the light.  The key light is Lambert's law.
+ * The fill light is a hemisphere light about the same direction, which shades
+ * every surface by its angle: none is as dark as another at another angle.
  * normal  of length 1, or of length 0, which no light reaches
  * Source  [FoleyVanDam1990] for Lambert's law */
 double light_brightness(const double normal[3], const struct light *light);
