@@ -181,6 +181,10 @@ const char *recto_page_name(size_t index, double *width_mm, double *height_mm);
  * is none of these, and leaves *colour. */
 bool recto_colour_parse(const char *text, uint32_t *colour);
 
+/* The most lengths of a pattern of dashes, and the longest. */
+#define RECTO_DASH_MAX 12
+#define RECTO_DASH_LONGEST 10000
+
 typedef enum recto_divide {
   RECTO_DIVIDE_FOUR = 0, /* windows are cut in the middle */
   RECTO_DIVIDE_BOX       /* around the box of their nearest face */
@@ -262,6 +266,31 @@ typedef struct recto_weight {
   double weight; /* 0.01 to 100 */
   uint64_t reserved[2];
 } recto_weight;
+
+/* A pattern of dashes, and the lines that it is for.  Dashes begin and end at
+ * the ends of lines and at corners; gaps and short dashes are exact, and the
+ * longest ones are fitted to the line; where a gap is wider than all dashes,
+ * all lengths are.  A line that is too short for two dashes is drawn whole. */
+typedef struct recto_dash {
+  recto_lines lines;             /* RECTO_LINES_HIDDEN, RECTO_LINES_OF_CLASS */
+  recto_edge_class edge_class;   /* of RECTO_LINES_OF_CLASS */
+  double length[RECTO_DASH_MAX]; /* of a dash, a gap, a dash ...; at least
+                                    RECTO_FINEST_MM, RECTO_DASH_LONGEST at
+                                    most, along the middle of the pen's way,
+                                    whose ends are round */
+  int count;    /* of the lengths, an even number; 0: a line without gaps */
+  bool in_pens; /* they are widths of the line, not mm */
+  uint64_t reserved[2];
+} recto_dash;
+
+/* Reads a pattern of dashes: the name of a line type of ISO 128-2, such as
+ * "chain", or lengths between colons, in mm, cm, in, pt or all of them in pen,
+ * widths of the line; an odd number of them is given twice.  Sets the lengths
+ * of *dash.  Returns false where it is none of these, and leaves *dash. */
+bool recto_dash_parse(const char *text, recto_dash *dash);
+
+/* The line type at `index`, such as "chain"; NULL past the last. */
+const char *recto_dash_name(size_t index);
 
 /* How visibility is found. */
 typedef struct recto_solver_options {
@@ -391,7 +420,13 @@ typedef struct recto_ink_options {
   double fill_light; /* the share of the rest that a second light gives, which
                         comes from all around the first one, so that what turns
                         away from that has tones too; 0 to 1 */
-  uint64_t reserved[4];
+  /* The dashes of visible lines of a class, and of hidden lines if they are
+   * drawn; dash_count of them.  Lines without one are drawn whole, but for
+   * those that RECTO_HIDDEN_DASHED dashes.  Of several for the same lines the
+   * last one counts. */
+  const recto_dash *dash;
+  size_t dash_count;
+  uint64_t reserved[2];
 } recto_ink_options;
 
 typedef struct recto_output_options {

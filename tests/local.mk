@@ -76,6 +76,7 @@ dist_check_SCRIPTS += \
   %D%/test_cli.sh \
   %D%/test_cli_check.sh \
   %D%/test_cli_curves.sh \
+  %D%/test_cli_dash.sh \
   %D%/test_cli_descriptors.sh \
   %D%/test_cli_frames.sh \
   %D%/test_cli_margins.sh \
@@ -215,10 +216,11 @@ unit_tests += %D%/test_api
 # Ink, on sheets and maps made by hand.
 unit_tests += %D%/test_ink_segment_graph %D%/test_ink_chain %D%/test_ink_clean \
   %D%/test_ink_fill %D%/test_ink_tone_hatch %D%/test_ink_stroke_order \
-  %D%/test_ink_draw %D%/test_ink_merge %D%/test_pens
+  %D%/test_ink_draw %D%/test_ink_merge %D%/test_pens %D%/test_dashes
 unit_tests += %D%/test_lists
 %C%_test_lists_SOURCES = %D%/test_lists.c src/cli/parse.c src/cli/frames.c \
   src/cli/lists.c src/cli/options.c src/cli/option_scope.c src/cli/value.c
+%C%_test_dashes_SOURCES = %D%/test_dashes.c %D%/ink_fixture.c %D%/ink_fixture.h
 %C%_test_pens_SOURCES = %D%/test_pens.c %D%/ink_fixture.c %D%/ink_fixture.h
 %C%_test_ink_merge_SOURCES = %D%/test_ink_merge.c
 %C%_test_ink_merge_LDADD = %D%/scenes/libscenes.la $(LDADD)

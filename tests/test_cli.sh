@@ -111,7 +111,7 @@ offered_or_refused() {
 for option in output format from method pitch resolution depth-bits subpixels \
   remove-backs contact view azimuth \
   elevation camera lookat up fov ortho fit no-fit scale near section page \
-  landscape margin edges crease contours hidden fill hatch-pitch hatch-angle hatch-inset light ambient fill-light pen \
+  landscape margin edges crease contours hidden dash fill hatch-pitch hatch-angle hatch-inset light ambient fill-light pen \
   pens pen-for pen-width pen-colour pen-color unit portrait weights path order simplify curves min-stroke exact precision ids stats verify check threads progress quiet \
   completion version help; do
   claim "--$option is there, or refused by name" offered_or_refused "$option"

@@ -73,6 +73,7 @@ done <<'END_OF_ROWS'
 --crease 20|a.svg -e silhouette --contours smooth|a.svg -e silhouette|edges of the classes crease and smooth, fills and smooth contours; this --edges
 --contours smooth|a.svg|a.svg -e crease|edges of the class silhouette; this --edges
 --hidden layer|a.svg|a.svg -e none --fill paint|lines; --edges none
+--dash crease=chain|a.svg|a.svg -e none --fill paint|lines; --edges none
 --weights none|a.svg|a.svg -e none --fill paint|lines; --edges none
 --weights none|a.svg|a.hpgl|svg, pdf, eps, ps and png; hpgl
 --simplify 1|a.svg|a.svg -e none --fill hatch|lines; --edges none

@@ -50,6 +50,7 @@ class Options(TypedDict, total=False):
     crease: Union[float, tuple[float, float]]  # 30, or (30, 45)
     contours: str  # mesh (default), or smooth
     hidden: Union[str, tuple[str, int]]  # "dashed", or ("dashed", 2)
+    dash: Mapping[str, str]  # {"crease": "chain", "hidden": "3:1"}
     fill: str
     seam: float
     hatch_pitch: float
@@ -397,6 +398,22 @@ class _Setter:
         self.options.ink.has_weights = True
         self.options.ink.weight = self.array("recto_weight", items)
         self.options.ink.weight_count = len(items)
+
+    def dash(self, value: Mapping[str, str]) -> None:
+        items = []
+        known = {"hidden": 0, **EDGE_CLASSES}
+        for name, pattern in value.items():
+            edge_class = _word("dash", name, known)
+            dash = ffi.new("recto_dash *")
+            if not lib.recto_dash_parse(text_to(pattern), dash):
+                raise ValueError(f"dash: not {pattern!r}, but such as 3:1 or chain")
+            dash.edge_class = edge_class
+            dash.lines = (
+                lib.RECTO_LINES_OF_CLASS if edge_class else lib.RECTO_LINES_HIDDEN
+            )
+            items.append(dash[0])
+        self.options.ink.dash = self.array("recto_dash", items)
+        self.options.ink.dash_count = len(items)
 
     def format(self, value: str | None) -> None:
         if value is not None:

@@ -105,6 +105,8 @@ def test_options():
          {"pen_for": {"default": 2}, "pen_width": {2: 0.5},
           "pen_colour": {2: "#c00"}}),
         (["--weights=crease=3"], {"weights": {"crease": 3}}),
+        (["--dash=crease=chain,hidden=2:1", "--hidden=dashed"],
+         {"dash": {"crease": "chain", "hidden": "2:1"}, "hidden": "dashed"}),
         (["--fill=hatch", "--light=1,2,3", "--hatch-angle=30"],
          {"fill": "hatch", "light": (1, 2, 3), "hatch_angle": 30}),
         (["--fill=shade", "--seam=0.1"], {"fill": "shade", "seam": 0.1}),

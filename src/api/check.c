@@ -10,6 +10,7 @@
 #include "api/sized.h"
 #include "base/input.h"
 #include "base/poll.h"
+#include "ink/dash_pattern.h"
 #include "ink/ink.h"
 #include "ink/pens.h"
 #include "scene/weld_near.h"
@@ -91,6 +92,7 @@ static recto_status judge_file_drawing(const struct scene *scene,
   struct judge_camera seen = judge_input_camera(&input, &camera, o);
   struct judge_options options = judge_input_options(&input, &camera, o);
   options.samples = SAMPLES;
+  options.edges &= ~dash_pattern_classes(o); /* nothing is missing in gaps */
   options.ink_distance_mm = options.lateral_mm =
       o->ink.pen_mm / 4 + ink_deviation_mm(o);
   if (!o->ink.exact) /* half a pen, as of lines that others cover */

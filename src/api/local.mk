@@ -4,6 +4,7 @@ librecto_core_la_SOURCES += \
   %D%/check.c \
   %D%/clip_warning.c %D%/clip_warning.h \
   %D%/colour.c \
+  %D%/dash.c \
   %D%/draw_file.c \
   %D%/handle.h \
   %D%/mesh.c \

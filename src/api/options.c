@@ -92,11 +92,23 @@ static bool is_zero(const uint64_t *reserved, size_t count) {
 #define IS_UNUSED(value)                                                       \
   is_zero((value).reserved, sizeof(value).reserved / sizeof(uint64_t))
 
+static bool is_dash(const recto_dash *dash) {
+  bool ok = dash->lines == RECTO_LINES_HIDDEN ||
+            (dash->lines == RECTO_LINES_OF_CLASS && is_class(dash->edge_class));
+  ok = ok && dash->count >= 0 && dash->count <= RECTO_DASH_MAX &&
+       dash->count % 2 == 0;
+  for (int i = 0; ok && i < dash->count; i++)
+    ok = dash->length[i] >= RECTO_FINEST_MM &&
+         dash->length[i] <= RECTO_DASH_LONGEST;
+  return ok;
+}
+
 /* The arrays: their pointers are there, and what they hold is in range. */
 static recto_status check_lists(const recto_options *o, recto_error *error) {
   if ((o->ink.pen_use_count > 0 && o->ink.pen_use == NULL) ||
       (o->ink.pen_count > 0 && o->ink.pen == NULL) ||
-      (o->ink.weight_count > 0 && o->ink.weight == NULL))
+      (o->ink.weight_count > 0 && o->ink.weight == NULL) ||
+      (o->ink.dash_count > 0 && o->ink.dash == NULL))
     return error_null(error, "a list of the options");
   for (size_t i = 0; i < o->ink.pen_use_count; i++) {
     const recto_pen_use *use = &o->ink.pen_use[i];
@@ -122,6 +134,12 @@ static recto_status check_lists(const recto_options *o, recto_error *error) {
     if (!is_class(o->ink.weight[i].edge_class) ||
         !(o->ink.weight[i].weight >= 0.01 && o->ink.weight[i].weight <= 100))
       return refuse_option("the weight at index", i, error);
+  }
+  for (size_t i = 0; i < o->ink.dash_count; i++) {
+    if (!IS_UNUSED(o->ink.dash[i]))
+      return sized_reject(error);
+    if (!is_dash(&o->ink.dash[i]))
+      return refuse_option("the dash at index", i, error);
   }
   return RECTO_OK;
 }

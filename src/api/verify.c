@@ -99,6 +99,7 @@ static recto_status add_dropped(struct judge_drawing *to,
   fine.ink.ids = false;
   fine.ink.fill = RECTO_FILL_NONE;
   fine.ink.order = RECTO_ORDER_NONE;
+  fine.ink.dash_count = 0;
   struct drawing drawing;
   drawing_init(&drawing);
   status = ink_draw(&drawing, verify->sheet, verify->scene, verify->map, &fine,

@@ -43,6 +43,7 @@ struct arguments {
   recto_pen_use *pen_use;
   recto_pen pen[RECTO_PEN_MAX];
   recto_weight weight[RECTO_EDGE_CLASS_COUNT];
+  recto_dash dash[RECTO_EDGE_CLASS_COUNT + 1];
 };
 
 /* ---- The table of options ------------------------------------------------ */

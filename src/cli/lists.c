@@ -67,6 +67,25 @@ recto_status lists_set_colour(struct arguments *a, const char *name,
   return RECTO_OK;
 }
 
+recto_status lists_set_dash(struct arguments *a, const char *name,
+                            const char *value) {
+  recto_dash dash = {.edge_class = (recto_edge_class)value_edge_class(name)};
+  size_t place = 0;
+  dash.lines = dash.edge_class == 0 ? RECTO_LINES_HIDDEN : RECTO_LINES_OF_CLASS;
+  if ((dash.edge_class == 0 && strcmp(name, "hidden") != 0) ||
+      !recto_dash_parse(value, &dash))
+    return RECTO_ERROR_ARGUMENT;
+  while (place < a->options.ink.dash_count &&
+         (a->dash[place].lines != dash.lines ||
+          a->dash[place].edge_class != dash.edge_class))
+    place++;
+  a->dash[place] = dash;
+  a->options.ink.dash = a->dash;
+  if (a->options.ink.dash_count == place)
+    a->options.ink.dash_count++;
+  return RECTO_OK;
+}
+
 recto_status lists_set_weight(struct arguments *a, const char *name,
                               const char *value) {
   recto_weight weight = {.edge_class =

@@ -18,6 +18,8 @@ recto_status lists_set_width(struct arguments *arguments, const char *name,
                              const char *value);
 recto_status lists_set_colour(struct arguments *arguments, const char *name,
                               const char *value);
+recto_status lists_set_dash(struct arguments *arguments, const char *name,
+                            const char *value);
 recto_status lists_set_weight(struct arguments *arguments, const char *name,
                               const char *value);
 

@@ -13,11 +13,6 @@
 #include "ink/lines/paths.h"
 #include "ink/lines/stroke.h"
 
-/* Dashes and gaps in pen widths: those of ISO 128's dashed line.  Round ends
- * make dashes look one width longer and gaps one shorter. */
-#define DASH_PENS 12
-#define GAP_PENS 3
-
 struct ink {
   struct drawing *drawing;
   const struct sheet *sheet;
@@ -144,10 +139,10 @@ static bool is_too_short(const struct ink *ink, const struct ink_path *path,
 static bool add_drawn_path(struct ink *ink, const struct ink_path *path,
                            const struct stroke_line *line) {
   struct drawing_stroke like = stroke_like(ink, path);
-  double pen = pens_width_mm(ink->pens, like.layer);
-  if (path->hidden && ink->options->ink.hidden == RECTO_HIDDEN_DASHED)
-    return stroke_add_dashed(ink->drawing, &like, line, DASH_PENS * pen,
-                             GAP_PENS * pen);
+  struct dash_pattern pattern =
+      dash_pattern_of(ink->options, ink->drawing, &like);
+  if (pattern.count > 0)
+    return stroke_add_dashed(ink->drawing, &like, line, &pattern);
   return stroke_add(ink->drawing, &like, line->point.item, line->point.count,
                     line->closed);
 }
@@ -160,13 +155,8 @@ static bool drop_path(struct ink *ink, const struct ink_path *path,
   ++*(path->is_covered ? &drawing->counts.covered : &drawing->counts.too_short);
   if (path->hidden)
     return true;
-  stroke.point = (uint32_t)drawing->dropped_point.count;
-  stroke.count = (uint32_t)line->point.count;
-  stroke.closed = line->closed;
-  for (size_t i = 0; i < line->point.count; i++)
-    if (!ARRAY_PUSH(&drawing->dropped_point, line->point.item[i]))
-      return false;
-  return ARRAY_PUSH(&drawing->dropped, stroke);
+  return stroke_add_dropped(drawing, &stroke, line->point.item,
+                            line->point.count, line->closed);
 }
 
 /* Adds the paths as strokes; with `filter` those that are too short are left

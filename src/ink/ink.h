@@ -15,7 +15,7 @@ double ink_deviation_mm(const recto_options *options);
  *   2 of segments that coincide one is kept
  *   3 segments are chained into polylines as long as possible
  *   4 collinear points are removed, then the polylines are simplified
- *   5 polylines that are too short are dropped, hidden ones may be dashed
+ *   5 polylines that are too short are dropped, others may be dashed
  *   6 strokes are sorted into layers, and fills are added
  * drawing  initialised, empty; its page, layers, strokes and fills are set */
 USE_RESULT recto_status ink_draw(struct drawing *drawing,

@@ -1,5 +1,6 @@
 # src/ink/local.mk - from the visible map to a drawing.
 librecto_core_la_SOURCES += \
+  %D%/dash_pattern.c %D%/dash_pattern.h \
   %D%/ink.c %D%/ink.h \
   %D%/layers.c %D%/layers.h \
   %D%/shading.c %D%/shading.h \

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "ink/dash_pattern.h"
+
 /* ISO 128: wide lines are twice as wide as narrow ones. */
 #define WIDE_WEIGHT 2.0
 
@@ -99,6 +101,7 @@ recto_status pens_init(struct pens *pens, const struct scene *scene,
                         .own_count = options->ink.pen_count,
                         .width_mm = options->ink.pen_mm,
                         .shortest_mm = options->ink.min_stroke_mm,
+                        .dashed = dash_pattern_classes(options),
                         .exact = options->ink.exact};
   for (int i = 0; i < RECTO_EDGE_CLASS_COUNT; i++)
     pens->of_class[i] = PENS_NONE;
@@ -169,7 +172,10 @@ double pens_weight(const struct pens *pens, unsigned edge_class) {
 
 unsigned pens_weight_id(const struct pens *pens, unsigned edge_class) {
   unsigned first = 0, index = class_index(edge_class);
-  while (pens->weight[first] != pens->weight[index])
+  if (pens->dashed & 1u << index)
+    return index;
+  while (pens->weight[first] != pens->weight[index] ||
+         pens->dashed & 1u << first)
     first++;
   return first;
 }

@@ -24,6 +24,7 @@ struct pens {
   size_t own_count;
   double weight[RECTO_EDGE_CLASS_COUNT]; /* in pen widths, by the index of
                                             the bit */
+  unsigned dashed;                       /* classes drawn as dashes, a mask */
   double width_mm, shortest_mm;          /* from the options */
   bool exact;
 };
@@ -70,8 +71,8 @@ double pens_crease_start_deg(const recto_options *options);
 /* The width of visible lines of a class, in pen widths. */
 double pens_weight(const struct pens *pens, unsigned edge_class);
 
-/* Equal for two classes of visible lines with equal weights, which may be
- * joined into one stroke. */
+/* Equal for two classes of visible lines with equal weights and without dashes,
+ * which may be joined into one stroke. */
 unsigned pens_weight_id(const struct pens *pens, unsigned edge_class);
 
 #endif

@@ -2,9 +2,10 @@
  * pens.
  *
  * Dashing starts anew at each corner of a line, so that every edge of a box
- * begins and ends with ink.  The number of dashes is the one that brings their
- * length nearest to the requested one; the difference is spread over all of
- * them. */
+ * begins and ends with ink.  The pattern is repeated as often as brings the
+ * longest dashes nearest to their length; the difference is spread over all of
+ * these.  Gaps, and dashes that are shorter, such as dots, keep their lengths.
+ * Source  [ISO128], part 21 */
 #include <math.h>
 
 #include "ink/lines/stroke.h"
@@ -69,35 +70,97 @@ static bool cut_piece(struct cursor *c, double from, double to,
   return ARRAY_PUSH(&piece->point, point_along(c, to));
 }
 
-/* The number of dashes, each followed by a gap, for that length. */
-static double count_dashes(double length, double dash, double gap) {
-  double n = floor(length / (dash + gap) + 0.5);
-  return n < 2 ? 2 : n;
+/* ---- Fitting ------------------------------------------------------------- */
+
+/* A pattern fitted to a line: repetition i begins at i * whole / times. */
+struct fitted_pattern {
+  struct dash_pattern pattern; /* the longest dashes as they are drawn */
+  double whole, times;
+  double dashes; /* how many; all are followed by a gap, but the last one of an
+                    open line */
+};
+
+/* Fits a pattern to the length of a line.
+ *   open    n repetitions and the first dash once more.  If that is one of the
+ *           k longest ones, which become l long, and the rest of a repetition
+ *           is r,
+ *               length = n (k l + r) + l,
+ *           so that a repetition is (k length + r) / (n k + 1)
+ *   closed  n repetitions
+ * Where a gap is wider than all dashes, all lengths are fitted alike.  There
+ * are two dashes at least.  Returns false where the longest ones would be
+ * shorter than a gap, and than half of what is requested. */
+static bool fit_pattern(struct fitted_pattern *fitted,
+                        const struct dash_pattern *pattern, double length,
+                        bool closed) {
+  double longest = 0, widest = 0, period = 0, k = 0;
+  for (int i = 0; i < pattern->count; i += 2) {
+    longest = fmax(longest, pattern->mm[i]);
+    widest = fmax(widest, pattern->mm[i + 1]);
+    period += pattern->mm[i] + pattern->mm[i + 1];
+  }
+  for (int i = 0; i < pattern->count; i += 2)
+    k += pattern->mm[i] == longest;
+  double first = pattern->mm[0], rest = period - k * longest;
+  double n = floor((closed ? length : length - first) / period + 0.5);
+  n = fmax(n, closed && pattern->count == 2 ? 2 : 1);
+  *fitted = (struct fitted_pattern){.pattern = *pattern,
+                                    .whole = closed ? length : length - first,
+                                    .times = n,
+                                    .dashes = n * pattern->count / 2 + !closed};
+  if (widest > longest) {
+    fitted->whole = period * length;
+    fitted->times = n * period + (closed ? 0 : first);
+    for (int i = 0; i < pattern->count; i++)
+      fitted->pattern.mm[i] *= length / fitted->times;
+    return length >= fitted->times / 2;
+  }
+  if (!closed && first == longest) {
+    fitted->whole = k * length + rest;
+    fitted->times = n * k + 1;
+  }
+  double drawn = (fitted->whole / fitted->times - rest) / k;
+  for (int i = 0; i < pattern->count; i += 2)
+    if (pattern->mm[i] == longest)
+      fitted->pattern.mm[i] = drawn;
+  return drawn >= fmin(widest, longest / 2);
 }
+
+/* ---- Dashes -------------------------------------------------------------- */
 
 /* Dashes a line without corners. */
 static bool add_dashes(struct drawing *drawing,
                        const struct drawing_stroke *like,
-                       const struct stroke_line *line, double dash,
-                       double gap) {
-  double length = stroke_line_length(line);
-  /* An open line lacks the last gap; with it, it is periodic too. */
-  double period = line->closed ? length : length + gap;
-  if (period < 4 * gap)
+                       const struct stroke_line *line,
+                       const struct dash_pattern *pattern) {
+  struct fitted_pattern fitted;
+  if (!fit_pattern(&fitted, pattern, stroke_line_length(line), line->closed))
     return stroke_add(drawing, like, line->point.item, line->point.count,
                       line->closed);
   struct cursor cursor = {.line = line};
   struct stroke_line piece = {0};
-  double n = count_dashes(period, dash, gap);
+  double repetition = 0, from = 0;
   bool ok = true;
-  for (double i = 0; ok && i < n; i++) {
-    double from = i * period / n, to = (i + 1) * period / n - gap;
-    ok = cut_piece(&cursor, from, to, &piece);
-    if (ok && !line->closed && i + 1 == n) /* the very end, unrounded */
+  for (double i = 0; ok && i < fitted.dashes; i++) {
+    int at = (int)fmod(2 * i, pattern->count);
+    const double *mm = &fitted.pattern.mm[at];
+    bool is_last = !line->closed && i + 1 == fitted.dashes;
+    /* Gaps end where the next dash begins, which for the last of a repetition
+     * does not add up the errors of all before it. */
+    double next = from + mm[0] + mm[1];
+    if (at + 2 == pattern->count)
+      next = ++repetition * fitted.whole / fitted.times;
+    ok = cut_piece(&cursor, from, next - mm[1], &piece);
+    if (ok && is_last) /* the very end, unrounded */
       piece.point.item[piece.point.count - 1] =
           line->point.item[line->point.count - 1];
     ok = ok &&
          stroke_add(drawing, like, piece.point.item, piece.point.count, false);
+    if (ok && !like->hidden && !is_last)
+      ok = cut_piece(&cursor, next - mm[1], next, &piece) &&
+           stroke_add_dropped(drawing, like, piece.point.item,
+                              piece.point.count, false);
+    from = next;
   }
   ARRAY_FREE(&piece.point);
   return ok;
@@ -129,14 +192,14 @@ static size_t find_next_corner(const struct stroke_line *line, size_t i,
 
 bool stroke_add_dashed(struct drawing *drawing,
                        const struct drawing_stroke *like,
-                       const struct stroke_line *line, double dash,
-                       double gap) {
+                       const struct stroke_line *line,
+                       const struct dash_pattern *pattern) {
   size_t count = line->point.count, first = 0, end = count - 1;
   if (line->closed) {
     while (first < count && !is_line_corner(line, first))
       first++;
     if (first == count)
-      return add_dashes(drawing, like, line, dash, gap);
+      return add_dashes(drawing, like, line, pattern);
     end = first + count;
   }
   struct stroke_line piece = {0};
@@ -146,7 +209,7 @@ bool stroke_add_dashed(struct drawing *drawing,
     piece.point.count = 0;
     for (size_t k = i; ok && k <= next; k++)
       ok = ARRAY_PUSH(&piece.point, line->point.item[k % count]);
-    ok = ok && add_dashes(drawing, like, &piece, dash, gap);
+    ok = ok && add_dashes(drawing, like, &piece, pattern);
   }
   ARRAY_FREE(&piece.point);
   return ok;

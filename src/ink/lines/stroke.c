@@ -18,3 +18,17 @@ bool stroke_add(struct drawing *drawing, const struct drawing_stroke *like,
   drawing->point.count += count;
   return true;
 }
+
+bool stroke_add_dropped(struct drawing *drawing,
+                        const struct drawing_stroke *like,
+                        const struct drawing_point *point, size_t count,
+                        bool closed) {
+  struct drawing_stroke stroke = *like;
+  stroke.point = (uint32_t)drawing->dropped_point.count;
+  stroke.count = (uint32_t)count;
+  stroke.closed = closed;
+  for (size_t i = 0; i < count; i++)
+    if (!ARRAY_PUSH(&drawing->dropped_point, point[i]))
+      return false;
+  return ARRAY_PUSH(&drawing->dropped, stroke);
+}

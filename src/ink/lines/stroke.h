@@ -3,6 +3,7 @@
 #define INK_LINES_STROKE_H
 
 #include "drawing/drawing.h"
+#include "ink/dash_pattern.h"
 
 /* A polyline before it is added to the drawing, page mm. */
 struct stroke_line {
@@ -21,13 +22,23 @@ USE_RESULT bool stroke_add(struct drawing *drawing,
                            const struct drawing_point *point, size_t count,
                            bool closed);
 
-/* Appends the line as dashes.  Dashes begin and end at the ends of the line and
- * at every corner; around a loop without corners they are spread evenly.
- * dash, gap  mm, > 0: gaps are exact, dashes are fitted to the length
- * A line too short for two dashes as long as the gap is drawn solid. */
+/* Appends the line as dashes.  They begin and end at the ends of the line and
+ * at every corner, with the first dash of the pattern; around a loop without
+ * corners they are spread evenly.
+ * pattern  of at least a dash and a gap: gaps and short dashes are exact, the
+ *          longest ones are fitted to the length; where a gap is wider than all
+ *          dashes, all lengths are
+ * A line too short for dashes as long as the widest gap is drawn solid.  The
+ * gaps of visible lines are added to the lines that were dropped. */
 USE_RESULT bool stroke_add_dashed(struct drawing *drawing,
                                   const struct drawing_stroke *like,
-                                  const struct stroke_line *line, double dash,
-                                  double gap);
+                                  const struct stroke_line *line,
+                                  const struct dash_pattern *pattern);
+
+/* Appends a line to those of the drawing that were dropped. */
+USE_RESULT bool stroke_add_dropped(struct drawing *drawing,
+                                   const struct drawing_stroke *like,
+                                   const struct drawing_point *point,
+                                   size_t count, bool closed);
 
 #endif
