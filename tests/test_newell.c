@@ -20,9 +20,11 @@ struct ordered {
   struct newell_order order;
 };
 
-/* In the order in which faces can be painted. */
-static recto_status put_in_order(struct ordered *o) {
-  const struct solver_request request = {.fragments = true, .threads = 1};
+/* In the order in which faces can be painted.
+ * tests  how many of them; 0: all, with splitting */
+static recto_status put_in_order(struct ordered *o, int tests) {
+  const struct solver_request request = {
+      .fragments = true, .threads = 1, .newell_tests = tests};
   recto_error error;
   assert_true(triangle_grid_init(&o->grid, &o->sheet));
   return newell_order_init(&o->order, &o->sheet, &o->grid, &request, &error);
@@ -35,12 +37,17 @@ static void ordered_fini(struct ordered *o) {
 }
 
 /* Orders `count` triangles; times SCALE. */
-static void order_triangles(struct ordered *o, const int corner[][3][3],
-                            int count) {
+static void order_by_tests(struct ordered *o, const int corner[][3][3],
+                           int count, int tests) {
   exact_sheet_init(&o->sheet);
   for (int f = 0; f < count; f++)
     exact_add_face(&o->sheet, corner[f], 3, SCALE);
-  assert_int_equal(put_in_order(o), RECTO_OK);
+  assert_int_equal(put_in_order(o, tests), RECTO_OK);
+}
+
+static void order_triangles(struct ordered *o, const int corner[][3][3],
+                            int count) {
+  order_by_tests(o, corner, count, 0);
 }
 
 /* The triangles of the pieces painted, back to front. */
@@ -223,6 +230,46 @@ static void lines_alone_need_no_order_of_what_touches(void **state) {
   }
 }
 
+/* ---- Some of the tests --------------------------------------------------- */
+
+/* By A alone, by A and B, ...: which of two is painted first. */
+static void assert_first(const int face[2][3][3], const uint32_t first[4]) {
+  for (int tests = 1; tests <= 4; tests++) {
+    struct ordered o;
+    order_by_tests(&o, face, 2, tests);
+    assert_painted(
+        &o, (const uint32_t[]){first[tests - 1], 1 - first[tests - 1]}, 2);
+    ordered_fini(&o);
+  }
+}
+
+static void test_a_alone_leaves_the_order_of_depth(void **state) {
+  static const int face[2][3][3] = {{{0, 0, 20}, {20, 0, 0}, {0, 20, 20}},
+                                    {{1, 1, 5}, {3, 1, 5}, {1, 3, 5}}};
+  (void)state;
+  assert_first(face, (const uint32_t[]){0, 1, 1, 1});
+}
+
+/* P is in front of Q's plane, Q on both sides of P's. */
+static void test_c_decides_what_a_and_b_leave_open(void **state) {
+  static const int face[2][3][3] = {{{-10, 0, 0}, {2, 0, 15}, {-10, 10, 0}},
+                                    {{1, 1, 2}, {3, 1, 22}, {1, 3, 2}}};
+  (void)state;
+  assert_first(face, (const uint32_t[]){0, 0, 1, 0});
+}
+
+static void without_splitting_a_cycle_is_painted_whole(void **state) {
+  (void)state;
+  for (int tests = 1; tests <= 4; tests++) {
+    struct ordered o;
+    order_by_tests(&o, bars, 3, tests);
+    assert_int_equal(o.order.painted.count, 3);
+    assert_int_equal(o.order.counts.cycles, 0);
+    assert_int_equal(o.order.piece.count, 3);
+    ordered_fini(&o);
+  }
+}
+
 /* ---- Any order is a painter's order -------------------------------------- */
 
 static void lines_to(const struct newell_order *order, uint32_t piece,
@@ -351,7 +398,7 @@ static void nothing_painted_later_is_behind(void **state) {
     snprintf(what, sizeof what, "seed %u", (unsigned)seed);
     exact_random_sheet(&o.sheet, (enum exact_kind)(seed % EXACT_KINDS),
                        2 + exact_random_below(&r, 9), &r);
-    assert_int_equal(put_in_order(&o), RECTO_OK);
+    assert_int_equal(put_in_order(&o, 0), RECTO_OK);
     check_order(&o.order, what);
     cycles += o.order.counts.cycles;
     splits += o.order.counts.split_pierce;
@@ -382,7 +429,7 @@ static void long_cycles_are_broken(void **state) {
           {q[0] + dx / 4, q[1] + dy / 4, 300}};
       exact_add_face(&o.sheet, bar, 3, SCALE);
     }
-    assert_int_equal(put_in_order(&o), RECTO_OK);
+    assert_int_equal(put_in_order(&o, 0), RECTO_OK);
     snprintf(what, sizeof what, "ring of %d", n);
     assert_in_range(o.order.counts.split_cycle, 1, n);
     assert_int_equal(o.order.painted.count,
@@ -407,7 +454,7 @@ static void progress_may_say_stop(void **state) {
   exact_sheet_init(&o.sheet);
   exact_add_face(&o.sheet, bars[0], 3, SCALE);
   polled_begin(&polled, say_stop, NULL);
-  assert_int_equal(put_in_order(&o), RECTO_ERROR_CANCELLED);
+  assert_int_equal(put_in_order(&o, 0), RECTO_ERROR_CANCELLED);
   polled_end(&polled);
   ordered_fini(&o);
 }
@@ -426,6 +473,9 @@ int main(void) {
       cmocka_unit_test(a_face_behind_is_moved_ahead),
       cmocka_unit_test(equal_planes_are_painted_latest_first),
       cmocka_unit_test(lines_alone_need_no_order_of_what_touches),
+      cmocka_unit_test(test_a_alone_leaves_the_order_of_depth),
+      cmocka_unit_test(test_c_decides_what_a_and_b_leave_open),
+      cmocka_unit_test(without_splitting_a_cycle_is_painted_whole),
       cmocka_unit_test(nothing_painted_later_is_behind),
       cmocka_unit_test(long_cycles_are_broken),
       cmocka_unit_test(progress_may_say_stop),

@@ -73,33 +73,42 @@ static void the_given_order_is_wrong_from_front_to_back(void **state) {
   map_fini(&brute);
 }
 
+static const int bars[3][3][3] = {{{0, 0, 10}, {2, 0, 10}, {12, 20, 30}},
+                                  {{24, 4, 10}, {24, 6, 10}, {-2, 5, 30}},
+                                  {{8, 20, 10}, {10, 22, 10}, {22, 1, 30}}};
+
+/* How many of the bars have another area in the one map than in the other. */
+static int count_wrong(const struct map *map, const struct map *brute) {
+  const struct map *both[2] = {map, brute};
+  int wrong = 0;
+  for (uint32_t f = 0; f < 3; f++) {
+    struct exact_area area[2] = {0};
+    for (int i = 0; i < 2; i++)
+      for (size_t k = 0; k < both[i]->fragment.count; k++)
+        if (both[i]->fragment.item[k].face == f)
+          exact_add_area(&area[i], both[i], k);
+    wrong +=
+        fabs(area[0].twice - area[1].twice) > area[0].error + area[1].error;
+  }
+  return wrong;
+}
+
 static void a_cycle_cannot_be_painted(void **state) {
-  static const int bars[3][3][3] = {{{0, 0, 10}, {2, 0, 10}, {12, 20, 30}},
-                                    {{24, 4, 10}, {24, 6, 10}, {-2, 5, 30}},
-                                    {{8, 20, 10}, {10, 22, 10}, {22, 1, 30}}};
-  static const struct solver *const painter[] = {&solver_painter,
-                                                 &solver_painter_given};
+  static const struct solver *const painter[] = {
+      &solver_painter, &solver_painter_given, &solver_newell};
+  const struct solver_request request = {
+      .edges = true, .fragments = true, .threads = 1, .newell_tests = 4};
   (void)state;
-  for (int s = 0; s < 2; s++) {
+  for (int s = 0; s < 3; s++) {
     struct sheet sheet;
     struct map map, brute;
-    int wrong = 0;
     exact_sheet_init(&sheet);
     for (int k = 0; k < 3; k++)
       exact_add_face(&sheet, bars[k], 3, SCALE);
-    exact_solve(painter[s], &sheet, &map, NULL);
+    assert_int_equal(exact_solve_as(painter[s], &request, &sheet, &map, NULL),
+                     RECTO_OK);
     exact_solve(&solver_brute, &sheet, &brute, NULL);
-    for (uint32_t f = 0; f < 3; f++) {
-      struct exact_area area[2] = {0};
-      const struct map *both[2] = {&map, &brute};
-      for (int i = 0; i < 2; i++)
-        for (size_t k = 0; k < both[i]->fragment.count; k++)
-          if (both[i]->fragment.item[k].face == f)
-            exact_add_area(&area[i], both[i], k);
-      wrong +=
-          fabs(area[0].twice - area[1].twice) > area[0].error + area[1].error;
-    }
-    assert_true(wrong >= 2); /* one too large, one too small */
+    assert_true(count_wrong(&map, &brute) >= 2); /* one too large, one small */
     map_fini(&map);
     map_fini(&brute);
     exact_sheet_fini(&sheet);
@@ -127,6 +136,27 @@ depth_sort_is_wrong_for_a_small_object_on_a_long_table(void **state) {
   map_fini(&map);
   map_fini(&brute);
   exact_sheet_fini(&sheet);
+}
+
+/* Where an order exists, Newell's tests find it without splitting. */
+static void newell_without_splitting_is_right_where_an_order_is(void **state) {
+  static const int depth[STEPS] = {3, 8, 1, 6, 2, 7, 5, 4};
+  const struct solver_request request = {
+      .edges = true, .fragments = true, .threads = 1, .newell_tests = 4};
+  struct sheet sheet[2];
+  struct map map, brute;
+  (void)state;
+  for (int i = 0; i < 2; i++)
+    staircase(&sheet[i], depth);
+  assert_int_equal(
+      exact_solve_as(&solver_newell, &request, &sheet[0], &map, NULL),
+      RECTO_OK);
+  exact_solve(&solver_brute, &sheet[1], &brute, NULL);
+  exact_assert_same_map(&map, &brute, "staircase");
+  map_fini(&map);
+  map_fini(&brute);
+  for (int i = 0; i < 2; i++)
+    exact_sheet_fini(&sheet[i]);
 }
 
 /* Wrong or not, every point of the page is painted by one face. */
@@ -169,6 +199,7 @@ int main(void) {
       cmocka_unit_test(the_given_order_is_wrong_from_front_to_back),
       cmocka_unit_test(a_cycle_cannot_be_painted),
       cmocka_unit_test(depth_sort_is_wrong_for_a_small_object_on_a_long_table),
+      cmocka_unit_test(newell_without_splitting_is_right_where_an_order_is),
       cmocka_unit_test(what_is_painted_covers_all_there_is),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -22,6 +22,8 @@ struct solver_request {
                          rather than in the middle */
   int subpixels;      /* raster methods: K x K samples averaged per pixel; 0:
                          one sample */
+  int newell_tests;   /* newell, for measurements: so many of the tests A to D
+                        alone, and no face is split; 0: all, and splitting */
 };
 
 /* The request that options make of a solver: edges, fragments only where faces

@@ -17,6 +17,7 @@
  */
 #include "visibility/fragments/occluder_subtraction.h"
 #include "visibility/newell/newell_order.h"
+#include "visibility/newell/painter.h"
 #include "visibility/intersection/intersection.h"
 #include "visibility/solver.h"
 #include "visibility/predicate/edge_intervals.h"
@@ -259,6 +260,39 @@ static bool solve_in_order(struct newell_order *order, struct sheet *sheet,
   return ok;
 }
 
+/* By some of the tests, without splitting: whole triangles in the order that
+ * these give. */
+static recto_status solve_without_splitting(
+    const struct newell_order *order, const struct sheet *sheet,
+    const struct solver_request *request, struct map *map, recto_error *error) {
+  size_t n = sheet->triangle.count;
+  uint32_t *rank = mem_alloc(n, sizeof *rank);
+  if (rank == NULL)
+    return error_memory(error);
+  for (size_t t = 0; t < n; t++)
+    rank[t] = order->piece.item[t].rank;
+  recto_status status =
+      painter_solve(sheet, order->grid, rank, request, map, error);
+  mem_free(rank);
+  return status;
+}
+
+static recto_status solve_with_splitting(struct newell_order *order,
+                                         struct sheet *sheet,
+                                         const struct solver_request *request,
+                                         struct map *map, struct report *report,
+                                         recto_error *error) {
+  if (request->intersections) {
+    recto_status status =
+        intersection_find_all(sheet, order->grid, NULL, request, report, error);
+    if (status != RECTO_OK)
+      return status;
+  }
+  return solve_in_order(order, sheet, request, map, report)
+             ? RECTO_OK
+             : error_memory(error);
+}
+
 static recto_status solve_newell(struct sheet *sheet,
                                  const struct solver_request *request,
                                  struct map *map, struct report *report,
@@ -269,11 +303,10 @@ static recto_status solve_newell(struct sheet *sheet,
   if (!triangle_grid_init(&grid, sheet))
     return error_memory(error);
   status = newell_order_init(&order, sheet, &grid, request, error);
-  if (status == RECTO_OK && request->intersections)
-    status = intersection_find_all(sheet, &grid, NULL, request, report, error);
-  if (status == RECTO_OK &&
-      !solve_in_order(&order, sheet, request, map, report))
-    status = error_memory(error);
+  if (status == RECTO_OK && request->newell_tests > 0)
+    status = solve_without_splitting(&order, sheet, request, map, error);
+  else if (status == RECTO_OK)
+    status = solve_with_splitting(&order, sheet, request, map, report, error);
   report_order(&order, report);
   newell_order_fini(&order);
   triangle_grid_fini(&grid);

@@ -26,6 +26,10 @@
  * intersections of planes) and leaves two proper parts.  Between splits the
  * marked faces form a path, which is no longer than the number of pieces.
  *
+ * On request only some of the tests are applied and nothing is split
+ * (newell_order.h); what the tests leave open, and what closes a cycle, is
+ * painted in the order of list S.
+ *
  * Source  [Newell1972]; marking and splitting as there.
  */
 #include "visibility/newell/newell_order.h"
@@ -215,7 +219,8 @@ enum order_step { STEP_FAILED, STEP_PAINT, STEP_MOVED, STEP_SPLIT };
 static enum order_step test_pieces(struct newell_order *order, uint32_t p,
                                    uint32_t q) {
   order->counts.tests++;
-  switch (newell_test(order, p, q)) {
+  switch (order->tests > 0 ? newell_test_some(order, p, q)
+                           : newell_test(order, p, q)) {
   case NEWELL_FAILED:
     return STEP_FAILED;
   case NEWELL_P_FIRST:
@@ -227,6 +232,8 @@ static enum order_step test_pieces(struct newell_order *order, uint32_t p,
     break;
   }
   if (order->piece.item[q].state == NEWELL_MARKED) {
+    if (order->tests > 0)
+      return STEP_PAINT;
     pop_down_to(order, q);
     return split_cycle(order, p, q) ? STEP_SPLIT : STEP_FAILED;
   }
@@ -318,7 +325,8 @@ recto_status newell_order_init(struct newell_order *order,
   order->sheet = sheet;
   order->grid = grid;
   order->progress = progress_of(request, "ordering");
-  order->lines_only = !request->fragments;
+  order->tests = request->newell_tests;
+  order->lines_only = !request->fragments && order->tests == 0;
   order->prepared = NEWELL_NONE;
   if (!triangle_grid_query_init(&order->query, grid) || !add_triangles(order))
     return error_memory(error);
@@ -328,8 +336,10 @@ recto_status newell_order_init(struct newell_order *order,
   for (size_t i = 0; i < n && status == RECTO_OK; i++) {
     uint32_t p = s[i].value;
     order->progress.share = (double)i / (double)n;
+    if (order->piece.item[p].state == NEWELL_UNSEEN)
+      order->piece.item[p].rank = (uint32_t)order->painted.count;
     while (status == RECTO_OK && order->open[p] != NEWELL_NONE)
-      if (order->counts.tests > tests_max)
+      if (order->tests == 0 && order->counts.tests > tests_max)
         exclude_triangle(order, p);
       else if (!paint_with_predecessors(order, order->open[p]))
         status = error_memory(error);

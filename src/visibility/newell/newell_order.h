@@ -9,6 +9,8 @@
 #include "visibility/newell/newell_piece.h"
 
 /* Orders all triangles of the sheet except those that would be split too often.
+ * Where the request says so, only some of the tests are applied and nothing is
+ * split: every triangle has a rank, also one that is not to be painted.
  * End with newell_order_fini whatever is returned.
  * Errors  RECTO_ERROR_MEMORY
  *         RECTO_ERROR_CANCELLED

@@ -32,8 +32,9 @@ struct newell_piece {
   struct geom_convex *shape;     /* NULL: the whole triangle */
   struct box2 box;
   int64_t z_low, z_high; /* of the triangle */
-  uint32_t rank;         /* 0 is rearmost */
-  uint8_t state;         /* enum newell_state */
+  uint32_t rank; /* 0 is rearmost; unseen: of the next piece in the order
+                            of depth */
+  uint8_t state; /* enum newell_state */
 };
 
 struct newell_counts {
@@ -61,6 +62,8 @@ struct newell_order {
   struct arena arena, scratch;
   struct newell_counts counts;
   struct progress progress;
+  int tests; /* how many of the tests A to D are applied to whole triangles, of
+                which none is then split; 0: all, to pieces */
   bool lines_only; /* faces in contact need no order, as contact never hides
                       lines */
   struct triangle_plane plane; /* of triangle `prepared`, the candidate's */

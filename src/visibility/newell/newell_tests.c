@@ -116,3 +116,38 @@ enum newell_result newell_test(struct newell_order *order, uint32_t p,
   (void)geom_line_between(&line, &tq.plane, &order->plane.plane);
   return test_full(order, p, q, &line);
 }
+
+/* The order of list S: by the farthest corner, then as in the file. */
+static enum newell_result compare_depth(const struct newell_order *order,
+                                        uint32_t p, uint32_t q) {
+  int64_t zp = order->piece.item[p].z_low, zq = order->piece.item[q].z_low;
+  return zp < zq || (zp == zq && p < q) ? NEWELL_P_FIRST : NEWELL_Q_FIRST;
+}
+
+enum newell_result newell_test_some(struct newell_order *order, uint32_t p,
+                                    uint32_t q) {
+  enum { TEST_A = 1, TEST_B, TEST_C };
+  const struct newell_piece *pp = &order->piece.item[p],
+                            *pq = &order->piece.item[q];
+  if (order->tests > TEST_C) {
+    enum newell_result result = newell_test(order, p, q);
+    return result == NEWELL_PIERCE ? compare_depth(order, p, q) : result;
+  }
+  if (pq->z_low > pp->z_high || box2_disjoint(pp->box, pq->box))
+    return NEWELL_P_FIRST;
+  if (order->tests == TEST_A)
+    return compare_depth(order, p, q);
+  set_candidate_plane(order, pp->triangle);
+  struct triangle_plane tq = triangle_plane_of(order->sheet, pq->triangle);
+  int p_sides = plane_sides(&tq.plane, order->plane.p);
+  if (p_sides == PLANE_BEHIND || (p_sides == 0 && pq->triangle < pp->triangle))
+    return NEWELL_P_FIRST;
+  int q_sides = plane_sides(&order->plane.plane, tq.p);
+  if (q_sides == PLANE_BEHIND || q_sides == 0)
+    return NEWELL_Q_FIRST;
+  if (order->tests == TEST_C && q_sides == PLANE_IN_FRONT)
+    return NEWELL_P_FIRST;
+  if (order->tests == TEST_C && p_sides == PLANE_IN_FRONT)
+    return NEWELL_Q_FIRST;
+  return compare_depth(order, p, q);
+}

@@ -18,6 +18,12 @@ enum newell_result {
 enum newell_result newell_test(struct newell_order *order, uint32_t p,
                                uint32_t q);
 
+/* The same by the first `order->tests` of the tests A to D alone, B and C with
+ * both roles.  What they leave open, the depth of the farthest corner
+ * decides. */
+enum newell_result newell_test_some(struct newell_order *order, uint32_t p,
+                                    uint32_t q);
+
 /* The line where the planes of two pieces intersect, P being in front on its
  * left, and the same line reversed.
  * Returns 0; if the planes are parallel, another value as geom_line_between,

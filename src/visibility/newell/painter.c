@@ -1,13 +1,15 @@
 /* painter.c - the painter's algorithm without depth tests, as a baseline for
  * measurements.
  *
- * Faces are painted as a whole, either in the order of the input or by the
- * depth of their centroids, whatever their overlaps.  A face keeps what no
- * later face covers, and so do its edges; both are wrong where the order is
- * wrong.
+ * Faces are painted as a whole: in the order of the input, by the depth of
+ * their centroids, or as the caller says, whatever their overlaps.  A face
+ * keeps what no later face covers, and so do its edges; both are wrong where
+ * the order is wrong.
  *
  * Source  [Newell1972] names the family; [FoleyVanDam1990] 15.5.
  */
+#include "visibility/newell/painter.h"
+
 #include "base/sort.h"
 #include "visibility/fragments/occluder_subtraction.h"
 #include "visibility/progress.h"
@@ -18,7 +20,7 @@ struct painting {
   const struct sheet *sheet;
   const struct triangle_grid *grid;
   struct triangle_grid_query query;
-  uint32_t *rank; /* one per triangle; 0 is painted first */
+  const uint32_t *rank; /* one per triangle; 0 is painted first */
   struct progress progress;
 };
 
@@ -40,22 +42,22 @@ static void centroid_keys(const struct sheet *sheet, struct sort_key *key) {
   }
 }
 
-static bool rank_by_centroid(struct painting *painting) {
-  size_t n = painting->sheet->triangle.count;
+static bool rank_by_centroid(const struct sheet *sheet, uint32_t *rank) {
+  size_t n = sheet->triangle.count;
   struct sort_key *key = mem_alloc(2 * n, sizeof *key);
   if (key == NULL)
     return false;
-  centroid_keys(painting->sheet, key);
+  centroid_keys(sheet, key);
   sort_keys(key, key + n, n);
   for (size_t i = 0; i < n; i++)
-    painting->rank[key[i].value] = (uint32_t)i;
+    rank[key[i].value] = (uint32_t)i;
   mem_free(key);
   return true;
 }
 
-static void rank_as_given(struct painting *painting) {
-  for (size_t t = 0; t < painting->sheet->triangle.count; t++)
-    painting->rank[t] = (uint32_t)t;
+static void rank_as_given(const struct sheet *sheet, uint32_t *rank) {
+  for (size_t t = 0; t < sheet->triangle.count; t++)
+    rank[t] = (uint32_t)t;
 }
 
 /* Computes the occluded intervals of an edge.  It is painted together with the
@@ -142,30 +144,40 @@ static bool solve_fragments_painter(struct painting *painting,
   return ok;
 }
 
+recto_status painter_solve(const struct sheet *sheet,
+                           const struct triangle_grid *grid,
+                           const uint32_t *rank,
+                           const struct solver_request *request,
+                           struct map *map, recto_error *error) {
+  struct painting painting = {.sheet = sheet,
+                              .grid = grid,
+                              .rank = rank,
+                              .progress = progress_of(request, "painting")};
+  bool ok = triangle_grid_query_init(&painting.query, grid) &&
+            (!request->edges || solve_edges_painter(&painting, map)) &&
+            (!request->fragments || solve_fragments_painter(&painting, map));
+  triangle_grid_query_fini(&painting.query);
+  return ok ? RECTO_OK : error_memory(error);
+}
+
 static recto_status solve_painter(struct sheet *sheet,
                                   const struct solver_request *request,
                                   bool given, struct map *map,
                                   recto_error *error) {
   struct triangle_grid grid;
-  struct painting painting = {.sheet = sheet,
-                              .grid = &grid,
-                              .progress = progress_of(request, "painting")};
-  bool ok;
+  recto_status status = RECTO_OK;
   if (!triangle_grid_init(&grid, sheet))
     return error_memory(error);
-  painting.rank = mem_alloc(sheet->triangle.count, sizeof *painting.rank);
-  ok =
-      painting.rank != NULL && triangle_grid_query_init(&painting.query, &grid);
-  if (ok && given)
-    rank_as_given(&painting);
-  else if (ok)
-    ok = rank_by_centroid(&painting);
-  ok = ok && (!request->edges || solve_edges_painter(&painting, map)) &&
-       (!request->fragments || solve_fragments_painter(&painting, map));
-  mem_free(painting.rank);
-  triangle_grid_query_fini(&painting.query);
+  uint32_t *rank = mem_alloc(sheet->triangle.count, sizeof *rank);
+  if (rank == NULL || (!given && !rank_by_centroid(sheet, rank)))
+    status = error_memory(error);
+  else if (given)
+    rank_as_given(sheet, rank);
+  if (status == RECTO_OK)
+    status = painter_solve(sheet, &grid, rank, request, map, error);
+  mem_free(rank);
   triangle_grid_fini(&grid);
-  return ok ? RECTO_OK : error_memory(error);
+  return status;
 }
 
 static recto_status solve_by_centroid(struct sheet *sheet,
