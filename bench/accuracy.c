@@ -1,211 +1,188 @@
-/* accuracy.c - what approximate methods get wrong, and how long they take:
- * their maps against the exact one, finer and finer.  Areas: given to the wrong
- * face, to none, beyond the exact map's, to a second fragment.
+/* accuracy.c - what every method gets wrong over its knob, and how long it
+ * takes: its map against the exact one, on eight scenes.
  *
- *   accuracy CHART.svg
+ *   accuracy EXAMPLES FOLDER [SCENE...]
  *
- * RECTO_MODELS in the environment names the folder of the real meshes; without
- * it only the soup is drawn.  A table goes to standard output, the chart to
- * the file. */
+ * Writes a file of comma-separated values a scene into the folder, such as
+ * FOLDER/cubes.csv; with names, those of these scenes alone.  Each setting runs
+ * in a process of its own, with a limit of CPU time; the time is the median of
+ * repeated runs of the solver alone.  doc/accuracy.md defines the errors.
+ *
+ * Ends with status 1 where an exact method has an error. */
+#include "bench/accuracy.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
-#include "bench/chart.h"
+#include "base/clock.h"
 #include "bench/table.h"
-#include "scene/read.h"
-#include "tests/measure/trial.h"
-#include "tests/scenes/pipeline.h"
 
-enum { runs = 3, page_mm = 200 };
+enum { LIMIT_S = 15, REPEATS = 9 };
 
-static const int lines[] = {128, 256, 512, 1024, 2048, 4096};
-enum { line_counts = sizeof lines / sizeof *lines };
+/* Repeated until so much was measured. */
+static const double ENOUGH_S = 0.4;
 
-/* By name: a method that this build does not have is passed over. */
-static const char *const rough[] = {"zbuffer", "scanline-zbuffer", "watkins",
-                                    "warnock", "painter",          NULL};
-static const char *const exact[] = {"tiles", "newell", "warnock", "watkins",
-                                    NULL};
+/* What rounding in the sums of areas amounts to; more is an error. */
+static const double SHARE_MIN = 1e-9;
 
-struct row {
+/* What the process of a setting answers. */
+struct answer {
+  double seconds;
   struct measure measure;
-  double fragments_s, strokes_s; /* CPU of the solver, medians */
   bool ok;
 };
 
-static void set_view(recto_options *options) {
-  recto_options_init(options);
-  options->camera.azimuth_deg = 30;
-  options->camera.elevation_deg = 20;
-  options->page.width_mm = options->page.height_mm = page_mm;
-  options->page.margin_mm = 5;
+/* ---- One setting --------------------------------------------------------- */
+
+static struct solver_request request_of(const struct accuracy_setting *setting,
+                                        const recto_options *options,
+                                        enum trial_part part) {
+  struct solver_request request = trial_request(options, setting->lines, part);
+  request.depth_bits = setting->depth_bits;
+  request.subpixels = setting->subpixels;
+  request.newell_tests = setting->newell_tests;
+  return request;
 }
 
-/* The median time of a part; the last map against the exact one. */
-static double take_part(const struct scene *scene, const recto_options *options,
-                        const struct solver *solver, int count,
-                        enum trial_part part, const struct trial *truth,
-                        struct measure *measure, bool *good) {
-  double seconds[RUNS_MAX];
-  for (size_t i = 0; i < runs; i++) {
+static void run_setting(struct answer *answer,
+                        const struct accuracy_setting *setting,
+                        const struct scene *scene, const recto_options *options,
+                        enum trial_part part, const struct trial *truth) {
+  struct solver_request request = request_of(setting, options, part);
+  double seconds[REPEATS], sum = 0;
+  size_t n = 0;
+  memset(answer, 0, sizeof *answer);
+  answer->ok = true;
+  while (n < REPEATS && answer->ok && (n == 0 || sum < ENOUGH_S)) {
     struct trial trial;
-    trial_run(&trial, scene, options, solver, count, part);
-    seconds[i] = trial.solve_s;
-    if (trial.status != RECTO_OK ||
-        (i == 0 && !measure_map(measure, &truth->sheet, &truth->map,
-                                &trial.sheet, &trial.map)))
-      *good = false;
+    trial_run_request(&trial, scene, options, setting->solver, &request);
+    sum += seconds[n++] = trial.solve_s;
+    answer->ok = trial.status == RECTO_OK &&
+                 (n > 1 || measure_map(&answer->measure, &truth->sheet,
+                                       &truth->map, &trial.sheet, &trial.map));
     trial_fini(&trial);
   }
-  return median_of(seconds, runs);
+  answer->seconds = median_of(seconds, n);
 }
 
-static void take_row(struct row *row, const struct scene *scene,
-                     const recto_options *options, const struct solver *solver,
-                     int count, const struct trial truth[2]) {
-  struct measure ink = {0};
-  row->ok = true;
-  row->fragments_s = take_part(scene, options, solver, count, TRIAL_FRAGMENTS,
-                               &truth[0], &row->measure, &row->ok);
-  row->strokes_s = take_part(scene, options, solver, count, TRIAL_EDGES,
-                             &truth[1], &ink, &row->ok);
-  row->measure.true_ink = ink.true_ink;
-  row->measure.missing_ink = ink.missing_ink;
-  row->measure.false_ink = ink.false_ink;
-}
-
-static void print_heading(const char *name, const struct measure *truth) {
-  printf("\n%s: %.0f mm2 covered, %.0f mm of lines seen\n", name,
-         truth->true_area, truth->true_ink);
-  printf("%-17s %5s %8s %9s %9s %9s %9s %8s %9s %9s %8s\n", "method", "lines",
-         "pitch mm", "wrong", "missing", "false", "twice", "faces s", "missing",
-         "false", "lines s");
-}
-
-/* A sum of areas that is nothing but rounding is nothing. */
-static double clean(double area) { return fabs(area) < 0.0005 ? 0 : area; }
-
-static void print_row(const char *method, int count, const struct row *row) {
-  const struct measure *m = &row->measure;
-  printf("%-17s ", method);
-  if (!row->ok) {
-    printf("failed\n");
+/* The same in a process of its own; not ok where its time was up. */
+static void measure_setting(struct answer *answer,
+                            const struct accuracy_setting *setting,
+                            const struct scene *scene,
+                            const recto_options *options, enum trial_part part,
+                            const struct trial *truth) {
+  int ends[2];
+  answer->ok = false;
+  fflush(NULL);
+  if (pipe(ends) != 0)
     return;
+  pid_t child = fork();
+  if (child == 0) {
+    run_setting(answer, setting, scene, options, part, truth);
+    _exit(write(ends[1], answer, sizeof *answer) != (ssize_t)sizeof *answer);
   }
-  if (count > 0)
-    printf("%5d %8.4f ", count, (double)page_mm / count);
-  else
-    printf("%5s %8s ", "", "");
-  printf("%9.3f %9.3f %9.3f %9.3f %8.4f %9.3f %9.3f %8.4f\n",
-         clean(m->wrong_face), clean(m->missing_area), clean(m->false_area),
-         clean(m->twice_area), row->fragments_s, m->missing_ink, m->false_ink,
-         row->strokes_s);
-  fflush(stdout);
+  close(ends[1]);
+  if (child > 0 && !run_answer(child, ends[0], LIMIT_S, answer, sizeof *answer))
+    answer->ok = false;
 }
 
-/* A method's rows: one for each number of lines; one for a method without. */
-static void take_method(struct chart *chart, const struct scene *scene,
-                        const recto_options *options, const char *name,
-                        bool has_lines, const struct trial truth[2]) {
-  const struct solver *solver = solver_by_name(name);
-  if (solver == NULL)
-    return;
-  for (size_t i = 0; i < (has_lines ? line_counts : 1); i++) {
-    int count = has_lines ? lines[i] : 0;
-    struct row row;
-    take_row(&row, scene, options, solver, count, truth);
-    print_row(name, count, &row);
-    if (!row.ok)
-      continue;
-    chart_add(chart, CHART_AREA, name, row.fragments_s,
-              clean(measure_area_share(&row.measure) * row.measure.true_area) /
-                  row.measure.true_area);
-    chart_add(chart, CHART_INK, name, row.strokes_s,
-              measure_ink_share(&row.measure));
+/* ---- A scene ------------------------------------------------------------- */
+
+/* A share that is nothing but rounding is nothing. */
+static double clean(double share) { return share < SHARE_MIN ? 0 : share; }
+
+static const char *const part_name[] = {
+    [TRIAL_EDGES] = "lines", [TRIAL_FRAGMENTS] = "faces"};
+
+/* One row; false where an exact method has an error. */
+static bool print_row(FILE *file, const char *scene, enum trial_part part,
+                      const struct accuracy_setting *setting,
+                      const struct answer *answer) {
+  const struct measure *m = &answer->measure;
+  double truth = part == TRIAL_EDGES ? m->true_ink : m->true_area;
+  fprintf(file, "\"%s\",%s,%s,%s,%s,", scene, part_name[part], setting->method,
+          setting->knob, setting->value);
+  if (!answer->ok) {
+    fprintf(file, ",,,,,\n");
+    return true;
   }
-}
-
-static void take_exact(struct chart *chart, const struct scene *scene,
-                       const recto_options *options, const char *name,
-                       const struct trial truth[2]) {
-  const struct solver *solver = solver_by_name(name);
-  struct row row;
-  if (solver == NULL)
-    return;
-  take_row(&row, scene, options, solver, 0, truth);
-  print_row(name, 0, &row);
-  if (row.ok) {
-    chart_add(chart, CHART_AREA, name, row.fragments_s, 0);
-    chart_add(chart, CHART_INK, name, row.strokes_s, 0);
+  double part_share[3] = {m->missing_ink, m->false_ink, 0};
+  if (part == TRIAL_FRAGMENTS) {
+    part_share[0] = m->missing_area;
+    part_share[1] = m->false_area;
+    part_share[2] = m->wrong_face;
   }
+  double sum = 0;
+  for (int k = 0; k < 3; k++)
+    sum += part_share[k] = clean(part_share[k] / truth);
+  fprintf(file, "%.6f,%.4g,%.4g,%.4g,%.4g,%.6g\n", answer->seconds, sum,
+          part_share[0], part_share[1], part_share[2], truth);
+  if (setting->exact && sum > 0)
+    fprintf(stderr, "accuracy: %s, %s: %s has an error of %g\n", scene,
+            part_name[part], setting->method, sum);
+  return !setting->exact || sum == 0;
 }
 
-static void take_scene(struct chart *chart, const struct scene *scene,
-                       const recto_options *options, const char *name) {
-  static const enum trial_part part[2] = {TRIAL_FRAGMENTS, TRIAL_EDGES};
-  struct trial truth[2];
-  struct row against = {0};
-  for (int i = 0; i < 2; i++)
-    trial_run(&truth[i], scene, options, &solver_tiles, 0, part[i]);
-  if (truth[0].status == RECTO_OK && truth[1].status == RECTO_OK) {
-    chart_open(chart, name);
-    take_row(&against, scene, options, &solver_tiles, 0, truth);
-    print_heading(name, &against.measure);
-    for (size_t i = 0; exact[i] != NULL; i++)
-      take_exact(chart, scene, options, exact[i], truth);
-    for (size_t i = 0; rough[i] != NULL; i++)
-      take_method(chart, scene, options, rough[i],
-                  strcmp(rough[i], "painter") != 0, truth);
+static bool measure_part(FILE *file, const char *name,
+                         const struct scene *scene,
+                         const recto_options *options, enum trial_part part) {
+  struct trial truth;
+  bool ok = true;
+  trial_run(&truth, scene, options, &solver_tiles, 0, part);
+  if (truth.status != RECTO_OK)
+    fprintf(stderr, "accuracy: %s has no exact map\n", name);
+  for (const struct accuracy_setting *s = accuracy_settings;
+       s->method != NULL && truth.status == RECTO_OK; s++) {
+    struct answer answer;
+    measure_setting(&answer, s, scene, options, part, &truth);
+    ok = print_row(file, name, part, s, &answer) && ok;
   }
-  for (int i = 0; i < 2; i++)
-    trial_fini(&truth[i]);
+  ok = ok && truth.status == RECTO_OK;
+  trial_fini(&truth);
+  return ok;
 }
 
-static void take_model(struct chart *chart, const char *folder,
-                       const char *name) {
-  char path[4096];
-  struct scene scene;
-  struct diagnostics silent = {.file = path};
-  recto_options options;
-  snprintf(path, sizeof path, "%s/%s.obj", folder, name);
-  set_view(&options);
-  scene_init(&scene);
-  if (scene_read(&scene, path, NULL, &silent, NULL) == RECTO_OK)
-    take_scene(chart, &scene, &options, name);
-  scene_fini(&scene);
-}
-
-static void take_soup(struct chart *chart) {
+static bool measure_scene(int index, const char *examples, const char *folder,
+                          int argc, char **argv) {
+  char name[ACCURACY_NAME], id[ACCURACY_NAME], path[4096];
   struct scene scene;
   recto_options options;
-  set_view(&options);
-  scene_init(&scene);
-  scenes_soup(&scene, &options, 1000, 1);
-  take_scene(chart, &scene, &options, "soup of 1000");
+  bool wanted = argc == 0, ok = false;
+  double start = clock_wall();
+  if (!accuracy_scene(index, examples, &scene, &options, name, id)) {
+    fprintf(stderr, "accuracy: no model for %s\n", id);
+    scene_fini(&scene);
+    return true;
+  }
+  for (int i = 0; i < argc; i++)
+    wanted |= strcmp(argv[i], id) == 0;
+  snprintf(path, sizeof path, "%s/%s.csv", folder, id);
+  FILE *file = wanted ? fopen(path, "w") : NULL;
+  if (file != NULL) {
+    fputs("scene,part,method,knob,value,cpu_s,wrong,missing,false,"
+          "wrong_face,truth\n",
+          file);
+    ok = measure_part(file, name, &scene, &options, TRIAL_EDGES);
+    ok = measure_part(file, name, &scene, &options, TRIAL_FRAGMENTS) && ok;
+    ok = fclose(file) == 0 && ok;
+    fprintf(stderr, "%s: %s, %.0f s\n", id, name, clock_wall() - start);
+  } else if (wanted) {
+    fprintf(stderr, "accuracy: cannot write %s\n", path);
+  }
   scene_fini(&scene);
+  return ok || !wanted;
 }
 
 int main(int argc, char **argv) {
-  const char *folder = getenv("RECTO_MODELS");
-  struct chart chart;
-  if (argc != 2) {
-    fputs("usage: accuracy CHART.svg\n", stderr);
+  bool ok = true;
+  if (argc < 3) {
+    fputs("usage: accuracy EXAMPLES FOLDER [SCENE...]\n", stderr);
     return 2;
   }
-  printf("Against the exact map, in mm2 and mm; CPU seconds of the solver, "
-         "medians of %d runs.\n",
-         runs);
-  chart_init(&chart);
-  if (folder != NULL) {
-    take_model(&chart, folder, "spot");
-    take_model(&chart, folder, "fandisk");
-  }
-  take_soup(&chart);
-  bool ok = chart_write(&chart, argv[1]);
-  chart_fini(&chart);
-  if (!ok)
-    fprintf(stderr, "accuracy: cannot write %s\n", argv[1]);
-  return ok ? 0 : 1;
+  for (int i = 0; i < ACCURACY_SCENES; i++)
+    ok = measure_scene(i, argv[1], argv[2], argc - 3, argv + 3) && ok;
+  return !ok;
 }

@@ -1,213 +1,301 @@
-/* chart.c - time against error, as SVG.
+/* chart.c - charts of speed against accuracy, from what the program accuracy
+ * measured.
  *
- * Both axes are logarithmic, with the same range in all panels, so that curves
- * can be compared from scene to scene.  Below the axis there is a band for
- * those that made no error. */
-#include "bench/chart.h"
-
+ *   chart FOLDER
+ *
+ * Reads FOLDER/cubes.csv and the like and writes FOLDER/lines.svg and
+ * faces.svg, a panel a scene; lines-zbuffer.svg and faces-zbuffer.svg, the
+ * other knobs of the z-buffers; and summary.svg, all scenes in one. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-enum {
-  panel_w = 400,
-  panel_h = 250,
-  gap_x = 90,
-  gap_y = 62,
-  left = 80,
-  top = 84,
-  band = 34 /* for the exact methods */
+#include "bench/plot.h"
+#include "bench/table.h"
+
+enum { SCENES = 8, ROWS = 900, FIELD = 96 };
+
+static const char *const scene_id[SCENES] = {
+    "cubes", "cycles", "table", "soup", "fandisk", "bunny", "surface", "dense"};
+
+/* A line of a file. */
+struct row {
+  int scene;
+  char name[FIELD], part[FIELD], method[FIELD], knob[FIELD], value[FIELD];
+  double seconds, wrong; /* NAN: it did not end */
 };
 
-/* Told apart in print and by the colour-blind. */
-static const char *const colour[CHART_METHODS] = {
-    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
-    "#000000", "#7f7f7f", "#8c564b", "#bcbd22", "#17becf", "#9467bd"};
-
-/* A range of powers of ten. */
-struct axis {
-  int low, high;
+struct rows {
+  struct row row[ROWS];
+  size_t count;
 };
 
-struct frame {
-  struct axis x, y;
-};
+/* ---- Reading ------------------------------------------------------------- */
 
-void chart_init(struct chart *chart) { memset(chart, 0, sizeof *chart); }
-
-void chart_fini(struct chart *chart) { memset(chart, 0, sizeof *chart); }
-
-void chart_open(struct chart *chart, const char *scene) {
-  if (chart->scenes < CHART_SCENES)
-    snprintf(chart->scene[chart->scenes++], sizeof *chart->scene, "%s", scene);
+/* Copies the field at *at and moves to the next one. */
+static void take_field(const char **at, char field[FIELD]) {
+  bool quoted = **at == '"';
+  const char *from = *at + quoted;
+  size_t length = strcspn(from, quoted ? "\"" : ",\n");
+  snprintf(field, FIELD, "%.*s", (int)length, from);
+  *at = from + length + quoted;
+  *at += **at == ',';
 }
 
-static int find_method(struct chart *chart, const char *method) {
-  for (int i = 0; i < chart->methods; i++)
-    if (strcmp(chart->method[i], method) == 0)
-      return i;
-  if (chart->methods == CHART_METHODS)
-    return -1;
-  snprintf(chart->method[chart->methods], sizeof *chart->method, "%s", method);
-  return chart->methods++;
+static void take_row(struct rows *rows, int scene, const char *line) {
+  char number[FIELD];
+  if (rows->count == ROWS || strncmp(line, "scene,", 6) == 0 || *line == '\0')
+    return;
+  struct row *row = &rows->row[rows->count++];
+  row->scene = scene;
+  take_field(&line, row->name);
+  take_field(&line, row->part);
+  take_field(&line, row->method);
+  take_field(&line, row->knob);
+  take_field(&line, row->value);
+  take_field(&line, number);
+  row->seconds = *number != '\0' ? strtod(number, NULL) : NAN;
+  take_field(&line, number);
+  row->wrong = *number != '\0' ? strtod(number, NULL) : NAN;
 }
 
-void chart_add(struct chart *chart, enum chart_kind kind, const char *method,
-               double seconds, double share) {
-  int index = find_method(chart, method);
-  if (index >= 0 && chart->points < CHART_POINTS && chart->scenes > 0)
-    chart->point[chart->points++] = (struct chart_point){
-        chart->scenes - 1, (int)kind, index, fmax(seconds, 1e-5), share};
-}
-
-/* ---- Axes ---------------------------------------------------------------- */
-
-static void widen(struct axis *axis, double value) {
-  int low = (int)floor(log10(value)), high = (int)ceil(log10(value));
-  if (low < axis->low)
-    axis->low = low;
-  if (high > axis->high)
-    axis->high = high;
-}
-
-static struct frame frame_of(const struct chart *chart) {
-  struct frame frame = {{99, -99}, {99, -99}};
-  for (size_t i = 0; i < chart->points; i++) {
-    widen(&frame.x, chart->point[i].seconds);
-    if (chart->point[i].share > 0)
-      widen(&frame.y, chart->point[i].share);
-  }
-  if (frame.y.low > frame.y.high)
-    frame.y = (struct axis){-6, 0};
-  return frame;
-}
-
-static double place(const struct axis *axis, double value, double length) {
-  return (log10(value) - axis->low) / (axis->high - axis->low) * length;
-}
-
-/* ---- Drawing ------------------------------------------------------------- */
-
-static void put_text(FILE *file, double x, double y, const char *anchor,
-                     int size, const char *text) {
-  fprintf(file,
-          "<text x=\"%.1f\" y=\"%.1f\" font-size=\"%d\" "
-          "text-anchor=\"%s\">%s</text>\n",
-          x, y, size, anchor, text);
-}
-
-static void put_line(FILE *file, double x0, double y0, double x1, double y1,
-                     const char *stroke) {
-  fprintf(file,
-          "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" "
-          "stroke=\"%s\"/>\n",
-          x0, y0, x1, y1, stroke);
-}
-
-static void put_grid(FILE *file, const struct frame *frame, double x0,
-                     double y0) {
-  char label[32];
-  double bottom = y0 + panel_h;
-  for (int e = frame->x.low; e <= frame->x.high; e++) {
-    double x = x0 + place(&frame->x, pow(10, e), panel_w);
-    put_line(file, x, y0, x, bottom + band, "#dddddd");
-    snprintf(label, sizeof label, "%g s", pow(10, e));
-    put_text(file, x, bottom + band + 16, "middle", 12, label);
-  }
-  for (int e = frame->y.low; e <= frame->y.high; e++) {
-    double y = bottom - place(&frame->y, pow(10, e), panel_h);
-    put_line(file, x0, y, x0 + panel_w, y, "#dddddd");
-    snprintf(label, sizeof label, "%g %%", 100 * pow(10, e));
-    put_text(file, x0 - 6, y + 4, "end", 12, label);
-  }
-  fprintf(file,
-          "<rect x=\"%.1f\" y=\"%.1f\" width=\"%d\" height=\"%d\" "
-          "fill=\"none\" stroke=\"#888888\"/>\n",
-          x0, y0, panel_w, panel_h + band);
-  put_line(file, x0, bottom, x0 + panel_w, bottom, "#888888");
-  put_text(file, x0 - 6, bottom + band / 2 + 4, "end", 12, "none");
-}
-
-static void put_mark(FILE *file, double x, double y, int method, bool exact) {
-  if (exact)
-    fprintf(file,
-            "<rect x=\"%.1f\" y=\"%.1f\" width=\"9\" height=\"9\" "
-            "fill=\"%s\"/>\n",
-            x - 4.5, y - 4.5, colour[method]);
-  else
-    fprintf(file, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4\" fill=\"%s\"/>\n", x,
-            y, colour[method]);
-}
-
-/* One method's marks, and the line through them. */
-static void put_curve(FILE *file, const struct chart *chart,
-                      const struct frame *frame, double x0, double y0,
-                      int scene, int kind, int method) {
-  bool open = false;
-  double last_x = 0, last_y = 0;
-  for (size_t i = 0; i < chart->points; i++) {
-    const struct chart_point *p = &chart->point[i];
-    if (p->scene != scene || p->kind != kind || p->method != method)
-      continue;
-    bool exact = !(p->share > 0);
-    double x = x0 + place(&frame->x, p->seconds, panel_w);
-    double y = y0 + panel_h;
-    y += exact ? band / 2.0 : -place(&frame->y, p->share, panel_h);
-    if (open && !exact)
-      fprintf(file,
-              "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" "
-              "stroke=\"%s\" stroke-width=\"2\"/>\n",
-              last_x, last_y, x, y, colour[method]);
-    put_mark(file, x, y, method, exact);
-    open = !exact;
-    last_x = x;
-    last_y = y;
-  }
-}
-
-static void put_legend(FILE *file, const struct chart *chart) {
-  double x = left;
-  for (int m = 0; m < chart->methods; m++) {
-    put_mark(file, x, 46, m, false);
-    put_text(file, x + 10, 50, "start", 14, chart->method[m]);
-    x += 34 + 8.2 * (double)strlen(chart->method[m]);
-  }
-}
-
-static void put_panels(FILE *file, const struct chart *chart) {
-  static const char *const what[CHART_KINDS] = {"wrong area of the faces",
-                                                "wrong ink of the lines"};
-  struct frame frame = frame_of(chart);
-  for (int s = 0; s < chart->scenes; s++)
-    for (int k = 0; k < CHART_KINDS; k++) {
-      char title[96];
-      double x0 = left + k * (panel_w + gap_x);
-      double y0 = top + s * (panel_h + band + gap_y);
-      put_grid(file, &frame, x0, y0);
-      snprintf(title, sizeof title, "%s: %s", chart->scene[s], what[k]);
-      put_text(file, x0, y0 - 8, "start", 15, title);
-      for (int m = 0; m < chart->methods; m++)
-        put_curve(file, chart, &frame, x0, y0, s, k, m);
+static void read_rows(struct rows *rows, const char *folder) {
+  rows->count = 0;
+  for (int s = 0; s < SCENES; s++) {
+    char path[4096];
+    snprintf(path, sizeof path, "%s/%s.csv", folder, scene_id[s]);
+    char *text = read_file(path, NULL);
+    for (const char *line = text; line != NULL && *line != '\0';) {
+      const char *end = strchr(line, '\n');
+      take_row(rows, s, line);
+      line = end != NULL ? end + 1 : NULL;
     }
+    free(text);
+  }
 }
 
-bool chart_write(const struct chart *chart, const char *path) {
-  FILE *file = fopen(path, "w");
-  int width = left + CHART_KINDS * panel_w + gap_x + 30;
-  int height = top + chart->scenes * (panel_h + band + gap_y);
-  if (file == NULL)
-    return false;
-  fprintf(file,
-          "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" "
-          "height=\"%d\" viewBox=\"0 0 %d %d\" font-family=\"sans-serif\">\n"
-          "<rect width=\"%d\" height=\"%d\" fill=\"#ffffff\"/>\n",
-          width, height, width, height, width, height);
-  put_text(file, left, 24, "start", 17,
-           "Error against CPU time of the solver.  Circles: 128 to 4096 lines; "
-           "squares: no error");
-  put_legend(file, chart);
-  put_panels(file, chart);
-  fputs("</svg>\n", file);
-  bool ok = !ferror(file);
-  return fclose(file) == 0 && ok;
+/* ---- What is charted ----------------------------------------------------- */
+
+/* A series of a chart, and the rows that belong to it. */
+struct chosen {
+  const char *method, *knob;
+  struct plot_series series;
+};
+
+#define ROW(method, colour)                                                    \
+  {                                                                            \
+    method, "exact", { method, colour, "", true, false }                       \
+  }
+
+static const struct chosen methods[] = {
+    ROW("newell", "#b07000"),
+    ROW("watkins", "#007a58"),
+    ROW("warnock", "#b04a86"),
+    ROW("tiles", "#000000"),
+    ROW("brute", "#666666"),
+    ROW("auto", "#c00000"),
+    {"painter",
+     "order",
+     {"painter, faces in the order given or of their centroids", "#666666",
+      "2 3", false, true}},
+    {"newell",
+     "tests",
+     {"newell, tests A, AB, ABC, ABCD alone, nothing split", "#b07000", "",
+      false, true}},
+    {"watkins",
+     "lines",
+     {"watkins, 128 to 4096 scan lines", "#007a58", "", false, false}},
+    {"warnock",
+     "lines",
+     {"warnock in pixels, 128 to 4096 lines of them", "#b04a86", "", false,
+      false}},
+    {"zbuffer",
+     "lines",
+     {"zbuffer, 128 to 4096 lines", "#0060a0", "", false, false}},
+    {"scanline-zbuffer",
+     "lines",
+     {"scanline-zbuffer, 128 to 4096 lines", "#3aa0e0", "", false, false}},
+};
+
+static const struct chosen zbuffers[] = {
+    ROW("auto", "#c00000"),
+    {"zbuffer",
+     "lines",
+     {"zbuffer, 128 to 4096 lines, depths in doubles", "#0060a0", "", false,
+      false}},
+    {"zbuffer",
+     "depth bits",
+     {"zbuffer, 1024 lines, 8 to 24 bits of depth", "#b07000", "", false,
+      false}},
+    {"zbuffer",
+     "subpixels",
+     {"zbuffer, 256 lines, 1 to 8 sub-pixels a side", "#007a58", "", false,
+      false}},
+    {"scanline-zbuffer",
+     "lines",
+     {"scanline-zbuffer, 128 to 4096 lines", "#0060a0", "5 3", false, false}},
+    {"scanline-zbuffer",
+     "depth bits",
+     {"scanline-zbuffer, 1024 lines, 8 to 24 bits", "#b07000", "5 3", false,
+      false}},
+    {"scanline-zbuffer",
+     "subpixels",
+     {"scanline-zbuffer, 256 lines, 1 to 8 sub-pixels a side", "#007a58", "5 3",
+      false, false}},
+};
+
+static bool is_of(const struct row *row, const struct chosen *chosen,
+                  const char *part) {
+  return strcmp(row->part, part) == 0 &&
+         strcmp(row->method, chosen->method) == 0 &&
+         strcmp(row->knob, chosen->knob) == 0;
+}
+
+static const char *tick_seconds(int exponent) {
+  static const char *const text[] = {"1 µs", "10 µs", "0.1 ms",
+                                     "1 ms", "10 ms", "0.1 s",
+                                     "1 s",  "10 s",  "100 s"};
+  return exponent >= -6 && exponent <= 2 ? text[exponent + 6] : "";
+}
+
+static const char *tick_times(int exponent) {
+  static const char *const text[] = {"1/1000", "1/100", "1/10", "1",
+                                     "10",     "100",   "1000"};
+  return exponent >= -3 && exponent <= 3 ? text[exponent + 3] : "";
+}
+
+static const char *wrong_of(const char *part) {
+  return strcmp(part, "lines") == 0 ? "false and missing length"
+                                    : "wrong, missing and false area";
+}
+
+/* ---- A panel a scene ----------------------------------------------------- */
+
+static bool chart_scenes(const struct rows *rows, const char *folder,
+                         const char *file, const char *part, const char *title,
+                         const struct chosen *chosen, int count) {
+  static struct plot plot;
+  struct plot_series series[PLOT_SERIES];
+  char path[4096];
+  plot = (struct plot){.title = title,
+                       .columns = 2,
+                       .x_title = "CPU time of the solver",
+                       .y_title = wrong_of(part),
+                       .x_tick = tick_seconds,
+                       .series = series,
+                       .series_count = count};
+  for (int s = 0; s < SCENES; s++) {
+    bool there = false;
+    for (size_t i = 0; i < rows->count; i++)
+      if (rows->row[i].scene == s) {
+        snprintf(plot.panel[plot.panels], PLOT_TEXT, "%s", rows->row[i].name);
+        there = true;
+        for (int k = 0; k < count; k++)
+          if (is_of(&rows->row[i], &chosen[k], part))
+            plot_add(&plot, plot.panels, k, rows->row[i].seconds,
+                     rows->row[i].wrong, rows->row[i].value);
+      }
+    plot.panels += there;
+  }
+  for (int k = 0; k < count; k++)
+    series[k] = chosen[k].series;
+  snprintf(path, sizeof path, "%s/%s.svg", folder, file);
+  return plot_write(&plot, path);
+}
+
+/* ---- All scenes in one --------------------------------------------------- */
+
+static const struct row *find_row(const struct rows *rows, int scene,
+                                  const char *part, const char *method,
+                                  const char *knob, const char *value) {
+  for (size_t i = 0; i < rows->count; i++) {
+    const struct row *row = &rows->row[i];
+    if (row->scene == scene && strcmp(row->part, part) == 0 &&
+        strcmp(row->method, method) == 0 && strcmp(row->knob, knob) == 0 &&
+        strcmp(row->value, value) == 0)
+      return row;
+  }
+  return NULL;
+}
+
+/* Adds a setting: the median over the scenes of its time over that of auto,
+ * and of its error; none where it did not end on one of them. */
+static void add_summary(struct plot *plot, int panel, int series,
+                        const struct rows *rows, const struct row *setting) {
+  double times[SCENES], wrong[SCENES];
+  size_t n = 0;
+  for (int s = 0; s < SCENES; s++) {
+    const struct row *best =
+        find_row(rows, s, setting->part, "auto", "exact", "");
+    const struct row *row = find_row(rows, s, setting->part, setting->method,
+                                     setting->knob, setting->value);
+    if (best == NULL || row == NULL)
+      continue;
+    times[n] = isfinite(row->seconds) ? row->seconds / best->seconds : INFINITY;
+    wrong[n++] = isfinite(row->wrong) ? row->wrong : INFINITY;
+  }
+  double middle = n > 0 ? median_of(times, n) : NAN;
+  plot_add(plot, panel, series, isfinite(middle) ? middle : NAN,
+           n > 0 ? median_of(wrong, n) : 0, setting->value);
+}
+
+static bool chart_summary(const struct rows *rows, const char *folder) {
+  enum { COUNT = sizeof methods / sizeof *methods };
+  static const char *const part[2] = {"lines", "faces"};
+  static struct plot plot;
+  struct plot_series series[COUNT];
+  char path[4096];
+  plot =
+      (struct plot){.title = "Speed against accuracy: medians of eight scenes",
+                    .columns = 2,
+                    .panels = 2,
+                    .x_title = "CPU time over that of auto, which is exact",
+                    .y_title = "error",
+                    .x_tick = tick_times,
+                    .series = series,
+                    .series_count = COUNT};
+  for (int p = 0; p < 2; p++) {
+    snprintf(plot.panel[p], PLOT_TEXT, "%s: %s", part[p], wrong_of(part[p]));
+    for (int k = 0; k < COUNT; k++)
+      for (size_t i = 0; i < rows->count; i++)
+        if (rows->row[i].scene == 0 &&
+            is_of(&rows->row[i], &methods[k], part[p]))
+          add_summary(&plot, p, k, rows, &rows->row[i]);
+  }
+  for (int k = 0; k < COUNT; k++)
+    series[k] = methods[k].series;
+  snprintf(path, sizeof path, "%s/summary.svg", folder);
+  return plot_write(&plot, path);
+}
+
+int main(int argc, char **argv) {
+  enum {
+    METHODS = sizeof methods / sizeof *methods,
+    ZBUFFERS = sizeof zbuffers / sizeof *zbuffers
+  };
+  static struct rows rows;
+  if (argc != 2) {
+    fputs("usage: chart FOLDER\n", stderr);
+    return 2;
+  }
+  read_rows(&rows, argv[1]);
+  bool ok =
+      rows.count > 0 &&
+      chart_scenes(&rows, argv[1], "lines", "lines",
+                   "Visible lines: speed against accuracy", methods, METHODS) &&
+      chart_scenes(&rows, argv[1], "faces", "faces",
+                   "Visible faces: speed against accuracy", methods, METHODS) &&
+      chart_scenes(&rows, argv[1], "lines-zbuffer", "lines",
+                   "Visible lines by z-buffers: resolution, bits of depth, "
+                   "sub-pixels",
+                   zbuffers, ZBUFFERS) &&
+      chart_scenes(&rows, argv[1], "faces-zbuffer", "faces",
+                   "Visible faces by z-buffers: resolution, bits of depth, "
+                   "sub-pixels",
+                   zbuffers, ZBUFFERS) &&
+      chart_summary(&rows, argv[1]);
+  if (!ok)
+    fprintf(stderr, "chart: cannot chart %s\n", argv[1]);
+  return !ok;
 }

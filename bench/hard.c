@@ -12,13 +12,9 @@
  * more than a second are made once.
  */
 #include <math.h>
-#include <poll.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "base/clock.h"
@@ -181,20 +177,6 @@ static struct cost draw_again(const struct hard_scene *what, bool painted) {
   return (struct cost){median_of(whole, n), median_of(solver, n)};
 }
 
-/* Waits for a child's answer; ends it when its CPU time is up.  (A limit of the
- * child's own would make its clock as coarse as the system's.) */
-static bool wait_for(pid_t child, int end, struct cost *cost) {
-  struct pollfd answer = {.fd = end, .events = POLLIN};
-  struct timespec now = {0, 0};
-  clockid_t clock;
-  if (clock_getcpuclockid(child, &clock) != 0)
-    return false;
-  while (poll(&answer, 1, 100) == 0 && clock_gettime(clock, &now) == 0)
-    if (now.tv_sec >= LIMIT_S)
-      kill(child, SIGKILL);
-  return read(end, cost, sizeof *cost) == (ssize_t)sizeof *cost;
-}
-
 /* One round in a process of its own.
  * solver  NULL: auto */
 static struct cost measure(const struct hard_scene *what, bool painted,
@@ -212,11 +194,8 @@ static struct cost measure(const struct hard_scene *what, bool painted,
   }
   close(ends[1]);
   struct cost answer;
-  if (child > 0 && wait_for(child, ends[0], &answer))
+  if (child > 0 && run_answer(child, ends[0], LIMIT_S, &answer, sizeof answer))
     cost = answer;
-  close(ends[0]);
-  if (child > 0)
-    waitpid(child, NULL, 0);
   return cost;
 }
 

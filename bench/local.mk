@@ -1,7 +1,7 @@
 # bench/local.mk - make bench: how long things take, what memory, and how far
 # from the truth.
-EXTRA_PROGRAMS += %D%/bench %D%/dense %D%/zraster %D%/accuracy %D%/order \
-  %D%/hard
+EXTRA_PROGRAMS += %D%/bench %D%/dense %D%/zraster %D%/accuracy %D%/chart \
+  %D%/order %D%/hard %D%/peers/scene
 %C%_bench_SOURCES = %D%/bench.c %D%/model.c %D%/model.h %D%/box.c \
   %D%/box.h %D%/table.c %D%/table.h
 %C%_bench_LDADD = tests/scenes/libscenes.la librecto_core.la
@@ -10,26 +10,46 @@ EXTRA_PROGRAMS += %D%/bench %D%/dense %D%/zraster %D%/accuracy %D%/order \
 %C%_dense_LDADD = tests/scenes/libscenes.la librecto_core.la -lm
 %C%_zraster_SOURCES = %D%/zraster.c %D%/box.c %D%/box.h
 %C%_zraster_LDADD = librecto_core.la -lm
-%C%_accuracy_SOURCES = %D%/accuracy.c %D%/chart.c %D%/chart.h \
-  %D%/table.c %D%/table.h
+%C%_accuracy_SOURCES = %D%/accuracy.c %D%/accuracy.h \
+  %D%/accuracy_scenes.c %D%/accuracy_methods.c %D%/table.c %D%/table.h
 %C%_accuracy_LDADD = tests/measure/libmeasure.la tests/scenes/libscenes.la \
   librecto_core.la -lm
+%C%_chart_SOURCES = %D%/chart.c %D%/plot.c %D%/plot.h %D%/table.c \
+  %D%/table.h
+%C%_chart_LDADD = -lm
+%C%_peers_scene_SOURCES = %D%/peers/scene.c %D%/accuracy.h \
+  %D%/accuracy_scenes.c
+%C%_peers_scene_LDADD = tests/scenes/libscenes.la librecto_core.la -lm
 %C%_order_SOURCES = %D%/order.c
 %C%_order_LDADD = tests/scenes/libscenes.la librecto_core.la -lm
 %C%_hard_SOURCES = %D%/hard.c %D%/table.c %D%/table.h
 %C%_hard_LDADD = tests/scenes/libscenes.la librecto_core.la -lm
-EXTRA_DIST += %D%/quadratic.sh
-CLEANFILES += $(EXTRA_PROGRAMS) %D%/accuracy.svg
+EXTRA_DIST += %D%/quadratic.sh doc/accuracy.md doc/chart doc/peers.md \
+  %D%/peers/asymptote.py %D%/peers/gl2ps.c %D%/peers/gl2ps_lines.py \
+  %D%/peers/gnuplot.py %D%/peers/gnuplot_lines.py %D%/peers/lineart.py \
+  %D%/peers/page.py %D%/peers/peers.sh %D%/peers/prepare.py \
+  %D%/peers/sketch.py %D%/peers/sketch_lines.py %D%/peers/three.mjs \
+  %D%/peers/three_lines.py
+CLEANFILES += $(EXTRA_PROGRAMS)
 
 # BENCH_METHODS  the methods to measure; else newell and auto
-bench: recto$(EXEEXT) $(EXTRA_PROGRAMS) bench-accuracy bench-order \
+bench: recto$(EXEEXT) $(EXTRA_PROGRAMS) bench-order \
   bench-dense bench-hard
 	$(AM_TESTS_ENVIRONMENT) %D%/bench$(EXEEXT) ./recto$(EXEEXT) \
 	  %D%/zraster$(EXEEXT) $(srcdir)/examples/models $(BENCH_METHODS)
 
-# Speed against accuracy: a table, and bench/accuracy.svg.
-bench-accuracy: %D%/accuracy$(EXEEXT)
-	$(AM_TESTS_ENVIRONMENT) %D%/accuracy$(EXEEXT) %D%/accuracy.svg
+# Speed against accuracy: doc/chart/*.csv, and the charts of doc/accuracy.md.
+# CHART_SCENES  those to measure, such as "cubes table"; else all
+chart: %D%/accuracy$(EXEEXT) %D%/chart$(EXEEXT)
+	$(MKDIR_P) '$(srcdir)/doc/chart'
+	$(AM_TESTS_ENVIRONMENT) %D%/accuracy$(EXEEXT) \
+	  '$(srcdir)/examples/models' '$(srcdir)/doc/chart' $(CHART_SCENES)
+	%D%/chart$(EXEEXT) '$(srcdir)/doc/chart'
+
+# Other programs on the same scenes: the table of doc/peers.md.
+peers: recto$(EXEEXT) %D%/peers/scene$(EXEEXT)
+	$(AM_TESTS_ENVIRONMENT) '$(srcdir)/%D%/peers/peers.sh' "$$PWD/recto" \
+	  "$$PWD/%D%/peers/scene" "$$(cd '$(srcdir)' && pwd)/examples/models"
 
 # What --order near gains, and what it costs.
 bench-order: %D%/order$(EXEEXT)
@@ -48,5 +68,5 @@ bench-hard: %D%/hard$(EXEEXT)
 bench-quadratic: recto$(EXEEXT)
 	$(srcdir)/bench/quadratic.sh ./recto$(EXEEXT)
 
-.PHONY: bench bench-accuracy bench-order bench-dense \
+.PHONY: bench chart peers bench-order bench-dense \
   bench-hard bench-quadratic

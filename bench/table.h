@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <sys/types.h>
 
 enum { RUNS_MAX = 9 };
 
@@ -16,6 +17,12 @@ struct run {
 
 /* Runs argv[0], its standard output thrown away, for `limit_s` at most. */
 void run_program(struct run *run, const char *const argv[], unsigned limit_s);
+
+/* Reads the answer of `size` bytes that a child process writes into a pipe,
+ * closes the pipe's end and waits for the child; ends it once it has used
+ * `limit_s` of CPU time.  False where there is no answer. */
+bool run_answer(pid_t child, int end, unsigned limit_s, void *answer,
+                size_t size);
 
 /* A report that recto wrote: the number called `name` in it, 0 where there is
  * none.  `text` is the JSON. */

@@ -175,11 +175,11 @@ references() {
   grep -ohE '(`|\()[A-Za-z_./0-9-]+(`|\))' "$@" | tr -d '`()' |
     grep -E '^[a-z]+/|^[A-Za-z0-9_]+\.(md|txt|h|c)$' | grep -vE 'NAME|TARGET|^http'
 }
-# Names are from the top, from src or from tests; a file named alone may be in
+# Names are from the top, from src, tests or doc; a file named alone may be in
 # any folder, a decision may be named by its number.
 is_there() {
   local place
-  for place in . src tests; do
+  for place in . src tests doc; do
     compgen -G "$srcdir/$place/$1" >"$scratch/found" && return 0
   done
   test -e "$1" && return 0 # a program, in the folder of the build
@@ -199,7 +199,8 @@ all_there() {
   return "$all"
 }
 for document in README.md CONTRIBUTING.md backends/README.md tests/README.md \
-  doc/algorithms.md doc/glossary.md doc/testing.md; do
+  doc/algorithms.md doc/glossary.md doc/testing.md doc/accuracy.md \
+  doc/peers.md; do
   claim "what $document refers to is there" all_there "$srcdir/$document"
 done
 

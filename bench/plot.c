@@ -1,0 +1,371 @@
+/* plot.c - see plot.h. */
+#include "bench/plot.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum {
+  panel_w = 560,
+  panel_h = 300,
+  row_h = 15,
+  row_gap = 8, /* between the axis and the rows */
+  gap_x = 130,
+  gap_y = 92,
+  left = 150,
+  margin = 30,
+  legend_h = 22,
+  size = 13 /* of text */
+};
+
+/* What is less, or more, is drawn at that end of the axis. */
+static const double SHARE_LEAST = 1e-6, SHARE_MOST = 1;
+
+/* A range of powers of ten. */
+struct axis {
+  int low, high;
+};
+
+/* A part of the page that is taken. */
+struct place {
+  double x0, y0, x1, y1;
+};
+
+/* The panel that is being drawn: its lower left corner, and what is taken. */
+struct panel {
+  FILE *file;
+  const struct plot *plot;
+  struct axis x, y;
+  int index;
+  double left, bottom;
+  struct place taken[PLOT_POINTS];
+  size_t count;
+};
+
+void plot_add(struct plot *plot, int panel, int series, double x, double y,
+              const char *label) {
+  if (plot->points == PLOT_POINTS)
+    return;
+  struct plot_point *point = &plot->point[plot->points++];
+  *point = (struct plot_point){panel, series, x, y, ""};
+  snprintf(point->label, sizeof point->label, "%s", label);
+}
+
+/* ---- Axes ---------------------------------------------------------------- */
+
+static void widen(struct axis *axis, double value) {
+  int low = (int)floor(log10(value)), high = (int)ceil(log10(value));
+  axis->low = low < axis->low ? low : axis->low;
+  axis->high = high > axis->high ? high : axis->high;
+}
+
+static double bounded(double share) {
+  return fmin(fmax(share, SHARE_LEAST), SHARE_MOST);
+}
+
+static void find_range(const struct plot *plot, struct axis *x,
+                       struct axis *y) {
+  *x = *y = (struct axis){99, -99};
+  for (size_t i = 0; i < plot->points; i++) {
+    const struct plot_point *p = &plot->point[i];
+    if (isfinite(p->x))
+      widen(x, p->x);
+    if (isfinite(p->x) && p->y > 0)
+      widen(y, bounded(p->y));
+  }
+  if (x->low > x->high)
+    *x = (struct axis){-3, 0};
+  if (y->low > y->high)
+    *y = (struct axis){-6, 0};
+}
+
+static double place_of(const struct axis *axis, double value, double length) {
+  return (log10(value) - axis->low) / (axis->high - axis->low) * length;
+}
+
+static int count_rows(const struct plot *plot) {
+  int rows = 1; /* of methods that happen to have no error */
+  for (int s = 0; s < plot->series_count; s++)
+    rows += plot->series[s].row;
+  return rows;
+}
+
+static int rows_height(const struct plot *plot) {
+  return row_gap + count_rows(plot) * row_h;
+}
+
+/* ---- Marks --------------------------------------------------------------- */
+
+static void put_text(FILE *file, double x, double y, const char *anchor,
+                     const char *colour, int height, const char *text) {
+  fprintf(file,
+          "<text x=\"%.1f\" y=\"%.1f\" font-size=\"%d\" text-anchor=\"%s\" "
+          "fill=\"%s\">%s</text>\n",
+          x, y, height, anchor, colour, text);
+}
+
+static void put_line(FILE *file, double x0, double y0, double x1, double y1,
+                     const char *style) {
+  fprintf(file, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" %s/>\n",
+          x0, y0, x1, y1, style);
+}
+
+static void put_mark(FILE *file, double x, double y, const char *colour,
+                     bool square) {
+  if (square)
+    fprintf(file,
+            "<rect x=\"%.1f\" y=\"%.1f\" width=\"9\" height=\"9\" "
+            "fill=\"%s\"/>\n",
+            x - 4.5, y - 4.5, colour);
+  else
+    fprintf(file, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\" fill=\"%s\"/>\n",
+            x, y, colour);
+}
+
+static void take(struct panel *panel, struct place place) {
+  if (panel->count < PLOT_POINTS)
+    panel->taken[panel->count++] = place;
+}
+
+static bool is_free(const struct panel *panel, struct place place) {
+  if (place.x0 < panel->left || place.x1 > panel->left + panel_w ||
+      place.y0 < panel->bottom - panel_h ||
+      place.y1 > panel->bottom + rows_height(panel->plot) + 1)
+    return false;
+  for (size_t i = 0; i < panel->count; i++) {
+    const struct place *there = &panel->taken[i];
+    if (place.x0 < there->x1 && there->x0 < place.x1 && place.y0 < there->y1 &&
+        there->y0 < place.y1)
+      return false;
+  }
+  return true;
+}
+
+/* Puts a label beside a mark where there is room; else there is none. */
+static void put_label(struct panel *panel, double x, double y,
+                      const char *colour, const char *text) {
+  static const double at[][2] = {{1, 0},  {-1, 0},  {0, -1}, {0, 1},
+                                 {1, -1}, {-1, -1}, {1, 1},  {-1, 1}};
+  double w = 6.6 * (double)strlen(text), h = size - 2;
+  for (size_t i = 0; i < 2 * sizeof at / sizeof *at; i++) {
+    const double *way = at[i % (sizeof at / sizeof *at)];
+    double by = i < sizeof at / sizeof *at ? 7 : 16;
+    double cx = x + way[0] * (w / 2 + by), cy = y + way[1] * (h / 2 + by);
+    struct place place = {cx - w / 2, cy - h / 2, cx + w / 2, cy + h / 2};
+    if (!is_free(panel, place))
+      continue;
+    take(panel, place);
+    put_text(panel->file, cx, cy + 0.36 * size, "middle", colour, size - 1,
+             text);
+    return;
+  }
+}
+
+/* ---- A panel ------------------------------------------------------------- */
+
+static void put_grid(const struct panel *panel) {
+  static const char grid[] = "stroke=\"#dddddd\"";
+  FILE *file = panel->file;
+  double bottom = panel->bottom, foot = bottom + rows_height(panel->plot);
+  char label[32];
+  for (int e = panel->x.low; e <= panel->x.high; e++) {
+    double x = panel->left + place_of(&panel->x, pow(10, e), panel_w);
+    put_line(file, x, bottom - panel_h, x, foot, grid);
+    put_text(file, x, foot + 16, "middle", "#000000", size,
+             panel->plot->x_tick(e));
+  }
+  for (int e = panel->y.low; e <= panel->y.high; e++) {
+    double y = bottom - place_of(&panel->y, pow(10, e), panel_h);
+    put_line(file, panel->left, y, panel->left + panel_w, y, grid);
+    snprintf(label, sizeof label, "%g %%", 100 * pow(10, e));
+    put_text(file, panel->left - 6, y + 4, "end", "#000000", size, label);
+  }
+  fprintf(file,
+          "<rect x=\"%.1f\" y=\"%.1f\" width=\"%d\" height=\"%.1f\" "
+          "fill=\"none\" stroke=\"#666666\"/>\n",
+          panel->left, bottom - panel_h, panel_w, foot - bottom + panel_h);
+  put_line(file, panel->left, bottom, panel->left + panel_w, bottom,
+           "stroke=\"#666666\"");
+  put_text(file, panel->left + panel_w / 2.0, foot + 33, "middle", "#000000",
+           size, panel->plot->x_title);
+  fprintf(file,
+          "<text transform=\"translate(%.1f %.1f) rotate(-90)\" "
+          "font-size=\"%d\" text-anchor=\"middle\">%s</text>\n",
+          panel->left - 62, bottom - panel_h / 2.0, size, panel->plot->y_title);
+}
+
+/* The row of a series; of those that happen to have no error, the last. */
+static double row_of(const struct panel *panel, int series) {
+  int row = 0;
+  if (!panel->plot->series[series].row)
+    row = count_rows(panel->plot) - 1;
+  else
+    for (int s = 0; s < series; s++)
+      row += panel->plot->series[s].row;
+  return panel->bottom + row_gap + (row + 0.5) * row_h;
+}
+
+static void put_row_names(const struct panel *panel) {
+  for (int s = 0; s < panel->plot->series_count; s++) {
+    const struct plot_series *series = &panel->plot->series[s];
+    char text[PLOT_TEXT];
+    snprintf(text, sizeof text, "no error: %s", series->name);
+    if (series->row)
+      put_text(panel->file, panel->left - 6, row_of(panel, s) + 4.5, "end",
+               series->colour, size, text);
+  }
+  put_text(panel->file, panel->left - 6,
+           panel->bottom + rows_height(panel->plot) - 0.5 * row_h + 4.5, "end",
+           "#000000", size, "no error here");
+}
+
+static void find_position(const struct panel *panel,
+                          const struct plot_point *point, double *x,
+                          double *y) {
+  *x = panel->left + place_of(&panel->x, point->x, panel_w);
+  *y = point->y > 0
+           ? panel->bottom - place_of(&panel->y, bounded(point->y), panel_h)
+           : row_of(panel, point->series);
+}
+
+static bool is_drawn(const struct panel *panel, const struct plot_point *p) {
+  return p->panel == panel->index && isfinite(p->x);
+}
+
+/* Lines, then marks, whose places are taken. */
+static void put_curves(struct panel *panel) {
+  const struct plot *plot = panel->plot;
+  for (int s = 0; s < plot->series_count; s++) {
+    const struct plot_series *series = &plot->series[s];
+    const struct plot_point *last = NULL;
+    double x0 = 0, y0 = 0, x, y;
+    char style[128];
+    snprintf(style, sizeof style,
+             "stroke=\"%s\" stroke-width=\"1.6\" stroke-dasharray=\"%s\"",
+             series->colour, series->dashes);
+    for (size_t i = 0; i < plot->points; i++) {
+      const struct plot_point *p = &plot->point[i];
+      if (p->series != s || !is_drawn(panel, p))
+        continue;
+      find_position(panel, p, &x, &y);
+      if (last != NULL && last->y > 0 && p->y > 0)
+        put_line(panel->file, x0, y0, x, y, style);
+      put_mark(panel->file, x, y, series->colour, series->row);
+      take(panel, (struct place){x - 5, y - 5, x + 5, y + 5});
+      last = p;
+      x0 = x;
+      y0 = y;
+    }
+  }
+}
+
+/* Whether it is the first or the last point of its series in the panel. */
+static bool is_end(const struct panel *panel, size_t index) {
+  const struct plot_point *point = panel->plot->point;
+  bool before = false, after = false;
+  for (size_t i = 0; i < panel->plot->points; i++)
+    if (point[i].series == point[index].series && is_drawn(panel, &point[i])) {
+      before |= i < index;
+      after |= i > index;
+    }
+  return !before || !after;
+}
+
+static void put_labels(struct panel *panel) {
+  const struct plot *plot = panel->plot;
+  for (size_t i = 0; i < plot->points; i++) {
+    const struct plot_point *p = &plot->point[i];
+    const struct plot_series *series = &plot->series[p->series];
+    double x, y;
+    if (!is_drawn(panel, p) || series->row ||
+        (!series->label_all && !is_end(panel, i)))
+      continue;
+    find_position(panel, p, &x, &y);
+    put_label(panel, x, y, series->colour, p->label);
+  }
+}
+
+/* The settings that did not end in time. */
+static void put_unfinished(const struct panel *panel) {
+  const struct plot *plot = panel->plot;
+  char text[400] = "not in 15 s of CPU: ";
+  size_t used = strlen(text), none = used;
+  for (size_t i = 0; i < plot->points; i++) {
+    const struct plot_point *p = &plot->point[i];
+    if (p->panel != panel->index || isfinite(p->x) || used > 300)
+      continue;
+    const char *name = plot->series[p->series].name;
+    int n = snprintf(text + used, sizeof text - used, "%s%.*s %s",
+                     used > none ? ", " : "", (int)strcspn(name, ","), name,
+                     p->label);
+    used += n > 0 ? (size_t)n : 0;
+  }
+  if (used > none)
+    put_text(panel->file, panel->left + panel_w - 6,
+             panel->bottom - panel_h - 8, "end", "#000000", size - 1, text);
+}
+
+static void put_panel(FILE *file, const struct plot *plot, int index,
+                      struct axis x, struct axis y, double x0, double y0) {
+  static struct panel panel;
+  panel = (struct panel){
+      .file = file, .plot = plot, .x = x, .y = y, .index = index};
+  panel.left = x0;
+  panel.bottom = y0 + panel_h;
+  put_grid(&panel);
+  put_row_names(&panel);
+  put_text(file, x0, y0 - 8, "start", "#000000", size + 2, plot->panel[index]);
+  put_unfinished(&panel);
+  put_curves(&panel);
+  put_labels(&panel);
+}
+
+/* ---- The whole ----------------------------------------------------------- */
+
+/* The names of the curves, two columns of them; returns how high it is. */
+static double put_legend(FILE *file, const struct plot *plot, double y) {
+  int n = 0;
+  for (int s = 0; s < plot->series_count; s++) {
+    const struct plot_series *series = &plot->series[s];
+    char style[128];
+    double x = left + n % 2 * (panel_w + gap_x), at = y + n / 2 * legend_h;
+    if (series->row)
+      continue;
+    snprintf(style, sizeof style,
+             "stroke=\"%s\" stroke-width=\"1.6\" stroke-dasharray=\"%s\"",
+             series->colour, series->dashes);
+    put_line(file, x, at, x + 34, at, style);
+    put_mark(file, x + 17, at, series->colour, false);
+    put_text(file, x + 44, at + 5, "start", series->colour, size + 1,
+             series->name);
+    n++;
+  }
+  return (n + 1) / 2 * legend_h;
+}
+
+bool plot_write(const struct plot *plot, const char *path) {
+  FILE *file = fopen(path, "w");
+  struct axis x, y;
+  if (file == NULL)
+    return false;
+  int curves = plot->series_count + 1 - count_rows(plot);
+  int head = 58 + (curves + 1) / 2 * legend_h + 28;
+  int high = panel_h + rows_height(plot) + gap_y;
+  int width = left + plot->columns * (panel_w + gap_x) - gap_x + margin;
+  int rows = (plot->panels + plot->columns - 1) / plot->columns;
+  int height = head + rows * high - gap_y + 60;
+  find_range(plot, &x, &y);
+  fprintf(file,
+          "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" "
+          "height=\"%d\" viewBox=\"0 0 %d %d\" font-family=\"sans-serif\">\n"
+          "<rect width=\"%d\" height=\"%d\" fill=\"#ffffff\"/>\n",
+          width, height, width, height, width, height);
+  put_text(file, left, 30, "start", "#000000", size + 5, plot->title);
+  (void)put_legend(file, plot, 58);
+  for (int i = 0; i < plot->panels; i++)
+    put_panel(file, plot, i, x, y, left + i % plot->columns * (panel_w + gap_x),
+              head + i / plot->columns * high);
+  fputs("</svg>\n", file);
+  bool ok = !ferror(file);
+  return fclose(file) == 0 && ok;
+}
