@@ -8,6 +8,8 @@
 
 #include <cmocka.h>
 
+#include "base/parallel.h"
+#include "base/poll.h"
 #include "tests/scenes/pipeline.h"
 
 static void start(struct scene *scene, recto_options *options) {
@@ -17,15 +19,19 @@ static void start(struct scene *scene, recto_options *options) {
 
 /* What --stats says of a painted scene by tiles. */
 struct counts {
-  int64_t hidden, whole, mixed, by_contours, united;
+  int64_t hidden, whole, mixed, by_contours, united, pieces, pairs;
 };
 
-static struct counts paint(const struct scene *scene, recto_options *options) {
+static struct counts paint_in_threads(const struct scene *scene,
+                                      recto_options *options, int threads) {
   struct pipeline pipeline;
+  struct poll poll;
   struct counts counts;
   options->ink.fill = RECTO_FILL_PAINT;
-  options->solver.threads = 1;
+  options->solver.threads = threads;
+  poll_open(&poll, options);
   pipeline_run(&pipeline, scene, options, &solver_tiles);
+  poll_close(&poll);
   assert_int_equal(pipeline.status, RECTO_OK);
   const struct report *report = pipeline.report;
   counts =
@@ -33,12 +39,18 @@ static struct counts paint(const struct scene *scene, recto_options *options) {
                       report_get(report, "faces", "whole", -1),
                       report_get(report, "faces", "mixed", -1),
                       report_get(report, "faces", "hidden_by_contours", -1),
-                      report_get(report, "fragments", "faces_united", -1)};
+                      report_get(report, "fragments", "faces_united", -1),
+                      report_get(report, "fragments", "pieces_united", -1),
+                      report_get(report, "faces", "pairs", -1)};
   /* Each of them is one of the three. */
   assert_int_equal(counts.hidden + counts.whole + counts.mixed,
                    report_get(report, "tiles", "triangles_deferred", -1));
   pipeline_fini(&pipeline);
   return counts;
+}
+
+static struct counts paint(const struct scene *scene, recto_options *options) {
+  return paint_in_threads(scene, options, 1);
 }
 
 static void assert_as_oracle(const struct scene *scene,
@@ -112,12 +124,30 @@ static void a_face_may_have_very_many_corners(void **state) {
   }
 }
 
+/* Threads know of hidden triangles at the same times, however many there
+ * are. */
+static void threads_change_no_count(void **state) {
+  (void)state;
+  if (parallel_processors() < 2)
+    skip();
+  struct scene scene;
+  recto_options options;
+  start(&scene, &options);
+  scenes_menger(&scene, &options, 3);
+  struct counts one = paint_in_threads(&scene, &options, 1),
+                two = paint_in_threads(&scene, &options, 2);
+  assert_true(one.hidden + one.whole + one.mixed > 10000);
+  assert_memory_equal(&one, &two, sizeof one);
+  scene_fini(&scene);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_face_that_no_contour_crosses_is_not_split),
       cmocka_unit_test(bars_over_bars_are_cut_where_they_cross),
       cmocka_unit_test(most_of_a_sponge_is_hidden),
       cmocka_unit_test(a_face_may_have_very_many_corners),
+      cmocka_unit_test(threads_change_no_count),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

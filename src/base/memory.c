@@ -138,7 +138,7 @@ void *arena_alloc(struct arena *arena, size_t count, size_t size) {
 }
 
 void arena_reset(struct arena *arena) {
-  /* Blocks only ever grow, so the newest is the largest. */
+  /* Blocks of one arena only ever grow, so the newest is the largest. */
   struct arena_block *newest = arena->block;
   if (newest != NULL) {
     struct arena_block *older = newest->next;
@@ -156,4 +156,14 @@ void arena_fini(struct arena *arena) {
   arena_reset(arena);
   mem_free(arena->block);
   arena->block = NULL;
+}
+
+void arena_adopt(struct arena *arena, struct arena *other) {
+  struct arena_block **last = &arena->block;
+  if (arena->block == NULL)
+    arena->used = other->used;
+  while (*last != NULL)
+    last = &(*last)->next;
+  *last = other->block;
+  *other = (struct arena){0};
 }

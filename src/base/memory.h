@@ -90,5 +90,8 @@ void *arena_alloc(struct arena *arena, size_t count, size_t size);
 /* Keeps the memory's largest block, forgets what was in it. */
 void arena_reset(struct arena *arena);
 void arena_fini(struct arena *arena);
+/* Moves all blocks of another arena, which is empty then, to this one: they are
+ * freed with it. */
+void arena_adopt(struct arena *arena, struct arena *other);
 
 #endif

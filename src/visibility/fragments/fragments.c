@@ -25,6 +25,37 @@ void fragments_fini(struct fragments *fragments) {
   ARRAY_FREE(&fragments->piece);
 }
 
+/* ---- Parts --------------------------------------------------------------- */
+
+void fragments_init_part(struct fragments *part,
+                         const struct fragments *whole) {
+  memset(part, 0, sizeof *part);
+  part->sheet = whole->sheet;
+  part->grid = whole->grid;
+  part->contact = whole->contact;
+}
+
+bool fragments_append(struct fragments *whole, const struct fragments *part,
+                      size_t begin, size_t end) {
+  if (begin == end)
+    return true;
+  if (!ARRAY_RESERVE(&whole->piece, end - begin))
+    return false;
+  memcpy(whole->piece.item + whole->piece.count, part->piece.item + begin,
+         (end - begin) * sizeof *part->piece.item);
+  whole->piece.count += end - begin;
+  return true;
+}
+
+void fragments_adopt(struct fragments *whole, struct fragments *part) {
+  whole->counts.whole += part->counts.whole;
+  whole->counts.cut += part->counts.cut;
+  whole->counts.contact_pairs += part->counts.contact_pairs;
+  whole->counts.contact_exact += part->counts.contact_exact;
+  whole->counts.contacts += part->counts.contacts;
+  arena_adopt(&whole->arena, &part->arena);
+}
+
 /* ---- Contact: passing pieces on to earlier faces ------------------------- */
 
 /* Finds the earlier triangles of other faces among the candidates that are in

@@ -67,6 +67,20 @@ USE_RESULT bool fragments_init(struct fragments *fragments,
                                const struct triangle_grid *grid, bool contact);
 void fragments_fini(struct fragments *fragments);
 
+/* Makes a part of `whole`, to which another thread adds triangles, by
+ * fragments_add_with_candidates alone. */
+void fragments_init_part(struct fragments *part, const struct fragments *whole);
+
+/* Moves pieces of a part to the whole.
+ * begin, end  which ones, of part->piece
+ * Returns false when memory ran out. */
+USE_RESULT bool fragments_append(struct fragments *whole,
+                                 const struct fragments *part, size_t begin,
+                                 size_t end);
+
+/* Adds the counts of a part, and owns the memory of its pieces from now on. */
+void fragments_adopt(struct fragments *whole, struct fragments *part);
+
 /* Adds a triangle that is the nearest over its whole outline.
  * Returns false when memory ran out, as all functions below. */
 USE_RESULT bool fragments_add_whole(struct fragments *fragments,

@@ -279,9 +279,19 @@ bool occluder_subtraction_store(struct occluder_subtraction *subtraction,
                        subtraction->left.count);
 }
 
-void occluder_subtraction_report(const struct occluder_subtraction *subtraction,
-                                 struct report *report) {
-  const struct occluder_subtraction_counts *counts = &subtraction->counts;
+void occluder_subtraction_counts_add(
+    struct occluder_subtraction_counts *sum,
+    const struct occluder_subtraction_counts *more) {
+  sum->pairs += more->pairs;
+  sum->overlapping += more->overlapping;
+  sum->exact += more->exact;
+  sum->crossings += more->crossings;
+  sum->splits += more->splits;
+  sum->subtractions += more->subtractions;
+}
+
+void occluder_subtraction_report(
+    const struct occluder_subtraction_counts *counts, struct report *report) {
   report_add(report, "faces", "pairs", counts->pairs);
   report_add(report, "faces", "overlapping", counts->overlapping);
   report_add(report, "faces", "filter_failures", counts->exact);

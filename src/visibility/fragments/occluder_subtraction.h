@@ -119,9 +119,14 @@ USE_RESULT bool
 occluder_subtraction_store(struct occluder_subtraction *subtraction,
                            struct fragments *fragments);
 
+/* Adds the counts of another thread's subtraction. */
+void occluder_subtraction_counts_add(
+    struct occluder_subtraction_counts *sum,
+    const struct occluder_subtraction_counts *more);
+
 /* Adds the counts to the report. */
-void occluder_subtraction_report(const struct occluder_subtraction *subtraction,
-                                 struct report *report);
+void occluder_subtraction_report(
+    const struct occluder_subtraction_counts *counts, struct report *report);
 
 /* ---- For region_split.c -------------------------------------------------- */
 

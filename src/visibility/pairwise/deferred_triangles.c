@@ -20,6 +20,7 @@
 
 #include <string.h>
 
+#include "base/parallel.h"
 #include "base/sort.h"
 #include "visibility/index/bsp.h"
 #include "visibility/predicate/surrounder.h"
@@ -59,9 +60,8 @@ bool deferred_triangles_init(struct deferred_triangles *d,
   d->sheet = sheet;
   d->lists = lists;
   d->state = state;
-  occluder_subtraction_init(&d->subtraction, sheet);
   d->start = mem_calloc(cells + 1, sizeof *d->start);
-  if (d->start == NULL || !triangle_grid_query_init(&d->query, &lists->grid))
+  if (d->start == NULL)
     return false;
   visit_contours(d, wanted, false);
   for (size_t i = 0; i < cells; i++)
@@ -76,9 +76,9 @@ bool deferred_triangles_init(struct deferred_triangles *d,
 void deferred_triangles_fini(struct deferred_triangles *d) {
   mem_free(d->start);
   mem_free(d->contour);
-  triangle_grid_query_fini(&d->query);
-  occluder_subtraction_fini(&d->subtraction);
 }
+
+/* ---- The order ----------------------------------------------------------- */
 
 /* The tile of the lower left corner of a triangle's box. */
 static uint32_t first_tile(const struct deferred_triangles *d,
@@ -98,8 +98,8 @@ static uint32_t count_nearer_buckets(const struct deferred_triangles *d,
 
 /* Sorts by depth bucket, and within a bucket by tile: triangles that follow one
  * another have occluders in common, which are still in the cache then. */
-bool deferred_triangles_sort(const struct deferred_triangles *d,
-                             uint32_t *triangle, size_t count) {
+static bool sort_by_depth(const struct deferred_triangles *d,
+                          uint32_t *triangle, size_t count) {
   uint64_t tiles = triangle_grid_cell_count(&d->lists->tiles->grid);
   struct sort_key *key = mem_alloc(count, 2 * sizeof *key);
   if (key == NULL)
@@ -113,6 +113,34 @@ bool deferred_triangles_sort(const struct deferred_triangles *d,
     triangle[i] = key[i].value;
   mem_free(key);
   return true;
+}
+
+/* ---- The solver of a thread ---------------------------------------------- */
+
+/* Ranges are solved in rounds.  A triangle found to be hidden is marked by its
+ * range, which alone knows of it until the round ends: so the candidates that
+ * are tested, and the counts, do not depend on the threads. */
+enum {
+  TRIANGLES_IN_RANGE = PARALLEL_RANGE(128),
+  RANGES_IN_ROUND = 32,
+  TRIANGLES_IN_ROUND = TRIANGLES_IN_RANGE * RANGES_IN_ROUND,
+  HIDDEN_BY_RANGE = MAP_MIXED + 1 /* and its number in the round */
+};
+
+struct triangle_solver {
+  struct deferred_triangles *d;
+  struct triangle_grid_query query;
+  struct occluder_subtraction subtraction;
+  struct deferred_triangles_counts counts;
+  struct progress progress;
+  struct fragments part;
+  uint8_t mark; /* of what this range found to be hidden */
+};
+
+static bool is_hidden(const struct triangle_solver *solver, uint32_t triangle) {
+  uint8_t state =
+      __atomic_load_n(&solver->d->state[triangle], __ATOMIC_RELAXED);
+  return state == MAP_HIDDEN || state == solver->mark;
 }
 
 /* Returns false only if segment pq has no point inside triangle f: a
@@ -133,17 +161,18 @@ static bool may_intersect_segment(const struct geom_point f[3],
 
 /* Returns whether a contour that is not behind the current triangle may cross
  * it. */
-static bool is_crossed(const struct deferred_triangles *d) {
-  const struct sheet *sheet = d->sheet;
-  const struct triangle_grid *grid = &d->lists->tiles->grid;
-  const struct occluder_subtraction *subtraction = &d->subtraction;
+static bool is_crossed(const struct triangle_solver *solver) {
+  const struct sheet *sheet = solver->d->sheet;
+  const struct triangle_grid *grid = &solver->d->lists->tiles->grid;
+  const struct occluder_subtraction *subtraction = &solver->subtraction;
   struct cell_range r = triangle_grid_cells(grid, subtraction->box);
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++) {
       size_t cell = triangle_grid_index(grid, x, y);
-      for (uint32_t i = d->start[cell]; i < d->start[cell + 1]; i++) {
+      for (uint32_t i = solver->d->start[cell]; i < solver->d->start[cell + 1];
+           i++) {
         struct geom_segment s =
-            sheet_ends(sheet, sheet->contour.item[d->contour[i]].point);
+            sheet_ends(sheet, sheet->contour.item[solver->d->contour[i]].point);
         if ((s.p.z >= subtraction->low || s.q.z >= subtraction->low) &&
             may_intersect_segment(subtraction->plane.p, s.p, s.q))
           return true;
@@ -157,40 +186,40 @@ static bool is_crossed(const struct deferred_triangles *d) {
 /* Adds triangle g to the candidates unless it was added before.  A hidden
  * triangle is no occluder and is added only if it is earlier than the current
  * one: visible pieces may be passed on to it if the two are in contact. */
-static bool add_candidate(struct deferred_triangles *d, uint32_t g) {
-  return g == d->subtraction.triangle ||
-         (g > d->subtraction.triangle && d->state[g] == MAP_HIDDEN) ||
-         sheet_is_edge_on(d->sheet, g) ||
-         !triangle_grid_query_first(&d->query, g) ||
-         ARRAY_PUSH(&d->query.found, g);
+static bool add_candidate(struct triangle_solver *solver, uint32_t g) {
+  return g == solver->subtraction.triangle ||
+         (g > solver->subtraction.triangle && is_hidden(solver, g)) ||
+         sheet_is_edge_on(solver->d->sheet, g) ||
+         !triangle_grid_query_first(&solver->query, g) ||
+         ARRAY_PUSH(&solver->query.found, g);
 }
 
-static bool find_in_bsp(struct deferred_triangles *d, uint32_t root) {
-  const struct bsp *bsp = d->lists->grid.bsp;
+static bool find_in_bsp(struct triangle_solver *solver, uint32_t root) {
+  const struct bsp *bsp = solver->d->lists->grid.bsp;
   const struct bsp_query shape = {.kind = BSP_TRIANGLE,
-                                  .triangle = d->subtraction.triangle,
-                                  .sheet = d->sheet,
-                                  .box = d->subtraction.box};
+                                  .triangle = solver->subtraction.triangle,
+                                  .sheet = solver->d->sheet,
+                                  .box = solver->subtraction.box};
   struct bsp_traversal traversal = bsp_traversal_from(root);
   const struct bsp_node *node;
   while ((node = bsp_next(bsp, &traversal, &shape)) != NULL)
     for (uint32_t i = node->from; i < node->from + node->count; i++)
-      if (!add_candidate(d, bsp->member.item[i].triangle))
+      if (!add_candidate(solver, bsp->member.item[i].triangle))
         return false;
   return true;
 }
 
 /* Finds the triangles that may overlap the current one on the page, at any
  * depth, since a triangle behind it may be in contact with it. */
-static bool find_near_triangles(struct deferred_triangles *d) {
-  const struct tile_candidates *lists = d->lists;
+static bool find_near_triangles(struct triangle_solver *solver) {
+  const struct tile_candidates *lists = solver->d->lists;
   const struct triangle_grid *grid = &lists->grid;
-  const struct occluder_subtraction *subtraction = &d->subtraction;
+  const struct occluder_subtraction *subtraction = &solver->subtraction;
   struct cell_range r = triangle_grid_cells(grid, subtraction->box);
   struct kdop8 kdop = kdop8_of_point(subtraction->plane.p[0]);
   kdop8_add(&kdop, subtraction->plane.p[1]);
   kdop8_add(&kdop, subtraction->plane.p[2]);
-  triangle_grid_query_start(grid, &d->query);
+  triangle_grid_query_start(grid, &solver->query);
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++) {
       size_t cell = triangle_grid_index(grid, x, y);
@@ -198,7 +227,7 @@ static bool find_near_triangles(struct deferred_triangles *d) {
       if (i == end)
         continue;
       if (triangle_grid_bsp(grid, cell) != SHEET_NONE) {
-        if (!find_in_bsp(d, triangle_grid_bsp(grid, cell)))
+        if (!find_in_bsp(solver, triangle_grid_bsp(grid, cell)))
           return false;
         continue;
       }
@@ -207,7 +236,7 @@ static bool find_near_triangles(struct deferred_triangles *d) {
       uint64_t kdop_query = kdop8_query(&range, &kdop);
       for (; i < end; i++)
         if (kdop8_overlaps(lists->key[i], kdop_query) &&
-            !add_candidate(d, grid->item[i]))
+            !add_candidate(solver, grid->item[i]))
           return false;
     }
   return true;
@@ -217,54 +246,158 @@ static bool find_near_triangles(struct deferred_triangles *d) {
 
 /* Tests the candidates as occluders, until one hides the current triangle
  * completely. */
-static bool test_candidates(struct deferred_triangles *d) {
-  struct occluder_subtraction *subtraction = &d->subtraction;
-  const uint32_t *candidate = d->query.found.item;
-  if (!progress_step(subtraction->progress, d->query.found.count))
+static bool test_candidates(struct triangle_solver *solver) {
+  struct occluder_subtraction *subtraction = &solver->subtraction;
+  const uint32_t *candidate = solver->query.found.item;
+  if (!progress_step(subtraction->progress, solver->query.found.count))
     return false;
-  for (size_t i = 0; i < d->query.found.count && !subtraction->covered; i++)
-    if (d->state[candidate[i]] != MAP_HIDDEN &&
+  for (size_t i = 0; i < solver->query.found.count && !subtraction->covered;
+       i++)
+    if (!is_hidden(solver, candidate[i]) &&
         !occluder_subtraction_collect(subtraction, candidate[i]))
       return false;
   return true;
 }
 
-static bool mark_hidden(struct deferred_triangles *d, uint32_t triangle) {
-  d->state[triangle] = MAP_HIDDEN;
-  d->counts.hidden++;
+static bool mark_hidden(struct triangle_solver *solver, uint32_t triangle) {
+  __atomic_store_n(&solver->d->state[triangle], solver->mark, __ATOMIC_RELAXED);
+  solver->counts.hidden++;
   return true;
 }
 
-bool deferred_triangles_solve(struct deferred_triangles *d, uint32_t triangle,
-                              struct fragments *fragments) {
-  struct occluder_subtraction *subtraction = &d->subtraction;
-  struct deferred_triangles_counts *counts = &d->counts;
+/* Solves a triangle, and adds its visible pieces to the solver's part. */
+static bool solve_triangle(struct triangle_solver *solver, uint32_t triangle) {
+  struct occluder_subtraction *subtraction = &solver->subtraction;
+  struct deferred_triangles_counts *counts = &solver->counts;
   if (!occluder_subtraction_start(subtraction, triangle, NULL) ||
-      !find_near_triangles(d) || !test_candidates(d))
+      !find_near_triangles(solver) || !test_candidates(solver))
     return false;
-  const uint32_t *candidate = d->query.found.item;
-  size_t count = d->query.found.count;
+  const uint32_t *candidate = solver->query.found.item;
+  size_t count = solver->query.found.count;
   if (subtraction->covered)
-    return mark_hidden(d, triangle);
+    return mark_hidden(solver, triangle);
   if (subtraction->occluder.count > 0) {
-    if (!subtraction->interpenetrating && !is_crossed(d)) {
+    if (!subtraction->interpenetrating && !is_crossed(solver)) {
       counts->uncrossed++;
-      return mark_hidden(d, triangle);
+      return mark_hidden(solver, triangle);
     }
     if (!occluder_subtraction_subtract_all(subtraction))
       return false;
     if (subtraction->left.count == 0)
-      return mark_hidden(d, triangle);
+      return mark_hidden(solver, triangle);
     if (!subtraction->whole) {
       counts->mixed++;
       return fragments_add_with_candidates(
-          fragments, triangle, subtraction->left.item, subtraction->left.count,
-          candidate, count);
+          &solver->part, triangle, subtraction->left.item,
+          subtraction->left.count, candidate, count);
     }
   }
   counts->whole++;
-  return fragments_add_with_candidates(fragments, triangle, NULL, 0, candidate,
-                                       count);
+  return fragments_add_with_candidates(&solver->part, triangle, NULL, 0,
+                                       candidate, count);
+}
+
+/* ---- Rounds -------------------------------------------------------------- */
+
+/* The pieces of a range: those from `begin` to before `end` of a solver's
+ * part. */
+struct range_pieces {
+  int solver;
+  size_t begin, end;
+};
+
+struct triangle_rounds {
+  struct triangle_solver *solver; /* one a worker */
+  const uint32_t *triangle;       /* of this round */
+  size_t done, all;               /* before this round, and in all */
+  struct range_pieces pieces[RANGES_IN_ROUND];
+};
+
+static bool solve_range(void *user, struct parallel_range range) {
+  struct triangle_rounds *rounds = user;
+  struct triangle_solver *solver = &rounds->solver[range.worker];
+  size_t number = range.begin / TRIANGLES_IN_RANGE;
+  struct range_pieces *pieces = &rounds->pieces[number];
+  solver->mark = (uint8_t)(HIDDEN_BY_RANGE + number);
+  pieces->solver = range.worker;
+  pieces->begin = solver->part.piece.count;
+  for (size_t i = range.begin; i < range.end; i++)
+    if (!progress_step_at(&solver->progress, 1, rounds->done + i,
+                          rounds->all) ||
+        !solve_triangle(solver, rounds->triangle[i]))
+      return false;
+  pieces->end = solver->part.piece.count;
+  return true;
+}
+
+/* Solves the triangles of a round, and appends their pieces in the order of the
+ * ranges. */
+static bool solve_round(struct deferred_triangles *d,
+                        struct triangle_rounds *rounds, int workers,
+                        size_t count, struct fragments *fragments) {
+  bool ok =
+      parallel_ranges(workers, count, TRIANGLES_IN_RANGE, solve_range, rounds);
+  for (size_t i = 0; i < count; i++)
+    if (d->state[rounds->triangle[i]] >= HIDDEN_BY_RANGE)
+      d->state[rounds->triangle[i]] = MAP_HIDDEN;
+  for (size_t r = 0; ok && r < parallel_range_count(count, TRIANGLES_IN_RANGE);
+       r++) {
+    const struct range_pieces *pieces = &rounds->pieces[r];
+    ok = fragments_append(fragments, &rounds->solver[pieces->solver].part,
+                          pieces->begin, pieces->end);
+  }
+  return ok;
+}
+
+static bool init_solver(struct triangle_solver *solver,
+                        struct deferred_triangles *d,
+                        const struct fragments *fragments,
+                        const struct progress *progress) {
+  solver->d = d;
+  solver->progress = *progress;
+  fragments_init_part(&solver->part, fragments);
+  occluder_subtraction_init(&solver->subtraction, d->sheet);
+  solver->subtraction.progress = &solver->progress;
+  return triangle_grid_query_init(&solver->query, &d->lists->grid);
+}
+
+/* Adds what a solver counted, and ends it. */
+static void end_solver(struct triangle_solver *solver,
+                       struct fragments *fragments) {
+  struct deferred_triangles_counts *sum = &solver->d->counts;
+  sum->hidden += solver->counts.hidden;
+  sum->whole += solver->counts.whole;
+  sum->mixed += solver->counts.mixed;
+  sum->uncrossed += solver->counts.uncrossed;
+  occluder_subtraction_counts_add(&sum->subtraction,
+                                  &solver->subtraction.counts);
+  fragments_adopt(fragments, &solver->part);
+  fragments_fini(&solver->part);
+  triangle_grid_query_fini(&solver->query);
+  occluder_subtraction_fini(&solver->subtraction);
+}
+
+bool deferred_triangles_solve(struct deferred_triangles *d, uint32_t *triangle,
+                              size_t count, struct fragments *fragments,
+                              const struct progress *progress) {
+  int workers = parallel_workers(count, TRIANGLES_IN_RANGE), made = 0;
+  struct triangle_rounds rounds = {
+      .solver = mem_calloc((size_t)workers, sizeof *rounds.solver),
+      .all = count};
+  bool ok = rounds.solver != NULL && sort_by_depth(d, triangle, count);
+  while (ok && made < workers)
+    ok = init_solver(&rounds.solver[made++], d, fragments, progress);
+  for (; ok && rounds.done < count; rounds.done += TRIANGLES_IN_ROUND) {
+    size_t left = count - rounds.done;
+    rounds.triangle = triangle + rounds.done;
+    ok = solve_round(d, &rounds, workers,
+                     left < TRIANGLES_IN_ROUND ? left : TRIANGLES_IN_ROUND,
+                     fragments);
+  }
+  while (made > 0)
+    end_solver(&rounds.solver[--made], fragments);
+  mem_free(rounds.solver);
+  return ok;
 }
 
 void deferred_triangles_report(const struct deferred_triangles *d,
@@ -274,5 +407,5 @@ void deferred_triangles_report(const struct deferred_triangles *d,
   report_count(report, "faces", "hidden_by_contours", counts->uncrossed);
   report_count(report, "faces", "whole", counts->whole);
   report_count(report, "faces", "mixed", counts->mixed);
-  occluder_subtraction_report(&d->subtraction, report);
+  occluder_subtraction_report(&counts->subtraction, report);
 }

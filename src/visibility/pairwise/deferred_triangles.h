@@ -22,6 +22,7 @@ struct deferred_triangles_counts {
                                     whole, visible in part */
   uint64_t uncrossed;            /* of those hidden, the ones decided because
                                     no contour crosses them */
+  struct occluder_subtraction_counts subtraction;
 };
 
 struct deferred_triangles {
@@ -29,8 +30,6 @@ struct deferred_triangles {
   const struct tile_candidates *lists; /* borrowed, not owned */
   uint8_t *state;            /* one per triangle, enum map_state; borrowed */
   uint32_t *start, *contour; /* of tile i: contour[start[i] .. start[i + 1]) */
-  struct triangle_grid_query query;
-  struct occluder_subtraction subtraction;
   struct deferred_triangles_counts counts;
 };
 
@@ -46,17 +45,17 @@ USE_RESULT bool deferred_triangles_init(struct deferred_triangles *d,
                                         const uint8_t *wanted, uint8_t *state);
 void deferred_triangles_fini(struct deferred_triangles *d);
 
-/* Sorts triangles from near to far, by depth bucket.
- * Returns false when memory ran out. */
-USE_RESULT bool deferred_triangles_sort(const struct deferred_triangles *d,
-                                        uint32_t *triangle, size_t count);
-
-/* Computes the visible pieces of a triangle, which is not edge-on and all of
- * whose tiles have lists, and adds them to the fragments.
+/* Computes the visible pieces of triangles and adds them to the fragments, by
+ * as many threads as the call may use; pieces and counts are the same for any
+ * number.
+ * triangle  none is edge-on, all their tiles have lists; sorted from near to
+ *           far, by depth bucket
+ * progress  is polled, in each thread by a copy of its own
  * Returns false when memory ran out or the caller cancelled. */
 USE_RESULT bool deferred_triangles_solve(struct deferred_triangles *d,
-                                         uint32_t triangle,
-                                         struct fragments *fragments);
+                                         uint32_t *triangle, size_t count,
+                                         struct fragments *fragments,
+                                         const struct progress *progress);
 
 void deferred_triangles_report(const struct deferred_triangles *d,
                                struct report *report);

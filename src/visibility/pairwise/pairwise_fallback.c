@@ -35,7 +35,6 @@ bool pairwise_fallback_init(struct pairwise_fallback *fallback,
       !edge_query_init(&fallback->edge, sheet, &fallback->lists) ||
       (fragments && !init_faces(fallback)))
     return false;
-  fallback->deferred_triangles.subtraction.progress = progress;
   return true;
 }
 
@@ -64,12 +63,6 @@ pairwise_fallback_edge(struct pairwise_fallback *fallback, uint32_t e) {
 bool pairwise_fallback_faces(struct pairwise_fallback *fallback,
                              uint32_t *triangle, size_t count,
                              struct fragments *fragments) {
-  if (!deferred_triangles_sort(&fallback->deferred_triangles, triangle, count))
-    return false;
-  for (size_t i = 0; i < count; i++)
-    if (!progress_step_at(fallback->progress, 1, i, count) ||
-        !deferred_triangles_solve(&fallback->deferred_triangles, triangle[i],
-                                  fragments))
-      return false;
-  return true;
+  return deferred_triangles_solve(&fallback->deferred_triangles, triangle,
+                                  count, fragments, fallback->progress);
 }

@@ -370,18 +370,15 @@ static bool solve_faces(struct tiles_work *work, struct map *map) {
   bool ok = fragments_init(&fragments, work->sheet, &work->lists.grid, true);
   ok &= deferred_triangles_init(&deferred_triangles, work->sheet, &work->lists,
                                 work->wanted, work->face_state);
-  fragments.progress = deferred_triangles.subtraction.progress = &progress;
+  fragments.progress = &progress;
   fragments.report = work->report;
   for (size_t t = 0; ok && t < n; t++)
     if (work->face_state[t] == MAP_VISIBLE)
       ok = poll_at(t) && fragments_add_without_contact(&fragments, (uint32_t)t);
-  ok = ok && deferred_triangles_sort(&deferred_triangles, work->face.item,
-                                     work->face.count);
-  for (size_t i = 0; ok && i < work->face.count; i++)
-    ok = progress_step_at(&progress, 1, i, work->face.count) &&
-         deferred_triangles_solve(&deferred_triangles, work->face.item[i],
-                                  &fragments);
-  ok = ok && fragments_finish(&fragments, map);
+  ok = ok &&
+       deferred_triangles_solve(&deferred_triangles, work->face.item,
+                                work->face.count, &fragments, &progress) &&
+       fragments_finish(&fragments, map);
   deferred_triangles_report(&deferred_triangles, work->report);
   deferred_triangles_fini(&deferred_triangles);
   fragments_fini(&fragments);

@@ -328,7 +328,7 @@ static recto_status solve_warnock(struct sheet *sheet,
     if (!ok)
       status = error_memory(error);
     if (request->fragments)
-      occluder_subtraction_report(&w.subtraction, report);
+      occluder_subtraction_report(&w.subtraction.counts, report);
     occluder_subtraction_fini(&w.subtraction);
   }
   report_windows(&w, report);
