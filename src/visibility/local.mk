@@ -7,6 +7,7 @@ librecto_core_la_SOURCES += \
   %D%/smooth_contours.c %D%/smooth_contours.h \
   %D%/solver.c %D%/solver.h \
   %D%/brute/brute.c %D%/brute/brute.h \
+  %D%/fragments/face_union.c %D%/fragments/face_union.h \
   %D%/fragments/fragments.c %D%/fragments/fragments.h \
   %D%/fragments/fragments_union.c \
   %D%/fragments/line_index.c %D%/fragments/line_index.h \
