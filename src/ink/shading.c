@@ -12,9 +12,10 @@ static const uint32_t palette[] = {
     0x8fb5b0, 0xc4a586, 0xc7d4de, 0xe3b8a0, 0x96a68a, 0xcfb3c3,
 };
 
-/* The colour of a group: its own if it has one, else that of the palette at the
- * group's index modulo the palette's size. */
-static uint32_t colour_of_group(const struct scene *scene, uint32_t group) {
+/* The colour of the face's group: its own if it has one, else that of the
+ * palette at the group's index modulo the palette's size. */
+uint32_t face_colour_of(const struct scene *scene, uint32_t face) {
+  uint32_t group = scene->face_group.item[face];
   if (group < scene->group.count && scene->group.item[group].has_colour)
     return scene->group.item[group].colour;
   return palette[group % (sizeof palette / sizeof palette[0])];
@@ -37,8 +38,7 @@ static double shade(const struct scene *scene, uint32_t face,
 struct face_shading face_shading_of(const struct scene *scene, uint32_t face,
                                     const struct camera *camera,
                                     const recto_options *options) {
-  struct face_shading shading = {
-      .colour = colour_of_group(scene, scene->face_group.item[face])};
+  struct face_shading shading = {.colour = face_colour_of(scene, face)};
   struct light light = light_of(camera, options);
   shading.brightness = shade(scene, face, camera, &light, &shading.is_back);
   return shading;

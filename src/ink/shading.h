@@ -13,6 +13,8 @@ struct face_shading {
   double brightness;
   bool is_back; /* seen from its back */
 };
+/* The colour alone. */
+uint32_t face_colour_of(const struct scene *scene, uint32_t face);
 struct face_shading face_shading_of(const struct scene *scene, uint32_t face,
                                     const struct camera *camera,
                                     const recto_options *options);

@@ -1,7 +1,7 @@
 /* fill.c - makes fills of the visible fragments, painted or shaded. */
 #include "ink/fill/fill.h"
 
-#include "base/poll.h"
+#include "base/parallel.h"
 #include "ink/fill/merge.h"
 #include "ink/shading.h"
 
@@ -10,34 +10,52 @@ static uint32_t grey_of(double brightness) {
   return level << 16 | level << 8 | level;
 }
 
-/* The fill of a fragment of this face: colour, face and group, but no loops. */
-static struct drawing_fill fill_without_loops(const struct sheet *sheet,
-                                              const struct scene *scene,
-                                              uint32_t face,
-                                              const recto_options *options) {
-  struct face_shading shading =
-      face_shading_of(scene, face, &sheet->camera, options);
-  return (struct drawing_fill){.colour = options->ink.fill == RECTO_FILL_SHADE
-                                             ? grey_of(shading.brightness)
-                                             : shading.colour,
-                               .face = face,
-                               .group = scene->face_group.item[face]};
+/* What the threads read, and write. */
+struct fill_colours {
+  const struct sheet *sheet;
+  const struct scene *scene;
+  const struct map *map;
+  const recto_options *options;
+  struct drawing_fill *prototype; /* one a fragment */
+};
+
+static uint32_t colour_of_fill(const struct fill_colours *colours,
+                               uint32_t face) {
+  if (colours->options->ink.fill != RECTO_FILL_SHADE)
+    return face_colour_of(colours->scene, face);
+  return grey_of(face_shading_of(colours->scene, face, &colours->sheet->camera,
+                                 colours->options)
+                     .brightness);
+}
+
+/* Makes the fills of a range of fragments: colour, face and group, but no
+ * loops. */
+static bool colour_range(void *user, struct parallel_range range) {
+  const struct fill_colours *colours = user;
+  for (size_t i = range.begin; i < range.end; i++) {
+    uint32_t face = colours->map->fragment.item[i].face;
+    colours->prototype[i] =
+        (struct drawing_fill){.colour = colour_of_fill(colours, face),
+                              .face = face,
+                              .group = colours->scene->face_group.item[face]};
+  }
+  return true;
 }
 
 bool fill_add(struct drawing *drawing, const struct sheet *sheet,
               const struct scene *scene, const struct map *map,
               const recto_options *options) {
-  struct drawing_fill *prototype =
-      mem_alloc(map->fragment.count, sizeof *prototype);
-  if (prototype == NULL)
-    return false;
-  bool ok = true;
-  for (size_t i = 0; ok && i < map->fragment.count; i++) {
-    prototype[i] =
-        fill_without_loops(sheet, scene, map->fragment.item[i].face, options);
-    ok = poll_at(i);
-  }
-  ok = ok && merge_fills(drawing, sheet, scene, map, prototype, options);
-  mem_free(prototype);
+  size_t count = map->fragment.count;
+  struct fill_colours colours = {
+      .sheet = sheet,
+      .scene = scene,
+      .map = map,
+      .options = options,
+      .prototype = mem_alloc(count, sizeof *colours.prototype)};
+  bool ok = colours.prototype != NULL &&
+            parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
+                            PARALLEL_ITEMS, colour_range, &colours) &&
+            merge_fills(drawing, sheet, scene, map, colours.prototype, options);
+  mem_free(colours.prototype);
   return ok;
 }

@@ -14,6 +14,7 @@
 
 #include <math.h>
 
+#include "base/parallel.h"
 #include "base/poll.h"
 #include "base/union_find.h"
 #include "base/sort.h"
@@ -62,18 +63,36 @@ static bool is_within_fill(const struct merge *merge,
          is_edge_smooth(merge, p->id);
 }
 
-static void remove_half_edges(struct merge *merge) {
+/* Marks the half-edges of a range that lie within a fill; of two twins the
+ * first. */
+static bool mark_half_edges(void *user, struct parallel_range range) {
+  const struct merge *merge = user;
   const struct map_half_edge *half = merge->map->half_edge.item;
-  for (uint32_t h = 0; h < merge->map->half_edge.count; h++) {
+  for (size_t h = range.begin; h < range.end; h++) {
+    uint32_t twin = half[h].twin;
+    merge->removed[h] = twin != SHEET_NONE && twin > h &&
+                        is_within_fill(merge, &half[h], &half[twin]);
+  }
+  return true;
+}
+
+/* Returns false when the caller cancelled. */
+static bool remove_half_edges(struct merge *merge) {
+  const struct map_half_edge *half = merge->map->half_edge.item;
+  size_t count = merge->map->half_edge.count;
+  if (!parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
+                       PARALLEL_ITEMS, mark_half_edges, merge))
+    return false;
+  for (uint32_t h = 0; h < count; h++) {
     uint32_t twin = half[h].twin;
     (void)poll_at(h);
-    if (twin == SHEET_NONE || twin < h ||
-        !is_within_fill(merge, &half[h], &half[twin]))
+    if (!merge->removed[h] || twin < h)
       continue;
-    merge->removed[h] = merge->removed[twin] = 1;
+    merge->removed[twin] = 1;
     merge->merged[half[h].fragment] = merge->merged[half[twin].fragment] = 1;
     union_find_join(merge->root, half[h].fragment, half[twin].fragment);
   }
+  return true;
 }
 
 /* ---- 2. Fills ------------------------------------------------------------ */
@@ -192,9 +211,8 @@ bool merge_fills(struct drawing *drawing, const struct sheet *sheet,
       .merged = mem_calloc(map->fragment.count, sizeof *merge.merged),
       .removed = mem_calloc(map->half_edge.count, sizeof *merge.removed)};
   bool ok = merge.root != NULL && merge.merged != NULL && merge.removed != NULL;
-  if (ok && !options->ink.ids)
-    remove_half_edges(&merge);
-  ok = ok && add_merged_fills(&merge);
+  ok = ok && (options->ink.ids || remove_half_edges(&merge)) &&
+       add_merged_fills(&merge);
   mem_free(merge.root);
   mem_free(merge.merged);
   mem_free(merge.removed);
