@@ -98,8 +98,8 @@ static uint32_t count_nearer_buckets(const struct deferred_triangles *d,
 
 /* Sorts by depth bucket, and within a bucket by tile: triangles that follow one
  * another have occluders in common, which are still in the cache then. */
-static bool sort_by_depth(const struct deferred_triangles *d,
-                          uint32_t *triangle, size_t count) {
+static bool sort_near_to_far(const struct deferred_triangles *d,
+                             uint32_t *triangle, size_t count) {
   uint64_t tiles = triangle_grid_cell_count(&d->lists->tiles->grid);
   struct sort_key *key = mem_alloc(count, 2 * sizeof *key);
   if (key == NULL)
@@ -384,7 +384,7 @@ bool deferred_triangles_solve(struct deferred_triangles *d, uint32_t *triangle,
   struct triangle_rounds rounds = {
       .solver = mem_calloc((size_t)workers, sizeof *rounds.solver),
       .all = count};
-  bool ok = rounds.solver != NULL && sort_by_depth(d, triangle, count);
+  bool ok = rounds.solver != NULL && sort_near_to_far(d, triangle, count);
   while (ok && made < workers)
     ok = init_solver(&rounds.solver[made++], d, fragments, progress);
   for (; ok && rounds.done < count; rounds.done += TRIANGLES_IN_ROUND) {
