@@ -1,7 +1,7 @@
 # bench/local.mk - make bench: how long things take, what memory, and how far
 # from the truth.
 EXTRA_PROGRAMS += %D%/bench %D%/dense %D%/zraster %D%/accuracy %D%/chart \
-  %D%/order %D%/hard %D%/peers/scene
+  %D%/order %D%/hard %D%/peers/scene %D%/turns
 %C%_bench_SOURCES = %D%/bench.c %D%/model.c %D%/model.h %D%/box.c \
   %D%/box.h %D%/table.c %D%/table.h
 %C%_bench_LDADD = tests/scenes/libscenes.la librecto_core.la
@@ -20,11 +20,16 @@ EXTRA_PROGRAMS += %D%/bench %D%/dense %D%/zraster %D%/accuracy %D%/chart \
 %C%_peers_scene_SOURCES = %D%/peers/scene.c %D%/accuracy.h \
   %D%/accuracy_scenes.c
 %C%_peers_scene_LDADD = tests/scenes/libscenes.la librecto_core.la -lm
+%C%_turns_SOURCES = %D%/turns.c %D%/plot.c %D%/plot.h %D%/table.c \
+  %D%/table.h
+%C%_turns_LDADD = tests/measure/libmeasure.la tests/scenes/libscenes.la \
+  librecto_core.la -lm
 %C%_order_SOURCES = %D%/order.c
 %C%_order_LDADD = tests/scenes/libscenes.la librecto_core.la -lm
 %C%_hard_SOURCES = %D%/hard.c %D%/table.c %D%/table.h
 %C%_hard_LDADD = tests/scenes/libscenes.la librecto_core.la -lm
-EXTRA_DIST += %D%/quadratic.sh doc/accuracy.md doc/chart doc/peers.md \
+EXTRA_DIST += %D%/quadratic.sh %D%/least_model.sh doc/least-model.md \
+  doc/accuracy.md doc/chart doc/peers.md \
   %D%/peers/asymptote.py %D%/peers/gl2ps.c %D%/peers/gl2ps_lines.py \
   %D%/peers/gnuplot.py %D%/peers/gnuplot_lines.py %D%/peers/lineart.py \
   %D%/peers/page.py %D%/peers/peers.sh %D%/peers/prepare.py \
@@ -45,6 +50,17 @@ chart: %D%/accuracy$(EXEEXT) %D%/chart$(EXEEXT)
 	$(AM_TESTS_ENVIRONMENT) %D%/accuracy$(EXEEXT) \
 	  '$(srcdir)/examples/models' '$(srcdir)/doc/chart' $(CHART_SCENES)
 	%D%/chart$(EXEEXT) '$(srcdir)/doc/chart'
+
+# What small moves of the camera change: doc/chart/turns.csv and turns.svg.
+turns: %D%/turns$(EXEEXT)
+	%D%/turns$(EXEEXT) '$(srcdir)/doc/chart'
+
+# What is made and tested, of what there is: doc/least-model.md.
+least-model: recto$(EXEEXT) %D%/peers/scene$(EXEEXT)
+	{ sed '/^### Lines/,$$d' '$(srcdir)/doc/least-model.md' && \
+	  $(AM_TESTS_ENVIRONMENT) '$(srcdir)/%D%/least_model.sh' ./recto$(EXEEXT) \
+	  %D%/peers/scene$(EXEEXT) '$(srcdir)/examples/models'; } \
+	  >least-model.new && mv least-model.new '$(srcdir)/doc/least-model.md'
 
 # Other programs on the same scenes: the table of doc/peers.md.
 peers: recto$(EXEEXT) %D%/peers/scene$(EXEEXT)
@@ -68,5 +84,5 @@ bench-hard: %D%/hard$(EXEEXT)
 bench-quadratic: recto$(EXEEXT)
 	$(srcdir)/bench/quadratic.sh ./recto$(EXEEXT)
 
-.PHONY: bench chart peers bench-order bench-dense \
+.PHONY: bench chart turns least-model peers bench-order bench-dense \
   bench-hard bench-quadratic

@@ -54,3 +54,10 @@ failures: %D%/failures_matrix$(EXEEXT)
 	%D%/failures_matrix '$(srcdir)/doc/images/failures'
 .PHONY: failures
 EXTRA_DIST += doc/failures.md doc/images/failures
+unit_tests += %D%/test_least_model
+%C%_test_least_model_SOURCES = %D%/test_least_model.c
+%C%_test_least_model_LDADD = %D%/scenes/libscenes.la $(LDADD)
+unit_tests += %D%/test_camera_turns
+%C%_test_camera_turns_SOURCES = %D%/test_camera_turns.c
+%C%_test_camera_turns_LDADD = %D%/measure/libmeasure.la \
+  %D%/scenes/libscenes.la $(LDADD)

@@ -200,7 +200,7 @@ all_there() {
 }
 for document in README.md CONTRIBUTING.md backends/README.md tests/README.md \
   doc/algorithms.md doc/glossary.md doc/testing.md doc/accuracy.md \
-  doc/peers.md; do
+  doc/peers.md doc/least-model.md; do
   claim "what $document refers to is there" all_there "$srcdir/$document"
 done
 

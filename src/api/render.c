@@ -417,6 +417,8 @@ static recto_status run_and_report(struct render *render, recto_error *error) {
                    has_fills(render) ? render->sheet.clipped_page : 0,
                    render->camera.margin_mm, render->options);
     stats_add_sheet(render->report, &render->sheet, render->triangles);
+    stats_add_work(render->report, &render->sheet, &render->map,
+                   render->triangles);
     stats_add_drawing(render->report, render->drawing, render->options);
     report_count(render->report, "memory", "peak_bytes", mem_peak_bytes());
   }

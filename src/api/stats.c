@@ -52,6 +52,37 @@ void stats_add_sheet(struct report *report, const struct sheet *sheet,
   report_add(report, "faults", "zero_area", sheet->empty);
 }
 
+/* How many bits the nearest depth on the sheet takes. */
+static unsigned count_depth_bits(const struct sheet *sheet) {
+  int64_t most = 0;
+  unsigned bits = 0;
+  for (size_t i = 0; i < sheet->point.count && poll_at(i); i++)
+    most |= sheet->point.item[i].z;
+  for (; most > 0; most >>= 1)
+    bits++;
+  return bits;
+}
+
+void stats_add_work(struct report *report, const struct sheet *sheet,
+                    const struct map *map, size_t triangles) {
+  size_t drawn = 0, intersections = 0;
+  for (size_t e = 0; e < sheet->edge.count && poll_at(e); e++) {
+    drawn += sheet->edge.item[e].edge_class != 0;
+    intersections += sheet->edge.item[e].edge_class == RECTO_EDGE_INTERSECTION;
+  }
+  report_count(report, "work", "edges_drawn", drawn - intersections);
+  report_count(report, "work", "intersections_made", intersections);
+  report_double(report, "work", "pairs_possible",
+                (double)drawn * (double)triangles);
+  report_count(report, "work", "intervals_made", map->interval.count);
+  report_count(report, "work", "hidden_intervals_made",
+               map->over_limit_interval.count + map->invisible_interval.count);
+  report_count(report, "work", "fragments_made", map->fragment.count);
+  report_count(report, "work", "fragment_corners", map->corner.count);
+  report_count(report, "work", "depth_bits", count_depth_bits(sheet));
+  report_count(report, "work", "depth_bits_available", SHEET_Z_BITS);
+}
+
 /* The pen and the drawn length of each layer, so that the user knows which pens
  * to load and whether their ink suffices. */
 static void add_layers(struct report *report, const struct drawing *drawing) {

@@ -25,6 +25,12 @@ void stats_add_method(struct report *report, recto_method requested,
 void stats_add_sheet(struct report *report, const struct sheet *sheet,
                      size_t triangles);
 
+/* Adds what was made and tested of what there was: the section "work"
+ * (doc/least-model.md).
+ * triangles  as above */
+void stats_add_work(struct report *report, const struct sheet *sheet,
+                    const struct map *map, size_t triangles);
+
 /* Adds the sections of the ink, the drawing and the plot. */
 void stats_add_drawing(struct report *report, const struct drawing *drawing,
                        const recto_options *options);
