@@ -165,6 +165,15 @@ static const char *tick_times(int exponent) {
   return exponent >= -3 && exponent <= 3 ? text[exponent + 3] : "";
 }
 
+static const char *tick_share(int exponent) {
+  static char text[32];
+  snprintf(text, sizeof text, "%g %%", 100 * pow(10, exponent));
+  return text;
+}
+
+/* Smaller errors are drawn at the lower end of the axis. */
+static const double SHARE_LEAST = 1e-6;
+
 static const char *wrong_of(const char *part) {
   return strcmp(part, "lines") == 0 ? "false and missing length"
                                     : "wrong, missing and false area";
@@ -183,6 +192,9 @@ static bool chart_scenes(const struct rows *rows, const char *folder,
                        .x_title = "CPU time of the solver",
                        .y_title = wrong_of(part),
                        .x_tick = tick_seconds,
+                       .y_tick = tick_share,
+                       .y_least = SHARE_LEAST,
+                       .none = "no error here",
                        .series = series,
                        .series_count = count};
   for (int s = 0; s < SCENES; s++) {
@@ -253,6 +265,9 @@ static bool chart_summary(const struct rows *rows, const char *folder) {
                     .x_title = "CPU time over that of auto, which is exact",
                     .y_title = "error",
                     .x_tick = tick_times,
+                    .y_tick = tick_share,
+                    .y_least = SHARE_LEAST,
+                    .none = "no error here",
                     .series = series,
                     .series_count = COUNT};
   for (int p = 0; p < 2; p++) {

@@ -18,9 +18,6 @@ enum {
   size = 13 /* of text */
 };
 
-/* What is less, or more, is drawn at that end of the axis. */
-static const double SHARE_LEAST = 1e-6, SHARE_MOST = 1;
-
 /* A range of powers of ten. */
 struct axis {
   int low, high;
@@ -59,8 +56,8 @@ static void widen(struct axis *axis, double value) {
   axis->high = high > axis->high ? high : axis->high;
 }
 
-static double bounded(double share) {
-  return fmin(fmax(share, SHARE_LEAST), SHARE_MOST);
+static double bounded(const struct plot *plot, double share) {
+  return fmin(fmax(share, plot->y_least), 1);
 }
 
 static void find_range(const struct plot *plot, struct axis *x,
@@ -71,7 +68,7 @@ static void find_range(const struct plot *plot, struct axis *x,
     if (isfinite(p->x))
       widen(x, p->x);
     if (isfinite(p->x) && p->y > 0)
-      widen(y, bounded(p->y));
+      widen(y, bounded(plot, p->y));
   }
   if (x->low > x->high)
     *x = (struct axis){-3, 0};
@@ -167,7 +164,6 @@ static void put_grid(const struct panel *panel) {
   static const char grid[] = "stroke=\"#dddddd\"";
   FILE *file = panel->file;
   double bottom = panel->bottom, foot = bottom + rows_height(panel->plot);
-  char label[32];
   for (int e = panel->x.low; e <= panel->x.high; e++) {
     double x = panel->left + place_of(&panel->x, pow(10, e), panel_w);
     put_line(file, x, bottom - panel_h, x, foot, grid);
@@ -177,8 +173,8 @@ static void put_grid(const struct panel *panel) {
   for (int e = panel->y.low; e <= panel->y.high; e++) {
     double y = bottom - place_of(&panel->y, pow(10, e), panel_h);
     put_line(file, panel->left, y, panel->left + panel_w, y, grid);
-    snprintf(label, sizeof label, "%g %%", 100 * pow(10, e));
-    put_text(file, panel->left - 6, y + 4, "end", "#000000", size, label);
+    put_text(file, panel->left - 6, y + 4, "end", "#000000", size,
+             panel->plot->y_tick(e));
   }
   fprintf(file,
           "<rect x=\"%.1f\" y=\"%.1f\" width=\"%d\" height=\"%.1f\" "
@@ -216,7 +212,7 @@ static void put_row_names(const struct panel *panel) {
   }
   put_text(panel->file, panel->left - 6,
            panel->bottom + rows_height(panel->plot) - 0.5 * row_h + 4.5, "end",
-           "#000000", size, "no error here");
+           "#000000", size, panel->plot->none);
 }
 
 static void find_position(const struct panel *panel,
@@ -224,7 +220,8 @@ static void find_position(const struct panel *panel,
                           double *y) {
   *x = panel->left + place_of(&panel->x, point->x, panel_w);
   *y = point->y > 0
-           ? panel->bottom - place_of(&panel->y, bounded(point->y), panel_h)
+           ? panel->bottom -
+                 place_of(&panel->y, bounded(panel->plot, point->y), panel_h)
            : row_of(panel, point->series);
 }
 
@@ -288,16 +285,16 @@ static void put_labels(struct panel *panel) {
 /* The settings that did not end in time. */
 static void put_unfinished(const struct panel *panel) {
   const struct plot *plot = panel->plot;
-  char text[400] = "not in 15 s of CPU: ";
+  char text[400] = "not in 15 s: ";
   size_t used = strlen(text), none = used;
   for (size_t i = 0; i < plot->points; i++) {
     const struct plot_point *p = &plot->point[i];
     if (p->panel != panel->index || isfinite(p->x) || used > 300)
       continue;
     const char *name = plot->series[p->series].name;
-    int n = snprintf(text + used, sizeof text - used, "%s%.*s %s",
+    int n = snprintf(text + used, sizeof text - used, "%s%.*s%s%s",
                      used > none ? ", " : "", (int)strcspn(name, ","), name,
-                     p->label);
+                     *p->label != '\0' ? " " : "", p->label);
     used += n > 0 ? (size_t)n : 0;
   }
   if (used > none)

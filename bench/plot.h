@@ -28,7 +28,11 @@ struct plot_point {
 
 struct plot {
   const char *title, *x_title, *y_title;
+  const char *none; /* the row of points that happen to have no error */
   const char *(*x_tick)(int exponent); /* the label of a power of ten */
+  const char *(*y_tick)(int exponent);
+  double
+      y_least; /* what is less is drawn there, and what is more than 1 at 1 */
   const struct plot_series *series;
   int series_count, panels, columns;
   char panel[PLOT_PANELS][PLOT_TEXT];
