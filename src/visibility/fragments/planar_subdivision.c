@@ -8,6 +8,7 @@
  *   3 loop by loop divide the sides at the ends of their stretches */
 #include "visibility/fragments/planar_subdivision.h"
 
+#include "base/parallel.h"
 #include "base/poll.h"
 #include "base/sort.h"
 
@@ -30,6 +31,7 @@ struct subdivision_work {
   /* The stretches of side s, in its direction:
    *     along[start[s]] to along[start[s + 1] - 1]. */
   uint32_t *start, *along;
+  uint32_t *before; /* half-edges before those of each range of fragments */
 };
 
 bool side_lines_add_key(side_lines *lines, uint64_t key) {
@@ -214,11 +216,28 @@ static bool list_by_side(struct subdivision_work *work) {
 
 /* ---- 3. Half-edges ------------------------------------------------------- */
 
-/* Stores the half-edges of a side, which is divided at its T-junctions: where
- * the neighbour beside it changes. */
-static bool divide_side(struct subdivision_work *work, uint32_t fragment,
-                        uint32_t side) {
-  struct map *map = work->map;
+/* Fragments that a thread takes at once. */
+enum { FRAGMENTS_IN_RANGE = PARALLEL_RANGE(1 << 12) };
+
+/* Where the next half-edge is stored. */
+struct half_edge_end {
+  struct map_half_edge *half_edge; /* of the map; NULL: they are only counted */
+  uint32_t count;
+};
+
+static void push_half_edge(struct half_edge_end *end,
+                           struct map_half_edge half) {
+  half.next = end->count + 1;
+  if (end->half_edge != NULL)
+    end->half_edge[end->count] = half;
+  end->count++;
+}
+
+/* Adds the half-edges of a side, which is divided at its T-junctions: where the
+ * neighbour beside it changes. */
+static void divide_side(const struct subdivision_work *work, uint32_t fragment,
+                        uint32_t side, struct half_edge_end *end) {
+  const struct map *map = work->map;
   struct map_half_edge half = {fragment, side, side, SHEET_NONE, 0};
   bool ends = false; /* the last stretch ends where the side does */
   for (uint32_t i = work->start[side]; i < work->start[side + 1]; i++) {
@@ -227,44 +246,91 @@ static bool divide_side(struct subdivision_work *work, uint32_t fragment,
     uint32_t from = stretch->corner[reversed], to = stretch->corner[!reversed];
     if (coordinate_along(map, from, upright) !=
         coordinate_along(map, half.origin, upright)) {
-      half.next = (uint32_t)map->half_edge.count + 1;
-      if (!ARRAY_PUSH(&map->half_edge, half))
-        return false;
+      push_half_edge(end, half);
       half.origin = from;
     }
-    stretch->half_edge[reversed] = (uint32_t)map->half_edge.count;
-    half.next = (uint32_t)map->half_edge.count + 1;
-    if (!ARRAY_PUSH(&map->half_edge, half))
-      return false;
+    if (end->half_edge != NULL)
+      stretch->half_edge[reversed] = end->count;
+    push_half_edge(end, half);
     half.origin = to;
     ends = coordinate_along(map, to, upright) ==
            coordinate_along(map, work->end[side], upright);
   }
-  half.next = (uint32_t)map->half_edge.count + 1;
-  return ends || ARRAY_PUSH(&map->half_edge, half);
+  if (!ends)
+    push_half_edge(end, half);
+}
+
+/* Adds the half-edges of the fragments of a range. */
+static void divide_fragments(const struct subdivision_work *work,
+                             struct parallel_range range,
+                             struct half_edge_end *end) {
+  const struct map *map = work->map;
+  for (size_t f = range.begin; f < range.end; f++) {
+    const struct map_fragment *fragment = &map->fragment.item[f];
+    for (uint32_t l = 0; l < fragment->loops; l++) {
+      struct map_loop *loop = &map->loop.item[fragment->loop + l];
+      uint32_t first = end->count;
+      for (uint32_t i = 0; i < loop->count; i++)
+        divide_side(work, (uint32_t)f, loop->corner + i, end);
+      if (end->half_edge == NULL)
+        continue;
+      loop->half_edge = first;
+      end->half_edge[end->count - 1].next = first;
+    }
+  }
+}
+
+static bool count_half_edges(void *user, struct parallel_range range) {
+  const struct subdivision_work *work = user;
+  struct half_edge_end end = {0};
+  divide_fragments(work, range, &end);
+  work->before[range.begin / FRAGMENTS_IN_RANGE] = end.count;
+  return true;
+}
+
+static bool store_half_edges(void *user, struct parallel_range range) {
+  const struct subdivision_work *work = user;
+  struct half_edge_end end = {work->map->half_edge.item,
+                              work->before[range.begin / FRAGMENTS_IN_RANGE]};
+  divide_fragments(work, range, &end);
+  return true;
+}
+
+static bool store_twins(void *user, struct parallel_range range) {
+  const struct subdivision_work *work = user;
+  for (size_t i = range.begin; i < range.end; i++) {
+    const uint32_t *half = work->stretch.item[i].half_edge;
+    work->map->half_edge.item[half[0]].twin = half[1];
+    work->map->half_edge.item[half[1]].twin = half[0];
+  }
+  return true;
+}
+
+/* Does a task for all items by the threads of the call. */
+static bool for_all(struct subdivision_work *work, size_t count, size_t items,
+                    parallel_task *task) {
+  return parallel_ranges(parallel_workers(count, items), count, items, task,
+                         work);
 }
 
 static bool divide_loops(struct subdivision_work *work) {
   struct map *map = work->map;
-  for (uint32_t f = 0; f < map->fragment.count; f++) {
-    const struct map_fragment *fragment = &map->fragment.item[f];
-    if (!poll_at(f))
-      return false;
-    for (uint32_t l = 0; l < fragment->loops; l++) {
-      struct map_loop *loop = &map->loop.item[fragment->loop + l];
-      loop->half_edge = (uint32_t)map->half_edge.count;
-      for (uint32_t i = 0; i < loop->count; i++)
-        if (!divide_side(work, f, loop->corner + i))
-          return false;
-      map->half_edge.item[map->half_edge.count - 1].next = loop->half_edge;
-    }
+  size_t count = map->fragment.count, sum = 0;
+  size_t ranges = parallel_range_count(count, FRAGMENTS_IN_RANGE);
+  work->before = mem_alloc(ranges, sizeof *work->before);
+  if (work->before == NULL ||
+      !for_all(work, count, FRAGMENTS_IN_RANGE, count_half_edges))
+    return false;
+  for (size_t r = 0; r < ranges; r++) {
+    uint32_t own = work->before[r];
+    work->before[r] = (uint32_t)sum;
+    sum += own;
   }
-  for (size_t i = 0; i < work->stretch.count; i++) {
-    const uint32_t *half = work->stretch.item[i].half_edge;
-    map->half_edge.item[half[0]].twin = half[1];
-    map->half_edge.item[half[1]].twin = half[0];
-  }
-  return true;
+  if (!ARRAY_RESERVE(&map->half_edge, sum))
+    return false;
+  map->half_edge.count = sum;
+  return for_all(work, count, FRAGMENTS_IN_RANGE, store_half_edges) &&
+         for_all(work, work->stretch.count, PARALLEL_ITEMS, store_twins);
 }
 
 bool planar_subdivision_store(const side_lines *lines,
@@ -280,10 +346,11 @@ bool planar_subdivision_store(const side_lines *lines,
           loop->corner + (i + 1 < loop->count ? i + 1 : 0);
   }
   ok = ok && match_lines(&work, lines) && list_by_side(&work) &&
-       ARRAY_RESERVE(&map->half_edge, count) && divide_loops(&work);
+       divide_loops(&work);
   mem_free(work.end);
   mem_free(work.start);
   mem_free(work.along);
+  mem_free(work.before);
   ARRAY_FREE(&work.stretch);
   return ok;
 }
