@@ -74,6 +74,41 @@ both_are_too_large() {
   test $? -eq 1 && test ! -e new.svg && test ! -e new.json && none_left
 }
 claim "stats larger than is allowed: no drawing" both_are_too_large
+# Where stats cannot be written over a file of two names, whose bytes would be
+# replaced last, the drawing that was there stays.
+old_drawing_stays() { # FILE, the drawing's
+  rm -f old.json other.json
+  echo stats >old.json && ln old.json other.json
+  (
+    ulimit -f 1
+    exec "$recto" cube.obj -o "$1" --stats=old.json 2>err
+  )
+  test $? -eq 1 && says 'old.json: cannot write: File too large' &&
+    test "$(cat "$1")" = drawing && test "$(cat other.json)" = stats && none_left
+}
+echo drawing >old.svg
+claim "stats over a file of two names fail: the old drawing stays" \
+  old_drawing_stays old.svg
+echo drawing >old2.svg && ln old2.svg other2.svg
+claim "the same where the drawing has two names as well" \
+  old_drawing_stays old2.svg
+stats_are_not_early() {
+  rm -f old.svg other.svg
+  echo drawing >old.svg && ln old.svg other.svg
+  (
+    ulimit -f 1
+    exec "$recto" "$srcdir/examples/models/gears.obj" -o old.svg --stats >out 2>err
+  )
+  test $? -eq 1 && test ! -s out && test "$(cat other.svg)" = drawing
+}
+claim "where the drawing has no room no stats are printed" stats_are_not_early
+both_are_replaced() {
+  rm -f old.svg old.json
+  echo drawing >old.svg && echo stats >old.json &&
+    run 0 cube.obj -o old.svg --stats=old.json && cmp -s old.svg cube.svg &&
+    grep -q '"faces": 6' old.json && none_left
+}
+claim "two files are replaced at once" both_are_replaced
 refused_before_the_work() {
   run 1 none.obj -o no/such/folder.svg && says '^recto: no/such/folder.svg: '
 }
@@ -114,6 +149,43 @@ claim "a material library that is read is not replaced" \
   library_stays --fill paint -o m.mtl
 claim "nor by the stats" library_stays --fill paint -o s.svg --stats=m.mtl
 claim "nor one that is not read, as only lines are drawn" library_stays -o m.mtl
+
+# A model whose points are in a file beside it, which only Assimp opens.
+write_gltf() {
+  python3 - <<'END'
+import json, struct
+points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
+data = b"".join(struct.pack("<3f", *p) for p in points)
+data += struct.pack("<3H", 0, 1, 2) + b"\0\0"
+open("points.bin", "wb").write(data)
+json.dump({
+    "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+    "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+    "buffers": [{"uri": "points.bin", "byteLength": len(data)}],
+    "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 36},
+                    {"buffer": 0, "byteOffset": 36, "byteLength": 6}],
+    "accessors": [
+        {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+         "min": [0, 0, 0], "max": [1, 1, 0]},
+        {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"}],
+}, open("model.gltf", "w"))
+END
+}
+buffer_stays() { # ARGUMENT...
+  cp points.bin before.bin
+  run 2 model.gltf --format svg "$@" && says 'would replace the model' &&
+    cmp -s points.bin before.bin && none_left
+}
+if write_gltf 2>err && "$recto" model.gltf -o gltf.svg 2>err; then
+  claim "a file that the model refers to is not replaced" \
+    buffer_stays -o points.bin
+  claim "nor by the stats" buffer_stays -o s.svg --stats=points.bin
+  claim "nor through a link" \
+    eval 'ln -sf points.bin link.bin && buffer_stays -o link.bin'
+else
+  skip "a file that the model refers to" "no glTF here: $(head -1 err)"
+fi
 
 # ---- What belongs to a file -------------------------------------------------
 
@@ -186,6 +258,25 @@ anothers_file() {
     chown 1234:2345 own/anothers && chmod 666 own/anothers &&
     in_place own/anothers && test "$(stat -c %u:%g own/anothers)" = 1234:2345
 }
+# A file that its owner may write but not read has attributes that he cannot
+# give to another: it is written in place.
+unreadable_file() {
+  mkdir -p own && chown 65534:65534 own &&
+    python3 - <<'END' && in_place_unread own/unread
+import os
+open("own/unread", "w").write("old")
+os.setxattr("own/unread", "user.recto", b"yes")
+os.chown("own/unread", 65534, 65534)
+os.chmod("own/unread", 0o200)
+END
+}
+in_place_unread() { # FILE
+  local number
+  number=$(stat -c %i "$1")
+  as_nobody "$recto" cube.obj -o "$1" --format svg 2>err &&
+    cmp -s cube.svg "$1" && test "$(stat -c %i "$1")" -eq "$number" &&
+    test "$(stat -c %a "$1")" = 200
+}
 closed_folder() {
   mkdir -p closed && chmod 755 closed && echo old >closed/file &&
     chmod 666 closed/file && in_place closed/file
@@ -198,6 +289,11 @@ if test "$(id -u)" -eq 0 && command -v setpriv >/dev/null &&
   chmod 755 . && as_nobody test -r "$PWD/cube.obj" -a -x "$recto"; then
   claim "a file keeps its owner" owner_stays
   claim "somebody else's file stays his" anothers_file
+  if python3 -c 'import os
+open("marked", "w").write("old")
+os.setxattr("marked", "user.recto", b"no")' 2>/dev/null; then
+    claim "a file that may not be read keeps its attributes" unreadable_file
+  fi
   claim "a file in a folder that is closed is written in place" closed_folder
   claim "and a new one there is refused" closed_to_new_files
 else
@@ -252,6 +348,30 @@ to_another() {
   "$recto" cube.obj -o /dev/fd/7 7>seven.svg && cmp -s seven.svg cube.svg
 }
 claim "another descriptor is written to" to_another
+if test -e /proc/thread-self/fd/1; then
+  through_thread() {
+    "$recto" cube.obj -o /proc/thread-self/fd/1 --format svg 2>err |
+      cmp -s - cube.svg
+  }
+  claim "a link of /proc to a pipe is written to" through_thread
+  to_a_removed_file() {
+    mkdir -p gone && (
+      exec 5<>gone/gone.svg && rm gone/gone.svg &&
+        "$recto" cube.obj -o "/proc/$BASHPID/fd/5" --format svg 2>err &&
+        cmp -s "/proc/$BASHPID/fd/5" cube.svg
+    ) && test -z "$(ls gone)"
+  }
+  claim "and one to a file that was removed" to_a_removed_file
+fi
+# The name of a temporary file would be longer than the system allows.
+longest_path() {
+  local path=./ name=deepest.svg
+  while test $((${#path} + ${#name})) -lt 4090; do path+=./; done
+  test $((${#path} + ${#name})) -lt 4095 && path+=/
+  run 0 cube.obj -o "$path$name" && run 0 cube.obj -o "$path$name" &&
+    cmp -s deepest.svg cube.svg && none_left
+}
+claim "a file at the longest path is replaced" longest_path
 claim "one that is not open is refused" eval \
   'run 1 cube.obj -o /dev/fd/77 && says "Bad file descriptor"'
 aside_of_dev_stdout() {

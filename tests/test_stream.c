@@ -276,6 +276,25 @@ static void if_one_of_several_fails_none_is_written(void **state) {
   }
 }
 
+/* The folder of the second is gone when it is to appear. */
+static void a_file_that_was_replaced_is_put_back(void **state) {
+  const char *a = temporary_file(state, "a", "old", 3);
+  const char *folder = temporary_path(state, "folder"),
+             *moved = temporary_path(state, "moved"),
+             *b = temporary_path(state, "folder/b");
+  assert_int_equal(mkdir(folder, 0777), 0);
+  struct stream *both[] = {open_stream(a), open_stream(b)};
+  stream_text(both[0], "first");
+  stream_text(both[1], "second");
+  assert_int_equal(rename(folder, moved), 0);
+  recto_error error;
+  assert_int_equal(stream_finish_all(both, 2, &error), RECTO_ERROR_IO);
+  assert_string_equal(error.file, b);
+  assert_file(a, "old");
+  assert_int_equal(rmdir(moved), 0);
+  assert_int_equal(temporary_count(state), 1);
+}
+
 /* As names may be that differ in nothing that the file system knows. */
 static void a_path_used_twice_is_refused_for_both(void **state) {
   const char *a = temporary_path(state, "a");
@@ -470,6 +489,7 @@ int main(void) {
       T(paths_that_cannot_be_written_are_reported),
       T(several_appear_together),
       T(if_one_of_several_fails_none_is_written),
+      T(a_file_that_was_replaced_is_put_back),
       T(a_path_used_twice_is_refused_for_both),
       T(a_file_of_two_names_is_written_in_place),
       T(a_closed_standard_descriptor_stays_closed),

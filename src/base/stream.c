@@ -8,6 +8,7 @@
 #include "base/stream.h"
 
 #include <errno.h>
+#include <signal.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -41,6 +42,12 @@ static void set_fault(struct stream *stream, recto_status status, int fault) {
   stream->fault = fault;
 }
 
+/* A fault that the system tells of. */
+static void set_system_fault(struct stream *stream, int fault) {
+  set_fault(stream, fault == ENOMEM ? RECTO_ERROR_MEMORY : RECTO_ERROR_IO,
+            fault);
+}
+
 static void write_physically(struct stream *stream, const char *bytes,
                              size_t count) {
   while (count > 0 && stream->status == RECTO_OK) {
@@ -57,7 +64,7 @@ static void write_physically(struct stream *stream, const char *bytes,
       bytes += written;
       count -= (size_t)written;
     } else if (written == 0 || errno != EINTR) {
-      set_fault(stream, RECTO_ERROR_IO, written == 0 ? EIO : errno);
+      set_system_fault(stream, written == 0 ? EIO : errno);
     }
   }
 }
@@ -196,25 +203,30 @@ void stream_discard(struct stream *stream) {
   mem_free(stream);
 }
 
-/* Brings a new file to its end; nothing else is touched. */
+/* Brings a new file to its end, and reserves the room that one needs whose
+ * bytes will be replaced; nothing else is touched. */
 static void complete_file(struct stream *stream) {
   if (stream->gzip != NULL && stream->status == RECTO_OK)
     gzip_end(stream->gzip);
   if (may_flush_early(stream))
     flush_buffer(stream);
+  else if (!stream->is_memory && stream->status == RECTO_OK &&
+           stream->target.kind == TARGET_IN_PLACE &&
+           !target_reserve(&stream->target, stream->buffer.count))
+    set_system_fault(stream, errno);
 }
 
-static void commit_target(struct stream *stream) {
+static void commit_target(struct stream *stream, bool keep_old) {
   struct target *target = &stream->target;
-  if (stream->is_memory || stream->status != RECTO_OK)
+  if (stream->status != RECTO_OK)
     return;
   bool ok =
-      target->kind == TARGET_NEW ? target_commit(target)
+      target->kind == TARGET_NEW ? target_commit(target, keep_old)
       : target->kind == TARGET_IN_PLACE
           ? target_replace(target, stream->buffer.item, stream->buffer.count)
           : true;
   if (!ok)
-    set_fault(stream, RECTO_ERROR_IO, errno);
+    set_system_fault(stream, errno);
 }
 
 static recto_status report_failure(const struct stream *stream,
@@ -260,20 +272,50 @@ static recto_status first_fault(struct stream *const *stream, size_t count,
   return RECTO_OK;
 }
 
-static recto_status commit_all(struct stream *const *stream, size_t count,
-                               recto_error *error) {
+/* Commits the streams of one kind, until one fails. */
+static recto_status commit_kind(struct stream *const *stream, size_t count,
+                                enum target_kind kind, recto_error *error) {
   recto_status status = RECTO_OK;
   for (size_t i = 0; i < count && status == RECTO_OK; i++) {
-    if (stream[i] == NULL)
+    if (stream[i] == NULL || stream[i]->is_memory ||
+        stream[i]->target.kind != kind)
       continue;
     if (is_path_taken(stream, i))
       set_fault(stream[i], RECTO_ERROR_ARGUMENT, 0);
-    commit_target(stream[i]);
+    commit_target(stream[i], count > 1);
     status = first_fault(stream, count, error);
   }
+  return status;
+}
+
+/* Commits all streams or none.  Files whose bytes are replaced are last, since
+ * their old bytes are not kept; there is room for them. */
+static recto_status commit_all(struct stream *const *stream, size_t count,
+                               recto_error *error) {
+  recto_status status = commit_kind(stream, count, TARGET_NEW, error);
+  if (status == RECTO_OK)
+    status = commit_kind(stream, count, TARGET_IN_PLACE, error);
   for (size_t i = 0; i < count && status != RECTO_OK; i++)
     if (stream[i] != NULL)
       target_roll_back(&stream[i]->target);
+  return status;
+}
+
+static void discard_all(struct stream *const *stream, size_t count) {
+  for (size_t i = 0; i < count; i++)
+    stream_discard(stream[i]);
+}
+
+/* No signal comes between giving the files their names and removing those that
+ * they replaced. */
+static recto_status commit_and_discard(struct stream *const *stream,
+                                       size_t count, recto_error *error) {
+  sigset_t all, before;
+  sigfillset(&all);
+  (void)pthread_sigmask(SIG_SETMASK, &all, &before);
+  recto_status status = commit_all(stream, count, error);
+  discard_all(stream, count);
+  (void)pthread_sigmask(SIG_SETMASK, &before, NULL);
   return status;
 }
 
@@ -290,9 +332,8 @@ recto_status stream_finish_all(struct stream *const *stream, size_t count,
     status = first_fault(stream, count, error);
   }
   if (status == RECTO_OK)
-    status = commit_all(stream, count, error);
-  for (size_t i = 0; i < count; i++)
-    stream_discard(stream[i]);
+    return commit_and_discard(stream, count, error);
+  discard_all(stream, count);
   return status;
 }
 

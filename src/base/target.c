@@ -9,7 +9,6 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -18,9 +17,16 @@
 
 #include "base/memory.h"
 
-enum { NAME_SIZE = 64, DESCRIPTOR_NAME_SIZE = 32 };
+enum {
+  NAME_SIZE = 64, /* of a temporary file */
+  DESCRIPTOR_NAME_SIZE = 32
+};
 
 /* ---- Paths --------------------------------------------------------------- */
+
+static bool is_same_stat(const struct stat *a, const struct stat *b) {
+  return a->st_dev == b->st_dev && a->st_ino == b->st_ino;
+}
 
 /* The length of the path's folder, the last slash included. */
 static size_t folder_length(const char *path) {
@@ -51,10 +57,17 @@ static char *read_link(const char *path, bool *failed) {
   return to;
 }
 
+/* Whether what the system finds at `link` is not at the path that the link
+ * says: /proc has such links to what is open, which may have no path. */
+static bool leads_elsewhere(const char *link, const char *says) {
+  struct stat there, said;
+  return stat(link, &there) == 0 &&
+         (stat(says, &said) != 0 || !is_same_stat(&there, &said));
+}
+
 /* The path with its symbolic links followed, so that a link is kept and the
  * file behind it is replaced, or made where there is none.  A ring of links is
- * left for the system to complain of.  Names of descriptors are links too, to
- * what may have no path. */
+ * left for the system to complain of. */
 static char *follow_links(const char *path) {
   enum { LINKS_MAX = 40 };
   char *here = mem_copy_text(path);
@@ -63,6 +76,10 @@ static char *follow_links(const char *path) {
     char *to = read_link(here, &failed);
     if (to == NULL)
       break;
+    if (leads_elsewhere(here, to)) {
+      mem_free(to);
+      break;
+    }
     mem_free(here);
     here = to;
   }
@@ -184,22 +201,23 @@ static bool is_user_attribute(const char *attribute) {
          strcmp(attribute, "system.posix_acl_access") == 0;
 }
 
-static bool copy_attribute(int from, int to, const char *name) {
+static bool copy_attribute(const char *from, int to, const char *name) {
   enum { MOST = 1 << 16 }; /* of the system */
   char *value = mem_alloc(MOST, 1);
-  ssize_t size = value != NULL ? fgetxattr(from, name, value, MOST) : -1;
+  ssize_t size = value != NULL ? getxattr(from, name, value, MOST) : -1;
   bool ok = size >= 0 && fsetxattr(to, name, value, (size_t)size, 0) == 0;
   mem_free(value);
   return ok || !is_user_attribute(name);
 }
 
-/* Access lists are such attributes. */
-static bool copy_attributes(int from, int to) {
-  ssize_t size = flistxattr(from, NULL, 0);
+/* Access lists are such attributes.  They are asked of the path, as a file that
+ * may not be read tells its names and its access list too. */
+static bool copy_attributes(const char *from, int to) {
+  ssize_t size = listxattr(from, NULL, 0);
   if (size <= 0)
     return size == 0 || errno == ENOTSUP;
   char *names = mem_alloc((size_t)size, 1);
-  size = names != NULL ? flistxattr(from, names, (size_t)size) : -1;
+  size = names != NULL ? listxattr(from, names, (size_t)size) : -1;
   bool ok = size >= 0;
   for (ssize_t at = 0; ok && at < size; at += (ssize_t)strlen(names + at) + 1)
     ok = copy_attribute(from, to, names + at);
@@ -217,12 +235,8 @@ static bool inherit_attributes(struct target *target) {
   bool is_owned = made.st_uid == old->st_uid && made.st_gid == old->st_gid;
   if (!is_owned && fchown(to, old->st_uid, old->st_gid) != 0)
     return false;
-  int from = path_above_standard(
-      open(target->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
-  bool ok = from < 0 || copy_attributes(from, to);
-  if (from >= 0)
-    close(from);
-  return ok && fchmod(to, old->st_mode & 07777) == 0;
+  return copy_attributes(target->path, to) &&
+         fchmod(to, old->st_mode & 07777) == 0;
 }
 
 /* ---- Opening ------------------------------------------------------------- */
@@ -246,7 +260,8 @@ static recto_status open_descriptor(struct target *target, int descriptor,
 
 static recto_status replace(struct target *target, recto_error *error) {
   recto_error why;
-  if (target->old.st_nlink > 1)
+  bool is_too_long = folder_length(target->path) + NAME_SIZE > PATH_MAX;
+  if (target->old.st_nlink > 1 || is_too_long)
     return open_in_place(target, error);
   recto_status status = create_file(target, &why);
   if (status == RECTO_OK && inherit_attributes(target))
@@ -325,10 +340,6 @@ recto_status target_try(const char *path, recto_error *error) {
 
 /* ---- Telling targets apart ----------------------------------------------- */
 
-static bool is_same_stat(const struct stat *a, const struct stat *b) {
-  return a->st_dev == b->st_dev && a->st_ino == b->st_ino;
-}
-
 /* What is there now, by whatever it is known. */
 static bool find_old(const struct target *target, struct stat *old) {
   *old = target->old;
@@ -406,10 +417,13 @@ static bool reserve_space(int descriptor, size_t count) {
   return true;
 }
 
+bool target_reserve(struct target *target, size_t count) {
+  return reserve_space(target->descriptor, count);
+}
+
 bool target_replace(struct target *target, const char *bytes, size_t count) {
   int to = target->descriptor;
-  return reserve_space(to, count) && write_bytes_all(to, bytes, count) &&
-         ftruncate(to, (off_t)count) == 0;
+  return write_bytes_all(to, bytes, count) && ftruncate(to, (off_t)count) == 0;
 }
 
 /* Where the folder's entry cannot be changed, as that of a file that is mounted
@@ -435,12 +449,27 @@ static bool copy_in_place(struct target *target) {
   return ok;
 }
 
-static bool move_into_place(struct target *target) {
+/* Exchanges the file with the one that has the temporary name, where the
+ * system can. */
+static bool exchange(const struct target *target) {
+#ifdef RENAME_EXCHANGE
+  return renameat2(AT_FDCWD, target->temporary, AT_FDCWD, target->path,
+                   RENAME_EXCHANGE) == 0;
+#else
+  (void)target;
+  return false;
+#endif
+}
+
+static bool move_into_place(struct target *target, bool keep_old) {
   bool is_nameless = target->temporary == NULL;
   if (is_nameless && !target->existed && make_link(target, target->path))
     return true;
   if (is_nameless && !try_names(target, make_link))
     return false;
+  target->exchanged = keep_old && target->existed && exchange(target);
+  if (target->exchanged)
+    return true;
   if (rename(target->temporary, target->path) == 0) {
     mem_free(target->temporary);
     target->temporary = NULL;
@@ -460,23 +489,20 @@ static bool is_written(int descriptor) {
   return copy < 0 || close(copy) == 0 || errno == EINTR;
 }
 
-/* No signal comes between giving the file a name and putting it in place. */
-bool target_commit(struct target *target) {
-  sigset_t all, before;
-  sigfillset(&all);
-  (void)pthread_sigmask(SIG_SETMASK, &all, &before);
-  target->committed = is_written(target->descriptor) && move_into_place(target);
-  int fault = errno;
-  (void)pthread_sigmask(SIG_SETMASK, &before, NULL);
-  errno = fault;
+bool target_commit(struct target *target, bool keep_old) {
+  target->committed =
+      is_written(target->descriptor) && move_into_place(target, keep_old);
   return target->committed;
 }
 
 void target_roll_back(struct target *target) {
   struct stat there, own;
-  if (target->committed && !target->existed &&
-      lstat(target->path, &there) == 0 &&
-      fstat(target->descriptor, &own) == 0 && is_same_stat(&there, &own))
+  if (!target->committed || lstat(target->path, &there) != 0 ||
+      fstat(target->descriptor, &own) != 0 || !is_same_stat(&there, &own))
+    return;
+  if (target->exchanged)
+    (void)exchange(target);
+  else if (!target->existed)
     unlink(target->path);
 }
 

@@ -26,6 +26,7 @@ struct target {
   struct stat old;
   struct stat folder; /* TARGET_NEW: where it is to appear */
   bool committed;     /* TARGET_NEW: has its name */
+  bool exchanged;     /* and the file that it replaced has the temporary one */
 };
 
 /* Opens a path for writing; "-" is standard output.  A descriptor of its own
@@ -33,7 +34,8 @@ struct target {
  *   A file that is there and has one name is replaced by a new one, which gets
  * its owner, mode, access list and attributes.  Where it has several names, or
  * where what belongs to it cannot be given to another file, or where its folder
- * may not be written to, it is the file itself that is written to.
+ * may not be written to or has too long a path for a temporary name, it is the
+ * file itself that is written to.
  * Errors  RECTO_ERROR_IO, RECTO_ERROR_MEMORY */
 USE_RESULT recto_status target_open(struct target *target, const char *path,
                                     recto_error *error);
@@ -52,14 +54,22 @@ bool target_paths_are_same(const char *a, const char *b);
 /* Whether it is this file that is replaced or written to. */
 bool target_is(const struct target *target, struct file_identity it);
 
-/* Gives a TARGET_NEW, which has been written to its end, its name.
+/* Gives a TARGET_NEW, which has been written to its end, its name.  No signal
+ * should end the process from here until the target is closed.
+ * keep_old  keeps a file that it replaces until then, where the system can
  * Returns false, with errno set, where that cannot be done. */
-USE_RESULT bool target_commit(struct target *target);
+USE_RESULT bool target_commit(struct target *target, bool keep_old);
 
-/* Removes the new file again where there was none before. */
+/* Restores a file that was kept, and removes the new file where there was none
+ * before. */
 void target_roll_back(struct target *target);
 
-/* Replaces the bytes of a TARGET_IN_PLACE. */
+/* Makes sure, as far as the system can tell, that there is room for so many
+ * bytes in a TARGET_IN_PLACE, before one of any output is changed.
+ * Returns false, with errno set, where there is not. */
+USE_RESULT bool target_reserve(struct target *target, size_t count);
+
+/* Replaces the bytes of a TARGET_IN_PLACE, for which there is room. */
 USE_RESULT bool target_replace(struct target *target, const char *bytes,
                                size_t count);
 

@@ -30,6 +30,7 @@
 
 #include "base/child.h"
 #include "base/input.h"
+#include "import/opened_files.h"
 #include "scene/import_format.h"
 
 /* From a node's own coordinates to the scene's: rows of a 3 x 4 matrix. */
@@ -205,11 +206,29 @@ static void limit_self(long seconds, long mb) {
  * assimp/MemoryIOWrapper.h, which is C++. */
 #define ASSIMP_MEMORY_NAME "$$$___magic___$$$"
 
+/* Tells which files Assimp opened. */
+static void put_files(FILE *to, const struct opened_files *files) {
+  size_t bytes = files->file.count * sizeof *files->file.item;
+  struct import_record record = {.kind = IMPORT_FILES, .name_length = bytes};
+  if (files->no_memory)
+    exit_with(to, IMPORT_NO_MEMORY, "");
+  write_bytes(to, &record, sizeof record);
+  write_bytes(to, files->file.item, bytes);
+}
+
+static const struct aiScene *import_path(FILE *to, const char *path) {
+  struct opened_files files;
+  opened_files_init(&files);
+  const struct aiScene *scene = aiImportFileEx(path, 0, &files.io);
+  put_files(to, &files);
+  return scene;
+}
+
 static const struct aiScene *import_file(FILE *to, const char *format,
                                          const char *path) {
   struct input input;
   if (path != NULL)
-    return aiImportFile(path, 0);
+    return import_path(to, path);
   recto_status status = input_load(&input, "-", NULL);
   if (status == RECTO_ERROR_MEMORY)
     exit_with(to, IMPORT_NO_MEMORY, "");

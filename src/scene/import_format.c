@@ -141,6 +141,20 @@ static recto_status add_mesh(struct import_parser *f) {
 
 /* ---- Records ------------------------------------------------------------- */
 
+/* Adds the files to those that no output may replace. */
+static recto_status add_files(struct import_parser *f) {
+  size_t count = (size_t)f->record.name_length / sizeof(struct file_identity);
+  if (f->record.name_length % sizeof(struct file_identity) != 0)
+    return import_fault(f);
+  if (!ARRAY_RESERVE(&f->scene->file, count))
+    return error_memory(f->error);
+  for (size_t i = 0; i < count; i++)
+    memcpy(&f->scene->file.item[f->scene->file.count++],
+           f->name + i * sizeof(struct file_identity),
+           sizeof(struct file_identity));
+  return RECTO_OK;
+}
+
 static recto_status importer_error(const struct import_parser *f) {
   const struct import_record *r = &f->record;
   if (r->why == IMPORT_UNKNOWN_FORMAT)
@@ -177,6 +191,8 @@ recto_status import_format_read(struct scene *scene, const char *bytes,
       status = import_fault(&f);
     else if (f.record.kind == IMPORT_MESH)
       status = add_mesh(&f);
+    else if (f.record.kind == IMPORT_FILES)
+      status = add_files(&f);
     else if (f.record.kind == IMPORT_FAILED)
       status = importer_error(&f);
     else if (f.record.kind == IMPORT_DONE)

@@ -6,6 +6,8 @@
  *                  units), the number of corners of each of its elements
  *                  (uint32_t), and the corners of all of them (uint32_t,
  *                  indices of its own points)
+ *   IMPORT_FILES   the record, and in place of its name the files that were
+ *                  opened (struct file_identity each)
  *   IMPORT_FAILED  the record, and as its name what is wrong
  *   IMPORT_DONE    the record; it is the last
  */
@@ -14,9 +16,9 @@
 
 #include "scene/scene.h"
 
-#define IMPORT_MAGIC "recto i1"
+#define IMPORT_MAGIC "recto i2"
 
-enum import_kind { IMPORT_MESH = 1, IMPORT_FAILED, IMPORT_DONE };
+enum import_kind { IMPORT_MESH = 1, IMPORT_FILES, IMPORT_FAILED, IMPORT_DONE };
 
 /* Why it failed. */
 enum import_why { IMPORT_BROKEN, IMPORT_UNKNOWN_FORMAT, IMPORT_NO_MEMORY };
