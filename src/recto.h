@@ -438,13 +438,14 @@ typedef struct recto_output_options {
   /* The output's resolution: lines that coincide at it are drawn once; 0: that
    * of the format, or without one only lines at exactly the same place. */
   double unit_mm;
-  int precision;        /* decimals of a millimetre in text formats, 0 to 9 */
-  bool polyline;        /* SVG: <polyline> elements instead of <path> */
-  bool tight;           /* all but HPGL: the page is the ink's box; of a drawing
+  int precision;      /* decimals of a millimetre in text formats, 0 to 9; also
+                           those of a drawing to check */
+  bool polyline;      /* SVG: <polyline> elements instead of <path> */
+  bool tight;         /* all but HPGL: the page is the ink's box; of a drawing
                            to check, it is */
-  double dpi;           /* PNG: pixels per inch; 0: 150 */
-  const char *device;   /* HPGL: the plotter's name; NULL: "generic" */
-  double velocity_cm_s; /* HPGL: pen speed; 0: the plotter's own */
+  double dpi;         /* PNG: pixels per inch; 0: 150 */
+  const char *device; /* HPGL: the plotter's name; NULL: "generic" */
+  double velocity_cm_s;    /* HPGL: pen speed; 0: the plotter's own */
   double velocity_up_cm_s; /* speed with the pen up, for the time that plotting
                               takes; 0: the plotter's own */
   uint64_t reserved[8];
@@ -678,9 +679,9 @@ typedef struct recto_verdict {
 /* Checks any program's drawing of the scene, an SVG file, by an independent ray
  * caster: seen by the camera of the options, on the file's own page, for the
  * options' edge classes.  Lines may be off by a quarter of the options' pen,
- * and by as much as simplify_mm and the output's unit allow a drawing.  Dashed
- * lines, those of the class hidden or of a layer labelled so, and hatching of
- * the class hatch are not checked.
+ * and by as much as simplify_mm and the output's unit, or where that is 0 its
+ * precision, allow a drawing.  Dashed lines, those of the class hidden or of a
+ * layer labelled so, and hatching of the class hatch are not checked.
  * Errors  RECTO_ERROR_IO: the file cannot be read; RECTO_ERROR_FORMAT: it is no
  *         SVG that can be read; RECTO_ERROR_EMPTY, RECTO_ERROR_LIMIT as of
  *         recto_scene_render; RECTO_ERROR_CANCELLED */

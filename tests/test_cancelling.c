@@ -177,6 +177,14 @@ static recto_scene *make_square(void) {
   return scene;
 }
 
+/* Stops after so many calls. */
+static bool stop_after(void *user, double share, const char *stage) {
+  int *calls = user;
+  (void)share;
+  (void)stage;
+  return --*calls > 0;
+}
+
 /* Stops after so many calls of the stage "write". */
 static bool stop_writing(void *user, double share, const char *stage) {
   int *calls = user;
@@ -222,6 +230,31 @@ static void writing_may_be_cancelled_and_leaves_what_was(void **state) {
   recto_scene_destroy(scene);
 }
 
+/* Whatever else is wrong, a call that was cancelled says so: this scene is
+ * empty, as its points are welded to one. */
+static void a_cancelled_call_says_so_before_all_else(void **state) {
+  (void)state;
+  recto_scene *scene = make_square();
+  recto_options options;
+  recto_options_init(&options);
+  options.mesh.weld = 1e6;
+  recto_drawing *drawing;
+  assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
+                   RECTO_ERROR_EMPTY);
+  int calls, refused = 0;
+  options.progress = stop_after;
+  options.user = &calls;
+  for (int n = 1; n < 20; n++) {
+    calls = n;
+    recto_status status = recto_scene_render(scene, &options, &drawing, NULL);
+    assert_int_equal(status,
+                     calls <= 0 ? RECTO_ERROR_CANCELLED : RECTO_ERROR_EMPTY);
+    refused += calls <= 0;
+  }
+  assert_true(refused > 0 && refused < 19);
+  recto_scene_destroy(scene);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(tiles_end_while_they_look_for_piercings),
@@ -232,6 +265,7 @@ int main(void) {
       cmocka_unit_test_setup_teardown(
           writing_may_be_cancelled_and_leaves_what_was, temporary_set_up,
           temporary_tear_down),
+      cmocka_unit_test(a_cancelled_call_says_so_before_all_else),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -114,6 +114,19 @@ claim "a fine mesh that lacks its outline is found wrong" fine_outline
 claim "in perspective too" fine_outline --azimuth 33 --elevation 21 --fov 40
 claim "and one that lacks all its edges" fine_outline --view front -e all
 
+# Rounding to a tenth of a millimetre moves ends behind edges.
+rounded_coarsely() { # DIGITS
+  local model=$srcdir/examples/models/castle.obj
+  run 0 "$model" --precision "$1" -o coarse.svg &&
+    run 0 "$model" --precision "$1" --check coarse.svg &&
+    says_nothing_of_precision
+}
+says_nothing_of_precision() { ! grep -q precision err; }
+claim "a drawing of one decimal is right at one decimal" rounded_coarsely 1
+claim "and one in whole millimetres at none" rounded_coarsely 0
+claim "at three decimals it is wrong" \
+  run 1 "$srcdir/examples/models/castle.obj" --check coarse.svg
+
 tolerates() { # STATUS TOLERANCE FILE
   run "$1" cube.obj --check "$3" --tolerance "$2"
 }

@@ -128,7 +128,6 @@ done <<'END_OF_ROWS'
 --fill paint|drawings
 --hidden layer|lines
 --order near|lines and hatching
---precision 2|svg
 --pitch 3|watkins
 END_OF_ROWS
 check_uses() { judges "$@" && test ! -s err; }
@@ -139,7 +138,7 @@ claim "--progress is used by --check" check_reports_progress
 claim "--check looks with the same camera, edges and tolerances" \
   check_uses --view iso --lookat 0,0,1 --fov 20 --no-fit --margin 5 \
   -e all --crease 20 --contact 0 --pen 0.3 --min-stroke 0.1 --exact --pen-width 2=0.5 \
-  --simplify 0.1 --curves 0.1
+  --simplify 0.1 --curves 0.1 --precision 2
 
 claim "and at the page of a tight drawing" \
   check_uses --tight -p A4 --portrait

@@ -123,6 +123,8 @@ recto_status recto_scene_check_sized(const recto_scene *scene, const char *path,
   recto_status status = options_copy_valid(&checked, options, error);
   if (status != RECTO_OK)
     return status;
+  if (checked.output.unit_mm == 0) /* text formats round to their decimals */
+    checked.output.unit_mm = pow(10, -checked.output.precision);
   poll_open(&poll, &checked);
   status = poll_stage(0, 1, "check") ? read_drawing(&drawing, path, error)
                                      : error_cancelled(error);

@@ -428,8 +428,7 @@ static recto_status run_and_report(struct render *render, recto_error *error) {
   drop_topology(render);
   (void)poll_now();
   preparation_fini(&render->own);
-  return status == RECTO_OK && poll_is_cancelled() ? error_cancelled(error)
-                                                   : status;
+  return poll_is_cancelled() ? error_cancelled(error) : status;
 }
 
 /* Keeps the identities of the scene's files, which the drawing must not

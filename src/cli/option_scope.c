@@ -125,6 +125,7 @@ static const struct {
     [USED_BY_TONES] = {"--fill shade and for --fill hatch with --light",
                        FILL(SHADE) | BIT(LIGHT)},
     [USED_BY_SVG] = {"svg", BIT(SVG)},
+    [USED_BY_SVG_AND_CHECK] = {"svg", BIT(SVG) | BIT(BY_CHECK)},
     [USED_BY_SCREENS] = {"svg, pdf, eps, ps and png",
                          BIT(SVG) | BIT(PNG) | BIT(VECTOR_PAGES)},
     [USED_BY_TIGHT] = {"svg, pdf, eps, ps and png",

@@ -405,7 +405,7 @@ const struct option_entry option_table[] = {
     {OPTION_INT, "precision", 0, "DIGITS", "a number from 0 to 9",
      "SVG: decimals of a millimetre (3)",
      .offset = AT(options.output.precision), .least = 0, .most = 9,
-     .use = {USED_BY_SVG}},
+     .use = {USED_BY_SVG_AND_CHECK}},
     {OPTION_PARSED, "path", 0, "HOW", "path or polyline",
      "SVG: path (default) or polyline elements", .parse = parse_path,
      .words = "path polyline", .use = {USED_BY_SVG}},
