@@ -2,7 +2,9 @@
  *
  * A side is a pair of point indices; faces that have one pair are neighbours.
  * Sides that only one face has are paired once more by the positions of their
- * ends, so that meshes with duplicated points are joined. */
+ * ends, so that meshes with duplicated points are joined.  Where other sides
+ * have the same positions, no class of a pair is sure: which points are joined
+ * depends on what else they belong to. */
 #include "judge/edges.h"
 
 #include <string.h>
@@ -17,10 +19,12 @@ struct side_list {
   ARRAY(struct judge_side) side;
 };
 
-/* A side with its ends identified by position: indices of first_at. */
-struct located_side {
+/* The sides between two points, and the positions of these: indices of
+ * first_at. */
+struct located_group {
   uint32_t low, high;
-  struct judge_side side;
+  struct judge_side side; /* the first of them */
+  size_t count;
 };
 
 struct edge_finder {
@@ -28,9 +32,11 @@ struct edge_finder {
   const struct scene *scene;
   const struct judge_camera *camera;
   struct judge_facings facings;
-  uint32_t *first_at;          /* point -> the first point at its position */
-  struct located_side *single; /* sides alone between two points, by places */
-  size_t singles;
+  uint32_t *first_at; /* point -> the first point at its position */
+  uint8_t *shared;    /* of such a first point: there are others */
+  /* Those of one side, and those between positions of several points; by
+   * position. */
+  ARRAY(struct located_group) group;
 };
 
 /* ---- Points at one position ---------------------------------------------- */
@@ -73,22 +79,34 @@ static uint32_t *find_first_at(const struct scene_point *point, size_t count) {
   return first_at;
 }
 
+/* Sets `shared`.  Returns false when memory ran out. */
+static bool mark_shared(struct edge_finder *finder) {
+  size_t count = finder->scene->point.count;
+  finder->shared = mem_calloc(count, 1);
+  for (size_t p = 0; finder->shared != NULL && p < count; p++)
+    if (finder->first_at[p] != p)
+      finder->shared[finder->first_at[p]] = 1;
+  return finder->shared != NULL;
+}
+
 /* ---- Adding edges -------------------------------------------------------- */
 
-/* Whether a single side has its ends at the same positions.  If points at one
- * position are joined it makes more than two sides, a border, of what is a
+/* Whether other sides have their ends at the same positions.  If points at one
+ * position are joined, they make more than two sides, a border, of what is a
  * pair by index. */
-static bool has_single(const struct edge_finder *finder,
+static bool has_others(const struct edge_finder *finder,
                        const struct judge_side *side) {
   uint32_t a = finder->first_at[side->a], b = finder->first_at[side->b];
   uint32_t low_end = a < b ? a : b, high_end = a < b ? b : a;
-  const struct located_side *single = finder->single;
-  size_t i;
-  LOWER_BOUND(i, 0, finder->singles,
-              single[i].low < low_end ||
-                  (single[i].low == low_end && single[i].high < high_end));
-  return i < finder->singles && single[i].low == low_end &&
-         single[i].high == high_end;
+  const struct located_group *group = finder->group.item;
+  size_t i, n = finder->group.count;
+  LOWER_BOUND(i, 0, n,
+              group[i].low < low_end ||
+                  (group[i].low == low_end && group[i].high < high_end));
+  while (i < n && group[i].low == low_end && group[i].high == high_end &&
+         group[i].side.a == side->a && group[i].side.b == side->b)
+    i++;
+  return i < n && group[i].low == low_end && group[i].high == high_end;
 }
 
 /* Adds the edge of two sides.  For a spike, where both are of one face, no
@@ -170,12 +188,12 @@ static bool pair_group(struct edge_finder *finder,
     return add_edge_of_sides(finder, &side[0], &side[1],
                              runs_from(&side[0], side->a, NULL) !=
                                  runs_from(&side[1], side->a, NULL),
-                             !has_single(finder, side));
+                             !has_others(finder, side));
   return add_border(finder, side);
 }
 
 static int compare_located(const void *a, const void *b, void *user) {
-  const struct located_side *s = a, *t = b;
+  const struct located_group *s = a, *t = b;
   if (s->low != t->low)
     return s->low < t->low ? -1 : 1;
   if (s->high != t->high)
@@ -183,42 +201,45 @@ static int compare_located(const void *a, const void *b, void *user) {
   return compare_judge_sides(&s->side, &t->side, user);
 }
 
-/* Sorts the single sides by the positions of their ends. */
-static bool locate_singles(struct edge_finder *finder,
-                           const struct side_list *single) {
-  size_t count = single->side.count;
-  const uint32_t *first_at = finder->first_at;
-  struct located_side *located = mem_alloc(count, sizeof *located);
-  if (located == NULL)
-    return false;
-  for (size_t i = 0; i < count; i++) {
-    const struct judge_side *side = &single->side.item[i];
-    uint32_t a = first_at[side->a], b = first_at[side->b];
-    located[i] = (struct located_side){a < b ? a : b, a < b ? b : a, *side};
-  }
-  finder->single = located;
-  finder->singles = count;
-  return sort_stable(located, count, sizeof *located, compare_located, NULL);
+/* Adds the sides between two points to the groups, if they may have to do with
+ * others. */
+static bool locate_group(struct edge_finder *finder,
+                         const struct judge_side *side, size_t count) {
+  uint32_t a = finder->first_at[side->a], b = finder->first_at[side->b];
+  struct located_group group = {a < b ? a : b, a < b ? b : a, *side, count};
+  bool alone = !finder->shared[a] || !finder->shared[b];
+  return (count > 1 && alone) || ARRAY_PUSH(&finder->group, group);
+}
+
+/* Adds the edges of the sides that are alone between their points, `count`
+ * groups of one position. */
+static bool pair_singles_at(struct edge_finder *finder,
+                            const struct located_group *group, size_t count) {
+  const struct judge_side *single[2] = {NULL, NULL};
+  size_t singles = 0;
+  for (size_t i = 0; i < count; i++)
+    if (group[i].count == 1) {
+      single[singles > 0] = &group[i].side;
+      singles++;
+    }
+  if (singles == 2)
+    return add_edge_of_sides(
+        finder, single[0], single[1],
+        runs_from(single[0], group->low, finder->first_at) !=
+            runs_from(single[1], group->low, finder->first_at),
+        count == 2);
+  return singles == 0 || add_border(finder, single[0]);
 }
 
 static bool pair_singles(struct edge_finder *finder) {
-  const struct located_side *located = finder->single;
-  const uint32_t *first_at = finder->first_at;
+  const struct located_group *group = finder->group.item;
+  size_t count = finder->group.count;
   bool ok = true;
-  size_t count = finder->singles;
   for (size_t i = 0, next; ok && i < count; i = next) {
-    for (next = i + 1; next < count && located[next].low == located[i].low &&
-                       located[next].high == located[i].high;)
+    for (next = i + 1; next < count && group[next].low == group[i].low &&
+                       group[next].high == group[i].high;)
       next++;
-    const struct judge_side *side = &located[i].side;
-    if (next == i + 2)
-      ok = add_edge_of_sides(
-          finder, side, &located[i + 1].side,
-          runs_from(side, located[i].low, first_at) !=
-              runs_from(&located[i + 1].side, located[i].low, first_at),
-          true);
-    else
-      ok = add_border(finder, side);
+    ok = pair_singles_at(finder, &group[i], next - i);
   }
   return ok;
 }
@@ -242,11 +263,10 @@ static bool add_wires(struct edge_finder *finder) {
   return true;
 }
 
-/* Goes through the groups of sides with the same two points.
- * single  collects the groups of one; NULL: adds the edges of all others */
-static bool pair_sides(struct edge_finder *finder,
-                       const struct side_list *sides,
-                       struct side_list *single) {
+/* Goes through the groups of sides with the same two points: locates them, or
+ * adds the edges of those of two and more. */
+static bool visit_groups(struct edge_finder *finder,
+                         const struct side_list *sides, bool locating) {
   bool ok = true;
   size_t count = sides->side.count;
   for (size_t i = 0, next, n = 0; ok && i < count; i = next, n++) {
@@ -256,9 +276,9 @@ static bool pair_sides(struct edge_finder *finder,
     for (next = i + 1; next < count && sides->side.item[next].a == side->a &&
                        sides->side.item[next].b == side->b;)
       next++;
-    if (next == i + 1 && single != NULL)
-      ok = ARRAY_PUSH(&single->side, *side);
-    else if (next > i + 1 && single == NULL)
+    if (locating)
+      ok = locate_group(finder, side, next - i);
+    else if (next > i + 1)
       ok = pair_group(finder, side, next - i);
   }
   return ok;
@@ -270,23 +290,25 @@ bool judge_edges_init(struct judge_edges *edges,
                       const struct judge_options *options) {
   struct edge_finder finder = {
       .edges = edges, .scene = all->scene, .camera = camera};
-  struct side_list sides = {{0}}, single = {{0}};
+  struct side_list sides = {{0}};
   memset(edges, 0, sizeof *edges);
   finder.first_at = find_first_at(
       options->given != NULL ? options->given : all->scene->point.item,
       all->scene->point.count);
   bool ok =
       judge_facings_init(&finder.facings, all, camera, options) &&
-      finder.first_at != NULL && list_scene_sides(all->scene, &sides) &&
-      pair_sides(&finder, &sides, &single) &&
-      locate_singles(&finder, &single) && pair_sides(&finder, &sides, NULL) &&
-      pair_singles(&finder) && judge_edges_add_folds(edges, &finder.facings) &&
-      add_wires(&finder) &&
+      finder.first_at != NULL && mark_shared(&finder) &&
+      list_scene_sides(all->scene, &sides) &&
+      visit_groups(&finder, &sides, true) &&
+      sort_stable(finder.group.item, finder.group.count,
+                  sizeof *finder.group.item, compare_located, NULL) &&
+      visit_groups(&finder, &sides, false) && pair_singles(&finder) &&
+      judge_edges_add_folds(edges, &finder.facings) && add_wires(&finder) &&
       judge_edges_add_intersections(edges, all, camera, options->ray_offset_mm);
   ARRAY_FREE(&sides.side);
-  ARRAY_FREE(&single.side);
   judge_facings_fini(&finder.facings);
-  mem_free(finder.single);
+  ARRAY_FREE(&finder.group);
+  mem_free(finder.shared);
   mem_free(finder.first_at);
   if (!ok)
     judge_edges_fini(edges);
