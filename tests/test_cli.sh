@@ -406,6 +406,12 @@ claim "colours have names, in any case" same_drawing --pen-colour 1=FireBrick --
   --pen-color 1=#b22222
 claim "a unit may be a metre" same_drawing --scale 1:100 --unit m -- --scale 10:1
 claim "or an inch, said first" same_drawing --unit in --scale 1:1 -- --scale 25.4:1
+largest_scale() {
+  run 0 cube.obj -o large.svg --scale 1e12:1 --verify &&
+    run 1 cube.obj -o no.svg --scale 1e15:1 && says 'the scale is too large' &&
+    test ! -e no.svg
+}
+claim "a scale beyond double precision is refused" largest_scale
 claim "--up along the view is refused" refuses 'up points along the view' \
   cube.obj -o no.svg --camera 0,10,0 --up 0,1,0
 

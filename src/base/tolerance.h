@@ -79,6 +79,15 @@
  * Ten times   eyes almost as far lose another three bits of their depths. */
 #define TOLERANCE_FAR_EYE 0x1p27
 
+/* A scene at true scale is refused where one unit in the last place of its
+ * extent is more than this on the page.
+ * Unit        mm
+ * Derivation  a pen is ten times as wide; a scene of 45,000 km in true size has
+ *             units of this.
+ * Users       view/camera_aim.c
+ * Ten times   lines are drawn where they are not, by half a pen. */
+#define TOLERANCE_SCALE_MM 0.01
+
 /* Nearest that a perspective view comes to the eye where no near distance is
  * given and something is drawn still nearer.
  * Unit        share of the distance from the eye to its target

@@ -17,6 +17,7 @@
  */
 #include "view/camera_aim.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -445,6 +446,13 @@ static recto_status aim_and_fit(struct aim *aim) {
     return error_set(aim->error, RECTO_ERROR_LIMIT, NULL, 0,
                      "the scene is too large or too small, or too far from the "
                      "eye or too close to it");
+  if (!camera->perspective &&
+      camera->s * camera->size * DBL_EPSILON > TOLERANCE_SCALE_MM)
+    return error_set(aim->error, RECTO_ERROR_LIMIT, NULL, 0,
+                     "the scale is too large: the scene would be drawn %g mm "
+                     "wide, and its coordinates in double precision are not "
+                     "fine enough for that",
+                     camera->s * camera->size);
   return RECTO_OK;
 }
 
