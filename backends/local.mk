@@ -1,6 +1,7 @@
 # backends/local.mk - one writer per format.
 librecto_core_la_SOURCES += \
   %D%/device.c %D%/device.h \
+  %D%/svg_text.c %D%/svg_text.h \
   %D%/writer.h \
   %D%/writer_hpgl.c \
   %D%/writer_svg.c \

@@ -18,7 +18,11 @@ struct writer_options {
   double dpi;               /* PNG: pixels per inch; 0: 150 */
   bool tight; /* all but HPGL: the page is the bounding box of the ink */
   const char *device; /* HPGL: a device's name (device.h); NULL: "generic" */
-  double velocity;    /* HPGL: speed with the pen down, cm/s; 0: the plotter's
+  const char *title, *description; /* NULL: the drawing's; "": none */
+  const char *id_prefix;           /* SVG: of all ids; NULL: none */
+  recto_background background;
+  uint32_t background_colour; /* 0xRRGGBB, with RECTO_BACKGROUND_COLOUR */
+  double velocity; /* HPGL: speed with the pen down, cm/s; 0: the plotter's
                          default */
 };
 
@@ -56,6 +60,20 @@ extern const struct writer writer_svg, writer_hpgl;
 #ifdef HAVE_CAIRO
 extern const struct writer writer_pdf, writer_eps, writer_ps, writer_png;
 #endif
+
+/* The title and the description of a drawing; "" where there is none. */
+static inline const char *writer_title(const struct drawing *drawing,
+                                       const struct writer_options *options) {
+  const char *title = options->title != NULL ? options->title : drawing->title;
+  return title != NULL ? title : "";
+}
+static inline const char *
+writer_description(const struct drawing *drawing,
+                   const struct writer_options *options) {
+  const char *text = options->description != NULL ? options->description
+                                                  : drawing->description;
+  return text != NULL ? text : "";
+}
 
 /* Whether to write the next one of the drawing's fills and then its strokes:
  * not after an error of the stream, nor once the caller has cancelled.

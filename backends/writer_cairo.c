@@ -16,6 +16,7 @@
 #include <cairo.h>
 
 #include "backends/writer.h"
+#include "base/utf8.h"
 
 #define MM_PER_INCH 25.4
 #define POINTS_PER_INCH 72.0
@@ -247,12 +248,13 @@ static void draw_layer(cairo_t *cr, const struct drawing *drawing,
 static cairo_status_t draw_window(cairo_surface_t *surface,
                                   const struct drawing *drawing,
                                   const struct drawing_window *window,
-                                  double scale, double foot, bool on_white) {
+                                  double scale, double foot,
+                                  const struct writer_options *options) {
   cairo_t *cr = cairo_create(surface);
   cairo_matrix_t matrix;
   cairo_status_t status;
-  if (on_white) {
-    set_colour(cr, 0xffffff);
+  if (options->background == RECTO_BACKGROUND_COLOUR) {
+    set_colour(cr, options->background_colour);
     cairo_paint(cr);
   }
   cairo_matrix_init(&matrix, scale, 0, 0, -scale, -window->x0 * scale,
@@ -295,6 +297,9 @@ static recto_status convert_status(cairo_status_t status, int fault,
 /* ---- PDF, PS, EPS -------------------------------------------------------- */
 
 typedef cairo_surface_t *open_surface(struct sink *sink);
+/* Sets the title and the description, clean UTF-8, as far as there are any. */
+typedef void caption_surface(cairo_surface_t *surface, const char *title,
+                             const char *description);
 
 static double mm_to_points(double length_mm) {
   double points = length_mm * (POINTS_PER_INCH / MM_PER_INCH);
@@ -304,7 +309,7 @@ static double mm_to_points(double length_mm) {
 static recto_status write_vector(const struct drawing *drawing,
                                  const struct writer_options *options,
                                  struct stream *stream, recto_error *error,
-                                 open_surface *open) {
+                                 open_surface *open, caption_surface *caption) {
   const double scale = POINTS_PER_INCH / MM_PER_INCH;
   struct drawing_window window = drawing_window(drawing, options->tight);
   struct sink sink = {.stream = stream,
@@ -312,10 +317,20 @@ static recto_status write_vector(const struct drawing *drawing,
                       .width_pt = mm_to_points(window.x1 - window.x0),
                       .height_pt = mm_to_points(window.y1 - window.y0)};
   sink.foot_pt = sink.height_pt;
+  char *title = utf8_clean(writer_title(drawing, options));
+  char *description = utf8_clean(writer_description(drawing, options));
+  if (title == NULL || description == NULL) {
+    mem_free(title);
+    mem_free(description);
+    return error_memory(error);
+  }
   errno = 0;
   cairo_surface_t *surface = open(&sink);
+  caption(surface, title, description);
+  mem_free(title);
+  mem_free(description);
   cairo_status_t status =
-      draw_window(surface, drawing, &window, scale, sink.foot_pt, false);
+      draw_window(surface, drawing, &window, scale, sink.foot_pt, options);
   cairo_surface_finish(surface);
   int fault = errno;
   if (status == CAIRO_STATUS_SUCCESS)
@@ -333,6 +348,30 @@ static cairo_surface_t *open_pdf(struct sink *sink) {
                                  FIXED_DATE);
   cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATOR, "recto");
   return surface;
+}
+
+static void caption_pdf(cairo_surface_t *surface, const char *title,
+                        const char *description) {
+  if (*title != '\0')
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, title);
+  if (*description != '\0')
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_SUBJECT,
+                                   description);
+}
+
+/* A comment of PS has at most 255 characters of ASCII. */
+static void caption_ps(cairo_surface_t *surface, const char *title,
+                       const char *description) {
+  char comment[200] = "%%Title: ";
+  size_t length = strlen(comment);
+  (void)description;
+  if (*title == '\0')
+    return;
+  for (; *title != '\0' && length + 1 < sizeof comment; title++)
+    if ((*title & 0xc0) != 0x80) /* one for each character */
+      comment[length++] = *title >= ' ' && *title <= '~' ? *title : '?';
+  comment[length] = '\0';
+  cairo_ps_surface_dsc_comment(surface, comment);
 }
 
 /* In PS the origin is the lower left corner of the page, and cairo assumes that
@@ -353,19 +392,19 @@ static cairo_surface_t *open_eps(struct sink *sink) {
 static recto_status write_pdf(const struct drawing *drawing,
                               const struct writer_options *options,
                               struct stream *stream, recto_error *error) {
-  return write_vector(drawing, options, stream, error, open_pdf);
+  return write_vector(drawing, options, stream, error, open_pdf, caption_pdf);
 }
 
 static recto_status write_ps(const struct drawing *drawing,
                              const struct writer_options *options,
                              struct stream *stream, recto_error *error) {
-  return write_vector(drawing, options, stream, error, open_ps);
+  return write_vector(drawing, options, stream, error, open_ps, caption_ps);
 }
 
 static recto_status write_eps(const struct drawing *drawing,
                               const struct writer_options *options,
                               struct stream *stream, recto_error *error) {
-  return write_vector(drawing, options, stream, error, open_eps);
+  return write_vector(drawing, options, stream, error, open_eps, caption_ps);
 }
 
 /* ---- PNG ----------------------------------------------------------------- */
@@ -397,11 +436,18 @@ static recto_status write_png(const struct drawing *drawing,
 
   struct sink sink = {.stream = stream,
                       .per_metre = (uint32_t)lround(dpi / MM_PER_INCH * 1000)};
-  cairo_surface_t *surface =
-      cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)width, (int)height);
+  struct writer_options how = *options;
+  if (how.background == RECTO_BACKGROUND_AUTO) {
+    how.background = RECTO_BACKGROUND_COLOUR;
+    how.background_colour = 0xffffff;
+  }
+  cairo_surface_t *surface = cairo_image_surface_create(
+      how.background == RECTO_BACKGROUND_NONE ? CAIRO_FORMAT_ARGB32
+                                              : CAIRO_FORMAT_RGB24,
+      (int)width, (int)height);
   cairo_status_t status =
       draw_window(surface, drawing, &window, dpi / MM_PER_INCH,
-                  (window.y1 - window.y0) * dpi / MM_PER_INCH, true);
+                  (window.y1 - window.y0) * dpi / MM_PER_INCH, &how);
   if (status == CAIRO_STATUS_SUCCESS && !poll_is_cancelled())
     status = cairo_surface_write_to_png_stream(surface, pass_png, &sink);
   cairo_surface_destroy(surface);

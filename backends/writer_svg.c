@@ -9,6 +9,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "backends/svg_text.h"
 #include "backends/writer.h"
 
 /* A point rounded to the last decimal that is written, y down. */
@@ -23,79 +24,10 @@ struct svg {
   double scale;                   /* 10 to the power of the precision */
   ARRAY(struct svg_point) point;  /* of the current stroke or loop */
   struct drawing_polyline chords; /* of the current stroke's curve */
+  char **group_id;                /* with ids: of each group, or NULL */
 };
 
 /* ---- Text ---------------------------------------------------------------- */
-
-/* The length of the well-formed UTF-8 sequence at `text` if it is a character
- * that XML 1.0 allows, else 0. */
-static size_t measure_character(const unsigned char *text) {
-  static const uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
-  size_t length = text[0] < 0x80             ? 1
-                  : (text[0] & 0xe0) == 0xc0 ? 2
-                  : (text[0] & 0xf0) == 0xe0 ? 3
-                  : (text[0] & 0xf8) == 0xf0 ? 4
-                                             : 0;
-  if (length == 0)
-    return 0;
-  uint32_t code = length == 1 ? text[0] : text[0] & (0x7fu >> length);
-  for (size_t i = 1; i < length; i++) {
-    if ((text[i] & 0xc0) != 0x80)
-      return 0;
-    code = code << 6 | (text[i] & 0x3fu);
-  }
-  bool allowed = code == '\t' || code == '\n' || code == '\r' ||
-                 (code >= 0x20 && code < 0xd800) ||
-                 (code >= 0xe000 && code < 0xfffe) ||
-                 (code >= 0x10000 && code < 0x110000);
-  return allowed && code >= least[length] ? length : 0;
-}
-
-/* Writes `text` as the value of an attribute.  Bytes that are not part of a
- * character of XML, as in a name that is not UTF-8, are replaced by U+FFFD. */
-static void write_escaped(struct stream *out, const char *text) {
-  const unsigned char *at = (const unsigned char *)text;
-  while (*at != '\0') {
-    size_t length = measure_character(at);
-    switch (*at) {
-    case '&':
-      stream_text(out, "&amp;");
-      break;
-    case '<':
-      stream_text(out, "&lt;");
-      break;
-    case '>':
-      stream_text(out, "&gt;");
-      break;
-    case '"':
-      stream_text(out, "&quot;");
-      break;
-    case '\t':
-      stream_text(out, "&#9;");
-      break;
-    case '\n':
-      stream_text(out, "&#10;");
-      break;
-    case '\r':
-      stream_text(out, "&#13;");
-      break;
-    default:
-      if (length > 0)
-        stream_write(out, at, length);
-      else
-        stream_text(out, "\xef\xbf\xbd");
-    }
-    at += length > 0 ? length : 1;
-  }
-}
-
-static void write_colour(struct stream *out, uint32_t colour) {
-  static const char digit[] = "0123456789abcdef";
-  char text[8] = "#";
-  for (int i = 0; i < 6; i++)
-    text[1 + i] = digit[colour >> (20 - 4 * i) & 0xf];
-  stream_write(out, text, 7);
-}
 
 /* Lengths that are not coordinates have at least three decimals, whatever the
  * precision: a pen width of 0.3 mm must not become 0. */
@@ -196,15 +128,6 @@ static void write_id(const struct svg *svg, const char *name, uint32_t id) {
   stream_text(svg->out, "\"");
 }
 
-static void write_group_name(const struct svg *svg, uint32_t group) {
-  if (group >= svg->drawing->group_name.count ||
-      svg->drawing->group_name.item[group] == NULL)
-    return;
-  stream_text(svg->out, " data-group=\"");
-  write_escaped(svg->out, svg->drawing->group_name.item[group]);
-  stream_text(svg->out, "\"");
-}
-
 static const char *class_name(const struct drawing_stroke *stroke) {
   return stroke->edge_class == 0
              ? "hatch"
@@ -212,10 +135,13 @@ static const char *class_name(const struct drawing_stroke *stroke) {
 }
 
 static void write_stroke_ids(const struct svg *svg,
-                             const struct drawing_stroke *stroke) {
-  write_id(svg, " data-face=\"", stroke->face);
-  write_id(svg, " data-edge=\"", stroke->edge);
-  write_group_name(svg, stroke->group);
+                             const struct drawing_stroke *stroke,
+                             uint32_t index) {
+  struct drawing_source source = {stroke->face, stroke->edge};
+  if (index < svg->drawing->stroke_source.count)
+    source = svg->drawing->stroke_source.item[index];
+  write_id(svg, " data-face=\"", source.face);
+  write_id(svg, " data-edge=\"", source.edge);
   stream_text(svg->out, " data-class=\"");
   stream_text(svg->out, class_name(stroke));
   stream_text(svg->out, "\"");
@@ -251,7 +177,7 @@ static bool write_stroke(struct svg *svg, uint32_t index) {
                         : closed  ? "<polygon"
                                   : "<polyline");
   if (svg->drawing->ids)
-    write_stroke_ids(svg, stroke);
+    write_stroke_ids(svg, stroke, index);
   stream_text(svg->out, polyline ? " points=\"" : " d=\"");
   if (polyline)
     write_point_list(svg);
@@ -265,24 +191,26 @@ static bool write_stroke(struct svg *svg, uint32_t index) {
 
 /* Begins the element of a fill, or of the stroke along its outline that closes
  * seams.  The latter inherits everything but its colour from its group. */
-static void open_fill(const struct svg *svg, const struct drawing_fill *fill,
-                      bool seam) {
+static void open_fill(const struct svg *svg, uint32_t index, bool seam) {
+  const struct drawing *drawing = svg->drawing;
+  const struct drawing_fill *fill = &drawing->fill.item[index];
   struct stream *out = svg->out;
   stream_text(out, "<path");
-  if (svg->drawing->ids && !seam) {
-    write_id(svg, " data-face=\"", fill->face);
-    write_group_name(svg, fill->group);
-  }
+  if (drawing->ids && !seam)
+    write_id(svg, " data-face=\"",
+             index < drawing->fill_source.count
+                 ? drawing->fill_source.item[index].face
+                 : fill->face);
   stream_text(out, seam ? " stroke=\"" : " fill=\"");
-  write_colour(out, fill->colour);
+  svg_write_colour(out, fill->colour);
   stream_text(out, seam ? "\" d=\""
                         : "\" fill-rule=\"evenodd\" stroke=\"none\" d=\"");
 }
 
 /* Writes a fill, or its seam stroke, unless rounding has reduced all loops to
  * fewer than three points.  Returns false when memory ran out. */
-static bool write_fill(struct svg *svg, const struct drawing_fill *fill,
-                       bool seam) {
+static bool write_fill(struct svg *svg, uint32_t index, bool seam) {
+  const struct drawing_fill *fill = &svg->drawing->fill.item[index];
   bool open = false;
   for (uint32_t i = 0; i < fill->loops; i++) {
     const struct drawing_loop *loop = &svg->drawing->loop.item[fill->loop + i];
@@ -292,7 +220,7 @@ static bool write_fill(struct svg *svg, const struct drawing_fill *fill,
     if (svg->point.count < 3)
       continue;
     if (!open)
-      open_fill(svg, fill, seam);
+      open_fill(svg, index, seam);
     open = true;
     write_path_data(svg, true);
   }
@@ -306,7 +234,7 @@ static bool write_fill(struct svg *svg, const struct drawing_fill *fill,
 static bool write_seams(struct svg *svg, uint32_t layer) {
   const struct drawing *drawing = svg->drawing;
   bool open = false;
-  for (size_t i = 0; drawing->seam_mm > 0 && i < drawing->fill.count; i++) {
+  for (uint32_t i = 0; drawing->seam_mm > 0 && i < drawing->fill.count; i++) {
     if (drawing->fill.item[i].layer != layer)
       continue;
     if (stream_status(svg->out) != RECTO_OK)
@@ -317,7 +245,7 @@ static bool write_seams(struct svg *svg, uint32_t layer) {
       stream_text(svg->out, "\">\n");
       open = true;
     }
-    if (!write_fill(svg, &drawing->fill.item[i], true))
+    if (!write_fill(svg, i, true))
       return false;
   }
   if (open)
@@ -325,50 +253,102 @@ static bool write_seams(struct svg *svg, uint32_t layer) {
   return true;
 }
 
-/* The current group within a layer: strokes of one class and width, or fills.
- * It lets style sheets address the class; a group takes less space than an
- * attribute of every line. */
-struct svg_stroke_style {
-  const char *name; /* the class; NULL: no group is open */
+/* What is open within a layer: the group of the model, with ids, and in it a
+ * class of strokes of one width, or fills.  Style sheets address both; a group
+ * takes less space than an attribute of every line. */
+struct svg_nesting {
+  uint32_t layer;
+  uint32_t group;   /* DRAWING_NONE: none is open */
+  const char *name; /* the class; NULL: none is open */
   double width_mm;
 };
 
-static void close_style(const struct svg *svg, struct svg_stroke_style *style) {
-  if (style->name != NULL)
+static void close_class(const struct svg *svg, struct svg_nesting *open) {
+  if (open->name != NULL)
     stream_text(svg->out, "</g>\n");
-  style->name = NULL;
+  open->name = NULL;
+}
+
+static void close_all(const struct svg *svg, struct svg_nesting *open) {
+  close_class(svg, open);
+  if (open->group != DRAWING_NONE)
+    stream_text(svg->out, "</g>\n");
+  open->group = DRAWING_NONE;
+}
+
+/* Writes id="PREFIXlayer1" and, of a group in it, id="PREFIXlayer1-group"; the
+ * layer of fills is named so. */
+static void write_layer_id(const struct svg *svg, uint32_t layer,
+                           const char *group) {
+  unsigned pen = svg->drawing->layer.item[layer].pen;
+  struct stream *out = svg->out;
+  stream_text(out, " id=\"");
+  if (svg->options->id_prefix != NULL)
+    stream_text(out, svg->options->id_prefix);
+  stream_text(out, pen > 0 ? "layer" : "fills");
+  if (pen > 0)
+    stream_int(out, pen);
+  if (group != NULL) {
+    stream_text(out, "-");
+    stream_text(out, group);
+  }
+  stream_text(out, "\"");
+}
+
+/* Opens the model's group, if there are ids and it has a name, unless it is
+ * open. */
+static void open_group(const struct svg *svg, struct svg_nesting *open,
+                       uint32_t group) {
+  const struct drawing *drawing = svg->drawing;
+  bool named = svg->group_id != NULL && group < drawing->group_name.count &&
+               svg->group_id[group] != NULL;
+  if (!named)
+    group = DRAWING_NONE;
+  if (open->group == group)
+    return;
+  close_all(svg, open);
+  open->group = group;
+  if (!named)
+    return;
+  stream_text(svg->out, "<g");
+  write_layer_id(svg, open->layer, svg->group_id[group]);
+  stream_text(svg->out, " data-group=\"");
+  svg_write_text(svg->out, drawing->group_name.item[group]);
+  stream_text(svg->out, "\">\n");
 }
 
 /* Opens a group of that class and width unless it is open.  The width is
  * written only if it differs from the layer's. */
-static void open_style(const struct svg *svg, struct svg_stroke_style *style,
-                       const char *name, double width_mm, double layer_mm) {
-  if (style->name != NULL && strcmp(style->name, name) == 0 &&
-      style->width_mm == width_mm)
+static void open_class(const struct svg *svg, struct svg_nesting *open,
+                       const char *name, double width_mm) {
+  if (open->name != NULL && strcmp(open->name, name) == 0 &&
+      open->width_mm == width_mm)
     return;
-  close_style(svg, style);
+  close_class(svg, open);
   stream_text(svg->out, "<g class=\"");
   stream_text(svg->out, name);
-  if (width_mm != layer_mm) {
+  if (width_mm != svg->drawing->layer.item[open->layer].width_mm) {
     stream_text(svg->out, "\" stroke-width=\"");
     write_length(svg, width_mm);
   }
   stream_text(svg->out, "\">\n");
-  *style = (struct svg_stroke_style){name, width_mm};
+  open->name = name;
+  open->width_mm = width_mm;
 }
 
 /* Writes the fills of a layer, then its strokes. */
 static bool write_contents(struct svg *svg, uint32_t index) {
   const struct drawing *drawing = svg->drawing;
-  double width_mm = drawing->layer.item[index].width_mm;
-  struct svg_stroke_style style = {NULL, 0};
+  double layer_mm = drawing->layer.item[index].width_mm;
+  struct svg_nesting open = {.layer = index, .group = DRAWING_NONE};
   bool ok = write_seams(svg, index);
-  for (size_t i = 0; i < drawing->fill.count && ok; i++)
+  for (uint32_t i = 0; i < drawing->fill.count && ok; i++)
     if (drawing->fill.item[i].layer == index) {
       if (!writer_goes_on(drawing, svg->out, i))
         break;
-      open_style(svg, &style, "fill", width_mm, width_mm);
-      ok = write_fill(svg, &drawing->fill.item[i], false);
+      open_group(svg, &open, drawing->fill.item[i].group);
+      open_class(svg, &open, "fill", layer_mm);
+      ok = write_fill(svg, i, false);
     }
   for (size_t i = 0; i < drawing->stroke.count && ok; i++) {
     const struct drawing_stroke *stroke = &drawing->stroke.item[i];
@@ -376,24 +356,24 @@ static bool write_contents(struct svg *svg, uint32_t index) {
       continue;
     if (!writer_goes_on(drawing, svg->out, drawing->fill.count + i))
       break;
-    open_style(svg, &style, stroke->hidden ? "hidden" : class_name(stroke),
-               drawing_width_mm(drawing, stroke), width_mm);
+    open_group(svg, &open, stroke->group);
+    open_class(svg, &open, stroke->hidden ? "hidden" : class_name(stroke),
+               drawing_width_mm(drawing, stroke));
     ok = write_stroke(svg, (uint32_t)i);
   }
-  close_style(svg, &style);
+  close_all(svg, &open);
   return ok;
 }
 
 static bool write_layer(struct svg *svg, uint32_t index) {
   const struct drawing_layer *layer = &svg->drawing->layer.item[index];
   struct stream *out = svg->out;
-  stream_text(out, layer->pen > 0 ? "<g id=\"layer" : "<g id=\"fills");
-  if (layer->pen > 0)
-    stream_int(out, layer->pen);
-  stream_text(out, "\" inkscape:groupmode=\"layer\" inkscape:label=\"");
-  write_escaped(out, layer->label);
+  stream_text(out, "<g");
+  write_layer_id(svg, index, NULL);
+  stream_text(out, " inkscape:groupmode=\"layer\" inkscape:label=\"");
+  svg_write_text(out, layer->label);
   stream_text(out, "\" fill=\"none\" stroke=\"");
-  write_colour(out, layer->colour);
+  svg_write_colour(out, layer->colour);
   stream_text(out, "\" stroke-width=\"");
   write_length(svg, layer->width_mm);
   stream_text(out, "\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n");
@@ -401,6 +381,34 @@ static bool write_layer(struct svg *svg, uint32_t index) {
     return false;
   stream_text(out, "</g>\n");
   return true;
+}
+
+/* Writes an element with text, unless there is none. */
+static void write_element(const struct svg *svg, const char *name,
+                          const char *text) {
+  if (*text == '\0')
+    return;
+  stream_text(svg->out, "<");
+  stream_text(svg->out, name);
+  stream_text(svg->out, ">");
+  svg_write_text(svg->out, text);
+  stream_text(svg->out, "</");
+  stream_text(svg->out, name);
+  stream_text(svg->out, ">\n");
+}
+
+/* box  x, y, width, height */
+static void write_background(const struct svg *svg, const double box[4]) {
+  static const char *const side[] = {"x", "y", "width", "height"};
+  stream_text(svg->out, "<rect class=\"background\" fill=\"");
+  svg_write_colour(svg->out, svg->options->background_colour);
+  for (int i = 0; i < 4; i++) {
+    stream_text(svg->out, "\" ");
+    stream_text(svg->out, side[i]);
+    stream_text(svg->out, "=\"");
+    write_length(svg, box[i]);
+  }
+  stream_text(svg->out, "\"/>\n");
 }
 
 /* Lengths of the page, which has its origin at the upper left corner also where
@@ -424,6 +432,10 @@ static void write_head(const struct svg *svg) {
     write_length(svg, box[i]);
   }
   stream_text(out, "\">\n");
+  write_element(svg, "title", writer_title(svg->drawing, svg->options));
+  write_element(svg, "desc", writer_description(svg->drawing, svg->options));
+  if (svg->options->background == RECTO_BACKGROUND_COLOUR)
+    write_background(svg, box);
 }
 
 static recto_status write_svg(const struct drawing *drawing,
@@ -433,13 +445,17 @@ static recto_status write_svg(const struct drawing *drawing,
       .drawing = drawing, .options = options, .out = stream, .scale = 1};
   for (int i = 0; i < options->precision; i++)
     svg.scale *= 10;
-  bool ok = true;
+  if (drawing->ids)
+    svg.group_id =
+        svg_ids_make(drawing->group_name.item, drawing->group_name.count);
+  bool ok = !drawing->ids || svg.group_id != NULL;
   write_head(&svg);
   for (uint32_t i = 0; i < drawing->layer.count && ok; i++)
     ok = write_layer(&svg, i);
   stream_text(stream, "</svg>\n");
   ARRAY_FREE(&svg.point);
   ARRAY_FREE(&svg.chords.point);
+  svg_ids_free(svg.group_id, drawing->group_name.count);
   return ok ? RECTO_OK : error_memory(error);
 }
 

@@ -151,6 +151,13 @@ typedef enum recto_order {
                            with hatching or several pens; else none */
 } recto_order;
 
+/* What is behind the drawing. */
+typedef enum recto_background {
+  RECTO_BACKGROUND_AUTO = 0, /* white in PNG, else none */
+  RECTO_BACKGROUND_NONE,     /* transparent */
+  RECTO_BACKGROUND_COLOUR    /* a colour, over all of the page */
+} recto_background;
+
 typedef enum recto_fit {
   RECTO_FIT_PAGE = 0, /* the drawing fills the page inside the margins */
   RECTO_FIT_NONE,     /* --fov spans the printable height, centred */
@@ -448,7 +455,16 @@ typedef struct recto_output_options {
   double velocity_cm_s;    /* HPGL: pen speed; 0: the plotter's own */
   double velocity_up_cm_s; /* speed with the pen up, for the time that plotting
                               takes; 0: the plotter's own */
-  uint64_t reserved[8];
+  /* Of SVG and PDF, the title also of PS and EPS, in UTF-8; NULL: the name of
+   * the model's file, where there is one alone, and a sentence about the view;
+   * "": none. */
+  const char *title, *description;
+  const char *id_prefix; /* SVG: what all ids begin with: a letter or _, then
+                            also digits, - and .; NULL: nothing */
+  recto_background background;
+  uint32_t background_colour; /* 0xRRGGBB, of RECTO_BACKGROUND_COLOUR; not in
+                                 HPGL */
+  uint64_t reserved[4];
 } recto_output_options;
 
 typedef struct recto_options {

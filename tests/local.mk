@@ -75,6 +75,7 @@ dist_check_SCRIPTS += \
   %D%/test_bootstrap.sh \
   %D%/test_cli.sh \
   %D%/test_cli_check.sh \
+  %D%/test_captions.sh \
   %D%/test_cli_curves.sh \
   %D%/test_cli_dash.sh \
   %D%/test_cli_descriptors.sh \

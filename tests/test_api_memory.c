@@ -48,12 +48,13 @@ static struct text *draw(recto_scene *scene) {
   recto_error error = {0};
   recto_options_init(&options);
   options.ink.ids = true;
+  options.output.title = ""; /* by default that of the file, if there is one */
   if (recto_scene_render(scene, &options, &drawing, &error) != RECTO_OK)
     fail_msg("%s", error.text);
   struct text *text = calloc(1, sizeof *text);
   assert_non_null(text);
   assert_int_equal(
-      recto_drawing_write_to(drawing, "svg", NULL, append, text, NULL),
+      recto_drawing_write_to(drawing, "svg", &options, append, text, NULL),
       RECTO_OK);
   recto_drawing_destroy(drawing);
   recto_scene_destroy(scene);

@@ -83,6 +83,7 @@ pen 0 -1 101 x 1e-9 0.009mm
 hatch-pitch 0 1e-9 x
 pitch 0 1e-9 exactly
 light 0,0,0 x
+background blurple #12345 None,white x
 ambient -0.1 1.1 x 30%
 fill-light -0.1 1.1 x 30%
 pens 0 1001 1.5 x
@@ -112,7 +113,7 @@ for option in output format from method pitch resolution depth-bits subpixels \
   remove-backs contact view azimuth \
   elevation camera lookat up fov ortho fit no-fit scale near section page \
   landscape margin edges crease contours hidden dash fill hatch-pitch hatch-angle hatch-inset light ambient fill-light pen \
-  pens pen-for pen-width pen-colour pen-color unit portrait weights path order simplify curves min-stroke exact precision ids stats verify check threads progress quiet \
+  pens pen-for pen-width pen-colour pen-color unit portrait weights path order simplify curves min-stroke exact precision ids id-prefix title desc background stats verify check threads progress quiet \
   completion version help; do
   claim "--$option is there, or refused by name" offered_or_refused "$option"
 done
@@ -237,7 +238,7 @@ same_again() { run 0 cube.obj -o again.svg && cmp -s cube.svg again.svg; }
 claim "the same call gives the same bytes" same_again
 
 streams_agree() {
-  "$recto" --from obj - -o - <cube.obj >piped.svg && cmp -s cube.svg piped.svg
+  "$recto" --from obj - -o - --title cube <cube.obj >piped.svg && cmp -s cube.svg piped.svg
 }
 claim "standard streams give the same bytes" streams_agree
 
@@ -338,7 +339,7 @@ claim "--progress goes to standard error" tells_progress
   echo 'f 1 1 2'
 } >bad.obj
 warns_by_line() {
-  run 0 bad.obj -o bad.svg && says '^recto: bad.obj:15: ' &&
+  run 0 bad.obj -o bad.svg --title cube && says '^recto: bad.obj:15: ' &&
     says '^recto: bad.obj:16: ' && says '^recto: bad.obj:17: '
 }
 claim "bad elements are warned about with file and line" warns_by_line

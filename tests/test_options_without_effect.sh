@@ -96,6 +96,10 @@ done <<'END_OF_ROWS'
 --fill-light 0.1|a.svg --fill hatch --light 1,1,1|a.svg --fill paint|--fill shade and --fill hatch; --fill paint
 --light 1,1,1|a.svg --fill shade|a.svg --fill paint|--fill shade and --fill hatch; --fill paint
 --ids|a.svg|a.hpgl|svg; hpgl
+--id-prefix a|a.svg|a.hpgl|svg; hpgl
+--title a|a.svg|a.hpgl|svg, pdf, eps and ps; hpgl
+--desc a|a.svg|a.hpgl|svg, pdf, eps and ps; hpgl
+--background navy|a.svg|a.hpgl|svg, pdf, eps, ps and png; hpgl
 --precision 2|a.svg|a.hpgl|svg; hpgl
 --path polyline|a.plt --format svg|a.svg --format hpgl|svg; hpgl
 --device drum|a.hpgl|a.svg|hpgl and --stats; svg

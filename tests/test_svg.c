@@ -334,8 +334,14 @@ static void ids_are_written_only_on_request(void **state) {
   stroke->group = 0;
   assert_lacks(write_it(f), "data-");
   f->drawing.ids = true;
-  assert_has(write_it(f), "<path data-face=\"7\" data-edge=\"12\" "
-                          "data-group=\"wheel\" data-class=\"crease\" d=");
+  assert_has(write_it(f), "<g id=\"layer1-wheel\" data-group=\"wheel\">\n"
+                          "<g class=\"crease\">\n"
+                          "<path data-face=\"7\" data-edge=\"12\" "
+                          "data-class=\"crease\" d=");
+  /* The numbers within the group, where they are known. */
+  const struct drawing_source source = {2, 5};
+  assert_true(ARRAY_PUSH(&f->drawing.stroke_source, source));
+  assert_has(write_it(f), "<path data-face=\"2\" data-edge=\"5\" ");
 }
 
 static void ids_that_are_not_there_are_left_out(void **state) {

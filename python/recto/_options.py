@@ -82,6 +82,10 @@ class Options(TypedDict, total=False):
     velocity_up: float
     tight: bool
     dpi: float
+    title: str
+    desc: str
+    id_prefix: str
+    background: str  # "none", "#ffe", "navy"
 
     verify: Union[bool, int]
     results: Union[str, Iterable[str]]  # edges, invisibility, faces
@@ -90,7 +94,8 @@ class Options(TypedDict, total=False):
 
 # Options that a drawing that was made still heeds.
 OF_OUTPUT = frozenset(
-    "precision path device velocity tight dpi progress".split()
+    "precision path device velocity tight dpi title desc id_prefix "
+    "background progress".split()
 )
 METHODS = {
     text_of(lib.recto_method_name(i)): i
@@ -422,6 +427,25 @@ class _Setter:
     def path(self, value: str) -> None:
         known = {"path": False, "polyline": True}
         self.options.output.polyline = _word("path", value, known)
+
+    def title(self, value: str) -> None:
+        self.options.output.title = self.text(value)
+
+    def desc(self, value: str) -> None:
+        self.options.output.description = self.text(value)
+
+    def id_prefix(self, value: str) -> None:
+        self.options.output.id_prefix = self.text(value)
+
+    def background(self, value: str) -> None:
+        output = self.options.output
+        output.background = lib.RECTO_BACKGROUND_NONE
+        if value not in ("none", "transparent"):
+            read = ffi.new("uint32_t *")
+            if not lib.recto_colour_parse(text_to(value), read):
+                raise ValueError(f"background: not {value!r}, but as #cc0000")
+            output.background = lib.RECTO_BACKGROUND_COLOUR
+            output.background_colour = read[0]
 
     def device(self, value: str) -> None:
         self.options.output.device = self.text(value)

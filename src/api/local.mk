@@ -2,10 +2,12 @@
 librecto_core_la_SOURCES += \
   src/recto.h \
   %D%/check.c \
+  %D%/captions.c %D%/captions.h \
   %D%/clip_warning.c %D%/clip_warning.h \
   %D%/colour.c \
   %D%/dash.c \
   %D%/draw_file.c \
+  %D%/group_numbers.c %D%/group_numbers.h \
   %D%/handle.h \
   %D%/mesh.c \
   %D%/judge_input.c %D%/judge_input.h \

@@ -5,6 +5,7 @@
 #include <limits.h>
 #include <stddef.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "api/handle.h"
 #include "api/output_format.h"
@@ -144,6 +145,14 @@ static recto_status check_lists(const recto_options *o, recto_error *error) {
   return RECTO_OK;
 }
 
+/* Whether an id may begin so: by the rules of XML and HTML, in ASCII. */
+static bool is_id(const char *text) {
+  static const char letters[] =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789-.";
+  return *text != '\0' && strchr("0123456789-.", *text) == NULL &&
+         text[strspn(text, letters)] == '\0';
+}
+
 static recto_status check_options(const recto_options *o, recto_error *error) {
   const double huge = DBL_MAX, small = DBL_MIN;
   const struct option_range range[] = {
@@ -195,6 +204,9 @@ static recto_status check_options(const recto_options *o, recto_error *error) {
       {"the simplification length", o->ink.simplify_mm, 0, huge},
       {"the curves' distance", o->ink.curves_mm, 0, huge},
       {"the length of the shortest stroke", o->ink.min_stroke_mm, -huge, huge},
+      {"the kind of background", o->output.background, 0,
+       RECTO_BACKGROUND_COLOUR},
+      {"the background", o->output.background_colour, 0, 0xffffff},
       {"the precision", o->output.precision, 0, 9},
       {"the resolution of PNG", o->output.dpi, 0, 10000},
       {"the pen speed", o->output.velocity_cm_s, 0, 127},
@@ -217,6 +229,10 @@ static recto_status check_options(const recto_options *o, recto_error *error) {
                      "there is no plotter \"%.60s\"; known are: %s",
                      o->output.device, known);
   }
+  if (o->output.id_prefix != NULL && !is_id(o->output.id_prefix))
+    return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                     "the prefix of ids must begin with a letter or _, and "
+                     "have nothing but letters, digits, -, _ and .");
   if (o->ink.contours == RECTO_CONTOURS_SMOOTH && o->verify > 0)
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
                      "smooth contours cannot be verified: they are no edges of "

@@ -32,6 +32,12 @@ struct writer_options output_writer_options(const recto_options *options) {
   return (struct writer_options){.precision = options->output.precision,
                                  .polyline = options->output.polyline,
                                  .tight = options->output.tight,
+                                 .title = options->output.title,
+                                 .description = options->output.description,
+                                 .id_prefix = options->output.id_prefix,
+                                 .background = options->output.background,
+                                 .background_colour =
+                                     options->output.background_colour,
                                  .dpi = options->output.dpi,
                                  .device = options->output.device,
                                  .velocity = options->output.velocity_cm_s,

@@ -10,7 +10,9 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "api/captions.h"
 #include "api/clip_warning.h"
+#include "api/group_numbers.h"
 #include "api/handle.h"
 #include "api/options.h"
 #include "api/result.h"
@@ -406,7 +408,12 @@ static recto_status run_and_report(struct render *render, recto_error *error) {
   render->prepared = &render->own;
   status = run_stages(render, error);
   if (status == RECTO_OK) {
-    number_faces(render->drawing, &render->prepared->welded.scene);
+    const struct scene *scene = &render->prepared->welded.scene;
+    if (!captions_set(render->drawing, render->model, render->options) ||
+        (render->drawing->ids &&
+         !group_numbers_set(render->drawing, scene, render->sheet.topology)))
+      status = error_memory(error);
+    number_faces(render->drawing, scene);
     stats_add_seconds(render->report, "render_cpu_s", clock_cpu() - cpu);
     stats_add_seconds(render->report, "render_wall_s", clock_wall() - wall);
     warn_of_empty_page(render);

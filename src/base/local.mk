@@ -22,4 +22,5 @@ librecto_core_la_SOURCES += \
   %D%/target.c %D%/target.h \
   %D%/tolerance.h \
   %D%/union_find.h \
+  %D%/utf8.c %D%/utf8.h \
   %D%/word.c %D%/word.h

@@ -7,7 +7,7 @@
 
 #include "recto.h"
 
-enum { MESSAGE_SIZE = 256, MAX_OPTIONS = 80, OPTION_USES = 2, VIEWS_MAX = 32 };
+enum { MESSAGE_SIZE = 256, MAX_OPTIONS = 120, OPTION_USES = 2, VIEWS_MAX = 32 };
 
 struct arguments {
   recto_options options;
@@ -52,6 +52,7 @@ enum option_kind {
   OPTION_HEADING, /* no option: a line of --help */
   OPTION_FLAG,    /* a bool that becomes true */
   OPTION_TEXT,    /* a const char * */
+  OPTION_CAPTION, /* the same, which may be empty */
   OPTION_NUMBER,  /* a double in [least, most] */
   OPTION_LENGTH,  /* a double in [least, most], in mm */
   OPTION_INT,     /* an int in [least, most] */
@@ -90,6 +91,7 @@ enum option_use {
   USED_BY_SVG,
   USED_BY_SVG_AND_CHECK,
   USED_BY_SCREENS,
+  USED_BY_PAGES,
   USED_BY_TIGHT,
   USED_BY_PAGE,
   USED_BY_PNG,

@@ -128,6 +128,7 @@ static const struct {
     [USED_BY_SVG_AND_CHECK] = {"svg", BIT(SVG) | BIT(BY_CHECK)},
     [USED_BY_SCREENS] = {"svg, pdf, eps, ps and png",
                          BIT(SVG) | BIT(PNG) | BIT(VECTOR_PAGES)},
+    [USED_BY_PAGES] = {"svg, pdf, eps and ps", BIT(SVG) | BIT(VECTOR_PAGES)},
     [USED_BY_TIGHT] = {"svg, pdf, eps, ps and png",
                        BIT(SVG) | BIT(PNG) | BIT(VECTOR_PAGES) | BIT(BY_CHECK)},
     /* A drawing that is checked brings its page, unless that was cropped. */

@@ -168,6 +168,13 @@ static bool parse_hidden(struct arguments *arguments, const char *text) {
   return true;
 }
 
+static bool parse_background(struct arguments *arguments, const char *text) {
+  recto_output_options *output = &arguments->options.output;
+  bool none = strcmp(text, "none") == 0 || strcmp(text, "transparent") == 0;
+  output->background = none ? RECTO_BACKGROUND_NONE : RECTO_BACKGROUND_COLOUR;
+  return none || recto_colour_parse(text, &output->background_colour);
+}
+
 static bool parse_path(struct arguments *arguments, const char *text) {
   arguments->options.output.polyline = strcmp(text, "polyline") == 0;
   return arguments->options.output.polyline || strcmp(text, "path") == 0;
@@ -401,7 +408,21 @@ const struct option_entry option_table[] = {
      "SVG: note face, edge, group, class of every line",
      .offset = AT(options.ink.ids), .use = {USED_BY_SVG}},
 
+    {OPTION_TEXT, "id-prefix", 0, "TEXT", "a letter, then letters and digits",
+     "SVG: what all ids begin with", .offset = AT(options.output.id_prefix),
+     .use = {USED_BY_SVG}},
+
     HEADING("File"),
+    {OPTION_CAPTION, "title", 0, "TEXT", "a text",
+     "the drawing's title (the model's name)",
+     .offset = AT(options.output.title), .use = {USED_BY_PAGES}},
+    {OPTION_CAPTION, "desc", 0, "TEXT", "a text",
+     "SVG, PDF: its description (what is seen from where)",
+     .offset = AT(options.output.description), .use = {USED_BY_PAGES}},
+    {OPTION_PARSED, "background", 0, "COLOUR",
+     "none, transparent or a colour such as #c00 or navy",
+     "a colour, or none (none; PNG: white)", .parse = parse_background,
+     .words = "none transparent white", .use = {USED_BY_SCREENS}},
     {OPTION_INT, "precision", 0, "DIGITS", "a number from 0 to 9",
      "SVG: decimals of a millimetre (3)",
      .offset = AT(options.output.precision), .least = 0, .most = 9,

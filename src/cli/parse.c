@@ -81,6 +81,9 @@ static bool store_value(struct arguments *arguments,
   case OPTION_TEXT:
     *(const char **)to = text;
     return text == NULL || *text != '\0';
+  case OPTION_CAPTION:
+    *(const char **)to = text;
+    return true;
   case OPTION_NUMBER:
   case OPTION_LENGTH:
     if (!(entry->kind == OPTION_LENGTH ? value_length : value_number)(text,

@@ -21,6 +21,10 @@ void drawing_fini(struct drawing *drawing) {
   for (size_t i = 0; i < drawing->group_name.count; i++)
     mem_free(drawing->group_name.item[i]);
   ARRAY_FREE(&drawing->group_name);
+  ARRAY_FREE(&drawing->stroke_source);
+  ARRAY_FREE(&drawing->fill_source);
+  mem_free(drawing->title);
+  mem_free(drawing->description);
 }
 
 double drawing_width_mm(const struct drawing *drawing,

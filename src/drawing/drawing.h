@@ -52,6 +52,11 @@ struct drawing_layer {
   double width_mm;
 };
 
+/* The numbers of a face and of an edge within their group, or DRAWING_NONE. */
+struct drawing_source {
+  uint32_t face, edge;
+};
+
 /* What was counted while the drawing was made. */
 struct drawing_counts {
   size_t segments;       /* visible intervals of edges, and hidden ones */
@@ -85,8 +90,11 @@ struct drawing {
   ARRAY(struct drawing_point) dropped_point, gap_end;
   ARRAY(struct drawing_curve) curve; /* one a stroke; or none at all */
   ARRAY(struct drawing_point) control;
-  ARRAY(char *) group_name; /* of the scene, owned; written if ids */
-  bool ids;                 /* write faces, edges and groups of elements */
+  char *title, *description; /* owned; NULL: none */
+  ARRAY(char *) group_name;  /* of the scene, owned; written if ids */
+  /* With ids, of each stroke and of each fill. */
+  ARRAY(struct drawing_source) stroke_source, fill_source;
+  bool ids; /* write faces, edges and groups of elements */
   struct drawing_counts counts;
 };
 

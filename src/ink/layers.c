@@ -188,13 +188,23 @@ static bool arrange_layers(struct drawing *drawing) {
   return layer != NULL;
 }
 
+/* With ids the strokes of a group are consecutive within a layer. */
+static int compare_layers(const void *first, const void *second, void *user) {
+  const struct drawing_stroke *a = first, *b = second;
+  const struct drawing *drawing = user;
+  if (a->layer != b->layer)
+    return a->layer > b->layer ? 1 : -1;
+  return drawing->ids ? (a->group > b->group) - (a->group < b->group) : 0;
+}
+
 /* With several weights the strokes of a class are consecutive: first hidden
  * ones, then the lightest classes, so that heavy lines lie on top. */
 static int compare_strokes(const void *first, const void *second, void *user) {
   const struct drawing_stroke *a = first, *b = second;
   const struct drawing *drawing = user;
-  if (a->layer != b->layer)
-    return a->layer > b->layer ? 1 : -1;
+  int order = compare_layers(first, second, user);
+  if (order != 0)
+    return order;
   if (a->hidden != b->hidden)
     return a->hidden ? -1 : 1;
   double a_mm = drawing_width_mm(drawing, a),
@@ -204,10 +214,10 @@ static int compare_strokes(const void *first, const void *second, void *user) {
   return (a->edge_class < b->edge_class) - (a->edge_class > b->edge_class);
 }
 
-static int compare_layers(const void *first, const void *second, void *user) {
-  const struct drawing_stroke *a = first, *b = second;
+static int compare_fills(const void *first, const void *second, void *user) {
+  const struct drawing_fill *a = first, *b = second;
   (void)user;
-  return (a->layer > b->layer) - (a->layer < b->layer);
+  return (a->group > b->group) - (a->group < b->group);
 }
 
 static bool has_weights(const struct drawing *drawing) {
@@ -222,7 +232,11 @@ bool layers_pack(struct drawing *drawing) {
       (drawing->fill.count > 0 && !add_fill_layer(drawing)))
     return false;
   drawing->weighted = has_weights(drawing);
-  if (drawing->layer.count < 2 && !drawing->weighted)
+  if (drawing->ids &&
+      !sort_stable(drawing->fill.item, drawing->fill.count,
+                   sizeof *drawing->fill.item, compare_fills, NULL))
+    return false;
+  if (drawing->layer.count < 2 && !drawing->weighted && !drawing->ids)
     return true;
   return sort_stable(
       drawing->stroke.item, drawing->stroke.count, sizeof *drawing->stroke.item,

@@ -62,6 +62,7 @@ static const char *const alternatives[][MAX_ALTERNATIVES] = {
     {"", "", "--ambient=0", "--ambient=1 --fill-light=0", "--fill-light=1"},
     {"", "", "", "--dash=crease=chain,border=0.5pen:3pen",
      "--dash=silhouette=3,smooth=phantom --hidden=dashed --dash=hidden=2:1"},
+    {"", "", "", "--background=navy --ids --id-prefix=a", "--title= --desc="},
 };
 
 /* ---- Words --------------------------------------------------------------- */

@@ -1,0 +1,80 @@
+/* captions.c - the title and the description of a drawing. */
+#include "api/captions.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "base/sentence.h"
+
+/* The name of a file without its folder and extension. */
+static char *title_of(const char *path) {
+  const char *slash = strrchr(path, '/');
+  char *title = mem_copy_text(slash != NULL ? slash + 1 : path);
+  if (title == NULL)
+    return NULL;
+  char *point = strrchr(title, '.');
+  if (point != NULL && strcmp(point, ".gz") == 0) {
+    *point = '\0';
+    point = strrchr(title, '.');
+  }
+  if (point != NULL && point != title)
+    *point = '\0';
+  return title;
+}
+
+/* Adds numbers with at most three decimals. */
+static void add_numbers(struct sentence *words, const double *number,
+                        int count) {
+  for (int i = 0; i < count; i++) {
+    char text[NUMBER_TEXT_SIZE];
+    size_t length = fabs(number[i]) < 1e6
+                        ? number_format(text, number[i], 3)
+                        : number_format_exact(text, number[i]);
+    sentence_add(words, "%s%.*s", i > 0 ? "," : "", (int)length, text);
+  }
+}
+
+static void say_what(struct sentence *words, const recto_options *o) {
+  static const char *const fill[] = {"", "painted faces", "shaded faces",
+                                     "hatched faces"};
+  bool lines = o->ink.edges != RECTO_EDGES_NONE;
+  bool hidden = lines && o->ink.hidden != RECTO_HIDDEN_NONE;
+  bool faces = o->ink.fill != RECTO_FILL_NONE;
+  if (lines)
+    sentence_add(words, "visible %slines", hidden ? "and hidden " : "");
+  sentence_add(words, "%s%s", lines && faces ? " and " : "", fill[o->ink.fill]);
+  if (words->length > 0 && words->text[0] >= 'a' && words->text[0] <= 'z')
+    words->text[0] = (char)(words->text[0] - 'a' + 'A');
+}
+
+/* "Visible lines and shaded faces, seen from azimuth 45, elevation 35.264
+ * degrees." */
+static void describe(struct sentence *words, const recto_options *o) {
+  say_what(words, o);
+  if (words->length == 0)
+    sentence_add(words, "Nothing");
+  if (o->camera.kind == RECTO_CAMERA_EYE) {
+    sentence_add(words, ", seen from ");
+    add_numbers(words, o->camera.eye, 3);
+  } else {
+    sentence_add(words, ", seen from azimuth ");
+    add_numbers(words, &o->camera.azimuth_deg, 1);
+    sentence_add(words, ", elevation ");
+    add_numbers(words, &o->camera.elevation_deg, 1);
+    sentence_add(words, " degrees");
+  }
+  sentence_add(words, "%s.", o->camera.fov_deg > 0 ? ", in perspective" : "");
+}
+
+bool captions_set(struct drawing *drawing, const recto_scene *scene,
+                  const recto_options *options) {
+  struct sentence words = {.length = 0};
+  describe(&words, options);
+  drawing->description = mem_copy_text(words.text);
+  if (drawing->description == NULL || scene->path == NULL ||
+      strcmp(scene->path, "-") == 0)
+    return drawing->description != NULL;
+  drawing->title = title_of(scene->path);
+  return drawing->title != NULL;
+}

@@ -1,0 +1,85 @@
+/* group_numbers.c - numbers faces and edges within their groups. */
+#include "api/group_numbers.h"
+
+#include "base/poll.h"
+
+/* The numbers of all faces, mesh edges and polylines. */
+struct group_numbers {
+  uint32_t *face, *edge, *wire;
+  size_t faces, edges, wires;
+};
+
+/* Numbers the faces; `next` has a 0 for each group. */
+static void number_group_faces(struct group_numbers *numbers,
+                               const struct scene *scene, uint32_t *next) {
+  const uint32_t *group = scene->face_group.item;
+  for (uint32_t f = 0; f < numbers->faces && poll_at(f); f++) {
+    if (f > 0 && group[f] == group[f - 1])
+      next[group[f]] +=
+          scene_face_number(scene, f) - scene_face_number(scene, f - 1) - 1;
+    numbers->face[f] = next[group[f]]++;
+  }
+}
+
+static bool allocate_numbers(struct group_numbers *numbers,
+                             const struct scene *scene,
+                             const struct topology *topology) {
+  *numbers = (struct group_numbers){
+      .faces = scene_face_count(scene),
+      .edges = topology != NULL ? topology->edge.count : 0,
+      .wires = scene->wire_group.count};
+  numbers->face = mem_alloc(numbers->faces, sizeof *numbers->face);
+  numbers->edge = mem_alloc(numbers->edges, sizeof *numbers->edge);
+  numbers->wire = mem_alloc(numbers->wires, sizeof *numbers->wire);
+  return numbers->face != NULL && numbers->edge != NULL &&
+         numbers->wire != NULL;
+}
+
+static bool make_numbers(struct group_numbers *numbers,
+                         const struct scene *scene,
+                         const struct topology *topology) {
+  uint32_t *next = mem_calloc(scene->group.count, 3 * sizeof *next);
+  bool ok = allocate_numbers(numbers, scene, topology) && next != NULL;
+  uint32_t *next_edge = next + scene->group.count;
+  uint32_t *next_wire = next_edge + scene->group.count;
+  if (ok)
+    number_group_faces(numbers, scene, next);
+  for (uint32_t e = 0; ok && e < numbers->edges && poll_at(e); e++) {
+    uint32_t face = topology->edge.item[e].first;
+    numbers->edge[e] = next_edge[scene->face_group.item[face]]++;
+  }
+  for (uint32_t w = 0; ok && w < numbers->wires && poll_at(w); w++)
+    numbers->wire[w] = next_wire[scene->wire_group.item[w]]++;
+  mem_free(next);
+  return ok;
+}
+
+static uint32_t number_at(const uint32_t *number, size_t count, uint32_t at) {
+  return at < count ? number[at] : DRAWING_NONE;
+}
+
+bool group_numbers_set(struct drawing *drawing, const struct scene *scene,
+                       const struct topology *topology) {
+  struct group_numbers numbers;
+  bool ok = make_numbers(&numbers, scene, topology) &&
+            ARRAY_RESERVE(&drawing->stroke_source, drawing->stroke.count) &&
+            ARRAY_RESERVE(&drawing->fill_source, drawing->fill.count);
+  for (size_t i = 0; ok && i < drawing->stroke.count; i++) {
+    const struct drawing_stroke *stroke = &drawing->stroke.item[i];
+    bool is_wire = stroke->edge_class == RECTO_EDGE_WIRE;
+    struct drawing_source source = {
+        number_at(numbers.face, numbers.faces, stroke->face),
+        is_wire ? number_at(numbers.wire, numbers.wires, stroke->edge)
+                : number_at(numbers.edge, numbers.edges, stroke->edge)};
+    drawing->stroke_source.item[drawing->stroke_source.count++] = source;
+  }
+  for (size_t i = 0; ok && i < drawing->fill.count; i++)
+    drawing->fill_source.item[drawing->fill_source.count++] =
+        (struct drawing_source){
+            number_at(numbers.face, numbers.faces, drawing->fill.item[i].face),
+            DRAWING_NONE};
+  mem_free(numbers.face);
+  mem_free(numbers.edge);
+  mem_free(numbers.wire);
+  return ok;
+}

@@ -1,0 +1,18 @@
+/* group_numbers.h - numbers faces and edges within their groups. */
+#ifndef API_GROUP_NUMBERS_H
+#define API_GROUP_NUMBERS_H
+
+#include "drawing/drawing.h"
+#include "scene/topology.h"
+
+/* Sets the sources of all strokes and fills, whose faces are those of the
+ * scene: the number of the face, of the edge or of the polyline among those of its
+ * group, in their order.  So a group has the same numbers whatever is drawn
+ * beside it.  Faces that were skipped between two of a group are counted.
+ * topology  NULL: strokes have no edges but polylines
+ * Returns false when memory ran out. */
+USE_RESULT bool group_numbers_set(struct drawing *drawing,
+                                  const struct scene *scene,
+                                  const struct topology *topology);
+
+#endif
