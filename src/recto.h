@@ -1,9 +1,9 @@
 /* recto.h - exact visible lines and faces of 3D meshes, on paper.
  *
- * Units    Scene coordinates are the model's own unit, taken as millimetres
- *          where a true scale is requested.  Page coordinates are
- *          millimetres, x right and y up from the lower left corner.
- *          Angles are degrees.
+ * Units    Scene coordinates are the model's own unit; where a true scale is
+ *          requested, millimetres unless files or options say otherwise.  Page
+ *          coordinates are millimetres, x right and y up from the lower left
+ *          corner.  Angles are degrees.
  * Errors   Every fallible call returns a recto_status and, when given one,
  *          fills a recto_error with the code, the file and line at fault and
  *          a sentence.  A failed call leaves its outputs NULL.  Every call that
@@ -161,7 +161,7 @@ typedef enum recto_background {
 typedef enum recto_fit {
   RECTO_FIT_PAGE = 0, /* the drawing fills the page inside the margins */
   RECTO_FIT_NONE,     /* --fov spans the printable height, centred */
-  RECTO_FIT_SCALE,    /* true scale: `scale` page mm for a scene unit */
+  RECTO_FIT_SCALE,    /* true scale: `scale` page mm for a mm of the scene */
   RECTO_FIT_SPHERE    /* the sphere about the target that encloses the scene
                          fills the page inside the margins: one scale for all
                          directions */
@@ -356,7 +356,10 @@ typedef struct recto_camera_options {
   double section; /* scene units in front of the eye, or
                      behind the scene's nearest point for
                      a direction: what is nearer is cut */
-  uint64_t reserved[8];
+  double unit_mm; /* with RECTO_FIT_SCALE: a scene unit is so many mm, of which
+                     `scale` mm are drawn for one; 0: what the files say (glTF:
+                     1000; 3MF: its unit), where all say the same, else 1 */
+  uint64_t reserved[7];
 } recto_camera_options;
 
 typedef struct recto_page_options {

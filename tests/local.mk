@@ -78,6 +78,7 @@ dist_check_SCRIPTS += \
   %D%/test_captions.sh \
   %D%/test_cli_curves.sh \
   %D%/test_cli_dash.sh \
+  %D%/test_cli_units.sh \
   %D%/test_cli_descriptors.sh \
   %D%/test_cli_frames.sh \
   %D%/test_cli_margins.sh \
@@ -187,7 +188,9 @@ unit_tests += %D%/test_fuzz_readers
 %C%_test_fuzz_readers_SOURCES = %D%/test_fuzz_readers.c \
   %D%/reading.c %D%/reading.h
 if HAVE_ASSIMP
-unit_tests += %D%/test_assimp %D%/test_importer
+unit_tests += %D%/test_assimp %D%/test_importer %D%/test_unit_3mf
+%C%_test_unit_3mf_SOURCES = %D%/test_unit_3mf.c src/import/unit_3mf.c \
+  src/import/unit_3mf.h
 endif
 %C%_test_assimp_SOURCES = %D%/test_assimp.c %D%/reading.c %D%/reading.h \
   %D%/temporary.c %D%/temporary.h

@@ -263,14 +263,11 @@ class _Setter:
         self.options.camera.scale = value
 
     def unit(self, value: Union[float, str]) -> None:
-        """A number is the output's; a word the model's, for the scale, which
-        is set before."""
-        if not isinstance(value, str):
-            self.options.output.unit_mm = value
-        elif self.options.camera.fit == lib.RECTO_FIT_SCALE:
-            self.options.camera.scale *= _word("unit", value, _UNITS)
+        """A number is the output's; a word the model's, for the scale."""
+        if isinstance(value, str):
+            self.options.camera.unit_mm = _word("unit", value, _UNITS)
         else:
-            _word("unit", value, _UNITS)
+            self.options.output.unit_mm = value
 
     def up(self, value: Union[str, Vector]) -> None:
         if isinstance(value, str):

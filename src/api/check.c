@@ -121,6 +121,8 @@ recto_status recto_scene_check_sized(const recto_scene *scene, const char *path,
   if (scene == NULL || path == NULL)
     return error_null(error, scene == NULL ? "the scene" : "the path");
   recto_status status = options_copy_valid(&checked, options, error);
+  if (status == RECTO_OK)
+    status = options_settle_scale(&checked, &scene->scene, error);
   if (status != RECTO_OK)
     return status;
   if (checked.output.unit_mm == 0) /* text formats round to their decimals */

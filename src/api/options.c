@@ -177,6 +177,7 @@ static recto_status check_options(const recto_options *o, recto_error *error) {
       {"the field of view", o->camera.fov_deg, 0, 179},
       {"the fit", o->camera.fit, 0, RECTO_FIT_SPHERE},
       {"the scale", o->camera.scale, small, huge},
+      {"the size of a unit", o->camera.unit_mm, 0, huge},
       {"the near distance", o->camera.near_distance, 0, huge},
       {"the section", o->camera.section, -huge, huge},
       {"the page width", o->page.width_mm, RECTO_FINEST_MM, huge},
@@ -260,6 +261,19 @@ recto_status options_copy(recto_options *own, const recto_options *options,
                               IS_UNUSED(own->ink) && IS_UNUSED(own->output)))
     status = sized_reject(error);
   return status;
+}
+
+recto_status options_settle_scale(recto_options *own, const struct scene *scene,
+                                  recto_error *error) {
+  double unit_mm = own->camera.unit_mm > 0 ? own->camera.unit_mm
+                   : scene->unit_mm > 0    ? scene->unit_mm
+                                           : 1;
+  const struct option_range range = {"the scale", own->camera.scale * unit_mm,
+                                     DBL_MIN, DBL_MAX};
+  if (own->camera.fit != RECTO_FIT_SCALE)
+    return RECTO_OK;
+  own->camera.scale = range.value;
+  return check_ranges(&range, 1, error);
 }
 
 recto_status options_copy_valid(recto_options *own,

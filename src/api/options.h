@@ -3,6 +3,7 @@
 #define API_OPTIONS_H
 
 #include "base/status.h"
+#include "scene/scene.h"
 
 /* Copies the options, or the defaults where they are NULL.
  * Errors  RECTO_ERROR_ARGUMENT: they were not initialised;
@@ -16,5 +17,12 @@ USE_RESULT recto_status options_copy(recto_options *own,
 USE_RESULT recto_status options_copy_valid(recto_options *own,
                                            const recto_options *options,
                                            recto_error *error);
+
+/* Multiplies the scale by the size of the scene's unit, which the options or
+ * its files say, so that it is page mm for a scene unit.
+ * Errors  RECTO_ERROR_ARGUMENT: it leaves the range of numbers */
+USE_RESULT recto_status options_settle_scale(recto_options *own,
+                                             const struct scene *scene,
+                                             recto_error *error);
 
 #endif

@@ -457,6 +457,8 @@ recto_status recto_scene_render(const recto_scene *scene,
   if (scene == NULL)
     return error_null(error, "the scene");
   recto_status status = options_copy_valid(&own, options, error);
+  if (status == RECTO_OK)
+    status = options_settle_scale(&own, &scene->scene, error);
   if (status != RECTO_OK)
     return status;
   recto_drawing *made = mem_calloc(1, sizeof *made);

@@ -26,8 +26,7 @@ struct arguments {
   unsigned completion; /* whose to print: an enum completion_shell */
 
   /* Several drawings in one run, frames: see frames.h. */
-  double unit_mm; /* of the model, for --scale */
-  int turntable;  /* how many directions about the up axis; 0: one */
+  int turntable; /* how many directions about the up axis; 0: one */
   struct named_view {
     const char *name;
     double azimuth_deg, elevation_deg;

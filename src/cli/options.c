@@ -109,7 +109,7 @@ static bool parse_unit(struct arguments *arguments, const char *text) {
               {"m", 1000},   {"in", 25.4}, {"ft", 304.8}};
   for (size_t i = 0; i < sizeof unit / sizeof unit[0]; i++)
     if (strcmp(text, unit[i].word) == 0) {
-      arguments->unit_mm = unit[i].mm;
+      arguments->options.camera.unit_mm = unit[i].mm;
       return true;
     }
   return false;
@@ -284,7 +284,7 @@ const struct option_entry option_table[] = {
      "A mm of page for B mm of the model, or of --unit", .parse = parse_scale,
      .use = {USED_BY_SCALE}},
     {OPTION_PARSED, "unit", 0, "UNIT", "um, mm, cm, m, in or ft",
-     "what a model unit is, for --scale (mm)", .parse = parse_unit,
+     "a model unit, for --scale (glTF: m, 3MF; else mm)", .parse = parse_unit,
      .words = "um mm cm m in ft", .use = {USED_BY_SCALE}},
     {OPTION_NUMBER, "near", 0, "D", "a distance above 0",
      "draw nothing nearer than this, in model units",

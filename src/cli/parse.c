@@ -179,8 +179,6 @@ static bool settle_camera(struct arguments *a, char message[MESSAGE_SIZE]) {
     snprintf(message, MESSAGE_SIZE, "%s", wrong);
     return false;
   }
-  if (a->options.camera.fit == RECTO_FIT_SCALE)
-    a->options.camera.scale *= a->unit_mm;
   if (a->eye_given) {
     a->options.camera.kind = RECTO_CAMERA_EYE;
     if (!a->ortho && !a->fov_given)
@@ -264,7 +262,6 @@ bool arguments_parse(struct arguments *arguments, int argc, char **argv,
   *arguments = (struct arguments){0};
   recto_options_init(&arguments->options);
   arguments->options.page.may_turn = true;
-  arguments->unit_mm = 1;
   opterr = 0;
   int code;
   while ((code = getopt_long(argc, argv, letters, longs, NULL)) != -1) {

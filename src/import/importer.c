@@ -21,6 +21,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/resource.h>
 #include <unistd.h>
 #ifdef __linux__
@@ -31,6 +32,7 @@
 #include "base/child.h"
 #include "base/input.h"
 #include "import/opened_files.h"
+#include "import/unit_3mf.h"
 #include "scene/import_format.h"
 
 /* From a node's own coordinates to the scene's: rows of a 3 x 4 matrix. */
@@ -57,9 +59,10 @@ static void write_bytes(FILE *to, const void *bytes, size_t count) {
     _exit(1);
 }
 
-/* Ends the process, and so frees what Assimp holds. */
-static _Noreturn void finish(FILE *to) {
-  struct import_record record = {.kind = IMPORT_DONE};
+/* Ends the process, and so frees what Assimp holds.
+ * unit_mm  of the model's unit; 0: unknown */
+static _Noreturn void finish(FILE *to, double unit_mm) {
+  struct import_record record = {.kind = IMPORT_DONE, .unit_mm = unit_mm};
   write_bytes(to, &record, sizeof record);
   _exit(fflush(to) != 0);
 }
@@ -70,7 +73,7 @@ static _Noreturn void exit_with(FILE *to, enum import_why why,
       .kind = IMPORT_FAILED, .why = why, .name_length = strlen(text)};
   write_bytes(to, &record, sizeof record);
   write_bytes(to, text, strlen(text));
-  finish(to);
+  finish(to, 0);
 }
 
 /* ---- Meshes -------------------------------------------------------------- */
@@ -225,16 +228,24 @@ static const struct aiScene *import_path(FILE *to, const char *path) {
 }
 
 static const struct aiScene *import_file(FILE *to, const char *format,
-                                         const char *path) {
+                                         const char *path, double *unit_mm) {
   struct input input;
-  if (path != NULL)
+  bool is_3mf = strcasecmp(format, "3mf") == 0;
+  bool is_gltf =
+      strcasecmp(format, "gltf") == 0 || strcasecmp(format, "glb") == 0;
+  *unit_mm = is_gltf ? 1000 : 0;
+  if (path != NULL && !is_3mf)
     return import_path(to, path);
-  recto_status status = input_load(&input, "-", NULL);
+  recto_status status = input_load(&input, path != NULL ? path : "-", NULL);
   if (status == RECTO_ERROR_MEMORY)
     exit_with(to, IMPORT_NO_MEMORY, "");
   if (status != RECTO_OK || input.count > UINT32_MAX)
     exit_with(to, IMPORT_BROKEN, "too large");
-  return aiImportFileFromMemory(input.bytes, (unsigned)input.count, 0, format);
+  if (is_3mf)
+    *unit_mm = unit_3mf_mm(input.bytes, input.count);
+  return path != NULL ? import_path(to, path)
+                      : aiImportFileFromMemory(
+                            input.bytes, (unsigned)input.count, 0, format);
 }
 
 static bool is_supported(const char *format) {
@@ -256,7 +267,9 @@ int main(int argc, char **argv) {
   write_bytes(import.to, IMPORT_MAGIC, sizeof IMPORT_MAGIC - 1);
   if (!is_supported(argv[3]))
     exit_with(import.to, IMPORT_UNKNOWN_FORMAT, "");
-  import.from = import_file(import.to, argv[3], argc == 5 ? argv[4] : NULL);
+  double unit_mm;
+  import.from =
+      import_file(import.to, argv[3], argc == 5 ? argv[4] : NULL, &unit_mm);
   const char *text = import.from != NULL ? "nothing in it" : aiGetErrorString();
   if (strstr(text, "bad_alloc") != NULL)
     exit_with(import.to, IMPORT_NO_MEMORY, "");
@@ -265,5 +278,5 @@ int main(int argc, char **argv) {
   if (import.from == NULL || import.from->mRootNode == NULL)
     exit_with(import.to, IMPORT_BROKEN, text);
   put_nodes(&import);
-  finish(import.to);
+  finish(import.to, unit_mm);
 }

@@ -28,6 +28,7 @@ struct import_record {
   uint32_t why;        /* enum import_why */
   uint32_t colour;     /* 0xRRGGBB */
   uint32_t has_colour; /* 0 or 1 */
+  double unit_mm;      /* of IMPORT_DONE: of the model's unit; 0: unknown */
   uint64_t name_length, points, elements, corners;
 };
 

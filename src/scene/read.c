@@ -96,11 +96,13 @@ static recto_status read_input(struct scene *scene, const struct reader *reader,
                                recto_error *error) {
   struct scene_snapshot before;
   bool first = scene->point.count == 0;
+  double unit_mm = scene->unit_mm;
   if (diagnostics != NULL) {
     diagnostics->bytes = input->bytes;
     diagnostics->byte_count = input->count;
   }
   scene_snapshot(scene, &before);
+  scene->unit_mm = 0; /* unless the reader knows better */
   recto_status status =
       scene_note_file(scene, input) ? RECTO_OK : error_memory(error);
   if (status == RECTO_OK && input->count == 0)
@@ -112,10 +114,13 @@ static recto_status read_input(struct scene *scene, const struct reader *reader,
     status = scene_leave_precision(scene, before.points, error);
   if (status != RECTO_OK) {
     scene_restore(scene, &before);
+    scene->unit_mm = unit_mm;
     return status;
   }
   if (first)
     memcpy(scene->up, reader->up, sizeof scene->up);
+  else if (scene->unit_mm != unit_mm)
+    scene->unit_mm = 0;
   diagnostics_finish(diagnostics);
   return RECTO_OK;
 }

@@ -53,6 +53,8 @@ struct scene {
   uint32_t *group_slot;            /* finds groups by name: see scene.c */
   size_t group_slot_count;
   double up[3];       /* what the format means by up */
+  double unit_mm;     /* of a unit, as all files say that were read; 0: one does
+                         not, or they differ */
   bool needs_colours; /* readers look for colours of groups in other files */
   ARRAY(struct file_identity) file; /* what it was read from */
 };

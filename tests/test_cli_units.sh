@@ -1,0 +1,92 @@
+#!/bin/bash
+# test_cli_units.sh - the units that model files state are used for --scale.
+. "$(dirname "$0")/tap.sh"
+. "$(dirname "$0")/cli.sh"
+
+# The same triangle, 1 by 2 units, as glTF, as 3MF and as OBJ.
+cat >a.gltf <<'END'
+{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
+"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",
+"min":[0,0,0],"max":[1,2,0]}],"bufferViews":[{"buffer":0,"byteLength":36}],
+"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAEAAAAAA"}]}
+END
+printf 'v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n' >a.obj
+if ! "$recto" a.gltf --view front -o a.svg 2>err; then
+  echo "1..0 # SKIP built without Assimp, or without its glTF"
+  exit 0
+fi
+
+box() { # FILE - width and height of what is drawn
+  grep -o ' d="[^"]*"' "$1" | tr -c '0-9.-' ' ' | awk '
+    { for (i = 1; i < NF; i += 2) {
+        if (n++ == 0) { a = c = $i; b = d = $(i + 1) }
+        if ($i < a) a = $i; if ($i > c) c = $i
+        if ($(i + 1) < b) b = $(i + 1); if ($(i + 1) > d) d = $(i + 1) } }
+    END { printf "%g %g\n", c - a, d - b }'
+}
+is_drawn() { # "WIDTH HEIGHT" ARGUMENT...
+  local wanted=$1
+  shift
+  run 0 "$@" --view front -o a.svg && test "$(box a.svg)" = "$wanted" &&
+    run 0 "$@" --view front --check a.svg && return 0
+  say "$(box a.svg), not $wanted" && false
+}
+claim "glTF is in metres" is_drawn "10 20" a.gltf --scale 1:100
+claim "unless said otherwise" is_drawn "10 20" a.gltf --scale 1:1 --unit cm
+claim "OBJ is in millimetres" is_drawn "10 20" a.obj --scale 10
+claim "and what is mixed too" is_drawn "10 20" a.obj a.gltf --scale 10
+claim "and two of one unit are of that" is_drawn "10 20" a.gltf a.gltf --scale 1:100
+is_as_large() {
+  run 0 a.obj --view front -o b.svg && run 0 a.gltf --view front -o a.svg &&
+    test "$(box a.svg)" = "$(box b.svg)"
+}
+claim "a page is filled whatever the unit" is_as_large
+claim "a scale beyond all numbers is refused" \
+  refuses "the scale must be" a.gltf -o no.svg --scale 1e307
+
+if command -v python3 >/dev/null; then
+  # archive FILE UNIT METHOD
+  archive() {
+    python3 - "$@" <<'END'
+import sys
+import zipfile
+path, unit, method = sys.argv[1:]
+model = f"""<?xml version="1.0" encoding="UTF-8"?>
+<model {unit} xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
+<resources><object id="1" type="model"><mesh><vertices>
+<vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/><vertex x="0" y="0" z="2"/>
+</vertices><triangles><triangle v1="0" v2="1" v3="2"/></triangles></mesh>
+</object></resources><build><item objectid="1"/></build></model>"""
+ns = "http://schemas.openxmlformats.org/package/2006/"
+with zipfile.ZipFile(path, "w", getattr(zipfile, "ZIP_" + method)) as z:
+    z.writestr("[Content_Types].xml", f'<Types xmlns="{ns}content-types">'
+               '<Default Extension="rels" ContentType="application/vnd.'
+               'openxmlformats-package.relationships+xml"/><Default '
+               'Extension="model" ContentType="application/vnd.ms-package.'
+               '3dmanufacturing-3dmodel+xml"/></Types>')
+    z.writestr("_rels/.rels", f'<Relationships xmlns="{ns}relationships">'
+               '<Relationship Target="/3D/3dmodel.model" Id="rel0" Type="http:'
+               '//schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>'
+               "</Relationships>")
+    z.writestr("3D/3dmodel.model", model)
+END
+  }
+  archive inch.3mf 'unit="inch"' DEFLATED && archive foot.3mf 'unit="foot"' STORED &&
+    archive none.3mf '' DEFLATED
+  if "$recto" none.3mf --view front -o a.svg 2>err; then
+    claim "3MF says its unit" is_drawn "25.4 50.8" inch.3mf --scale 1
+    claim "also where it is not compressed" is_drawn "30.48 60.96" foot.3mf --scale 0.1
+    claim "without a unit it is in millimetres" is_drawn "10 20" none.3mf --scale 10
+    from_a_pipe() {
+      "$recto" --from 3mf - --view front --scale 1 -o a.svg <inch.3mf &&
+        test "$(box a.svg)" = "25.4 50.8"
+    }
+    claim "also from a pipe" from_a_pipe
+  else
+    skip "3MF says its unit" "this Assimp reads no 3MF"
+  fi
+else
+  skip "3MF says its unit" "no python3 here"
+fi
+finish
