@@ -83,7 +83,8 @@ static void copy_name(char *to, const char *name) {
   *to = '\0';
 }
 
-static int compare_ids(const void *first, const void *second, void *user) {
+static int compare_group_ids(const void *first, const void *second,
+                             void *user) {
   char *const *id = user;
   uint32_t a = *(const uint32_t *)first, b = *(const uint32_t *)second;
   return strcmp(id[a], id[b]);
@@ -97,7 +98,7 @@ static bool tell_apart(char **id, size_t count) {
     if (id[i] != NULL)
       order[named++] = i;
   bool ok = order != NULL &&
-            sort_stable(order, named, sizeof *order, compare_ids, id);
+            sort_stable(order, named, sizeof *order, compare_group_ids, id);
   for (size_t i = 1, first = 0; ok && i < named; i++) {
     char *at = id[order[i]];
     if (strcmp(at, id[order[first]]) != 0) {

@@ -269,7 +269,7 @@ static void close_class(const struct svg *svg, struct svg_nesting *open) {
   open->name = NULL;
 }
 
-static void close_all(const struct svg *svg, struct svg_nesting *open) {
+static void close_nesting(const struct svg *svg, struct svg_nesting *open) {
   close_class(svg, open);
   if (open->group != DRAWING_NONE)
     stream_text(svg->out, "</g>\n");
@@ -306,7 +306,7 @@ static void open_group(const struct svg *svg, struct svg_nesting *open,
     group = DRAWING_NONE;
   if (open->group == group)
     return;
-  close_all(svg, open);
+  close_nesting(svg, open);
   open->group = group;
   if (!named)
     return;
@@ -361,7 +361,7 @@ static bool write_contents(struct svg *svg, uint32_t index) {
                drawing_width_mm(drawing, stroke));
     ok = write_stroke(svg, (uint32_t)i);
   }
-  close_all(svg, &open);
+  close_nesting(svg, &open);
   return ok;
 }
 

@@ -50,7 +50,7 @@ claim "a value that the library knows" offers 'recto --view ri' right
 claim "the next item of a list" offers 'recto --edges crease,sil' \
   crease,silhouette
 claim "nothing for a number" offers 'recto --azimuth '
-claim "a flag has no value" offers 'recto --ids --id' --ids
+claim "a flag has no value" offers 'recto --ids --ids' --ids
 claim "a value that may be left out is no word of its own" \
   offers 'recto --stats --qu' --quiet
 claim "files for a file" offers 'recto -o ' files

@@ -22,7 +22,7 @@ count() {
   xmllint --xpath "count($2)" "$1.svg"
 }
 
-at_top='/*[local-name()="svg"]/*'
+at_top='/*[local-name()="svg"]/*[not(local-name()="title" or local-name()="desc")]'
 layer='[local-name()="g"][@*[name()="inkscape:groupmode"]="layer"]'
 layer+='[@*[name()="inkscape:label"]]'
 
@@ -110,7 +110,8 @@ claim "pens by class" draw classes castle \
   --pen-for crease=3,silhouette=2,hidden=4 --hidden layer \
   --pen-width 2=0.8mm --pen-colour 3=#c00
 claim "painted faces" draw painted gears --fill paint --seam 0.1
-claim "shaded faces, no line" draw shaded castle --fill shade --seam 0.3 -e none
+claim "shaded faces, no line" draw shaded castle --fill shade --seam 0.3 -e none \
+  --fill-light 0
 names="lines hidden pens classes painted shaded"
 
 if command -v xmllint >/dev/null; then

@@ -35,7 +35,7 @@ static void add_numbers(struct sentence *words, const double *number,
   }
 }
 
-static void say_what(struct sentence *words, const recto_options *o) {
+static void say_contents(struct sentence *words, const recto_options *o) {
   static const char *const fill[] = {"", "painted faces", "shaded faces",
                                      "hatched faces"};
   bool lines = o->ink.edges != RECTO_EDGES_NONE;
@@ -50,8 +50,8 @@ static void say_what(struct sentence *words, const recto_options *o) {
 
 /* "Visible lines and shaded faces, seen from azimuth 45, elevation 35.264
  * degrees." */
-static void describe(struct sentence *words, const recto_options *o) {
-  say_what(words, o);
+static void describe_view(struct sentence *words, const recto_options *o) {
+  say_contents(words, o);
   if (words->length == 0)
     sentence_add(words, "Nothing");
   if (o->camera.kind == RECTO_CAMERA_EYE) {
@@ -70,7 +70,7 @@ static void describe(struct sentence *words, const recto_options *o) {
 bool captions_set(struct drawing *drawing, const recto_scene *scene,
                   const recto_options *options) {
   struct sentence words = {.length = 0};
-  describe(&words, options);
+  describe_view(&words, options);
   drawing->description = mem_copy_text(words.text);
   if (drawing->description == NULL || scene->path == NULL ||
       strcmp(scene->path, "-") == 0)

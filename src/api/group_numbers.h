@@ -6,8 +6,8 @@
 #include "scene/topology.h"
 
 /* Sets the sources of all strokes and fills, whose faces are those of the
- * scene: the number of the face, of the edge or of the polyline among those of its
- * group, in their order.  So a group has the same numbers whatever is drawn
+ * scene: the number of the face, of the edge or of the polyline among those of
+ * its group, in their order.  So a group has the same numbers whatever is drawn
  * beside it.  Faces that were skipped between two of a group are counted.
  * topology  NULL: strokes have no edges but polylines
  * Returns false when memory ran out. */

@@ -239,8 +239,7 @@ static struct drawing_point pen_after(const struct drawing *drawing,
 static bool may_mix(const struct drawing *drawing,
                     const struct drawing_stroke *a,
                     const struct drawing_stroke *b) {
-  return a->layer == b->layer &&
-         (!drawing->ids || a->group == b->group) &&
+  return a->layer == b->layer && (!drawing->ids || a->group == b->group) &&
          (!drawing->weighted ||
           (a->hidden == b->hidden && a->edge_class == b->edge_class));
 }
