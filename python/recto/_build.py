@@ -70,6 +70,8 @@ def declare(header):
     for name, value in constants:
         if "." in value:
             text += f"static const double {name};\n"
+        elif value.isdecimal():  # it may be the length of an array
+            text += f"#define {name} {value}\n"
         else:
             text += f"#define {name} ...\n"
     return text
