@@ -98,7 +98,8 @@ stays() { # ARGUMENT...
     run 0 one.obj "${fixed[@]}" -o one.svg "$@" &&
     elements two.svg near >two.part && elements one.svg near >one.part &&
     test "$(grep -c '<path' one.part)" -ge 7 && diff one.part two.part >out &&
-    grep -q 'data-face="0"' two.part && return 0
+    grep -q 'data-face="0"' two.part &&
+    { test "${2-}" = hatch || grep -q 'data-edge="[0-9]"' two.part; } && return 0
   say "$(head -n 4 out)" && false
 }
 claim "a part in front changes no number of another" stays

@@ -92,7 +92,7 @@ static bool draws_smooth_contours(const struct render *render) {
 /* Whether the scene's edges are used after the sheet was laid out. */
 static bool uses_topology(const struct render *render) {
   return has_fills(render) || draws_smooth_contours(render) ||
-         render->options->results != 0;
+         render->options->ink.ids || render->options->results != 0;
 }
 
 static bool keeps_invisibility(const struct render *render) {
