@@ -16,7 +16,7 @@
 
 #include "scene/scene.h"
 
-#define IMPORT_MAGIC "recto i2"
+#define IMPORT_MAGIC "recto i3"
 
 enum import_kind { IMPORT_MESH = 1, IMPORT_FILES, IMPORT_FAILED, IMPORT_DONE };
 
