@@ -56,12 +56,12 @@ features=silhouette,border,crease,intersection
 sides=silhouette,border,crease,group,smooth
 
 measure_recto() {
-  local classes
+  local classes what
   for classes in "$features" "$sides"; do
     timed recto "$recto" page.obj "${page[@]}" --threads 1 --exact -e "$classes" \
       --path polyline -o "recto-$classes.svg"
-    row "recto, ${classes//$features/features}" "recto-$classes.svg" \
-      "$classes" "${page[@]}"
+    test "$classes" = "$features" && what=features || what="all sides"
+    row "recto, $what" "recto-$classes.svg" "$classes" "${page[@]}"
   done
 }
 
