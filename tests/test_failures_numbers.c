@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "base/sanitizer.h"
 #include "tests/comma_locale.h"
 #include "tests/judged.h"
 
@@ -59,7 +60,7 @@ static void memory_grows_with_the_faces_and_no_faster(void **state) {
       {"soup", fill_soup, 1000, 2000, 1000},
   };
   (void)state;
-#if defined __SANITIZE_ADDRESS__
+#if SANITIZER_OF_ADDRESSES
   skip(); /* its own bookkeeping is what would be measured */
 #endif
   if (getenv("RECTO_VALGRIND") != NULL)

@@ -16,6 +16,7 @@
 
 #include <cmocka.h>
 
+#include "base/sanitizer.h"
 #include "recto.h"
 #include "tests/temporary.h"
 
@@ -29,8 +30,7 @@ static atomic_ulong counted;   /* allocations since the start of the job */
 static atomic_ulong to_fail;   /* the one that fails; 0: none */
 static atomic_bool from_there; /* and all after it */
 
-#if defined __GLIBC__ && !defined __SANITIZE_ADDRESS__ &&                      \
-    !defined __SANITIZE_THREAD__
+#if defined __GLIBC__ && !SANITIZER_OF_ADDRESSES && !SANITIZER_OF_THREADS
 #define CAN_FAIL 1
 
 static atomic_long held; /* blocks */

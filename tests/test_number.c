@@ -13,12 +13,13 @@
 #include <cmocka.h>
 
 #include "base/number.h"
+#include "base/sanitizer.h"
 #include "tests/comma_locale.h"
 #include "tests/scenes/random.h"
 
 /* As many samples as the tools that slow us down leave time for. */
 static int samples(int count) {
-#ifdef __SANITIZE_ADDRESS__
+#if SANITIZER_OF_ADDRESSES
   count /= 5;
 #endif
   return getenv("RECTO_VALGRIND") ? count / 100 : count;

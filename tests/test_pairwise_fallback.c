@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "base/sanitizer.h"
 #include "tests/polled.h"
 #include "tests/sheet_fixture.h"
 #include "tests/scenes/pipeline.h"
@@ -179,7 +180,7 @@ static size_t peak_of(const struct solver *solver, unsigned n) {
  * places than it may, and newell did not end. */
 static void two_hundred_piercing_triangles_take_little_memory(void **state) {
   (void)state;
-#ifdef __SANITIZE_ADDRESS__
+#if SANITIZER_OF_ADDRESSES
   skip(); /* what is freed is kept, and counts */
 #else
   for (const struct solver *const *s = bounded; *s != NULL; s++)

@@ -15,6 +15,7 @@ librecto_core_la_SOURCES += \
   %D%/path.c %D%/path.h \
   %D%/poll.c %D%/poll.h \
   %D%/report.c %D%/report.h \
+  %D%/sanitizer.h \
   %D%/sentence.c %D%/sentence.h \
   %D%/sort.c %D%/sort.h \
   %D%/status.c %D%/status.h \

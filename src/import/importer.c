@@ -31,6 +31,7 @@
 
 #include "base/child.h"
 #include "base/input.h"
+#include "base/sanitizer.h"
 #include "import/opened_files.h"
 #include "import/unit_3mf.h"
 #include "scene/import_format.h"
@@ -200,7 +201,7 @@ static void limit_self(long seconds, long mb) {
 #endif
   set_limit(RLIMIT_CORE, 0);
   set_limit(RLIMIT_CPU, (rlim_t)seconds + 1);
-#ifndef __SANITIZE_ADDRESS__ /* it reserves more addresses than that */
+#if !SANITIZER_OF_ADDRESSES /* it reserves more addresses than that */
   set_limit(RLIMIT_AS, (rlim_t)mb << 20);
 #endif
 }
