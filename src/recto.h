@@ -112,13 +112,15 @@ typedef enum recto_edge_class {
   RECTO_EDGE_GROUP = 1 << 3,        /* two groups meet */
   RECTO_EDGE_INTERSECTION = 1 << 4, /* two faces pierce each other */
   RECTO_EDGE_WIRE = 1 << 5,         /* the user's own polyline */
-  RECTO_EDGE_SMOOTH = 1 << 6        /* the rest */
+  RECTO_EDGE_SMOOTH = 1 << 6,       /* the rest */
+  RECTO_EDGE_SECTION = 1 << 7       /* where recto_mesh_options.cut cuts a
+                                       surface */
 } recto_edge_class;
 
 #define RECTO_EDGES_NONE 0u
-#define RECTO_EDGES_DEFAULT 0x3fu
-#define RECTO_EDGES_ALL 0x7fu
-#define RECTO_EDGE_CLASS_COUNT 7
+#define RECTO_EDGES_DEFAULT 0xbfu
+#define RECTO_EDGES_ALL 0xffu
+#define RECTO_EDGE_CLASS_COUNT 8
 
 /* The word for one class, such as "crease", as --edges takes it.  Never NULL,
  * also for masks and bad values. */
@@ -319,7 +321,17 @@ typedef struct recto_solver_options {
   uint64_t reserved[8];
 } recto_solver_options;
 
-/* How the scene's points are understood. */
+#define RECTO_CUT_MAX 3
+
+/* A plane.  Beyond it are the points p for which normal . p is at least
+ * `offset`. */
+typedef struct recto_plane {
+  double normal[3]; /* of any length but 0 */
+  double offset;
+  uint64_t reserved[2];
+} recto_plane;
+
+/* How the scene's points are understood, and what is cut off. */
 typedef struct recto_mesh_options {
   /* Corners of borders that are at most this far apart are welded, scene units;
    * negative: within the rounding error of the coordinates; 0: only those at
@@ -337,7 +349,12 @@ typedef struct recto_mesh_options {
    * `crease_deg`, for lines that end free alone; for none where `ink.exact` is
    * set or `ink.min_stroke_mm` is 0. */
   double crease_start_deg;
-  uint64_t reserved[7];
+  /* Planes: what is beyond all of them is removed before anything else, and
+   * where that opens closed surfaces cut faces close them, which belong to
+   * their groups and hide what is behind them like any face. */
+  const recto_plane *cut; /* cut_count of them */
+  size_t cut_count;       /* at most RECTO_CUT_MAX */
+  uint64_t reserved[5];
 } recto_mesh_options;
 
 typedef struct recto_camera_options {
@@ -801,9 +818,10 @@ typedef struct recto_edge {
   uint32_t points[2]; /* points of the scene, in the order in which they were
                          read or added, and those that welding made one by the
                          first of them; RECTO_NONE: of an intersection, of a
-                         diagonal along which a warped polygon folds, or of a
-                         polyline of more than 65536 points */
-  uint32_t faces[2];  /* RECTO_NONE: there is none */
+                         diagonal along which a warped polygon folds, of a
+                         polyline of more than 65536 points, or where a cut
+                         made it */
+  uint32_t faces[2];  /* RECTO_NONE: there is none, or it is a cut face */
   uint32_t group;     /* of the first face, or of the polyline */
   uint32_t number;    /* that strokes have as `edge`: of the mesh edge, or for
                       the class wire of the polyline; RECTO_NONE: none */
@@ -834,7 +852,7 @@ bool recto_drawing_edge_sized(const recto_drawing *drawing, size_t index,
 
 /* A connected visible part of one face. */
 typedef struct recto_fragment {
-  uint32_t face, group; /* as of strokes */
+  uint32_t face, group; /* as of strokes; face RECTO_NONE: a cut face */
   uint32_t colour;      /* of its group, 0xRRGGBB: as RECTO_FILL_PAINT fills */
   double brightness;    /* by the options' light, to 1: as RECTO_FILL_SHADE */
   bool is_back;         /* the face is seen from its back: clockwise */

@@ -14,6 +14,11 @@ TESTS += $(unit_tests)
 endif
 TESTS += $(dist_check_SCRIPTS)
 
+unit_tests += %D%/test_cut
+%C%_test_cut_SOURCES = %D%/test_cut.c
+unit_tests += %D%/test_cut_drawings
+%C%_test_cut_drawings_SOURCES = %D%/test_cut_drawings.c
+
 unit_tests += %D%/test_svg
 %C%_test_svg_SOURCES = %D%/test_svg.c
 

@@ -167,7 +167,7 @@ static void numbers_that_make_no_sense_are_refused(void **state) {
   REFUSED(page.width_mm, 2001);
   REFUSED(page.margin_mm, (double)NAN);
   REFUSED(page.margin_mm, 105);
-  REFUSED(ink.edges, 0x80);
+  REFUSED(ink.edges, 0x100);
   REFUSED(mesh.crease_deg, 181);
   REFUSED(mesh.crease_start_deg, 181);
   REFUSED(ink.hidden, (recto_hidden)3);
@@ -227,7 +227,7 @@ static void lists_that_make_no_sense_are_refused(void **state) {
        .pen = RECTO_PEN_MAX + 1},
       {.lines = RECTO_LINES_OF_CLASS, .edge_class = 0, .group = "a", .pen = 1},
       {.lines = RECTO_LINES_OF_CLASS,
-       .edge_class = (recto_edge_class)0x80,
+       .edge_class = (recto_edge_class)0x100,
        .group = NULL,
        .pen = 1},
       {.lines = RECTO_LINES_OF_GROUP,

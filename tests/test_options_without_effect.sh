@@ -161,7 +161,7 @@ claim "the drawing is the same, a line an option" draws_the_same
 
 # Those that always do something, or that refuse what they do not go with.
 always='--output --format --from --method --view --turntable --azimuth --elevation --camera
---up --ortho --fit --no-fit --near --section --page --landscape --portrait --margin --edges
+--up --ortho --fit --no-fit --near --cut --section --page --landscape --portrait --margin --edges
 --weld --fill --stats --verify --check --tolerance --threads --progress --quiet --completion --version --help'
 every_option_has_its_row() {
   grep -oE -- '^ +(-.,)? *--[a-z-]+' help.txt | grep -oE -- '--[a-z-]+' |

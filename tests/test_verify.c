@@ -45,9 +45,9 @@ static void draw(struct judged_run *run) {
 
 static recto_status verify_run(struct judged_run *run, int exponent) {
   struct pipeline *p = &run->pipeline;
-  const struct verify verify = {&run->scene,  exponent, &p->camera,
-                                &p->sheet,    &p->map,  &p->drawing,
-                                &run->options};
+  const struct verify verify = {&run->scene,   exponent, &p->camera,
+                                &p->sheet,     &p->map,  &p->drawing,
+                                &run->options, NULL};
   run->summary[0] = '\0';
   return verify_drawing(&verify, p->report, run->summary, &run->error);
 }

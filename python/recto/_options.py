@@ -40,6 +40,8 @@ class Options(TypedDict, total=False):
     scale: float  # mm of page for a unit of the scene
     near: float
     section: float
+    cut: Union[str, Vector, Sequence[Union[str, Vector]]]
+    # "x=2", "y<3" or (nx, ny, nz, d), or up to three of them
 
     page: Union[str, Sequence[float]]  # "A4", or (width, height)
     landscape: bool
@@ -213,6 +215,20 @@ def _mask(name: str, value: Any, known: Mapping[str, int]) -> int:
     return mask
 
 
+def _plane(value: Any) -> dict[str, Any]:
+    """A plane, "x=2" or (nx, ny, nz, d), as recto_plane has it."""
+    if isinstance(value, str):
+        axis, relation, number = value[:1], value[1:2], value[2:]
+        if axis not in _AXES or relation not in ("=", ">", "<"):
+            raise ValueError(f'not {value!r}, but such as "x=2" or "y<3"')
+        sign = -1 if relation == "<" else 1
+        normal = [sign * part for part in _AXES[axis]]
+        return {"normal": normal, "offset": sign * float(number)}
+    if len(value) != 4:
+        raise ValueError(f"not {value!r}, but (nx, ny, nz, d)")
+    return {"normal": list(value[:3]), "offset": value[3]}
+
+
 class _Setter:
     """Sets the options that are more than a field.  What arrays and strings
     point to is kept."""
@@ -277,6 +293,16 @@ class _Setter:
     def section(self, value: float) -> None:
         self.options.camera.section = value
         self.options.camera.has_section = True
+
+    def cut(self, value: Any) -> None:
+        one = isinstance(value, str) or (
+            len(value) == 4 and not isinstance(value[0], (str, tuple, list))
+        )
+        planes = [_plane(plane) for plane in ([value] if one else value)]
+        mesh = self.options.mesh
+        mesh.cut_count = len(planes)
+        if planes:
+            mesh.cut = self.array("recto_plane", planes)
 
     def page(self, value: Any) -> None:
         self.options.page.may_turn = isinstance(value, str)

@@ -75,20 +75,22 @@ static void undo_cropping(struct judge_drawing *drawing, double height_mm) {
 
 /* Checks a drawing.
  * o  its lengths are scaled as the scene is */
-static recto_status judge_file_drawing(const struct scene *scene,
+static recto_status judge_file_drawing(const struct preparation *prepared,
                                        const recto_options *o,
                                        struct judge_drawing *drawing,
                                        struct judge_verdict *verdict,
                                        recto_error *error) {
   struct camera camera;
   struct judge_input input;
-  recto_status status = camera_aim(&camera, scene, o, error);
+  const struct scene *scene = &prepared->welded.scene;
+  recto_status status = camera_aim(&camera, prepared->scene, o, error);
   if (status != RECTO_OK)
     return status;
   if (o->output.tight)
     undo_cropping(drawing, camera.page_mm[1]);
   if (!judge_input_init(&input, scene))
     return error_memory(error);
+  judge_input_cut(&input, prepared);
   struct judge_camera seen = judge_input_camera(&input, &camera, o);
   struct judge_options options = judge_input_options(&input, &camera, o);
   options.samples = SAMPLES;
@@ -142,8 +144,7 @@ recto_status recto_scene_check_sized(const recto_scene *scene, const char *path,
     if (status == RECTO_OK)
       status = rescale_options(&prepared.rescaled, &checked, error);
     if (status == RECTO_OK)
-      status = judge_file_drawing(&prepared.welded.scene, &checked, &drawing,
-                                  &found, error);
+      status = judge_file_drawing(&prepared, &checked, &drawing, &found, error);
     preparation_fini(&prepared);
   }
   if (status == RECTO_OK) {

@@ -9,10 +9,14 @@
  * scene: the number of the face, of the edge or of the polyline among those of
  * its group, in their order.  So a group has the same numbers whatever is drawn
  * beside it.  Faces that were skipped between two of a group are counted.
- * topology  NULL: strokes have no edges but polylines
+ * scene     what was drawn
+ * whole     the same before it was cut, whose faces and polylines are numbered;
+ *           cut faces have no number
+ * topology  of `scene`; NULL: strokes have no edges but polylines
  * Returns false when memory ran out. */
 USE_RESULT bool group_numbers_set(struct drawing *drawing,
                                   const struct scene *scene,
+                                  const struct scene *whole,
                                   const struct topology *topology);
 
 #endif

@@ -8,6 +8,7 @@ bool judge_input_init(struct judge_input *input, const struct scene *scene) {
   input->scene = *scene;
   input->scene.point.item = to;
   input->given = from;
+  input->removed = (struct judge_removed){.planes = 0};
   if (to == NULL)
     return false;
   input->origin = from[scene->corner.count > 0 ? scene->corner.item[0]
@@ -21,6 +22,25 @@ bool judge_input_init(struct judge_input *input, const struct scene *scene) {
 
 void judge_input_fini(struct judge_input *input) {
   mem_free(input->scene.point.item);
+}
+
+void judge_input_cut(struct judge_input *input,
+                     const struct preparation *prepared) {
+  struct cut_plane plane[RECTO_CUT_MAX];
+  preparation_planes(prepared, plane);
+  input->removed.planes = (int)prepared->planes;
+  for (size_t k = 0; k < prepared->planes; k++) {
+    const double *n = plane[k].normal;
+    double most = fmax(fabs(n[0]), fmax(fabs(n[1]), fabs(n[2])));
+    struct judge_point3 normal =
+        judge_point3_of(n[0] / most, n[1] / most, n[2] / most);
+    double length = point3_length(normal);
+    normal = point3_unit(normal);
+    double origin = normal.x * input->origin.x + normal.y * input->origin.y +
+                    normal.z * input->origin.z;
+    input->removed.plane[k] =
+        (struct judge_plane){normal, plane[k].offset / most / length - origin};
+  }
 }
 
 struct judge_camera judge_input_camera(const struct judge_input *input,
@@ -54,5 +74,6 @@ struct judge_options judge_input_options(const struct judge_input *input,
   made.crease_start_deg = options->mesh.crease_start_deg;
   made.edges = options->ink.edges;
   made.given = input->given;
+  made.removed = input->removed;
   return made;
 }

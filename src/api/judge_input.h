@@ -2,6 +2,7 @@
 #ifndef API_JUDGE_INPUT_H
 #define API_JUDGE_INPUT_H
 
+#include "api/preparation.h"
 #include "judge/judge.h"
 #include "view/camera.h"
 
@@ -11,12 +12,17 @@ struct judge_input {
   struct scene scene; /* all but its points is borrowed, not owned */
   struct scene_point origin;
   const struct scene_point *given; /* the original points, borrowed */
+  struct judge_removed removed;    /* by judge_input_cut */
 };
 
 /* The scene has a face or a polyline.  Returns false when memory ran out. */
 USE_RESULT bool judge_input_init(struct judge_input *input,
                                  const struct scene *scene);
 void judge_input_fini(struct judge_input *input);
+
+/* States what is cut off the scene, which is that before the cut. */
+void judge_input_cut(struct judge_input *input,
+                     const struct preparation *prepared);
 
 struct judge_camera judge_input_camera(const struct judge_input *input,
                                        const struct camera *camera,

@@ -153,6 +153,31 @@ static bool is_id(const char *text) {
          text[strspn(text, letters)] == '\0';
 }
 
+/* The planes of the cut. */
+static recto_status check_cut(const recto_options *o, recto_error *error) {
+  if (o->mesh.cut_count > 0 && o->mesh.cut == NULL)
+    return error_null(error, "the list of planes");
+  if (o->mesh.cut_count > RECTO_CUT_MAX)
+    return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                     "%zu planes cut the model, and %d are the most",
+                     o->mesh.cut_count, RECTO_CUT_MAX);
+  for (size_t i = 0; i < o->mesh.cut_count; i++) {
+    const recto_plane *plane = &o->mesh.cut[i];
+    const double *n = plane->normal;
+    if (!IS_UNUSED(*plane))
+      return sized_reject(error);
+    if (!(fabs(n[0]) <= DBL_MAX && fabs(n[1]) <= DBL_MAX &&
+          fabs(n[2]) <= DBL_MAX && fabs(plane->offset) <= DBL_MAX))
+      return refuse_option("the plane at index", i, error);
+    if (n[0] == 0 && n[1] == 0 && n[2] == 0)
+      return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                       "the plane at index %zu has no direction: its normal is "
+                       "0,0,0",
+                       i);
+  }
+  return RECTO_OK;
+}
+
 static recto_status check_options(const recto_options *o, recto_error *error) {
   const double huge = DBL_MAX, small = DBL_MIN;
   const struct option_range range[] = {
@@ -240,7 +265,9 @@ static recto_status check_options(const recto_options *o, recto_error *error) {
                      "the mesh");
   recto_status status =
       check_ranges(range, sizeof range / sizeof range[0], error);
-  return status == RECTO_OK ? check_lists(o, error) : status;
+  if (status == RECTO_OK)
+    status = check_lists(o, error);
+  return status == RECTO_OK ? check_cut(o, error) : status;
 }
 
 recto_status options_copy(recto_options *own, const recto_options *options,

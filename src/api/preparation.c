@@ -3,7 +3,39 @@
 
 #include "scene/edge_classes.h"
 
+#include <float.h>
 #include <math.h>
+
+void preparation_planes(const struct preparation *preparation,
+                        struct cut_plane plane[RECTO_CUT_MAX]) {
+  for (size_t i = 0; i < preparation->planes; i++) {
+    const recto_plane *from = &preparation->plane[i];
+    double offset = ldexp(from->offset, -preparation->rescaled.exponent);
+    plane[i] =
+        (struct cut_plane){{from->normal[0], from->normal[1], from->normal[2]},
+                           fmin(fmax(offset, -DBL_MAX), DBL_MAX)};
+  }
+}
+
+/* Cuts the welded scene, and finds the edges anew. */
+static recto_status cut_prepared(struct preparation *preparation,
+                                 recto_error *error) {
+  const struct scene *scene = &preparation->welded.scene;
+  struct cut_plane plane[RECTO_CUT_MAX];
+  preparation_planes(preparation, plane);
+  preparation->edges = preparation->topology.edge.count;
+  preparation->is_suspicious =
+      welded_is_suspicious(&preparation->welded, &preparation->topology);
+  recto_status status =
+      cut_scene(&preparation->cut, scene, &preparation->topology,
+                scene_unstated_precision(scene, preparation->coordinate_bits),
+                plane, preparation->planes, error);
+  topology_fini(&preparation->topology);
+  preparation->scene = &preparation->cut.scene;
+  return status == RECTO_OK
+             ? topology_init(&preparation->topology, preparation->scene, error)
+             : status;
+}
 
 recto_status preparation_init(struct preparation *preparation,
                               const struct scene *scene,
@@ -12,8 +44,10 @@ recto_status preparation_init(struct preparation *preparation,
   recto_options scaled;
   *preparation =
       (struct preparation){.weld = options->mesh.weld,
-
-                           .coordinate_bits = options->mesh.coordinate_bits};
+                           .coordinate_bits = options->mesh.coordinate_bits,
+                           .planes = options->mesh.cut_count};
+  for (size_t i = 0; i < options->mesh.cut_count; i++)
+    preparation->plane[i] = options->mesh.cut[i];
   recto_options_init(&scaled);
   scaled.mesh.weld = options->mesh.weld;
   recto_status status = rescale(&preparation->rescaled, scene, error);
@@ -25,9 +59,14 @@ recto_status preparation_init(struct preparation *preparation,
       scaled.mesh.weld, precision_of_bits(options->mesh.coordinate_bits)};
   status = weld_near(&preparation->welded, &preparation->topology,
                      &preparation->rescaled.scene, &request, error);
+  preparation->scene = &preparation->welded.scene;
+  if (status == RECTO_OK && preparation->planes > 0 &&
+      scene_face_count(preparation->scene) +
+              scene_wire_count(preparation->scene) >
+          0)
+    status = cut_prepared(preparation, error);
   if (status == RECTO_OK && classes &&
-      !topology_store_class_masks(&preparation->topology,
-                                  &preparation->welded.scene,
+      !topology_store_class_masks(&preparation->topology, preparation->scene,
                                   options->mesh.crease_deg))
     status = error_memory(error);
   return status;
@@ -35,12 +74,23 @@ recto_status preparation_init(struct preparation *preparation,
 
 void preparation_fini(struct preparation *preparation) {
   topology_fini(&preparation->topology);
+  cut_fini(&preparation->cut);
   welded_fini(&preparation->welded);
   rescale_fini(&preparation->rescaled);
 }
 
 bool preparation_is_valid_for(const struct preparation *preparation,
                               const recto_options *options) {
-  return preparation->weld == options->mesh.weld &&
-         preparation->coordinate_bits == options->mesh.coordinate_bits;
+  bool valid = preparation->weld == options->mesh.weld &&
+               preparation->coordinate_bits == options->mesh.coordinate_bits &&
+               preparation->planes == options->mesh.cut_count;
+  for (size_t i = 0; valid && i < preparation->planes; i++) {
+    const recto_plane *own = &preparation->plane[i];
+    const recto_plane *wanted = &options->mesh.cut[i];
+    valid = own->offset == wanted->offset &&
+            own->normal[0] == wanted->normal[0] &&
+            own->normal[1] == wanted->normal[1] &&
+            own->normal[2] == wanted->normal[2];
+  }
+  return valid;
 }

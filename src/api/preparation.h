@@ -4,6 +4,7 @@
 #ifndef API_PREPARATION_H
 #define API_PREPARATION_H
 
+#include "cut/cut.h"
 #include "scene/weld_near.h"
 #include "view/rescale.h"
 
@@ -11,8 +12,14 @@
 struct preparation {
   struct rescaled rescaled;
   struct welded welded;
-  struct topology topology;
+  bool is_suspicious;        /* of a scene that is cut: welded_is_suspicious */
+  size_t edges;              /* before it was cut */
+  struct cut cut;            /* empty where no plane cuts */
+  const struct scene *scene; /* what is drawn: one of the two */
+  struct topology topology;  /* of that scene */
   /* The options that it depends on. */
+  recto_plane plane[RECTO_CUT_MAX];
+  size_t planes;
   double weld;
   int coordinate_bits;
 };
@@ -24,6 +31,9 @@ USE_RESULT recto_status preparation_init(struct preparation *preparation,
                                          const struct scene *scene,
                                          const recto_options *options,
                                          bool classes, recto_error *error);
+/* The planes of the options' cut, in the units of the prepared scene. */
+void preparation_planes(const struct preparation *preparation,
+                        struct cut_plane plane[RECTO_CUT_MAX]);
 void preparation_fini(struct preparation *preparation);
 
 /* Whether a preparation serves for these options. */

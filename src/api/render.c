@@ -113,16 +113,36 @@ static void drop_topology(struct render *render) {
  * edges. */
 static void warn_of_borders(const struct render *render) {
   const recto_options *o = render->options;
-  const struct topology *topology = &render->topology;
+  const struct preparation *prepared = render->prepared;
+  bool is_cut = prepared->planes > 0;
+  size_t edges = is_cut ? prepared->edges : render->topology.edge.count;
   if (o->warning == NULL || o->mesh.weld == 0 ||
-      !welded_is_suspicious(&render->prepared->welded, topology))
+      !(is_cut ? prepared->is_suspicious
+               : welded_is_suspicious(&prepared->welded, &render->topology)))
     return;
   char text[128];
   snprintf(text, sizeof text,
            "%.0f %% of the edges are borders; --weld LENGTH joins corners that "
            "lie apart",
-           100.0 * (double)render->prepared->welded.borders /
-               (double)topology->edge.count);
+           100.0 * (double)prepared->welded.borders / (double)edges);
+  const char *path = render->model->path;
+  o->warning(o->user, path != NULL ? path : "", 0, text);
+}
+
+/* Surfaces that are not closed have no inside that a cut could show. */
+static void warn_of_open_cut(const struct render *render) {
+  const recto_options *o = render->options;
+  const struct cut *cut = &render->prepared->cut;
+  int exponent = render->prepared->rescaled.exponent;
+  if (o->warning == NULL || cut->open == 0)
+    return;
+  char text[192];
+  snprintf(text, sizeof text,
+           "%zu %s of the cut %s not closed, the first at %.9g,%.9g,%.9g: the "
+           "surface is open there, and no cut face fills it",
+           cut->open, cut->open == 1 ? "line" : "lines",
+           cut->open == 1 ? "is" : "are", ldexp(cut->open_at.x, exponent),
+           ldexp(cut->open_at.y, exponent), ldexp(cut->open_at.z, exponent));
   const char *path = render->model->path;
   o->warning(o->user, path != NULL ? path : "", 0, text);
 }
@@ -157,9 +177,10 @@ static recto_status find_topology(struct render *render, recto_error *error) {
   report_count(render->report, "scene", "welded_faces",
                render->prepared->welded.lost);
   warn_of_borders(render);
+  warn_of_open_cut(render);
   if (render->prepared->welded.lost > 0 &&
-      scene_face_count(&render->prepared->welded.scene) == 0 &&
-      scene_wire_count(&render->prepared->welded.scene) == 0)
+      scene_face_count(render->prepared->scene) == 0 &&
+      scene_wire_count(render->prepared->scene) == 0)
     return error_set(error, RECTO_ERROR_EMPTY, NULL, 0,
                      "there is nothing to draw: the weld length is larger than "
                      "all faces");
@@ -167,12 +188,19 @@ static recto_status find_topology(struct render *render, recto_error *error) {
                                       !draws_smooth_contours(render) &&
                                       !is_shared(render);
   report_count(render->report, "scene", "edges", render->topology.edge.count);
+  if (render->prepared->planes > 0) {
+    report_count(render->report, "cut", "faces",
+                 scene_face_count(render->prepared->scene) -
+                     render->prepared->cut.made.first_face);
+    report_count(render->report, "cut", "open_lines",
+                 render->prepared->cut.open);
+  }
   return status;
 }
 
 static recto_status aim(struct render *render, recto_error *error) {
-  recto_status status = camera_aim(
-      &render->camera, &render->prepared->welded.scene, &render->scaled, error);
+  recto_status status = camera_aim(&render->camera, render->prepared->scene,
+                                   &render->scaled, error);
   if (status != RECTO_OK)
     return status;
   drawing_store_projection(render->made, &render->camera,
@@ -187,14 +215,13 @@ static recto_status aim(struct render *render, recto_error *error) {
 
 static recto_status project_scene(struct render *render, recto_error *error) {
   recto_status status = layout_sheet(
-      &render->sheet, &render->prepared->welded.scene, &render->topology,
+      &render->sheet, render->prepared->scene, &render->topology,
       &render->camera, &render->scaled, needs_fragments(render), error);
-  if (status == RECTO_OK &&
-      (render->sheet.clipped_page > 0 ||
-       scene_wire_count(&render->prepared->welded.scene) > 0))
-    status = page_overflow_measure(
-        &render->overflow, &render->prepared->welded.scene, &render->topology,
-        &render->camera, &render->scaled, error);
+  if (status == RECTO_OK && (render->sheet.clipped_page > 0 ||
+                             scene_wire_count(render->prepared->scene) > 0))
+    status = page_overflow_measure(&render->overflow, render->prepared->scene,
+                                   &render->topology, &render->camera,
+                                   &render->scaled, error);
   render->triangles = render->sheet.triangle.count;
   /* The topology of a fine mesh takes a quarter of all memory, and without
    * fills or results it is not used again. */
@@ -249,16 +276,18 @@ static recto_status ink(struct render *render, recto_error *error) {
   if (!needs_fragments(render) && render->options->verify == 0 &&
       !sheet_drop_triangles(&render->sheet))
     return error_memory(error);
-  return ink_draw(render->drawing, &render->sheet,
-                  &render->prepared->welded.scene, &render->map,
-                  render->options, error);
+  return ink_draw(render->drawing, &render->sheet, render->prepared->scene,
+                  &render->map, render->options, error);
 }
 
 static recto_status verify(struct render *render, recto_error *error) {
   if (render->options->verify == 0)
     return RECTO_OK;
-  const struct verify what = {.scene = &render->prepared->welded.scene,
-                              .exponent = render->prepared->rescaled.exponent,
+  const struct preparation *prepared = render->prepared;
+  const struct verify what = {.scene = prepared->scene,
+                              .exponent = prepared->rescaled.exponent,
+                              .prepared =
+                                  prepared->planes > 0 ? prepared : NULL,
                               .camera = &render->camera,
                               .sheet = &render->sheet,
                               .map = &render->map,
@@ -273,8 +302,8 @@ static recto_status keep_results(struct render *render, recto_error *error) {
       .sheet = &render->sheet,
       .map = &render->map,
       .topology = &render->topology,
-      .scene = &render->prepared->welded.scene,
-      .point = render->model->scene.point.item,
+      .scene = render->prepared->scene,
+      .exponent = render->prepared->rescaled.exponent,
       .options = &render->scaled,
       .crease_deg = render->options->mesh.crease_deg,
       .with_counts = keeps_invisibility(render)};
@@ -366,14 +395,19 @@ static void warn_of_near_plane(const struct render *render) {
   o->warning(o->user, "", 0, text);
 }
 
-/* ---- The numbers of faces ------------------------------------------------ */
+/* ---- The numbers of faces and polylines ---------------------------------- */
 
 /* Gives faces the numbers that they have in the scene's sources, where faces
- * that were skipped are counted too. */
-static void number_faces(struct drawing *drawing, const struct scene *scene) {
+ * that were skipped are counted too, and polylines those that they had before
+ * they were cut. */
+static void number_elements(struct drawing *drawing,
+                            const struct scene *scene) {
   for (size_t i = 0; i < drawing->stroke.count; i++) {
-    uint32_t *face = &drawing->stroke.item[i].face;
+    struct drawing_stroke *stroke = &drawing->stroke.item[i];
+    uint32_t *face = &stroke->face;
     *face = *face == DRAWING_NONE ? *face : scene_face_number(scene, *face);
+    if (stroke->edge_class == RECTO_EDGE_WIRE && scene->cut != NULL)
+      stroke->edge = scene->cut->wire[stroke->edge];
   }
   for (size_t i = 0; i < drawing->fill.count; i++) {
     uint32_t *face = &drawing->fill.item[i].face;
@@ -408,12 +442,14 @@ static recto_status run_and_report(struct render *render, recto_error *error) {
   render->prepared = &render->own;
   status = run_stages(render, error);
   if (status == RECTO_OK) {
-    const struct scene *scene = &render->prepared->welded.scene;
+    const struct scene *scene = render->prepared->scene;
     if (!captions_set(render->drawing, render->model, render->options) ||
         (render->drawing->ids &&
-         !group_numbers_set(render->drawing, scene, render->sheet.topology)))
+         !group_numbers_set(render->drawing, scene,
+                            &render->prepared->welded.scene,
+                            render->sheet.topology)))
       status = error_memory(error);
-    number_faces(render->drawing, scene);
+    number_elements(render->drawing, scene);
     stats_add_seconds(render->report, "render_cpu_s", clock_cpu() - cpu);
     stats_add_seconds(render->report, "render_wall_s", clock_wall() - wall);
     warn_of_empty_page(render);

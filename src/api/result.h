@@ -15,9 +15,9 @@ struct result_sources {
   const struct sheet *sheet;
   const struct map *map;
   const struct topology *topology;
-  const struct scene *scene;       /* welded */
-  const struct scene_point *point; /* of the scene, in the user's units */
-  const recto_options *options;    /* scaled as the scene */
+  const struct scene *scene; /* welded, and cut */
+  int exponent; /* the user's coordinates are the scene's times 2^exponent */
+  const recto_options *options; /* scaled as the scene */
   double crease_deg;
   bool with_counts; /* the map has the numbers of faces */
 };

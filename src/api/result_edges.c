@@ -24,7 +24,7 @@ struct edge_results {
   const struct map *map;
   const struct topology *topology;
   const struct scene *scene;
-  const struct scene_point *point;
+  int exponent;
   bool with_counts;
   size_t next_mixed, next_count; /* the first entries of the map that may be of
                                     the current edge */
@@ -67,11 +67,20 @@ static bool find_points(struct edge_results *r, const struct sheet_edge *edge,
 
 /* ---- Parameters ---------------------------------------------------------- */
 
-static void project_point_mm(const recto_drawing *drawing,
-                             const struct scene_point *p, double to[3]) {
-  const double *m = drawing->matrix;
+static void project_point_mm(const struct edge_results *r, uint32_t point,
+                             double to[3]) {
+  const double *m = r->drawing->matrix;
+  const struct scene_point *p = &r->scene->point.item[point];
+  double x = ldexp(p->x, r->exponent), y = ldexp(p->y, r->exponent);
+  double z = ldexp(p->z, r->exponent);
   for (int i = 0; i < 3; i++, m += 4)
-    to[i] = m[0] * p->x + m[1] * p->y + m[2] * p->z + m[3];
+    to[i] = m[0] * x + m[1] * y + m[2] * z + m[3];
+}
+
+/* The number that a point has for the caller: none where a cut made it. */
+static uint32_t point_number(const struct edge_results *r, uint32_t point) {
+  const struct scene_cut *cut = r->scene->cut;
+  return cut != NULL && point >= cut->first_point ? RECTO_NONE : point;
 }
 
 /* The point of the sheet's edge at a parameter, in mm. */
@@ -199,9 +208,13 @@ static bool add_edge_result(struct edge_results *r, uint32_t e) {
                                    (uint32_t)r->drawing->interval.count};
   r->image.is_known = find_points(r, edge, result.point);
   if (r->image.is_known) {
-    project_point_mm(r->drawing, &r->point[result.point[0]], r->image.a);
-    project_point_mm(r->drawing, &r->point[result.point[1]], r->image.b);
+    project_point_mm(r, result.point[0], r->image.a);
+    project_point_mm(r, result.point[1], r->image.b);
+    result.point[0] = point_number(r, result.point[0]);
+    result.point[1] = point_number(r, result.point[1]);
   }
+  if (result.edge_class == RECTO_EDGE_WIRE && r->scene->cut != NULL)
+    result.number = r->scene->cut->wire[result.number];
   r->edge = &result;
   return add_parts(r, edge, e) && ARRAY_PUSH(&r->drawing->edge, result);
 }
@@ -214,7 +227,7 @@ recto_status drawing_store_edges(recto_drawing *drawing,
                            .map = sources->map,
                            .topology = sources->topology,
                            .scene = sources->scene,
-                           .point = sources->point,
+                           .exponent = sources->exponent,
                            .with_counts = sources->with_counts};
   for (uint32_t e = 0; e < r.map->edge_count; e++)
     if (!poll_at(e) ||

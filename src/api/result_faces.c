@@ -25,8 +25,7 @@ static recto_edge_class class_of(const struct result_sources *s,
     return RECTO_EDGE_SILHOUETTE;
   unsigned class_mask =
       topology_class_mask(s->topology, s->scene, edge->source, s->crease_deg);
-  return (recto_edge_class)(class_mask &
-                            (0u - class_mask)); /* the lowest bit */
+  return (recto_edge_class)topology_class_of_mask(class_mask);
 }
 
 /* Fills in what runs along the half-edge. */

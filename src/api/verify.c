@@ -146,7 +146,10 @@ static recto_status verdict_error(const struct verify *verify,
   if (w->on_edge)
     say_edge(&words, verify, w, origin);
   if (w->on_edge && is_false)
-    sentence_add(&words, " is hidden by face %lu", (unsigned long)w->blocker);
+    sentence_add(&words,
+                 w->blocker == SCENE_NONE ? " is hidden by a cut face"
+                                          : " is hidden by face %lu",
+                 (unsigned long)w->blocker);
   else if (w->on_edge)
     sentence_add(&words, " is visible");
   return error_set(error, RECTO_ERROR_VERIFY, NULL, 0,
@@ -187,8 +190,12 @@ recto_status verify_drawing(const struct verify *verify, struct report *report,
   struct judge_drawing drawing = {0};
   struct judge_verdict verdict;
   struct judge_input input;
-  if (!judge_input_init(&input, verify->scene))
+  const struct preparation *prepared = verify->prepared;
+  if (!judge_input_init(&input, prepared != NULL ? &prepared->welded.scene
+                                                 : verify->scene))
     return error_memory(error);
+  if (prepared != NULL)
+    judge_input_cut(&input, prepared);
   recto_status status = add_drawn(&drawing, verify->drawing)
                             ? add_dropped(&drawing, verify, error)
                             : error_memory(error);

@@ -2,6 +2,7 @@
 #ifndef API_VERIFY_H
 #define API_VERIFY_H
 
+#include "api/preparation.h"
 #include "base/report.h"
 #include "drawing/drawing.h"
 #include "judge/judge.h"
@@ -18,6 +19,7 @@ struct verify {
   const struct map *map;
   const struct drawing *drawing;
   const recto_options *options;
+  const struct preparation *prepared; /* of a scene that was cut; else NULL */
 };
 
 enum { VERIFY_SUMMARY_SIZE = 160 };

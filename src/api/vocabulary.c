@@ -34,6 +34,8 @@ const char *recto_edge_class_name(recto_edge_class edge_class) {
     return "wire";
   case RECTO_EDGE_SMOOTH:
     return "smooth";
+  case RECTO_EDGE_SECTION:
+    return "section";
   }
   return "unknown";
 }

@@ -207,7 +207,8 @@
  * Unit        1 (a sine, a cosine)
  * Derivation  single precision rounds a normal by 1e-7 of its length and that
  *             of a face a hundred times longer than wide by 1e-5.
- * Users       judge/edge_classes.c, judge/edge_classes.h, judge/missing_run.c
+ * Users       judge/cut_edges.c, judge/edge_classes.c, judge/edge_classes.h,
+ *             judge/missing_run.c, judge/winding.c
  * Ten times   silhouettes seen within 0.006 degrees of edge-on may be missing
  *             unnoticed. */
 #define TOLERANCE_JUDGE_ANGLE 1e-5
@@ -219,6 +220,17 @@
  * Users       judge/camera.c, judge/edge_list.c
  * Ten times   nothing that could be seen. */
 #define TOLERANCE_JUDGE_NEAR_SHARE 1e-9
+
+/* The judge leaves open what is this close to a plane that cuts the scene, and,
+ * of an eighth of it, to a side of a triangle where it counts what a ray leaves
+ * and enters.
+ * Unit        share of the scene's diagonal
+ * Derivation  a cut's points are rounded to 2^-37 of the scene's extent, and
+ *             doubles place the crossing of a ray and a triangle within 2^-40
+ *             of it: this is well above, and a tenth of a micrometre on A4.
+ * Users       judge/judge.c, judge/winding.c
+ * Ten times   lines within a micrometre of a cut are left open. */
+#define TOLERANCE_JUDGE_CUT_SHARE 1e-9
 
 /* The judge clips edges whose images reach farther than this from the page, as
  * they do beside the eye.

@@ -39,6 +39,7 @@ struct arguments {
   bool seen[MAX_OPTIONS]; /* by the option's index in the table */
 
   /* What the options' arrays refer to. */
+  recto_plane plane[RECTO_CUT_MAX];
   recto_pen_use *pen_use;
   recto_pen pen[RECTO_PEN_MAX];
   recto_weight weight[RECTO_EDGE_CLASS_COUNT];

@@ -100,6 +100,16 @@ static bool parse_up(struct arguments *arguments, const char *text) {
   return true;
 }
 
+static bool parse_cut(struct arguments *arguments, const char *text) {
+  recto_mesh_options *mesh = &arguments->options.mesh;
+  if (mesh->cut_count == RECTO_CUT_MAX)
+    return false;
+  recto_plane *plane = &arguments->plane[mesh->cut_count];
+  mesh->cut = arguments->plane;
+  mesh->cut_count++;
+  return value_plane(text, plane->normal, &plane->offset);
+}
+
 /* The size of the model's unit, for --scale. */
 static bool parse_unit(struct arguments *arguments, const char *text) {
   static const struct {
@@ -290,6 +300,9 @@ const struct option_entry option_table[] = {
      "draw nothing nearer than this, in model units",
      .offset = AT(options.camera.near_distance), .least = DBL_TRUE_MIN,
      .most = DBL_MAX},
+    {OPTION_PARSED, "cut", 0, "PLANE",
+     "x=2, y<3 or NX,NY,NZ,D with a normal other than 0, at most three times",
+     "cut off what is beyond all planes: x=2 y<3 A,B,C,D", .parse = parse_cut},
     {OPTION_NUMBER, "section", 0, "Z", "a depth in model units",
      "cut at this depth, draw what is behind",
      .offset = AT(options.camera.section),
@@ -313,7 +326,7 @@ const struct option_entry option_table[] = {
     HEADING("Ink"),
     {OPTION_PARSED, "edges", 'e', "LIST",
      "all, none, or a list of silhouette, border, crease, group, "
-     "intersection, wire and smooth, each with or without a -",
+     "intersection, wire, section and smooth, each with or without a -",
      "classes to draw (see below)", .parse = parse_edges, .words = "all none",
      .word = name_edge_class},
     {OPTION_PARSED, "crease", 0, "DEG[,DEG]",

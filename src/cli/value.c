@@ -84,15 +84,41 @@ bool value_tolerance(const char *text, double *mm, double *share) {
 
 /* ---- Vectors ------------------------------------------------------------- */
 
-bool value_vector(const char *text, double vector[3]) {
-  double read[3];
-  for (int i = 0; i < 3; i++) {
+static bool read_numbers(const char *text, double *read, int count) {
+  for (int i = 0; i < count; i++) {
     text = parse_number(text, &read[i]);
-    if (text == NULL || *text != (i < 2 ? ',' : '\0'))
+    if (text == NULL || *text != (i + 1 < count ? ',' : '\0'))
       return false;
     text++;
   }
+  return true;
+}
+
+bool value_vector(const char *text, double vector[3]) {
+  double read[3];
+  if (!read_numbers(text, read, 3))
+    return false;
   memcpy(vector, read, sizeof read);
+  return true;
+}
+
+bool value_plane(const char *text, double normal[3], double *offset) {
+  double read[4];
+  if (text[0] >= 'x' && text[0] <= 'z' &&
+      (text[1] == '=' || text[1] == '>' || text[1] == '<')) {
+    double sign = text[1] == '<' ? -1 : 1;
+    if (!read_numbers(text + 2, read, 1))
+      return false;
+    for (int i = 0; i < 3; i++)
+      normal[i] = text[0] == 'x' + i ? sign : 0;
+    *offset = sign * read[0];
+    return true;
+  }
+  if (!read_numbers(text, read, 4) ||
+      (read[0] == 0 && read[1] == 0 && read[2] == 0))
+    return false;
+  memcpy(normal, read, 3 * sizeof *normal);
+  *offset = read[3];
   return true;
 }
 

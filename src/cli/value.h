@@ -25,6 +25,10 @@ bool value_tolerance(const char *text, double *mm, double *share);
 /* X,Y,Z: three plain numbers. */
 bool value_vector(const char *text, double vector[3]);
 
+/* A plane, and what is beyond it: x=2 or x>2, y<3, or NX,NY,NZ,D for
+ * NX x + NY y + NZ z > D; the normal is not 0. */
+bool value_plane(const char *text, double normal[3], double *offset);
+
 /* A page: A0 to A6, letter or legal, upright, in any case; or WxH, two
  * lengths above 0, where a unit of the second serves the first too.
  * is_named  set to whether it was a name */

@@ -8,6 +8,7 @@
 
 /* ISO 128: wide lines are twice as wide as narrow ones. */
 #define WIDE_WEIGHT 2.0
+#define SECTION_WEIGHT 3.0
 
 /* In pen widths: shorter creases that end free are no line to the eye. */
 #define SHORTEST_CREASE_PENS 10
@@ -87,6 +88,8 @@ static void set_weights(struct pens *pens, const recto_options *options) {
   if (!options->ink.has_weights && !pens->several)
     pens->weight[class_index(RECTO_EDGE_SILHOUETTE)] =
         pens->weight[class_index(RECTO_EDGE_BORDER)] = WIDE_WEIGHT;
+  if (!options->ink.has_weights && !pens->several)
+    pens->weight[class_index(RECTO_EDGE_SECTION)] = SECTION_WEIGHT;
   for (size_t i = 0; options->ink.has_weights && i < options->ink.weight_count;
        i++)
     pens->weight[class_index(options->ink.weight[i].edge_class)] =

@@ -27,9 +27,10 @@ static bool clip_far_image(const struct judge_camera *camera,
   return true;
 }
 
-bool judge_edges_add(struct judge_edges *edges,
-                     const struct judge_camera *camera, struct judge_point3 a,
-                     struct judge_point3 b, const struct judge_source *source) {
+bool judge_edges_add_whole(struct judge_edges *edges,
+                           const struct judge_camera *camera,
+                           struct judge_point3 a, struct judge_point3 b,
+                           const struct judge_source *source) {
   double da = judge_view_depth(camera, a), db = judge_view_depth(camera, b);
   double least = judge_near(camera);
   /* A point behind the eye has no image, one just in front of it no accurate
@@ -52,4 +53,23 @@ bool judge_edges_add(struct judge_edges *edges,
   return ARRAY_PUSH(&edges->edge, edge);
 }
 
-void judge_edges_fini(struct judge_edges *edges) { ARRAY_FREE(&edges->edge); }
+bool judge_edges_add(struct judge_edges *edges,
+                     const struct judge_camera *camera, struct judge_point3 a,
+                     struct judge_point3 b, const struct judge_source *source) {
+  double t0, t1;
+  if (edges->removed == NULL ||
+      !judge_removed_part(edges->removed, -1, a, b, &t0, &t1))
+    return judge_edges_add_whole(edges, camera, a, b, source);
+  struct judge_point3 along = point3_sub(b, a);
+  return (t0 <= 0 ||
+          judge_edges_add_whole(edges, camera, a, point3_along(a, t0, along),
+                                source)) &&
+         (t1 >= 1 || judge_edges_add_whole(
+                         edges, camera, point3_along(a, t1, along), b, source));
+}
+
+void judge_edges_fini(struct judge_edges *edges) {
+  ARRAY_FREE(&edges->edge);
+  mem_free(edges->has_border);
+  edges->has_border = NULL;
+}

@@ -11,6 +11,7 @@
 
 #include "base/poll.h"
 #include "base/sort.h"
+#include "judge/cut_edges.h"
 #include "judge/edge_classes.h"
 #include "judge/folds.h"
 #include "judge/intersections.h"
@@ -124,6 +125,8 @@ static bool add_edge_of_sides(struct edge_finder *finder,
           ? 0
           : judge_class_mask_of_pair(&finder->facings, side, other, against),
       !spike,
+      0,
+      JUDGE_CUT_NONE,
       0};
   return judge_edges_add(finder->edges, finder->camera,
                          judge_point3_at(finder->scene, side->a),
@@ -133,8 +136,14 @@ static bool add_edge_of_sides(struct edge_finder *finder,
 /* Adds the edge of one side, or of more than two. */
 static bool add_border(struct edge_finder *finder,
                        const struct judge_side *side) {
-  const struct judge_source source = {
-      {side->a, side->b}, {side->face, SCENE_NONE}, RECTO_EDGE_BORDER, true, 0};
+  finder->edges->has_border[side->face] = 1;
+  const struct judge_source source = {{side->a, side->b},
+                                      {side->face, SCENE_NONE},
+                                      RECTO_EDGE_BORDER,
+                                      true,
+                                      0,
+                                      JUDGE_CUT_NONE,
+                                      0};
   return judge_edges_add(finder->edges, finder->camera,
                          judge_point3_at(finder->scene, side->a),
                          judge_point3_at(finder->scene, side->b), &source);
@@ -254,6 +263,8 @@ static bool add_wires(struct edge_finder *finder) {
           {SCENE_NONE, SCENE_NONE},
           RECTO_EDGE_WIRE,
           true,
+          0,
+          JUDGE_CUT_NONE,
           0};
       if (!judge_edges_add(finder->edges, finder->camera,
                            judge_point3_at(scene, source.point[0]),
@@ -292,19 +303,24 @@ bool judge_edges_init(struct judge_edges *edges,
       .edges = edges, .scene = all->scene, .camera = camera};
   struct side_list sides = {{0}};
   memset(edges, 0, sizeof *edges);
+  edges->removed = &all->removed;
   finder.first_at = find_first_at(
       options->given != NULL ? options->given : all->scene->point.item,
       all->scene->point.count);
-  bool ok =
-      judge_facings_init(&finder.facings, all, camera, options) &&
-      finder.first_at != NULL && mark_shared(&finder) &&
-      list_scene_sides(all->scene, &sides) &&
-      visit_groups(&finder, &sides, true) &&
-      sort_stable(finder.group.item, finder.group.count,
-                  sizeof *finder.group.item, compare_located, NULL) &&
-      visit_groups(&finder, &sides, false) && pair_singles(&finder) &&
-      judge_edges_add_folds(edges, &finder.facings) && add_wires(&finder) &&
-      judge_edges_add_intersections(edges, all, camera, options->ray_offset_mm);
+  edges->has_border = mem_calloc(scene_face_count(all->scene), 1);
+  bool ok = edges->has_border != NULL &&
+            judge_facings_init(&finder.facings, all, camera, options) &&
+            finder.first_at != NULL && mark_shared(&finder) &&
+            list_scene_sides(all->scene, &sides) &&
+            visit_groups(&finder, &sides, true) &&
+            sort_stable(finder.group.item, finder.group.count,
+                        sizeof *finder.group.item, compare_located, NULL) &&
+            visit_groups(&finder, &sides, false) && pair_singles(&finder) &&
+            judge_edges_add_folds(edges, &finder.facings) &&
+            add_wires(&finder) &&
+            judge_edges_add_intersections(edges, all, camera,
+                                          options->ray_offset_mm) &&
+            judge_edges_add_cuts(edges, all, camera);
   ARRAY_FREE(&sides.side);
   judge_facings_fini(&finder.facings);
   ARRAY_FREE(&finder.group);

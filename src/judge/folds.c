@@ -61,6 +61,8 @@ static bool test_fold(const struct fold_finder *finder,
       {side_triangle->face, side_triangle->face},
       silhouette ? RECTO_EDGE_SILHOUETTE : 0,
       false,
+      0,
+      JUDGE_CUT_NONE,
       0};
   return judge_edges_add(
       finder->edges, finder->facings->camera, at,

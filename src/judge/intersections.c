@@ -349,6 +349,8 @@ static bool add_shared(struct intersection_finder *finder, uint32_t other,
                                       {s->face, t->face},
                                       sure ? RECTO_EDGE_INTERSECTION : 0,
                                       false,
+                                      0,
+                                      JUDGE_CUT_NONE,
                                       0};
   bool is_diagonal = one.face != SCENE_NONE && two.face != SCENE_NONE;
   return (!sure && !is_diagonal) ||
@@ -397,6 +399,8 @@ static bool add_common(struct intersection_finder *finder,
                                       {one->face, two->face},
                                       sure ? RECTO_EDGE_INTERSECTION : 0,
                                       false,
+                                      0,
+                                      JUDGE_CUT_NONE,
                                       0};
   return judge_edges_add(finder->edges, finder->camera, a, b, &source);
 }
@@ -470,8 +474,13 @@ static bool add_near(struct intersection_finder *finder, uint32_t other) {
     double unused;
     moved = fmax(moved, judge_distance(&image, at[i], &unused));
   }
-  const struct judge_source source = {
-      {SCENE_NONE, SCENE_NONE}, {s->face, t->face}, 0, false, 2 * moved};
+  const struct judge_source source = {{SCENE_NONE, SCENE_NONE},
+                                      {s->face, t->face},
+                                      0,
+                                      false,
+                                      2 * moved,
+                                      JUDGE_CUT_NONE,
+                                      0};
   return moved < finder->ray_offset_mm ||
          judge_edges_add(finder->edges, finder->camera, part.p[a], part.p[b],
                          &source);

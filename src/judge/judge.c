@@ -6,6 +6,7 @@
 #include "base/poll.h"
 #include "base/tolerance.h"
 #include "judge/camera.h"
+#include "judge/cut_edges.h"
 #include "judge/edges.h"
 #include "judge/sampler.h"
 #include "judge/contact.h"
@@ -131,6 +132,16 @@ static bool report_progress(struct judge_context *context, double mm) {
       NULL);
 }
 
+/* Whether an edge by a cut is there at a point: see judge_cut_exists. */
+static enum judge_visibility cut_existence(const struct judge_context *context,
+                                           const struct judge_edge *edge,
+                                           struct judge_point3 at) {
+  return judge_cut_exists(&context->all, edge, at,
+                          4 * judge_rounding_at(context->camera,
+                                                context->options.ray_offset_mm,
+                                                at));
+}
+
 /* ---- False ink ----------------------------------------------------------- */
 
 /* The visibility of an edge at t, and as far before and after it as rounding in
@@ -210,6 +221,11 @@ static enum judge_visibility explain_ink(const struct judge_context *context,
     uint32_t blocker = SCENE_NONE;
     enum judge_visibility visibility =
         visibility_at(context, edge, t, &blocker);
+    enum judge_visibility least =
+        visibility != JUDGE_BLOCKED
+            ? cut_existence(context, edge, judge_point3_of_image(edge, t))
+            : visibility;
+    visibility = least > visibility ? least : visibility;
     if (visibility == JUDGE_BLOCKED && is_doubtful(edge))
       visibility = JUDGE_UNSURE;
     best = visibility < best ? visibility : best;
@@ -358,6 +374,8 @@ static void judge_edge_sample(struct judge_context *context, uint32_t number,
   }
   enum judge_visibility visibility =
       judge_sample_around(&context->sampler, edge, from, JUDGE_CLEAR, NULL);
+  if (visibility == JUDGE_CLEAR)
+    visibility = cut_existence(context, edge, from);
   if (visibility == JUDGE_CLEAR && is_too_short_to_draw(context, number, t))
     visibility = JUDGE_UNSURE;
   if (visibility != JUDGE_CLEAR)
@@ -472,6 +490,25 @@ static double largest_rounding(const struct judge_context *context) {
   return most;
 }
 
+/* What is removed of the triangles, with the limits of doubles. */
+static void set_removed(struct judge_context *context) {
+  struct judge_removed *removed = &context->all.removed;
+  *removed = context->options.removed;
+  removed->near = context->all.size * TOLERANCE_JUDGE_CUT_SHARE;
+  for (size_t t = 0; removed->planes > 0 && t < context->all.triangle.count;
+       t++)
+    removed->contact =
+        fmax(removed->contact, context->all.triangle.item[t].contact);
+}
+
+static bool mark_borders(struct judge_context *context) {
+  for (size_t t = 0; t < context->all.triangle.count; t++) {
+    struct judge_triangle *triangle = &context->all.triangle.item[t];
+    triangle->has_border = context->edges.has_border[triangle->face];
+  }
+  return true;
+}
+
 /* Builds triangles, edges and grids; false when memory ran out. */
 static bool build_context(struct judge_context *context,
                           const struct scene *scene) {
@@ -483,12 +520,14 @@ static bool build_context(struct judge_context *context,
                             context->options.contact) ||
       !judge_contact_set(&context->all, &context->options))
     return false;
+  set_removed(context);
   context->sampler = (struct judge_sampler){&context->all, camera,
                                             context->options.ray_offset_mm};
   context->grid = largest_rounding(context);
   return judge_edges_init(&context->edges, &context->all, camera,
                           &context->options) &&
-         collect_images(context) && collect_ink(context) &&
+         mark_borders(context) && collect_images(context) &&
+         collect_ink(context) &&
          judge_grid_init(&context->by_image, context->image,
                          (uint32_t)context->edges.edge.count, width, height,
                          cell, context->options.lateral_mm) &&

@@ -2,6 +2,7 @@
 librecto_core_la_SOURCES += \
   %D%/camera.c %D%/camera.h \
   %D%/clipped_triangle.c %D%/clipped_triangle.h \
+  %D%/cut_edges.c %D%/cut_edges.h \
   %D%/contact.c %D%/contact.h \
   %D%/ear_clipping.c %D%/ear_clipping.h \
   %D%/edge_list.c %D%/edge_list.h \
@@ -15,9 +16,12 @@ librecto_core_la_SOURCES += \
   %D%/options.h \
   %D%/point.h \
   %D%/ray.c %D%/ray.h \
+  %D%/removed.h \
   %D%/sampler.c %D%/sampler.h \
+  %D%/traversal.c %D%/traversal.h \
   %D%/triangles.c %D%/triangles.h \
   %D%/triangulation.c %D%/triangulation.h \
+  %D%/winding.c %D%/winding.h \
   %D%/svg/svg.c \
   %D%/svg/svg_path.c %D%/svg/svg_path.h \
   %D%/svg/svg_pen.c %D%/svg/svg_pen.h \

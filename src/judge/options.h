@@ -2,7 +2,7 @@
 #ifndef JUDGE_OPTIONS_H
 #define JUDGE_OPTIONS_H
 
-#include "judge/point.h"
+#include "judge/removed.h"
 
 struct judge_options {
   double step_mm;         /* distance of samples */
@@ -23,6 +23,7 @@ struct judge_options {
   unsigned edges; /* requested classes, a mask of recto_edge_class */
   const struct scene_point *given; /* the original points, where the scene's
                                       were translated; NULL: the scene's */
+  struct judge_removed removed; /* its planes: what of the scene is cut off */
   double shortest_mm; /* shorter strokes need not be drawn: a visible line
                          without ink that is not surely this long is undecided;
                          0: every stroke must be drawn */

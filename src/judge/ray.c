@@ -2,40 +2,9 @@
 #include "judge/ray.h"
 
 #include "judge/camera.h"
+#include "judge/traversal.h"
 
 /* ---- Rays ---------------------------------------------------------------- */
-
-struct slab_ray {
-  double from[3], inverse[3]; /* 1 / direction */
-  bool parallel[3];           /* direction 0 */
-  const struct judge_ray *ray;
-};
-
-static struct slab_ray ray_of(const struct judge_ray *ray) {
-  struct judge_point3 from = ray->from, towards = ray->towards;
-  return (struct slab_ray){{from.x, from.y, from.z},
-                           {1 / towards.x, 1 / towards.y, 1 / towards.z},
-                           {towards.x == 0, towards.y == 0, towards.z == 0},
-                           ray};
-}
-
-static bool ray_meets_box(const struct slab_ray *slab_ray,
-                          const struct judge_box *box) {
-  double t0 = 0, t1 = slab_ray->ray->t_max;
-  for (int k = 0; k < 3; k++) {
-    if (slab_ray->parallel[k]) {
-      if (slab_ray->from[k] < box->low[k] || slab_ray->from[k] > box->high[k])
-        return false;
-      continue;
-    }
-    double a = (box->low[k] - slab_ray->from[k]) * slab_ray->inverse[k];
-    double b = (box->high[k] - slab_ray->from[k]) * slab_ray->inverse[k];
-    double first = a < b ? a : b, last = a < b ? b : a;
-    t0 = first > t0 ? first : t0;
-    t1 = last < t1 ? last : t1;
-  }
-  return t0 <= t1;
-}
 
 /* Whether the ray's line meets the triangle: the signed volumes of the line
  * with its three sides have one sign (Pluecker test).  A line through a side
@@ -246,38 +215,52 @@ test_ray_triangle(const struct judge_triangles *all,
   return most < visibility ? most : visibility;
 }
 
-/* ---- Traversal ----------------------------------------------------------- */
+/* ---- All triangles ------------------------------------------------------- */
+
+/* What has been found along a ray. */
+struct ray_state {
+  const struct judge_triangles *all;
+  const struct judge_ray *ray;
+  enum judge_visibility visibility;
+  uint32_t *face;
+};
+
+/* Where the ray meets a triangle it may be removed. */
+static enum judge_visibility most_after_cut(const struct judge_triangles *all,
+                                            const struct judge_ray *ray,
+                                            const struct judge_triangle *t) {
+  double at = point3_dot(t->normal, point3_sub(t->p[0], ray->from)) /
+              point3_dot(t->normal, ray->towards);
+  double depth = judge_removed_depth(&all->removed,
+                                     point3_along(ray->from, at, ray->towards));
+  if (depth > all->removed.near)
+    return JUDGE_CLEAR;
+  return depth < -all->removed.near && !t->bent ? JUDGE_BLOCKED : JUDGE_UNSURE;
+}
+
+static bool look_at_triangle(void *user, uint32_t number) {
+  struct ray_state *state = user;
+  const struct judge_triangles *all = state->all;
+  const struct judge_triangle *t = &all->triangle.item[number];
+  enum judge_visibility seen = test_ray_triangle(all, state->ray, t);
+  if (seen == JUDGE_BLOCKED && t->open)
+    seen = JUDGE_UNSURE;
+  if (seen != JUDGE_CLEAR && all->removed.planes > 0) {
+    enum judge_visibility most = most_after_cut(all, state->ray, t);
+    seen = most < seen ? most : seen;
+  }
+  if (seen > state->visibility)
+    state->visibility = seen;
+  if (seen == JUDGE_BLOCKED && state->face != NULL)
+    *state->face = t->face;
+  return seen != JUDGE_BLOCKED;
+}
 
 enum judge_visibility judge_cast_ray(const struct judge_triangles *all,
                                      const struct judge_ray *ray,
                                      uint32_t *face) {
-  const struct slab_ray slab_ray = ray_of(ray);
-  uint32_t stack[JUDGE_STACK_SIZE];
-  unsigned depth = 0;
-  enum judge_visibility visibility = JUDGE_CLEAR;
-  if (all->nodes > 0)
-    stack[depth++] = 0;
-  while (depth > 0) {
-    const struct judge_node *node = &all->node[stack[--depth]];
-    if (!ray_meets_box(&slab_ray, &node->box))
-      continue;
-    if (node->count == 0) {
-      stack[depth++] = node->first;
-      stack[depth++] = node->first + 1;
-      continue;
-    }
-    for (uint32_t i = 0; i < node->count; i++) {
-      const struct judge_triangle *t = &all->triangle.item[node->first + i];
-      enum judge_visibility seen = test_ray_triangle(all, ray, t);
-      if (seen == JUDGE_BLOCKED && t->open)
-        seen = JUDGE_UNSURE;
-      if (seen == JUDGE_BLOCKED) {
-        if (face != NULL)
-          *face = t->face;
-        return seen;
-      }
-      visibility = seen == JUDGE_UNSURE ? seen : visibility;
-    }
-  }
-  return visibility;
+  struct ray_state state = {all, ray, JUDGE_CLEAR, face};
+  (void)judge_triangles_along(all, ray->from, ray->towards, ray->t_max,
+                              look_at_triangle, &state);
+  return state.visibility;
 }

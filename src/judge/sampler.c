@@ -3,6 +3,7 @@
 #include "judge/sampler.h"
 
 #include "judge/camera.h"
+#include "judge/cut_edges.h"
 
 #include "base/tolerance.h"
 
@@ -95,7 +96,11 @@ static enum judge_visibility cast_ray(const struct judge_sampler *sampler,
     ray.t_max = judge_view_depth(camera, from) - near;
     ray.sure = judge_view_depth(camera, from) - sure;
   }
-  return judge_cast_ray(sampler->all, &ray, blocker);
+  enum judge_visibility by_faces = judge_cast_ray(sampler->all, &ray, blocker);
+  enum judge_visibility by_cut = by_faces == JUDGE_BLOCKED
+                                     ? JUDGE_CLEAR
+                                     : judge_cut_hides(sampler->all, &ray);
+  return by_cut > by_faces ? by_cut : by_faces;
 }
 
 /* What a point of an edge sees: by itself and ray_offset_mm to either side, as

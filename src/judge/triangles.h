@@ -2,7 +2,7 @@
 #ifndef JUDGE_TRIANGLES_H
 #define JUDGE_TRIANGLES_H
 
-#include "judge/point.h"
+#include "judge/removed.h"
 
 struct judge_triangle {
   struct judge_point3 p[3];
@@ -16,6 +16,7 @@ struct judge_triangle {
                                  corner is farther off its plane: contact.h */
   bool bent; /* the face is not planar, or its sides cross: its triangles are
                 not in one plane, or overlap */
+  bool has_border; /* a side of the face is a border */
   bool open; /* the face is not planar and has so many corners that the judge
                 does not know its triangulation: what it hides is undecided */
 };
@@ -44,6 +45,8 @@ struct judge_triangles {
   ARRAY(struct judge_side_triangle) side_triangle; /* by face, low, high */
   double size; /* diagonal of the box of all points that faces use */
   const struct scene *scene;
+  struct judge_removed removed; /* of the triangles; to be set after
+                                   judge_triangles_init */
 };
 
 /* Size of the stack of a traversal; triangles.c proves that it is enough. */

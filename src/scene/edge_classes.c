@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
+#include "base/sort.h"
 #include "base/union_find.h"
 #include "base/tolerance.h"
 #include "scene/angle.h"
@@ -138,6 +139,33 @@ static unsigned plain_class_mask(const struct topology_edge *edge,
              : 0;
 }
 
+bool topology_is_in_cut(const struct scene *scene,
+                        const struct topology_edge *edge) {
+  const struct scene_cut *cut = scene->cut;
+  return cut != NULL && edge->point[0] >= cut->first_point &&
+         (cut->planes[edge->point[0] - cut->first_point] &
+          cut->planes[edge->point[1] - cut->first_point]) != 0;
+}
+
+/* What a cut makes of the classes of an edge. */
+static unsigned class_mask_after_cut(const struct topology_edge *edge,
+                                     const struct scene *scene,
+                                     unsigned class_mask) {
+  const struct scene_cut *cut = scene->cut;
+  if (topology_is_in_cut(scene, edge)) {
+    uint64_t key = sort_pair_key(edge->point[0], edge->point[1]);
+    size_t i;
+    LOWER_BOUND(i, 0, cut->edges, cut->edge[i] < key);
+    return i < cut->edges && cut->edge[i] == key
+               ? class_mask | RECTO_EDGE_SECTION
+               : 0;
+  }
+  bool is_within = edge->uses == 2 && edge->first < cut->first_face &&
+                   edge->second < cut->first_face &&
+                   cut->face[edge->first] == cut->face[edge->second];
+  return is_within ? 0 : class_mask ? class_mask : RECTO_EDGE_SMOOTH;
+}
+
 unsigned topology_class_mask(const struct topology *topology,
                              const struct scene *scene, uint32_t edge,
                              double crease_deg) {
@@ -147,6 +175,8 @@ unsigned topology_class_mask(const struct topology *topology,
                                 normal_of_face(scene, e->second), e->same_way,
                                 crease_cosine_of(crease_deg)))
     class_mask |= RECTO_EDGE_CREASE;
+  if (scene->cut != NULL)
+    return class_mask_after_cut(e, scene, class_mask);
   return class_mask ? class_mask : RECTO_EDGE_SMOOTH;
 }
 
@@ -214,7 +244,11 @@ static bool find_masks(void *user, struct parallel_range range) {
     unsigned mask = plain_class_mask(edge, work->scene);
     if (edge->uses == 2 && exceeds_crease_angle(work, edge))
       mask |= RECTO_EDGE_CREASE;
-    work->class_masks[e] = (uint8_t)(mask ? mask : RECTO_EDGE_SMOOTH);
+    mask = work->scene->cut != NULL
+               ? class_mask_after_cut(edge, work->scene, mask)
+           : mask ? mask
+                  : RECTO_EDGE_SMOOTH;
+    work->class_masks[e] = (uint8_t)mask;
   }
   return true;
 }

@@ -4,11 +4,23 @@
 
 #include "scene/topology.h"
 
+/* Whether an edge lies in a plane by which the scene was cut. */
+bool topology_is_in_cut(const struct scene *scene,
+                        const struct topology_edge *edge);
+
+/* The class that an edge is drawn as, of those that it is. */
+static inline unsigned topology_class_of_mask(unsigned class_mask) {
+  return class_mask & RECTO_EDGE_SECTION ? RECTO_EDGE_SECTION
+                                         : class_mask & (~class_mask + 1);
+}
+
 /* The classes of an edge that do not depend on the camera, a mask of
  * RECTO_EDGE_BORDER (one face or more than two), RECTO_EDGE_CREASE (angle
  * between the two faces' normals beyond crease_deg; where the winding of the
  * two disagrees one is turned) and RECTO_EDGE_GROUP (two groups meet);
- * RECTO_EDGE_SMOOTH alone where it has none of them. */
+ * RECTO_EDGE_SMOOTH alone where it has none of them.  In a scene that was cut
+ * RECTO_EDGE_SECTION too, where a surface was; and none at all of an edge
+ * within a cut face, or within a face of the scene that was cut. */
 unsigned topology_class_mask(const struct topology *topology,
                              const struct scene *scene, uint32_t edge,
                              double crease_deg);

@@ -216,6 +216,9 @@ recto_status scene_skip_face(struct scene *scene, recto_error *error) {
 
 uint32_t scene_face_number(const struct scene *scene, uint32_t face) {
   size_t low = 0, high = scene->face_skipped.count;
+  if (scene->cut != NULL && face >= scene->cut->first_face)
+    return SCENE_NONE;
+  face = scene->cut != NULL ? scene->cut->face[face] : face;
   while (low < high) {
     size_t middle = low + (high - low) / 2;
     if (scene->face_skipped.item[middle] <= face)

@@ -30,6 +30,21 @@ struct scene_group {
   bool is_shade;
 };
 
+/* What a cut made of a scene. */
+struct scene_cut {
+  uint32_t first_point;  /* this point, and those after it, lie in planes */
+  uint32_t first_face;   /* this face, and those after it, are cut faces */
+  const uint8_t *planes; /* of the points from the first one on: the planes in
+                            which they lie, a bit each */
+  const uint32_t *face;  /* of the faces before the first: in the scene that was
+                            cut */
+  const uint32_t *wire;  /* of the polylines: likewise */
+  const uint64_t *edge;  /* where surfaces were cut: keys of their two points,
+                            ascending; edges in a plane that are not among them
+                            lie within cut faces */
+  size_t edges;
+};
+
 struct scene {
   ARRAY(struct scene_point) point;
   /* Face f has corners corner[face_start[f] .. face_start[f + 1]), indices
@@ -56,6 +71,7 @@ struct scene {
   double unit_mm;     /* of a unit, as all files say that were read; 0: one does
                          not, or they differ */
   bool needs_colours; /* readers look for colours of groups in other files */
+  const struct scene_cut *cut;      /* NULL: it was not cut */
   ARRAY(struct file_identity) file; /* what it was read from */
 };
 
@@ -113,7 +129,7 @@ USE_RESULT recto_status scene_skip_face(struct scene *scene,
                                         recto_error *error);
 
 /* The number of a face where those that were skipped are counted too: its place
- * in the files or calls that it comes from.
+ * in the files or calls that it comes from; SCENE_NONE: it is a cut face.
  * Cost  logarithmic in the number of skipped faces */
 uint32_t scene_face_number(const struct scene *scene, uint32_t face);
 

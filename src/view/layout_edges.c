@@ -27,17 +27,18 @@ static bool has_mesh_contours(const uint8_t *coarse, uint32_t point) {
 
 /* The classes of an edge in this view: the given ones, with silhouette in place
  * of smooth where it is one.  An edge that one face has twice (a bridge to a
- * hole, or a spike) lies inside that face and is no silhouette.
+ * hole, or a spike) lies inside that face and is no silhouette; nor is one
+ * within a cut face.
  * still  the classes that do not depend on the camera */
-static unsigned class_mask_of(const struct topology_edge *edge, unsigned still,
+static unsigned class_mask_of(const struct scene *scene,
+                              const struct topology_edge *edge, unsigned still,
                               uint8_t sides) {
   if (edge->uses != 2 || edge->first == edge->second ||
-      !layout_is_silhouette(sides))
+      !layout_is_silhouette(sides) ||
+      (still == 0 && topology_is_in_cut(scene, edge)))
     return still;
   return (still & ~(unsigned)RECTO_EDGE_SMOOTH) | RECTO_EDGE_SILHOUETTE;
 }
-
-static unsigned lowest_bit(unsigned mask) { return mask & (~mask + 1); }
 
 /* The sheet points of a topology edge; SHEET_NONE: all of it is clipped. */
 static recto_status find_end_points(struct layout *layout, uint32_t edge,
@@ -134,8 +135,9 @@ static bool choose_edges(void *user, struct parallel_range range) {
     uint64_t bit = UINT64_C(1) << e % 64;
     bool made = layout->all_edges;
     if (work->class_masks != NULL) {
-      unsigned edge_class = lowest_bit(
-          class_mask_of(edge, work->class_masks[e], layout->sides[e]) &
+      unsigned edge_class = topology_class_of_mask(
+          class_mask_of(layout->scene, edge, work->class_masks[e],
+                        layout->sides[e]) &
           (has_mesh_contours(work->coarse, edge->point[0])
                ? wanted
                : wanted & ~silhouette));

@@ -45,8 +45,9 @@ static bool is_edge_smooth(const struct merge *merge, uint32_t id) {
     return edge->edge_class == RECTO_EDGE_SMOOTH;
   const struct topology *topology = merge->sheet->topology;
   return topology != NULL && edge->source < topology->edge.count &&
-         topology_class_mask(topology, merge->scene, edge->source,
-                             merge->crease_deg) == RECTO_EDGE_SMOOTH;
+         (topology_class_mask(topology, merge->scene, edge->source,
+                              merge->crease_deg) &
+          ~(unsigned)RECTO_EDGE_SMOOTH) == 0;
 }
 
 /* Whether two twins are pieces of one smooth edge of both their faces, and the

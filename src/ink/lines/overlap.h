@@ -15,6 +15,8 @@ static inline uint64_t overlap_priority(const struct segment_graph *graph,
                                         uint32_t segment) {
   const struct graph_segment *s = &graph->segment.item[segment];
   uint64_t edge_class = s->style_key & RECTO_EDGES_ALL;
+  if (edge_class == RECTO_EDGE_SECTION)
+    edge_class = 0; /* the widest */
   return (uint64_t)graph_segment_is_hidden(s) << 40 | edge_class << 32 |
          s->edge;
 }

@@ -89,7 +89,8 @@ static bool collect_segment(struct collector *c, uint32_t edge, struct ratio t0,
   const struct sheet_edge *e = &c->sheet->edge.item[edge];
   struct graph_segment s = {.edge = edge,
                             .pen_key = c->pen_key,
-                            .style_key = e->group << 7 | e->edge_class};
+                            .style_key = e->group << RECTO_EDGE_CLASS_COUNT |
+                                         e->edge_class};
   if (!node_at(c, e, t0, &s.node[0]) || !node_at(c, e, t1, &s.node[1]))
     return false;
   const struct ink_point *node = c->graph->node.item;

@@ -1,0 +1,300 @@
+/* cut_faces.c - splits the faces that planes meet.
+ *
+ * A face is split by one plane after the other: what is below a plane stays,
+ * what is beyond it goes on to the next.  A polygon whose boundary meets a
+ * plane twice is split as it is; one that meets it more often, or is not
+ * planar, triangle by triangle. */
+#include "base/poll.h"
+#include "cut/cut_phases.h"
+
+struct cut_loop {
+  uint32_t face;
+  ARRAY(struct cut_corner) corner;
+};
+
+static size_t next_in_loop(const struct cut_loop *loop, size_t i) {
+  return i + 1 < loop->corner.count ? i + 1 : 0;
+}
+
+/* Adds a corner, unless it is the point of the last one. */
+static bool add_corner(struct cut_loop *loop, uint32_t point, uint8_t plane) {
+  const struct cut_corner corner = {point, plane};
+  size_t count = loop->corner.count;
+  if (count > 0 && loop->corner.item[count - 1].point == point) {
+    loop->corner.item[count - 1].plane = plane;
+    return true;
+  }
+  return ARRAY_PUSH(&loop->corner, corner);
+}
+
+static bool store_part(struct cutter *cutter, const struct cut_loop *loop,
+                       bool united) {
+  const struct cut_part part = {loop->face, (uint32_t)cutter->corner.count,
+                                (uint32_t)loop->corner.count, united};
+  for (size_t i = 0; i < loop->corner.count; i++)
+    if (!ARRAY_PUSH(&cutter->corner, loop->corner.item[i]))
+      return false;
+  return ARRAY_PUSH(&cutter->part, part);
+}
+
+/* Stores the sides in the planes of a part that goes. */
+static bool store_lines(struct cutter *cutter, const struct cut_loop *loop) {
+  uint32_t group = cutter->scene->face_group.item[loop->face];
+  for (size_t i = 0; i < loop->corner.count; i++) {
+    const struct cut_corner *corner = &loop->corner.item[i];
+    const struct cut_line line = {
+        corner->point, loop->corner.item[next_in_loop(loop, i)].point, group,
+        false};
+    if (corner->plane != CUT_NO_PLANE && line.from != line.to &&
+        !ARRAY_PUSH(&cutter->lines[corner->plane].line, line))
+      return false;
+  }
+  return true;
+}
+
+/* Splits a loop that meets a plane twice into what is below and beyond it. */
+static bool split_loop(struct cutter *cutter, const struct cut_loop *loop,
+                       unsigned plane, struct cut_loop *below,
+                       struct cut_loop *beyond) {
+  bool ok = true;
+  for (size_t i = 0; ok && i < loop->corner.count; i++) {
+    const struct cut_corner *a = &loop->corner.item[i];
+    const struct cut_corner *b = &loop->corner.item[next_in_loop(loop, i)];
+    bool from = cut_is_beyond(&cutter->points, a->point, plane);
+    bool to = cut_is_beyond(&cutter->points, b->point, plane);
+    struct cut_loop *here = from ? beyond : below;
+    ok = add_corner(here, a->point, a->plane);
+    if (from == to)
+      continue;
+    uint32_t meet = cut_points_meet(&cutter->points, a->point, b->point, plane);
+    ok = ok && meet != SCENE_NONE && add_corner(here, meet, (uint8_t)plane) &&
+         add_corner(from ? below : beyond, meet, a->plane);
+  }
+  return ok;
+}
+
+static bool cut_loop(struct cutter *cutter, const struct cut_loop *loop,
+                     unsigned plane);
+
+static bool cut_triangles(struct cutter *cutter, const struct cut_loop *loop,
+                          unsigned plane) {
+  const struct triangulation *triangulation = &cutter->triangulation;
+  size_t count = triangulation->triangle.count;
+  struct triangulation_triangle *triangle = mem_alloc(count, sizeof *triangle);
+  struct cut_loop part = {.face = loop->face};
+  bool ok = triangle != NULL;
+  for (size_t t = 0; ok && t < count; t++)
+    triangle[t] = triangulation->triangle.item[t];
+  for (size_t t = 0; ok && t < count; t++) {
+    part.corner.count = 0;
+    for (int k = 0; ok && k < 3; k++) {
+      uint32_t side = triangle[t].side[k];
+      ok = add_corner(&part, loop->corner.item[triangle[t].corner[k]].point,
+                      side < loop->corner.count ? loop->corner.item[side].plane
+                                                : CUT_NO_PLANE);
+    }
+    ok = ok && cut_loop(cutter, &part, plane);
+  }
+  ARRAY_FREE(&part.corner);
+  mem_free(triangle);
+  return ok;
+}
+
+/* Triangulates a loop by the rule for all polygons. */
+static bool triangulate_loop(struct cutter *cutter,
+                             const struct cut_loop *loop) {
+  size_t count = loop->corner.count;
+  struct scene_point *point = mem_alloc(count, sizeof *point);
+  uint32_t *corner = mem_alloc(count, sizeof *corner);
+  bool ok = point != NULL && corner != NULL;
+  for (uint32_t i = 0; ok && i < count; i++) {
+    uint32_t p = loop->corner.item[i].point;
+    corner[i] = i;
+    point[i] =
+        p < cutter->points.first
+            ? cutter->scene->point.item[p]
+            : cut_points_position(&cutter->points,
+                                  cut_made_point(&cutter->points, p)->at);
+  }
+  ok = ok && triangulate(&cutter->triangulation, point, corner, count);
+  mem_free(point);
+  mem_free(corner);
+  return ok;
+}
+
+/* Splits what is beyond the planes before `plane`. */
+static bool cut_loop(struct cutter *cutter, const struct cut_loop *loop,
+                     unsigned plane) {
+  if (loop->corner.count < 3)
+    return true;
+  if (plane == cutter->points.planes) {
+    cutter->anything_goes = true;
+    return store_lines(cutter, loop);
+  }
+  size_t count = loop->corner.count, beyonds = 0, changes = 0;
+  for (size_t i = 0; i < count; i++) {
+    bool here =
+        cut_is_beyond(&cutter->points, loop->corner.item[i].point, plane);
+    beyonds += here;
+    changes +=
+        here != cut_is_beyond(&cutter->points,
+                              loop->corner.item[next_in_loop(loop, i)].point,
+                              plane);
+  }
+  if (beyonds == 0)
+    return store_part(cutter, loop, false);
+  if (beyonds == count)
+    return cut_loop(cutter, loop, plane + 1);
+  if (count > 3) {
+    if (!triangulate_loop(cutter, loop))
+      return false;
+    cutter->is_warped = cutter->is_warped || cutter->triangulation.warped;
+    if (changes > 2 || cutter->triangulation.warped)
+      return cut_triangles(cutter, loop, plane);
+  }
+  struct cut_loop below = {.face = loop->face}, beyond = {.face = loop->face};
+  bool ok = split_loop(cutter, loop, plane, &below, &beyond) &&
+            (below.corner.count < 3 || store_part(cutter, &below, false)) &&
+            cut_loop(cutter, &beyond, plane + 1);
+  ARRAY_FREE(&below.corner);
+  ARRAY_FREE(&beyond.corner);
+  return ok;
+}
+
+/* ---- Parts of one face --------------------------------------------------- */
+
+/* The sides of the parts of a face. */
+struct part_sides {
+  ARRAY(struct cut_line) side;
+  ARRAY(struct sort_key) key; /* by their ends; then by where they begin */
+};
+
+/* Adds a side, in the pieces into which planes from `plane` on split it. */
+static bool add_part_side(struct part_sides *sides,
+                          const struct cut_points *points, uint32_t from,
+                          uint32_t to, unsigned plane) {
+  for (unsigned k = plane; k < points->planes; k++) {
+    if (cut_is_beyond(points, from, k) == cut_is_beyond(points, to, k))
+      continue;
+    uint32_t meet = cut_points_find(points, from, to, k);
+    if (meet != SCENE_NONE)
+      return add_part_side(sides, points, from, meet, k + 1) &&
+             add_part_side(sides, points, meet, to, k + 1);
+  }
+  const struct cut_line side = {from, to, 0, from == to};
+  return ARRAY_PUSH(&sides->side, side);
+}
+
+static bool add_part_sides(struct part_sides *sides,
+                           const struct cutter *cutter,
+                           const struct cut_part *part) {
+  const struct cut_corner *corner = cutter->corner.item + part->corner;
+  for (uint32_t i = 0; i < part->count; i++)
+    if (!add_part_side(sides, &cutter->points, corner[i].point,
+                       corner[i + 1 < part->count ? i + 1 : 0].point,
+                       corner[i].plane == CUT_NO_PLANE ? CUT_PLANES_MAX
+                                                       : corner[i].plane + 1u))
+      return false;
+  return true;
+}
+
+/* Opens sides that two parts have in common, and sorts the others by where they
+ * begin. */
+static bool cancel_common_sides(struct part_sides *sides) {
+  struct cut_line *side = sides->side.item;
+  bool ok = true;
+  sides->key.count = 0;
+  for (uint32_t i = 0; ok && i < sides->side.count; i++)
+    ok = ARRAY_PUSH(
+        &sides->key,
+        ((struct sort_key){sort_pair_key(side[i].from, side[i].to), i}));
+  ok = ok && sort_keys_alone(sides->key.item, sides->key.count);
+  for (size_t i = 1; ok && i < sides->key.count; i++) {
+    struct cut_line *a = &side[sides->key.item[i - 1].value];
+    struct cut_line *b = &side[sides->key.item[i].value];
+    if (!a->open && !b->open && a->from == b->to && a->to == b->from)
+      a->open = b->open = true;
+  }
+  sides->key.count = 0;
+  for (uint32_t i = 0; ok && i < sides->side.count; i++)
+    ok = side[i].open ||
+         ARRAY_PUSH(&sides->key, ((struct sort_key){side[i].from, i}));
+  return ok && sort_keys_alone(sides->key.item, sides->key.count);
+}
+
+/* Walks around from the first side.  Returns whether all sides are met once:
+ * the parts are one polygon. */
+static bool walk_around(const struct part_sides *sides,
+                        struct cut_loop *polygon) {
+  const struct sort_key *key = sides->key.item;
+  size_t count = sides->key.count, at = 0;
+  polygon->corner.count = 0;
+  for (size_t n = 0; n < count; n++) {
+    const struct cut_line *side = &sides->side.item[key[at].value];
+    if ((at + 1 < count && key[at + 1].key == key[at].key) ||
+        (n > 0 && at == 0) || !add_corner(polygon, side->from, CUT_NO_PLANE))
+      return false;
+    LOWER_BOUND(at, 0, count, key[at].key < side->to);
+    if (at == count || key[at].key != side->to)
+      return false;
+  }
+  return count >= 3 && at == 0;
+}
+
+/* Makes the parts of a face from `first` on one again, where they are one
+ * polygon; else each gets the corners at which others of them end. */
+static bool unite_parts(struct cutter *cutter, size_t first,
+                        struct part_sides *sides, struct cut_loop *polygon) {
+  size_t past = cutter->part.count;
+  bool ok = true;
+  sides->side.count = 0;
+  for (size_t p = first; ok && p < past; p++)
+    ok = add_part_sides(sides, cutter, &cutter->part.item[p]);
+  ok = ok && cancel_common_sides(sides);
+  if (ok && !cutter->is_warped && walk_around(sides, polygon)) {
+    cutter->corner.count = cutter->part.item[first].corner;
+    cutter->part.count = first;
+    return store_part(cutter, polygon, true);
+  }
+  for (size_t p = first; ok && p < past; p++) {
+    struct cut_part *part = &cutter->part.item[p];
+    sides->side.count = 0;
+    ok = add_part_sides(sides, cutter, part);
+    part->corner = (uint32_t)cutter->corner.count;
+    part->count = (uint32_t)sides->side.count;
+    for (size_t i = 0; ok && i < sides->side.count; i++)
+      ok = ARRAY_PUSH(
+          &cutter->corner,
+          ((struct cut_corner){sides->side.item[i].from, CUT_NO_PLANE}));
+  }
+  return ok;
+}
+
+recto_status cut_faces(struct cutter *cutter, recto_error *error) {
+  const struct scene *scene = cutter->scene;
+  struct cut_loop loop = {.face = 0};
+  struct part_sides sides = {{0}, {0}};
+  bool ok = true;
+  for (uint32_t face = 0; ok && face < scene_face_count(scene); face++) {
+    enum cut_fate fate = cut_fate_of(cutter, face);
+    cutter->anything_goes = cutter->anything_goes || fate == CUT_GOES;
+    ok = poll_at(face);
+    if (!ok || fate != CUT_IS_SPLIT)
+      continue;
+    loop.face = face;
+    loop.corner.count = 0;
+    for (uint32_t c = scene->face_start.item[face];
+         ok && c < scene->face_start.item[face + 1]; c++)
+      ok = add_corner(&loop, cut_weld(cutter, scene->corner.item[c]),
+                      CUT_NO_PLANE);
+    size_t first = cutter->part.count;
+    cutter->is_warped = false;
+    ok = ok && cut_loop(cutter, &loop, 0) &&
+         (cutter->part.count <= first + 1 ||
+          unite_parts(cutter, first, &sides, &loop));
+  }
+  ARRAY_FREE(&loop.corner);
+  ARRAY_FREE(&sides.side);
+  ARRAY_FREE(&sides.key);
+  return ok ? RECTO_OK : error_memory(error);
+}

@@ -1,0 +1,16 @@
+# src/cut/local.mk - the sources of this layer.
+librecto_core_la_SOURCES += \
+  %D%/curves.c %D%/curves.h \
+  %D%/cut.h \
+  %D%/cut_assemble.c \
+  %D%/cut_faces.c \
+  %D%/cut_phases.h \
+  %D%/cut_scene.c \
+  %D%/cut_sections.c \
+  %D%/cut_points.c %D%/cut_points.h \
+  %D%/section.h \
+  %D%/section_loops.c \
+  %D%/section_phases.h \
+  %D%/section_solve.c \
+  %D%/snap_rounding.c \
+  %D%/sweep.c
