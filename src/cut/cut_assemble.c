@@ -212,9 +212,15 @@ static bool add_wire_pieces(struct assembly *a, uint32_t wire) {
     if (c + 1 == past)
       break;
     uint32_t q = cut_weld(cutter, from->wire_corner.item[c + 1]);
+    bool from_kept = cut_beyond(points, p) != all,
+         to_kept = cut_beyond(points, q) != all;
     uint8_t plane[2];
-    if (!find_gap(points, p, q, plane))
+    if (!find_gap(points, p, q, plane)) {
+      /* An end that is on the plane belongs to the piece before or after. */
+      if (from_kept != to_kept && !add_face_corner(a, from_kept ? q : p))
+        return false;
       continue;
+    }
     for (int k = 0; k < 2; k++) {
       uint32_t meet = plane[k] != CUT_NO_PLANE
                           ? cut_points_meet(points, p, q, plane[k])
