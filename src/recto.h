@@ -331,6 +331,21 @@ typedef struct recto_plane {
   uint64_t reserved[2];
 } recto_plane;
 
+/* What cut faces are filled with, whatever `ink.fill` is. */
+typedef enum recto_cut_fill {
+  RECTO_CUT_FILL_HATCH = 0,
+  RECTO_CUT_FILL_SOLID, /* hatching without gaps */
+  RECTO_CUT_FILL_NONE
+} recto_cut_fill;
+
+/* How the cut faces of a group are hatched. */
+typedef struct recto_cut_hatch {
+  const char *group; /* as of recto_pen_use */
+  double angle_deg;
+  double pitch_mm; /* at least RECTO_FINEST_MM; 0: chosen */
+  uint64_t reserved[2];
+} recto_cut_hatch;
+
 /* How the scene's points are understood, and what is cut off. */
 typedef struct recto_mesh_options {
   /* Corners of borders that are at most this far apart are welded, scene units;
@@ -354,7 +369,15 @@ typedef struct recto_mesh_options {
    * their groups and hide what is behind them like any face. */
   const recto_plane *cut; /* cut_count of them */
   size_t cut_count;       /* at most RECTO_CUT_MAX */
-  uint64_t reserved[5];
+  recto_cut_fill cut_fill;
+  char unused_2[4]; /* 0 */
+  /* The hatching of some groups' cut faces, cut_hatch_count of them; of several
+   * for one group the last counts.  Other groups get angles and pitches in turn,
+   * from those of `ink.hatch_angle_deg` and `ink.hatch_pitch_mm` on, so that no
+   * two neighbours have the same. */
+  const recto_cut_hatch *cut_hatch;
+  size_t cut_hatch_count;
+  uint64_t reserved[2];
 } recto_mesh_options;
 
 typedef struct recto_camera_options {

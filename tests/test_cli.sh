@@ -67,6 +67,8 @@ fov 0 -1 180 x
 scale 0 1: :1 1:0 -1:2 1:2:3 x
 near 0 -1 x
 section x
+cut-fill x paint
+cut-hatch x wheel= =3 wheel=x wheel=3/ wheel=3/0 wheel=3/x
 cut x x= x=a w=1 x=1,2 1,2,3 0,0,0,1 nan,0,0,1
 depth-bits 8 0 25 x float
 subpixels 0 17 x
@@ -112,7 +114,7 @@ offered_or_refused() {
 }
 for option in output format from method pitch resolution depth-bits subpixels \
   remove-backs contact view azimuth \
-  elevation camera lookat up fov ortho fit no-fit scale near cut section page \
+  elevation camera lookat up fov ortho fit no-fit scale near cut cut-fill cut-hatch section page \
   landscape margin edges crease contours hidden dash fill hatch-pitch hatch-angle hatch-inset light ambient fill-light pen \
   pens pen-for pen-width pen-colour pen-color unit portrait weights path order simplify curves min-stroke exact precision ids id-prefix title desc background stats verify check threads progress quiet \
   completion version help; do

@@ -278,6 +278,125 @@ static void results_name_what_the_caller_knows(void **state) {
   recto_scene_destroy(scene);
 }
 
+/* ---- Hatching ------------------------------------------------------------ */
+
+/* The angle of a stroke of hatching, 0 to 180 degrees. */
+static double hatch_angle(const recto_stroke *stroke) {
+  double x = stroke->points[2] - stroke->points[0];
+  double y = stroke->points[3] - stroke->points[1];
+  double angle = atan2(y, x) * 180 / 3.14159265358979323846;
+  return fmod(angle + 360.5, 180) - 0.5;
+}
+
+/* Three slabs in a row, cut across: three groups, of which the middle one is
+ * beside both others. */
+static recto_scene *slabs(void) {
+  recto_scene *scene;
+  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+  for (int i = 0; i < 3; i++) {
+    static const char *const name[] = {"a", "b", "c"};
+    assert_int_equal(recto_scene_add_group(scene, name[i], NULL), RECTO_OK);
+    double point[24];
+    for (int k = 0; k < 24; k++)
+      point[k] = box_cube[k / 3][k % 3] + (k % 3 == 0 ? i : 0);
+    recto_mesh mesh = box_mesh(point, 8);
+    mesh.face_groups = NULL;
+    assert_int_equal(recto_scene_add_mesh(scene, &mesh, NULL), RECTO_OK);
+  }
+  return scene;
+}
+
+static void neighbours_are_hatched_differently(void **state) {
+  (void)state;
+  recto_scene *scene = slabs();
+  const recto_plane plane = plane_of(0, 0, 1, 0.5);
+  const recto_cut_hatch own[] = {
+      {.group = "b", .angle_deg = 20, .pitch_mm = 7}};
+  for (int with = 0; with < 2; with++) {
+    recto_drawing *drawing;
+    recto_options options;
+    double angle[3] = {-1, -1, -1};
+    size_t count[3] = {0, 0, 0};
+    recto_options_init(&options);
+    options.camera.azimuth_deg = 0;
+    options.camera.elevation_deg = 0;
+    options.mesh.cut = &plane;
+    options.mesh.cut_count = 1;
+    options.mesh.cut_hatch = own;
+    options.mesh.cut_hatch_count = with ? 1 : 0;
+    options.ink.order = RECTO_ORDER_NONE;
+    assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
+                     RECTO_OK);
+    recto_stroke stroke;
+    for (size_t s = 0; recto_drawing_stroke(drawing, s, &stroke); s++)
+      if (stroke.edge_class == 0) {
+        assert_true(stroke.group < 3 && stroke.face == RECTO_NONE);
+        if (angle[stroke.group] < 0)
+          angle[stroke.group] = hatch_angle(&stroke);
+        assert_true(fabs(angle[stroke.group] - hatch_angle(&stroke)) < 0.1);
+        count[stroke.group]++;
+      }
+    assert_true(count[0] > 0 && count[1] > 0 && count[2] > 0);
+    assert_true(fabs(angle[0] - angle[1]) > 5 && fabs(angle[1] - angle[2]) > 5);
+    assert_true(fabs(angle[0] - 45) < 0.1);
+    if (with)
+      assert_true(fabs(angle[1] - 20) < 0.1);
+    recto_drawing_destroy(drawing);
+  }
+  recto_scene_destroy(scene);
+}
+
+static size_t count_hatching(const recto_scene *scene,
+                             const recto_options *options) {
+  recto_drawing *drawing;
+  recto_stroke stroke;
+  size_t count = 0;
+  assert_int_equal(recto_scene_render(scene, options, &drawing, NULL),
+                   RECTO_OK);
+  for (size_t s = 0; recto_drawing_stroke(drawing, s, &stroke); s++)
+    count += stroke.edge_class == 0;
+  recto_drawing_destroy(drawing);
+  return count;
+}
+
+static void cut_faces_are_hatched_solid_or_not(void **state) {
+  (void)state;
+  recto_scene *scene = slabs();
+  const recto_plane plane = plane_of(0, 0, 1, 0.5);
+  recto_options options;
+  recto_options_init(&options);
+  options.camera.azimuth_deg = 0;
+  options.camera.elevation_deg = 0;
+  options.mesh.cut = &plane;
+  options.mesh.cut_count = 1;
+  size_t hatched = count_hatching(scene, &options);
+  options.mesh.cut_fill = RECTO_CUT_FILL_NONE;
+  assert_int_equal(count_hatching(scene, &options), 0);
+  /* --fill hatch leaves cut faces out; there is nothing else to see. */
+  options.ink.fill = RECTO_FILL_HATCH;
+  assert_int_equal(count_hatching(scene, &options), 0);
+  options.ink.light[2] = 1;
+  assert_int_equal(count_hatching(scene, &options), 0);
+  options.ink.fill = RECTO_FILL_NONE;
+  options.mesh.cut_fill = RECTO_CUT_FILL_SOLID;
+  options.ink.pen_mm = 0.2;
+  options.ink.hatch_pitch_mm = 2;
+  assert_true(count_hatching(scene, &options) > 0 && hatched > 0);
+  recto_drawing *drawing;
+  recto_error error;
+  const recto_cut_hatch none = {.group = "wheel", .angle_deg = 1};
+  options.mesh.cut_hatch = &none;
+  options.mesh.cut_hatch_count = 1;
+  assert_int_equal(recto_scene_render(scene, &options, &drawing, &error),
+                   RECTO_ERROR_ARGUMENT);
+  assert_non_null(strstr(error.text, "wheel"));
+  const recto_cut_hatch bad = {.group = "a", .angle_deg = NAN};
+  options.mesh.cut_hatch = &bad;
+  assert_int_equal(recto_scene_render(scene, &options, &drawing, &error),
+                   RECTO_ERROR_ARGUMENT);
+  recto_scene_destroy(scene);
+}
+
 static void bad_planes_are_refused(void **state) {
   (void)state;
   const recto_mesh mesh = box_mesh(box_cube[0], 8);
@@ -380,6 +499,8 @@ int main(void) {
       cmocka_unit_test(the_judge_knows_where_the_cut_is),
       cmocka_unit_test(outlines_have_no_gaps),
       cmocka_unit_test(results_name_what_the_caller_knows),
+      cmocka_unit_test(neighbours_are_hatched_differently),
+      cmocka_unit_test(cut_faces_are_hatched_solid_or_not),
       cmocka_unit_test(bad_planes_are_refused),
       cmocka_unit_test(sizes_do_not_matter),
       cmocka_unit_test(lines_that_are_not_closed_are_warned_about),

@@ -66,6 +66,8 @@ done <<'END_OF_ROWS'
 --lookat 0,0,1|a.svg --fov 20|a.svg|--camera, --fov, --no-fit and --scale; --fit
 --fov 20|a.svg --view top|a.svg -c 5,4,3|named views and for --no-fit; --fit
 --fov 20|a.svg -c 5,4,3 --no-fit|a.svg -c 5,4,3 --scale 1:2|named views and for --no-fit; --scale
+--cut-fill solid|a.svg --cut z=1|a.svg|--cut; a run without --cut
+--cut-hatch default=30|a.svg --cut z=1|a.svg|--cut; a run without --cut
 --unit m|a.svg --scale 1:2|a.svg|true scale; --fit
 --scale 1:2|a.svg|a.svg --no-fit|true scale; --no-fit
 --crease 20|a.svg|a.svg -e silhouette|edges of the classes crease and smooth, fills and smooth contours; this --edges
@@ -90,6 +92,7 @@ done <<'END_OF_ROWS'
 --seam 0.1|a.svg --fill shade|a.svg --fill hatch|--fill paint and --fill shade; --fill hatch
 --hatch-pitch 2|a.svg --fill hatch|a.svg --fill paint|--fill hatch; --fill paint
 --hatch-pitch 2|a.svg --fill hatch|a.svg --fill hatch --light 1,1,1|hatching of one pitch; hatching by --light
+--hatch-pitch 2|a.svg --cut z=1|a.svg --cut z=1 --cut-fill none|--fill hatch; --fill none
 --hatch-angle 2|a.svg --fill hatch --light 1,1,1|a.svg|--fill hatch; --fill none
 --hatch-inset|a.svg --fill hatch|a.svg --fill hatch --light 1,1,1|hatching of one pitch; hatching by --light
 --ambient 0.1|a.svg --fill shade|a.svg --fill hatch|--fill shade and for --fill hatch with --light; --fill hatch

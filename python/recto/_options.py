@@ -42,6 +42,9 @@ class Options(TypedDict, total=False):
     section: float
     cut: Union[str, Vector, Sequence[Union[str, Vector]]]
     # "x=2", "y<3" or (nx, ny, nz, d), or up to three of them
+    cut_fill: str  # hatch (default), solid, none
+    cut_hatch: Mapping[str, Union[float, tuple[float, float]]]
+    # {"wheel": 30}, or {"wheel": (30, 1.5)}: angle, and pitch
 
     page: Union[str, Sequence[float]]  # "A4", or (width, height)
     landscape: bool
@@ -303,6 +306,27 @@ class _Setter:
         mesh.cut_count = len(planes)
         if planes:
             mesh.cut = self.array("recto_plane", planes)
+
+    def cut_fill(self, value: str) -> None:
+        known = {
+            "hatch": lib.RECTO_CUT_FILL_HATCH,
+            "solid": lib.RECTO_CUT_FILL_SOLID,
+            "none": lib.RECTO_CUT_FILL_NONE,
+        }
+        self.options.mesh.cut_fill = _word("cut_fill", value, known)
+
+    def cut_hatch(self, value: Mapping[str, Any]) -> None:
+        items = []
+        for group, hatch in value.items():
+            pair = isinstance(hatch, (tuple, list))
+            angle, pitch = hatch if pair else (hatch, 0)
+            items.append(
+                {"group": self.text(group), "angle_deg": angle, "pitch_mm": pitch}
+            )
+        mesh = self.options.mesh
+        mesh.cut_hatch_count = len(items)
+        if items:
+            mesh.cut_hatch = self.array("recto_cut_hatch", items)
 
     def page(self, value: Any) -> None:
         self.options.page.may_turn = isinstance(value, str)

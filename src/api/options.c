@@ -155,8 +155,9 @@ static bool is_id(const char *text) {
 
 /* The planes of the cut. */
 static recto_status check_cut(const recto_options *o, recto_error *error) {
-  if (o->mesh.cut_count > 0 && o->mesh.cut == NULL)
-    return error_null(error, "the list of planes");
+  if ((o->mesh.cut_count > 0 && o->mesh.cut == NULL) ||
+      (o->mesh.cut_hatch_count > 0 && o->mesh.cut_hatch == NULL))
+    return error_null(error, "a list of the options");
   if (o->mesh.cut_count > RECTO_CUT_MAX)
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
                      "%zu planes cut the model, and %d are the most",
@@ -174,6 +175,15 @@ static recto_status check_cut(const recto_options *o, recto_error *error) {
                        "the plane at index %zu has no direction: its normal is "
                        "0,0,0",
                        i);
+  }
+  for (size_t i = 0; i < o->mesh.cut_hatch_count; i++) {
+    const recto_cut_hatch *hatch = &o->mesh.cut_hatch[i];
+    if (!IS_UNUSED(*hatch))
+      return sized_reject(error);
+    if (hatch->group == NULL || !(fabs(hatch->angle_deg) <= DBL_MAX) ||
+        !(hatch->pitch_mm == 0 ||
+          (hatch->pitch_mm >= RECTO_FINEST_MM && hatch->pitch_mm <= DBL_MAX)))
+      return refuse_option("the hatching of a cut at index", i, error);
   }
   return RECTO_OK;
 }
@@ -216,6 +226,7 @@ static recto_status check_options(const recto_options *o, recto_error *error) {
       {"the number of faces that hide a line", o->ink.hidden_by_max, 0,
        INT_MAX},
       {"the kind of fill", o->ink.fill, 0, RECTO_FILL_HATCH},
+      {"the fill of cut faces", o->mesh.cut_fill, 0, RECTO_CUT_FILL_NONE},
       {"the width of seams", o->ink.seam_mm, -huge, 10},
       {"the hatch pitch", o->ink.hatch_pitch_mm, RECTO_FINEST_MM, huge},
       {"the hatch angle", o->ink.hatch_angle_deg, -huge, huge},

@@ -21,6 +21,7 @@
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "base/poll.h"
+#include "ink/cut_hatch.h"
 #include "ink/ink.h"
 #include "ink/pens.h"
 #include "view/camera_aim.h"
@@ -77,7 +78,8 @@ choose_method(struct render *render, const struct solver_request *request) {
 /* ---- Stages -------------------------------------------------------------- */
 
 static bool has_fills(const struct render *render) {
-  return render->options->ink.fill != RECTO_FILL_NONE;
+  return render->options->ink.fill != RECTO_FILL_NONE ||
+         cut_hatch_is_drawn(render->options);
 }
 
 static bool needs_fragments(const struct render *render) {
@@ -426,6 +428,8 @@ static recto_status check_pens(const struct render *render,
       pens_init(&pens, &render->model->scene, render->options, error);
   if (status == RECTO_OK)
     pens_warn_unused(&pens, render->options);
+  if (status == RECTO_OK)
+    status = cut_hatch_check(&render->model->scene, render->options, error);
   pens_fini(&pens);
   return status;
 }

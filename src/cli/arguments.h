@@ -40,6 +40,7 @@ struct arguments {
 
   /* What the options' arrays refer to. */
   recto_plane plane[RECTO_CUT_MAX];
+  recto_cut_hatch *cut_hatch;
   recto_pen_use *pen_use;
   recto_pen pen[RECTO_PEN_MAX];
   recto_weight weight[RECTO_EDGE_CLASS_COUNT];
@@ -75,6 +76,7 @@ enum option_use {
   USED_BY_ZBUFFERS,
   USED_BY_CONTACT,
   USED_BY_TARGET,
+  USED_BY_CUT,
   USED_BY_FOV,
   USED_BY_SCALE,
   USED_BY_LINES,

@@ -86,6 +86,32 @@ recto_status lists_set_dash(struct arguments *a, const char *name,
   return RECTO_OK;
 }
 
+/* ANGLE, or ANGLE/PITCH. */
+recto_status lists_add_cut_hatch(struct arguments *a, const char *name,
+                                 const char *value) {
+  recto_cut_hatch hatch = {.group = name};
+  char angle[64];
+  size_t length = strcspn(value, "/");
+  if (length >= sizeof angle)
+    return RECTO_ERROR_ARGUMENT;
+  memcpy(angle, value, length);
+  angle[length] = '\0';
+  if (!value_number(angle, &hatch.angle_deg) ||
+      (value[length] == '/' &&
+       (!value_length(value + length + 1, &hatch.pitch_mm) ||
+        !(hatch.pitch_mm >= RECTO_FINEST_MM))))
+    return RECTO_ERROR_ARGUMENT;
+  size_t count = a->options.mesh.cut_hatch_count;
+  recto_cut_hatch *grown = realloc(a->cut_hatch, (count + 1) * sizeof *grown);
+  if (grown == NULL)
+    return RECTO_ERROR_MEMORY;
+  grown[count] = hatch;
+  a->cut_hatch = grown;
+  a->options.mesh.cut_hatch = grown;
+  a->options.mesh.cut_hatch_count = count + 1;
+  return RECTO_OK;
+}
+
 recto_status lists_set_weight(struct arguments *a, const char *name,
                               const char *value) {
   recto_weight weight = {.edge_class =

@@ -20,6 +20,8 @@ recto_status lists_set_colour(struct arguments *arguments, const char *name,
                               const char *value);
 recto_status lists_set_dash(struct arguments *arguments, const char *name,
                             const char *value);
+recto_status lists_add_cut_hatch(struct arguments *arguments, const char *name,
+                                 const char *value);
 recto_status lists_set_weight(struct arguments *arguments, const char *name,
                               const char *value);
 

@@ -25,7 +25,7 @@ enum {
   SMOOTH_CONTOURS
 };
 enum { SVG = 40, HPGL, PNG, VECTOR_PAGES };
-enum { STATS = 48, CHECK, BY_CHECK };
+enum { STATS = 48, CHECK, BY_CHECK, CUT, CUT_HATCHED };
 
 #define METHODS (METHOD(COUNT) - 1)
 #define FILLS (FILL(NONE) | FILL(PAINT) | FILL(SHADE) | FILL(HATCH))
@@ -70,6 +70,10 @@ static uint64_t find_requests(const struct arguments *a) {
     bits |= BIT(WARNOCK_PIXELS);
   if (o->ink.contours == RECTO_CONTOURS_SMOOTH)
     bits |= BIT(SMOOTH_CONTOURS);
+  if (o->mesh.cut_count > 0)
+    bits |= BIT(CUT);
+  if (o->mesh.cut_count > 0 && o->mesh.cut_fill == RECTO_CUT_FILL_HATCH)
+    bits |= BIT(CUT_HATCHED);
   if (a->stats)
     bits |= BIT(STATS);
   if (a->check_file != NULL)
@@ -107,9 +111,10 @@ static const struct {
     [USED_BY_SILHOUETTES] = {"edges of the class silhouette",
                              EDGES(RECTO_EDGE_SILHOUETTE)},
     [USED_BY_LINES_AND_CHECK] = {"lines", LINES | BIT(BY_CHECK)},
-    [USED_BY_STROKES] = {"lines and hatching", LINES | FILL(HATCH)},
-    [USED_BY_STROKES_AND_CHECK] = {"lines and hatching",
-                                   LINES | FILL(HATCH) | BIT(BY_CHECK)},
+    [USED_BY_STROKES] = {"lines and hatching", LINES | FILL(HATCH) | BIT(CUT)},
+    [USED_BY_STROKES_AND_CHECK] = {"lines and hatching", LINES | FILL(HATCH) |
+                                                             BIT(CUT) |
+                                                             BIT(BY_CHECK)},
     /* Fills and smooth contours end where faces meet at a crease. */
     [USED_BY_CREASE] = {"edges of the classes crease and smooth, fills and "
                         "smooth contours",
@@ -118,8 +123,10 @@ static const struct {
                             BIT(BY_CHECK)},
     [USED_BY_SEAM] = {"--fill paint and --fill shade",
                       FILL(PAINT) | FILL(SHADE)},
-    [USED_BY_HATCH] = {"--fill hatch", FILL(HATCH)},
-    [USED_BY_ONE_PITCH] = {"hatching of one pitch", BIT(NO_LIGHT)},
+    [USED_BY_CUT] = {"--cut", BIT(CUT)},
+    [USED_BY_HATCH] = {"--fill hatch", FILL(HATCH) | BIT(CUT_HATCHED)},
+    [USED_BY_ONE_PITCH] = {"hatching of one pitch",
+                           BIT(NO_LIGHT) | BIT(CUT_HATCHED)},
     [USED_BY_LIGHT] = {"--fill shade and --fill hatch",
                        FILL(SHADE) | FILL(HATCH)},
     [USED_BY_TONES] = {"--fill shade and for --fill hatch with --light",
@@ -159,6 +166,7 @@ static const char *name_instead(const struct arguments *a, uint64_t bits) {
     return fit[a->options.camera.fit];
   return bits & BIT(NO_LIGHT) ? "hatching by --light"
          : bits & BIT(STATS)  ? "a run without --stats"
+         : bits & BIT(CUT)    ? "a run without --cut"
                               : "a run without --check";
 }
 

@@ -252,6 +252,8 @@ static bool settle_page(struct arguments *a, char message[MESSAGE_SIZE]) {
 void arguments_fini(struct arguments *arguments) {
   free(arguments->pen_use);
   arguments->pen_use = NULL;
+  free(arguments->cut_hatch);
+  arguments->cut_hatch = NULL;
 }
 
 bool arguments_parse(struct arguments *arguments, int argc, char **argv,

@@ -7,6 +7,7 @@
 #include "base/poll.h"
 #include "ink/curve/curves.h"
 #include "ink/fill/fill.h"
+#include "ink/cut_hatch.h"
 #include "ink/hatch/hatch.h"
 #include "ink/layers.h"
 #include "ink/order/stroke_order.h"
@@ -302,6 +303,12 @@ static bool add_fills_of_kind(struct ink *ink) {
   return true;
 }
 
+static bool add_cut_hatching(struct ink *ink) {
+  return !cut_hatch_is_drawn(ink->options) || ink->scene->cut == NULL ||
+         hatch_add_cuts(ink->drawing, ink->sheet, ink->scene, ink->map,
+                        ink->pens, ink->options);
+}
+
 static bool finish_drawing(struct ink *ink) {
   if (!layers_pack(ink->drawing))
     return false;
@@ -329,7 +336,8 @@ recto_status ink_draw(struct drawing *drawing, const struct sheet *sheet,
     status = error_memory(error);
   if (status == RECTO_OK)
     status = draw_lines(&ink, error);
-  if (status == RECTO_OK && !(add_fills_of_kind(&ink) && finish_drawing(&ink)))
+  if (status == RECTO_OK && !(add_fills_of_kind(&ink) &&
+                              add_cut_hatching(&ink) && finish_drawing(&ink)))
     status = error_memory(error);
   pens_fini(&pens);
   return status;

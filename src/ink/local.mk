@@ -15,6 +15,7 @@ librecto_core_la_SOURCES += \
   %D%/fill/light.c %D%/fill/light.h \
   %D%/fill/merge.c %D%/fill/merge.h \
   %D%/fill/outline.c %D%/fill/outline.h \
+  %D%/cut_hatch.c %D%/cut_hatch.h \
   %D%/hatch/hatch.c %D%/hatch/hatch.h \
   %D%/hatch/hatch_lines.c %D%/hatch/hatch_lines.h \
   %D%/hatch/hatch_regions.c %D%/hatch/hatch_regions.h \

@@ -26,9 +26,7 @@ static unsigned class_index(unsigned edge_class) {
   return index;
 }
 
-/* Whether a name means a group: its whole name, or one of the parts between
- * slashes, which join object, group and material. */
-static bool is_name_of(const char *name, const char *group) {
+bool pens_is_name_of(const char *name, const char *group) {
   size_t length = strlen(name);
   for (const char *at = group; at != NULL;
        at = strchr(at, '/') != NULL ? strchr(at, '/') + 1 : NULL)
@@ -68,7 +66,7 @@ static recto_status add_use(struct pens *pens, const struct scene *scene,
     pens->of_class[class_index(use->edge_class)] = pen;
   for (size_t g = 0;
        use->lines == RECTO_LINES_OF_GROUP && g < pens->group_count; g++)
-    if (is_name_of(use->group, scene->group.item[g].name)) {
+    if (pens_is_name_of(use->group, scene->group.item[g].name)) {
       pens->of_group[g] = pen;
       found = true;
     }

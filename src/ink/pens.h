@@ -38,6 +38,10 @@ USE_RESULT recto_status pens_init(struct pens *pens, const struct scene *scene,
                                   recto_error *error);
 void pens_fini(struct pens *pens);
 
+/* Whether a name means a group: its whole name, or one of the parts between
+ * slashes, which join object, group and material. */
+bool pens_is_name_of(const char *name, const char *group);
+
 /* Whether lines of the class with that bit index are requested. */
 bool pens_is_drawn(const recto_options *options, unsigned place);
 

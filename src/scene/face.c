@@ -216,7 +216,7 @@ recto_status scene_skip_face(struct scene *scene, recto_error *error) {
 
 uint32_t scene_face_number(const struct scene *scene, uint32_t face) {
   size_t low = 0, high = scene->face_skipped.count;
-  if (scene->cut != NULL && face >= scene->cut->first_face)
+  if (scene_is_cut_face(scene, face))
     return SCENE_NONE;
   face = scene->cut != NULL ? scene->cut->face[face] : face;
   while (low < high) {

@@ -92,6 +92,10 @@ static inline uint32_t scene_next_corner(const struct scene *scene,
   return corner + 1 < start[1] ? corner + 1 : start[0];
 }
 
+static inline bool scene_is_cut_face(const struct scene *scene, uint32_t face) {
+  return scene->cut != NULL && face >= scene->cut->first_face;
+}
+
 /* Whether there is a line of the class group where faces of the two meet. */
 static inline bool scene_groups_differ(const struct scene *scene, uint32_t a,
                                        uint32_t b) {

@@ -64,7 +64,8 @@ static const char *const alternatives[][MAX_ALTERNATIVES] = {
      "--dash=silhouette=3,smooth=phantom --hidden=dashed --dash=hidden=2:1"},
     {"", "", "", "--background=navy --ids --id-prefix=a", "--title= --desc="},
     {"", "", "--cut=x=1", "--cut=y<1 --cut=z=0.5", "--cut=1,2,3,4",
-     "--cut=x=0 --cut=y=0 --cut=z=0"},
+     "--cut=x=0 --cut=y=0 --cut=z=0 --cut-fill=solid",
+     "--cut=z=1 --cut-fill=none"},
 };
 
 /* ---- Words --------------------------------------------------------------- */

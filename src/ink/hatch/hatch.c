@@ -17,6 +17,7 @@
 
 #include "base/poll.h"
 #include "base/tolerance.h"
+#include "ink/cut_hatch.h"
 #include "ink/hatch/hatch.h"
 #include "ink/hatch/inset.h"
 #include "ink/hatch/hatch_regions.h"
@@ -299,29 +300,78 @@ static bool hatch_region(struct hatch *h) {
   return true;
 }
 
+/* Hatches the regions of faces that are cut faces, or are not.
+ * hatch  one a group: only those that have this angle and pitch; NULL: all */
+static bool hatch_faces(struct hatch *h, const struct scene *scene,
+                        const struct map *map, const recto_options *options,
+                        bool cuts, const struct cut_hatch *hatch,
+                        const struct cut_hatch *style) {
+  const struct pens *pens = h->pens;
+  bool ok = true;
+  for (size_t i = 0, end, n = 0; ok && i < map->fragment.count; i = end, n++) {
+    end = hatch_regions_end(&h->regions, i);
+    uint32_t face = map->fragment.item[h->regions.fragment[i]].face;
+    uint32_t group = scene->face_group.item[face];
+    ok = poll_at(n);
+    if (scene_is_cut_face(scene, face) != cuts ||
+        (hatch != NULL && (hatch[group].angle_deg != style->angle_deg ||
+                           hatch[group].pitch_mm != style->pitch_mm)))
+      continue;
+    h->pen = pens_of_hatch(pens, group);
+    h->inset = options->ink.hatch_inset ? pens_width_mm(pens, h->pen) / 2 : 0;
+    h->inked_distance = h->inset + pens_width_mm(pens, h->pen) / 2;
+    h->shortest = pens_shortest_hatch_mm(pens, h->pen);
+    h->attributes = (struct drawing_stroke){
+        .layer = h->pen, .face = face, .edge = DRAWING_NONE, .group = group};
+    ok = ok && collect_sides(h, map, i, end) && hatch_region(h);
+  }
+  return ok;
+}
+
+static void hatch_fini(struct hatch *h) {
+  hatch_regions_fini(&h->regions);
+  ARRAY_FREE(&h->strip);
+  ARRAY_FREE(&h->strip_side);
+  ARRAY_FREE(&h->line.point);
+}
+
 bool hatch_add(struct drawing *drawing, const struct sheet *sheet,
                const struct scene *scene, const struct map *map,
                const struct pens *pens, const recto_options *options) {
   struct hatch h = {.drawing = drawing, .sheet = sheet, .pens = pens};
   hatch_lines_init(&h.lines, sheet, options->ink.hatch_pitch_mm,
                    options->ink.hatch_angle_deg);
-  bool ok = hatch_regions_init(&h.regions, sheet, scene, map, pens, options);
-  for (size_t i = 0, end, n = 0; ok && i < map->fragment.count; i = end, n++) {
-    end = hatch_regions_end(&h.regions, i);
-    uint32_t face = map->fragment.item[h.regions.fragment[i]].face;
-    uint32_t group = scene->face_group.item[face];
-    h.pen = pens_of_hatch(pens, group);
-    h.inset = options->ink.hatch_inset ? pens_width_mm(pens, h.pen) / 2 : 0;
-    h.inked_distance = h.inset + pens_width_mm(pens, h.pen) / 2;
-    h.shortest = pens_shortest_hatch_mm(pens, h.pen);
-    h.attributes = (struct drawing_stroke){
-        .layer = h.pen, .face = face, .edge = DRAWING_NONE, .group = group};
-    ok = poll_at(n) && collect_sides(&h, map, i, end) && hatch_region(&h);
-  }
+  bool ok = hatch_regions_init(&h.regions, sheet, scene, map, pens, options) &&
+            hatch_faces(&h, scene, map, options, false, NULL, NULL);
   hatch_lines_fini(&h.lines);
-  hatch_regions_fini(&h.regions);
-  ARRAY_FREE(&h.strip);
-  ARRAY_FREE(&h.strip_side);
-  ARRAY_FREE(&h.line.point);
+  hatch_fini(&h);
+  return ok;
+}
+
+/* Whether a group before this one has the same hatching. */
+static bool is_done(const struct cut_hatch *hatch, size_t group) {
+  for (size_t g = 0; g < group; g++)
+    if (hatch[g].angle_deg == hatch[group].angle_deg &&
+        hatch[g].pitch_mm == hatch[group].pitch_mm)
+      return true;
+  return false;
+}
+
+bool hatch_add_cuts(struct drawing *drawing, const struct sheet *sheet,
+                    const struct scene *scene, const struct map *map,
+                    const struct pens *pens, const recto_options *options) {
+  struct hatch h = {.drawing = drawing, .sheet = sheet, .pens = pens};
+  struct cut_hatch *hatch = cut_hatch_of_groups(scene, pens, options);
+  bool ok = hatch != NULL &&
+            hatch_regions_init(&h.regions, sheet, scene, map, pens, options);
+  for (size_t g = 0; ok && g < scene->group.count; g++) {
+    if (hatch[g].pitch_mm == 0 || is_done(hatch, g))
+      continue;
+    hatch_lines_init(&h.lines, sheet, hatch[g].pitch_mm, hatch[g].angle_deg);
+    ok = hatch_faces(&h, scene, map, options, true, hatch, &hatch[g]);
+    hatch_lines_fini(&h.lines);
+  }
+  hatch_fini(&h);
+  mem_free(hatch);
   return ok;
 }

@@ -17,6 +17,15 @@ USE_RESULT bool hatch_add(struct drawing *drawing, const struct sheet *sheet,
                           const struct pens *pens,
                           const recto_options *options);
 
+/* Adds strokes of class 0 over the visible parts of cut faces, at the angle and
+ * pitch of each group (cut_hatch.h).  The two others leave these out.
+ * Returns false when memory ran out. */
+USE_RESULT bool hatch_add_cuts(struct drawing *drawing,
+                               const struct sheet *sheet,
+                               const struct scene *scene, const struct map *map,
+                               const struct pens *pens,
+                               const recto_options *options);
+
 /* Adds strokes of class 0 along parallel lines in up to three directions, the
  * first at hatch_angle_deg, so that the ink of a pen pen_mm wide covers the
  * share of the paper that the tone of the face under options->ink.light

@@ -20,6 +20,16 @@ bool hatch_regions_side_is_inked(const struct hatch_regions *regions,
   }
 }
 
+/* Whether two twins divide a cut face.  Surfaces that end on it from behind may
+ * do so within contact, by lines that are not drawn. */
+static bool is_within_cut_face(const struct scene *scene, const struct map *map,
+                               const struct map_half_edge *a,
+                               const struct map_half_edge *b) {
+  uint32_t face = map->fragment.item[a->fragment].face;
+  return face == map->fragment.item[b->fragment].face &&
+         scene_is_cut_face(scene, face);
+}
+
 /* Whether the fragments of two twins belong to one region: they are beside one
  * mesh edge that is not drawn, and one pen hatches both, or parts of one face
  * that a scan-line method has split. */
@@ -32,10 +42,12 @@ static bool is_within_region(const struct hatch_regions *regions,
   const struct map_corner *q = &map->corner.item[b->side];
   uint32_t face = map->fragment.item[a->fragment].face;
   uint32_t other = map->fragment.item[b->fragment].face;
-  if (p->side == MAP_SIDE_CLIP && q->side == MAP_SIDE_CLIP)
+  if (is_within_cut_face(scene, map, a, b) ||
+      (p->side == MAP_SIDE_CLIP && q->side == MAP_SIDE_CLIP))
     return face == other;
   return p->side == MAP_SIDE_EDGE && q->side == MAP_SIDE_EDGE &&
          p->id == q->id && !hatch_regions_side_is_inked(regions, p) &&
+         scene_is_cut_face(scene, face) == scene_is_cut_face(scene, other) &&
          pens_of_hatch(pens, scene->face_group.item[face]) ==
              pens_of_hatch(pens, scene->face_group.item[other]);
 }
@@ -56,7 +68,7 @@ static void join_fragments(const struct hatch_regions *regions,
 
 /* Finds the half-edges within the regions along which no line is drawn. */
 static void find_crossable(const struct hatch_regions *regions,
-                           const struct map *map) {
+                           const struct scene *scene, const struct map *map) {
   const struct map_half_edge *half = map->half_edge.item;
   for (uint32_t h = 0; h < map->half_edge.count; h++) {
     const struct map_half_edge *twin =
@@ -65,9 +77,11 @@ static void find_crossable(const struct hatch_regions *regions,
     regions->crossable[h] =
         twin != NULL &&
         regions->root[half[h].fragment] == regions->root[twin->fragment] &&
-        !hatch_regions_side_is_inked(regions,
-                                     &map->corner.item[half[h].side]) &&
-        !hatch_regions_side_is_inked(regions, &map->corner.item[twin->side]);
+        (is_within_cut_face(scene, map, &half[h], twin) ||
+         (!hatch_regions_side_is_inked(regions,
+                                       &map->corner.item[half[h].side]) &&
+          !hatch_regions_side_is_inked(regions,
+                                       &map->corner.item[twin->side])));
   }
 }
 
@@ -104,7 +118,7 @@ bool hatch_regions_init(struct hatch_regions *regions,
     join_fragments(regions, scene, map, pens);
   ok = ok && list_by_region(regions);
   if (ok)
-    find_crossable(regions, map);
+    find_crossable(regions, scene, map);
   else
     hatch_regions_fini(regions);
   return ok;

@@ -301,6 +301,8 @@ static bool add_curved_fragments(struct tone_hatching *h,
   for (size_t i = 0; i < map->fragment.count; i++) {
     const struct map_fragment *fragment = &map->fragment.item[i];
     uint32_t group = h->tones.scene->face_group.item[fragment->face];
+    if (scene_is_cut_face(h->tones.scene, fragment->face))
+      continue;
     h->face = fragment->face;
     h->pen = pens_of_hatch(h->pens, group);
     h->pen_mm = pens_width_mm(h->pens, h->pen);
