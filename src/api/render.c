@@ -225,6 +225,11 @@ static recto_status project_scene(struct render *render, recto_error *error) {
                                    &render->topology, &render->camera,
                                    &render->scaled, error);
   render->triangles = render->sheet.triangle.count;
+  /* Only cut faces are filled. */
+  if (render->options->ink.fill == RECTO_FILL_NONE &&
+      !(render->options->results & RECTO_RESULT_FACES) &&
+      render->prepared->scene->cut != NULL)
+    render->sheet.first_filled = render->prepared->scene->cut->first_face;
   /* The topology of a fine mesh takes a quarter of all memory, and without
    * fills or results it is not used again. */
   if (!uses_topology(render)) {

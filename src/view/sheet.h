@@ -90,6 +90,7 @@ struct sheet {
                                 coordinates; NULL: exact */
   ARRAY(struct sheet_face_error) face_error; /* by face */
   const uint32_t *face_group;                /* the scene's, borrowed */
+  uint32_t first_filled; /* faces before this one get no visible fragments */
   const struct topology *topology; /* the scene's, borrowed; NULL: unknown */
   /* Mesh edges in topology order, then diagonals that are silhouettes, then
    * wires, then intersections once they were found.  Edges of class 0 are

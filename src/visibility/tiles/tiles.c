@@ -241,7 +241,8 @@ static bool classify_faces(struct tiles_work *work) {
                        classify_face_range, work))
     return false;
   for (size_t t = 0; t < n; t++) {
-    if (work->face_state[t] != MAP_MIXED)
+    if (work->face_state[t] != MAP_MIXED ||
+        work->sheet->triangle.item[t].face < work->sheet->first_filled)
       continue;
     if (!ARRAY_PUSH(&work->face, (uint32_t)t))
       return false;
