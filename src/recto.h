@@ -372,9 +372,9 @@ typedef struct recto_mesh_options {
   recto_cut_fill cut_fill;
   char unused_2[4]; /* 0 */
   /* The hatching of some groups' cut faces, cut_hatch_count of them; of several
-   * for one group the last counts.  Other groups get angles and pitches in turn,
-   * from those of `ink.hatch_angle_deg` and `ink.hatch_pitch_mm` on, so that no
-   * two neighbours have the same. */
+   * for one group the last counts.  Other groups get angles and pitches in
+   * turn, from those of `ink.hatch_angle_deg` and `ink.hatch_pitch_mm` on, so
+   * that no two neighbours have the same. */
   const recto_cut_hatch *cut_hatch;
   size_t cut_hatch_count;
   uint64_t reserved[2];

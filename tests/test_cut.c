@@ -849,6 +849,36 @@ static void polylines_lose_what_is_beyond(void **state) {
   scene_fini(&c.scene);
 }
 
+/* A point on the plane is beyond it, and the piece that ends there is not. */
+static void polylines_keep_what_ends_on_the_plane(void **state) {
+  (void)state;
+  struct cutting c;
+  struct diagnostics diagnostics = {.file = ""};
+  const struct cut_plane plane[1] = {plane_of(1, 0, 0, 0)};
+  scene_init(&c.scene);
+  /* To the plane and back, and then one that goes on beyond it. */
+  uint32_t corner[3] = {add_point(&c.scene, -2, 1, 0),
+                        add_point(&c.scene, 0, 1, 0),
+                        add_point(&c.scene, -1, 3, 0)};
+  assert_int_equal(scene_add_wire(&c.scene, corner, 3, 0, &diagnostics, NULL),
+                   RECTO_OK);
+  corner[2] = add_point(&c.scene, 5, 1, 0);
+  assert_int_equal(scene_add_wire(&c.scene, corner, 3, 0, &diagnostics, NULL),
+                   RECTO_OK);
+  assert_int_equal(run_cut(&c, plane, 1), RECTO_OK);
+  const struct scene *after = &c.cut.scene;
+  assert_int_equal(scene_wire_count(after), 2);
+  assert_int_equal(after->wire_start.item[1], 3);
+  assert_int_equal(after->wire_start.item[2], 5);
+  for (int w = 0; w < 2; w++) {
+    uint32_t middle = after->wire_corner.item[after->wire_start.item[w] + 1];
+    assert_true(after->point.item[middle].x == 0);
+    assert_true(after->point.item[middle].y == 1);
+  }
+  end_cut(&c);
+  scene_fini(&c.scene);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(sections_have_the_area_of_the_solid),
@@ -866,6 +896,7 @@ int main(void) {
       cmocka_unit_test(the_sides_of_cut_faces_are_sections),
       cmocka_unit_test(faces_are_divided_only_where_something_goes),
       cmocka_unit_test(polylines_lose_what_is_beyond),
+      cmocka_unit_test(polylines_keep_what_ends_on_the_plane),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

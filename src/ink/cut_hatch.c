@@ -51,8 +51,8 @@ struct neighbours {
 };
 
 /* Finds the groups whose cut faces have a side in common. */
-static bool find_neighbours(struct neighbours *neighbours,
-                            const struct scene *scene) {
+static bool find_neighbouring_cuts(struct neighbours *neighbours,
+                                   const struct scene *scene) {
   ARRAY(struct sort_key) side = {0};
   bool ok = true;
   for (uint32_t f = scene->cut->first_face; ok && f < scene_face_count(scene);
@@ -128,8 +128,8 @@ struct cut_hatch *cut_hatch_of_groups(const struct scene *scene,
   size_t groups = scene->group.count;
   struct cut_hatch *hatch = mem_calloc(groups, sizeof *hatch);
   uint8_t *style = mem_calloc(groups, sizeof *style);
-  bool ok =
-      hatch != NULL && style != NULL && find_neighbours(&neighbours, scene);
+  bool ok = hatch != NULL && style != NULL &&
+            find_neighbouring_cuts(&neighbours, scene);
   for (uint32_t f = scene->cut->first_face; ok && f < scene_face_count(scene);
        f++)
     hatch[scene->face_group.item[f]].pitch_mm = 1;

@@ -349,7 +349,7 @@ bool hatch_add(struct drawing *drawing, const struct sheet *sheet,
 }
 
 /* Whether a group before this one has the same hatching. */
-static bool is_done(const struct cut_hatch *hatch, size_t group) {
+static bool is_hatched_before(const struct cut_hatch *hatch, size_t group) {
   for (size_t g = 0; g < group; g++)
     if (hatch[g].angle_deg == hatch[group].angle_deg &&
         hatch[g].pitch_mm == hatch[group].pitch_mm)
@@ -365,7 +365,7 @@ bool hatch_add_cuts(struct drawing *drawing, const struct sheet *sheet,
   bool ok = hatch != NULL &&
             hatch_regions_init(&h.regions, sheet, scene, map, pens, options);
   for (size_t g = 0; ok && g < scene->group.count; g++) {
-    if (hatch[g].pitch_mm == 0 || is_done(hatch, g))
+    if (hatch[g].pitch_mm == 0 || is_hatched_before(hatch, g))
       continue;
     hatch_lines_init(&h.lines, sheet, hatch[g].pitch_mm, hatch[g].angle_deg);
     ok = hatch_faces(&h, scene, map, options, true, hatch, &hatch[g]);
