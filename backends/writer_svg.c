@@ -277,14 +277,19 @@ static void close_nesting(const struct svg *svg, struct svg_nesting *open) {
 }
 
 /* Writes id="PREFIXlayer1" and, of a group in it, id="PREFIXlayer1-group"; the
- * layer of fills is named so. */
+ * layer of fills is named so.  A view's begin with its name: "front-layer1". */
 static void write_layer_id(const struct svg *svg, uint32_t layer,
                            const char *group) {
   unsigned pen = svg->drawing->layer.item[layer].pen;
+  const char *view = svg->drawing->layer.item[layer].view;
   struct stream *out = svg->out;
   stream_text(out, " id=\"");
   if (svg->options->id_prefix != NULL)
     stream_text(out, svg->options->id_prefix);
+  if (view != NULL) {
+    stream_text(out, view);
+    stream_text(out, "-");
+  }
   stream_text(out, pen > 0 ? "layer" : "fills");
   if (pen > 0)
     stream_int(out, pen);

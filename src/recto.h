@@ -164,9 +164,12 @@ typedef enum recto_fit {
   RECTO_FIT_PAGE = 0, /* the drawing fills the page inside the margins */
   RECTO_FIT_NONE,     /* --fov spans the printable height, centred */
   RECTO_FIT_SCALE,    /* true scale: `scale` page mm for a mm of the scene */
-  RECTO_FIT_SPHERE    /* the sphere about the target that encloses the scene
+  RECTO_FIT_SPHERE,   /* the sphere about the target that encloses the scene
                          fills the page inside the margins: one scale for all
                          directions */
+  RECTO_FIT_PREFERRED /* true scale: the largest of those that ISO 5455 prefers,
+                         1, 2 and 5 times a power of ten, at which the drawing
+                         fits the page inside the margins */
 } recto_fit;
 
 typedef enum recto_camera {
@@ -396,9 +399,10 @@ typedef struct recto_camera_options {
   double section; /* scene units in front of the eye, or
                      behind the scene's nearest point for
                      a direction: what is nearer is cut */
-  double unit_mm; /* with RECTO_FIT_SCALE: a scene unit is so many mm, of which
-                     `scale` mm are drawn for one; 0: what the files say (glTF:
-                     1000; 3MF: its unit), where all say the same, else 1 */
+  double unit_mm; /* with RECTO_FIT_SCALE and RECTO_FIT_PREFERRED: a scene unit
+                     is so many mm, of which the scale's number of mm is drawn
+                     for one; 0: what the files say (glTF: 1000; 3MF: its unit),
+                     where all say the same, else 1 */
   uint64_t reserved[7];
 } recto_camera_options;
 
@@ -510,6 +514,41 @@ typedef struct recto_output_options {
   uint64_t reserved[4];
 } recto_output_options;
 
+/* Where the views of a sheet lie, as ISO 5456-2 arranges them about the front
+ * view. */
+typedef enum recto_arrangement {
+  RECTO_ARRANGEMENT_NONE = 0, /* there is no sheet: one view, by `camera` */
+  RECTO_ARRANGEMENT_FIRST,    /* first-angle projection: the view from above is
+                                 below, that from the left on the right */
+  RECTO_ARRANGEMENT_THIRD     /* third-angle projection: the view from above is
+                                 above, that from the left on the left */
+} recto_arrangement;
+
+/* A view of a sheet. */
+typedef struct recto_sheet_view {
+  const char *name; /* a name of recto_view_name; NULL: seen in the direction of
+                       `camera`, and not aligned */
+  double scale;     /* how many times the sheet's scale, for views that are not
+                       along an axis; 0: once */
+  bool has_hidden;  /* `hidden` takes the place of `ink.hidden` */
+  char unused[3];   /* 0 */
+  recto_hidden hidden;
+  uint64_t reserved[2];
+} recto_sheet_view;
+
+/* Several views of a scene on one page: a sheet.  All are parallel projections
+ * at one scale, by `camera.fit`: the largest that fits, a preferred or a given
+ * one.  Front, back, left, right, top and bottom are aligned; other views stand
+ * in the corner that these leave free, and beside it. */
+typedef struct recto_sheet_options {
+  recto_arrangement arrangement;
+  char unused[4];               /* 0 */
+  const recto_sheet_view *view; /* view_count of them, each once; 0: front, top
+                                   and left, in third-angle projection right */
+  size_t view_count;
+  uint64_t reserved[8];
+} recto_sheet_options;
+
 typedef struct recto_options {
   size_t size; /* set by recto_options_init: that of this struct */
   recto_solver_options solver;
@@ -529,6 +568,8 @@ typedef struct recto_options {
   recto_progress_fn progress;
   recto_warning_fn warning;
   void *user;
+
+  recto_sheet_options sheet;
 } recto_options;
 
 /* Fills `options` with the defaults: auto, isometric, A4 upright with a 10 mm
@@ -656,7 +697,9 @@ RECTO_USE_RESULT recto_status recto_scene_prepare(recto_scene *scene,
                                                   const recto_options *options,
                                                   recto_error *error);
 
-/* Draws the scene as the options say; NULL: the defaults.
+/* Draws the scene as the options say; NULL: the defaults.  Each view of a sheet
+ * has layers of its own, whose labels name it; what is verified is every view,
+ * and the stats have a section for each.
  * Errors  RECTO_ERROR_EMPTY: there is nothing to draw; RECTO_ERROR_LIMIT: there
  *         is too much for the method, or sizes and distances differ by too
  *         much; RECTO_ERROR_UNSUPPORTED: the method or the output's format is
@@ -934,7 +977,8 @@ const recto_loop *recto_drawing_loops(const recto_drawing *drawing,
 const recto_half_edge *recto_drawing_half_edges(const recto_drawing *drawing,
                                                 size_t *count);
 
-/* Projects a point of the scene as the drawing was projected.
+/* Projects a point of the scene as the drawing was projected, a sheet as its
+ * first view.
  * point    scene units
  * page_mm  where it lies on the page, which may be outside of it
  * depth    scene units along the view axis, growing away from the viewer: from

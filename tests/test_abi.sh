@@ -96,14 +96,14 @@ mkdir -p same && cp "$header" same/
 claim "a program of this version runs" runs same 0
 
 older() {
-  make_header older -e '/^  unsigned results;$/,/^  void \*user;$/d' \
+  make_header older -e '/^  unsigned results;$/,/^  recto_sheet_options sheet;$/d' \
     -e '/^  double width_mm;   \/\* of its pen \*\/$/d' \
     -e '/^  uint32_t face, edge, group;$/d' && runs older 0 &&
     cmp same.out older.out
 }
 claim "an older one draws the same" older
 newer_header() {
-  make_header newer -e 's/^  void \*user;$/&\n  double later, more;/'
+  make_header newer -e 's/^  recto_sheet_options sheet;$/&\n  double later, more;/'
 }
 newer() {
   newer_header && runs newer 0 "$@" && cmp same.out newer.out

@@ -75,6 +75,7 @@ done <<'END_OF_ROWS'
 --crease 20|a.svg -e silhouette --contours smooth|a.svg -e silhouette|edges of the classes crease and smooth, fills and smooth contours; this --edges
 --contours smooth|a.svg|a.svg -e crease|edges of the class silhouette; this --edges
 --hidden layer|a.svg|a.svg -e none --fill paint|lines; --edges none
+--hidden-in top=layer|a.svg --sheet first|a.svg --sheet first -e none --fill paint|lines; --edges none
 --dash crease=chain|a.svg|a.svg -e none --fill paint|lines; --edges none
 --weights none|a.svg|a.svg -e none --fill paint|lines; --edges none
 --weights none|a.svg|a.hpgl|svg, pdf, eps, ps and png; hpgl
@@ -163,7 +164,7 @@ draws_the_same() {
 claim "the drawing is the same, a line an option" draws_the_same
 
 # Those that always do something, or that refuse what they do not go with.
-always='--output --format --from --method --view --turntable --azimuth --elevation --camera
+always='--output --format --from --method --view --sheet --views --turntable --azimuth --elevation --camera
 --up --ortho --fit --no-fit --near --cut --section --page --landscape --portrait --margin --edges
 --weld --fill --stats --verify --check --tolerance --threads --progress --quiet --completion --version --help'
 every_option_has_its_row() {

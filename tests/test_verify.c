@@ -49,7 +49,12 @@ static recto_status verify_run(struct judged_run *run, int exponent) {
                                 &p->sheet,     &p->map,  &p->drawing,
                                 &run->options, NULL};
   run->summary[0] = '\0';
-  return verify_drawing(&verify, p->report, run->summary, &run->error);
+  struct verify_counts counts;
+  recto_status status =
+      verify_drawing(&verify, p->report, &counts, &run->error);
+  if (status == RECTO_OK)
+    verify_summarise(run->summary, &counts);
+  return status;
 }
 
 static void end(struct judged_run *run) {

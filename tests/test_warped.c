@@ -96,10 +96,10 @@ static recto_status verify_drawn(const struct pipeline *p,
                                  const struct scene *scene,
                                  const recto_options *options,
                                  recto_error *error) {
-  char summary[VERIFY_SUMMARY_SIZE];
+  struct verify_counts counts;
   const struct verify verify = {scene,   0,           &p->camera, &p->sheet,
-                                &p->map, &p->drawing, options};
-  return verify_drawing(&verify, p->report, summary, error);
+                                &p->map, &p->drawing, options,    NULL};
+  return verify_drawing(&verify, p->report, &counts, error);
 }
 
 static void check_verdict(const struct scene *scene,

@@ -37,7 +37,11 @@ class Options(TypedDict, total=False):
     fov: float
     ortho: bool
     fit: str  # page (default), none, scale, sphere
-    scale: float  # mm of page for a unit of the scene
+    scale: Union[float, str]  # mm of page for a unit of the scene, or "auto"
+    sheet: str  # first, third: angle projection, several views on one page
+    views: Union[str, Sequence[Union[str, tuple[str, float]]]]
+    # "front,top,iso:2", or ["front", "top", ("iso", 2)]
+    hidden_in: Mapping[str, str]  # {"iso": "none"}: of single views
     near: float
     section: float
     cut: Union[str, Vector, Sequence[Union[str, Vector]]]
@@ -131,6 +135,10 @@ RESULTS = {
     "invisibility": lib.RECTO_RESULT_INVISIBILITY,
     "faces": lib.RECTO_RESULT_FACES,
     "all": lib.RECTO_RESULTS_ALL,
+}
+_ARRANGEMENTS = {
+    "first": lib.RECTO_ARRANGEMENT_FIRST,
+    "third": lib.RECTO_ARRANGEMENT_THIRD,
 }
 _FITS = {
     "page": lib.RECTO_FIT_PAGE,
@@ -277,9 +285,48 @@ class _Setter:
     def fit(self, value: str) -> None:
         self.options.camera.fit = _word("fit", value, _FITS)
 
-    def scale(self, value: float) -> None:
-        self.options.camera.fit = lib.RECTO_FIT_SCALE
-        self.options.camera.scale = value
+    def scale(self, value: Union[float, str]) -> None:
+        camera = self.options.camera
+        if isinstance(value, str):
+            camera.fit = _word("scale", value, {"auto": lib.RECTO_FIT_PREFERRED})
+        else:
+            camera.fit = lib.RECTO_FIT_SCALE
+            camera.scale = value
+
+    def sheet(self, value: str) -> None:
+        self.options.sheet.arrangement = _word("sheet", value, _ARRANGEMENTS)
+
+    def views(self, value: Any) -> None:
+        items = []
+        for view in value.split(",") if isinstance(value, str) else value:
+            if isinstance(view, str):
+                name, _, scale = view.partition(":")
+                view = (name, float(scale) if scale else 0)
+            if len(view) != 2:
+                raise ValueError(f'not {view!r}, but a name or such as ("iso", 2)')
+            _word("views", view[0], VIEWS)
+            items.append({"name": self.text(view[0]), "scale": view[1]})
+        sheet = self.options.sheet
+        if sheet.arrangement == lib.RECTO_ARRANGEMENT_NONE:
+            sheet.arrangement = lib.RECTO_ARRANGEMENT_FIRST
+        sheet.view = self.array("recto_sheet_view", items)
+        sheet.view_count = len(items)
+
+    def hidden_in(self, value: Mapping[str, str]) -> None:
+        sheet = self.options.sheet
+        if sheet.view_count == 0:
+            third = sheet.arrangement == lib.RECTO_ARRANGEMENT_THIRD
+            self.views(["front", "top", "right" if third else "left"])
+        for name, how in value.items():
+            found = [
+                sheet.view[i]
+                for i in range(sheet.view_count)
+                if text_of(sheet.view[i].name) == name
+            ]
+            if not found:
+                raise ValueError(f"the view {name!r} is not on the sheet")
+            found[0].has_hidden = True
+            found[0].hidden = _word("hidden_in", how, _HIDDEN)
 
     def unit(self, value: Union[float, str]) -> None:
         """A number is the output's; a word the model's, for the scale."""
@@ -531,8 +578,9 @@ class Filled:
         self.at.user = self.call.user
         self._setter = _Setter(self.at)
         # A view sets both angles, which may be given too; a page is turned
-        # once its size is known.
-        first, last = ("view", "page", "scale"), ("landscape", "portrait")
+        # once its size is known, and views have hidden lines once they are.
+        first = ("view", "page", "scale", "sheet", "views")
+        last = ("landscape", "portrait", "hidden_in")
         names = [n for n in first if n in given]
         names += [n for n in given if n not in first + last]
         names += [n for n in last if n in given]

@@ -2,8 +2,10 @@
 #include "api/captions.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
+#include "api/options.h"
 #include "base/number.h"
 #include "base/sentence.h"
 
@@ -67,14 +69,61 @@ static void describe_view(struct sentence *words, const recto_options *o) {
   sentence_add(words, "%s.", o->camera.fov_deg > 0 ? ", in perspective" : "");
 }
 
-bool captions_set(struct drawing *drawing, const recto_scene *scene,
-                  const recto_options *options) {
-  struct sentence words = {.length = 0};
-  describe_view(&words, options);
-  drawing->description = mem_copy_text(words.text);
+void captions_write_scale(char text[CAPTIONS_SCALE_SIZE], double scale) {
+  char number[NUMBER_TEXT_SIZE];
+  double least = fmin(scale, 1);
+  double side = scale >= 1 ? scale : 1 / scale;
+  size_t length = side < 1e6 ? number_format(number, side, 3)
+                             : number_format_exact(number, side);
+  (void)snprintf(text, CAPTIONS_SCALE_SIZE, least < 1 ? "1:%.*s" : "%.*s:1",
+                 (int)length, number);
+}
+
+/* "Visible lines, front, top and left views in first-angle projection, 1:2." */
+static void describe_sheet(struct sentence *words, const recto_options *o,
+                           const struct multiview *views,
+                           const struct scene *scene) {
+  say_contents(words, o);
+  if (words->length == 0)
+    sentence_add(words, "Nothing");
+  for (size_t i = 0; i < views->count; i++)
+    sentence_add(words, "%s%s",
+                 i == 0                  ? ": "
+                 : i + 1 == views->count ? " and "
+                                         : ", ",
+                 views->view[i].name);
+  sentence_add(words, " in %s-angle projection",
+               o->sheet.arrangement == RECTO_ARRANGEMENT_FIRST ? "first"
+                                                               : "third");
+  if (o->camera.fit != RECTO_FIT_PAGE) {
+    char scale[CAPTIONS_SCALE_SIZE];
+    captions_write_scale(scale, views->scale / options_unit_mm(o, scene));
+    sentence_add(words, ", %s", scale);
+  }
+  sentence_add(words, ".");
+}
+
+static bool store_captions(struct drawing *drawing, const recto_scene *scene,
+                           const struct sentence *words) {
+  drawing->description = mem_copy_text(words->text);
   if (drawing->description == NULL || scene->path == NULL ||
       strcmp(scene->path, "-") == 0)
     return drawing->description != NULL;
   drawing->title = title_of(scene->path);
   return drawing->title != NULL;
+}
+
+bool captions_set(struct drawing *drawing, const recto_scene *scene,
+                  const recto_options *options) {
+  struct sentence words = {.length = 0};
+  describe_view(&words, options);
+  return store_captions(drawing, scene, &words);
+}
+
+bool captions_set_sheet(struct drawing *drawing, const recto_scene *scene,
+                        const recto_options *options,
+                        const struct multiview *views) {
+  struct sentence words = {.length = 0};
+  describe_sheet(&words, options, views, &scene->scene);
+  return store_captions(drawing, scene, &words);
 }

@@ -5,6 +5,7 @@
  * move them (ink_deviation_mm). */
 #include "api/handle.h"
 #include "api/judge_input.h"
+#include "api/multiview.h"
 #include "api/options.h"
 #include "view/camera_aim.h"
 #include "api/sized.h"
@@ -73,21 +74,21 @@ static void undo_cropping(struct judge_drawing *drawing, double height_mm) {
   }
 }
 
-/* Checks a drawing.
- * o  its lengths are scaled as the scene is */
-static recto_status judge_file_drawing(const struct preparation *prepared,
-                                       const recto_options *o,
-                                       struct judge_drawing *drawing,
-                                       struct judge_verdict *verdict,
-                                       recto_error *error) {
+/* Checks the drawing of a view.
+ * o         its lengths are scaled as the scene is
+ * shift_mm  of the drawing from where the options place it */
+static recto_status
+judge_file_drawing(const struct preparation *prepared, const recto_options *o,
+                   const double shift_mm[2], struct judge_drawing *drawing,
+                   struct judge_verdict *verdict, recto_error *error) {
   struct camera camera;
   struct judge_input input;
   const struct scene *scene = &prepared->welded.scene;
   recto_status status = camera_aim(&camera, prepared->scene, o, error);
   if (status != RECTO_OK)
     return status;
-  if (o->output.tight)
-    undo_cropping(drawing, camera.page_mm[1]);
+  for (int k = 0; k < 2; k++)
+    camera.middle_mm[k] += shift_mm[k];
   if (!judge_input_init(&input, scene))
     return error_memory(error);
   judge_input_cut(&input, prepared);
@@ -108,6 +109,120 @@ static recto_status judge_file_drawing(const struct preparation *prepared,
   judge_input_fini(&input);
   return status;
 }
+
+/* ---- Views --------------------------------------------------------------- */
+
+static recto_status check_view_alone(const struct preparation *prepared,
+                                     const recto_options *options,
+                                     struct judge_drawing *drawing,
+                                     struct judge_verdict *verdict,
+                                     recto_error *error) {
+  static const double shift_mm[2] = {0, 0};
+  struct camera camera;
+  recto_options o = *options;
+  recto_status status = rescale_options(&prepared->rescaled, &o, error);
+  if (status == RECTO_OK && o.output.tight) {
+    status = camera_aim(&camera, prepared->scene, &o, error);
+    if (status == RECTO_OK)
+      undo_cropping(drawing, camera.page_mm[1]);
+  }
+  return status == RECTO_OK ? judge_file_drawing(prepared, &o, shift_mm,
+                                                 drawing, verdict, error)
+                            : status;
+}
+
+/* How far a point is from the box of a view, squared. */
+static double distance_to_view(const struct multiview_view *view,
+                               struct judge_point2 p) {
+  double dx = fmax(fmax(view->low_mm[0] - p.x, p.x - view->high_mm[0]), 0);
+  double dy = fmax(fmax(view->low_mm[1] - p.y, p.y - view->high_mm[1]), 0);
+  return dx * dx + dy * dy;
+}
+
+/* The view that a stroke is of: the nearest one. */
+static size_t view_of_stroke(const struct multiview *views,
+                             const struct judge_drawing *drawing,
+                             const struct judge_stroke *stroke) {
+  size_t nearest = 0;
+  struct judge_point2 at = drawing->point.item[stroke->point];
+  for (size_t i = 1; i < views->count; i++)
+    if (distance_to_view(&views->view[i], at) <
+        distance_to_view(&views->view[nearest], at))
+      nearest = i;
+  return nearest;
+}
+
+/* Collects the strokes of a view, which refer to the points of `drawing`. */
+static bool collect_strokes_of_view(struct judge_drawing *part,
+                                    const struct judge_drawing *drawing,
+                                    const struct multiview *views,
+                                    size_t index) {
+  part->stroke.count = 0;
+  for (size_t i = 0; i < drawing->stroke.count; i++) {
+    const struct judge_stroke *stroke = &drawing->stroke.item[i];
+    if (!poll_at(i) ||
+        (stroke->count > 0 && view_of_stroke(views, drawing, stroke) == index &&
+         !ARRAY_PUSH(&part->stroke, *stroke)))
+      return false;
+  }
+  return true;
+}
+
+static void add_count(struct judge_count *sum, const struct judge_count *part) {
+  sum->samples += part->samples;
+  sum->mm += part->mm;
+}
+
+static void add_verdict(struct judge_verdict *sum,
+                        const struct judge_verdict *part) {
+  if (sum->false_ink.samples == 0)
+    sum->false_at = part->false_at;
+  if (sum->missing.samples == 0)
+    sum->missing_at = part->missing_at;
+  add_count(&sum->drawn, &part->drawn);
+  add_count(&sum->false_ink, &part->false_ink);
+  add_count(&sum->undecided_ink, &part->undecided_ink);
+  add_count(&sum->visible, &part->visible);
+  add_count(&sum->missing, &part->missing);
+  add_count(&sum->hidden, &part->hidden);
+  add_count(&sum->undecided, &part->undecided);
+}
+
+static recto_status check_sheet(const struct preparation *prepared,
+                                const recto_options *o,
+                                struct judge_drawing *drawing,
+                                struct judge_verdict *verdict,
+                                recto_error *error) {
+  struct multiview views;
+  recto_status status = multiview_arrange(&views, prepared, o, error);
+  if (status != RECTO_OK)
+    return status;
+  if (o->output.tight)
+    undo_cropping(drawing, views.page_mm[1]);
+  struct judge_drawing part = *drawing;
+  part.stroke.item = NULL;
+  part.stroke.count = part.stroke.capacity = 0;
+  *verdict = (struct judge_verdict){.drawn = {0, 0}};
+  for (size_t i = 0; i < views.count && status == RECTO_OK; i++) {
+    recto_options of_view;
+    double shift_mm[2];
+    struct judge_verdict found;
+    multiview_options(&views, i, o, &of_view, shift_mm);
+    status = rescale_options(&prepared->rescaled, &of_view, error);
+    if (status == RECTO_OK &&
+        !collect_strokes_of_view(&part, drawing, &views, i))
+      status = error_memory(error);
+    if (status == RECTO_OK)
+      status = judge_file_drawing(prepared, &of_view, shift_mm, &part, &found,
+                                  error);
+    if (status == RECTO_OK)
+      add_verdict(verdict, &found);
+  }
+  ARRAY_FREE(&part.stroke);
+  return status;
+}
+
+/* -------------------------------------------------------------------------- */
 
 recto_status recto_scene_check_sized(const recto_scene *scene, const char *path,
                                      const recto_options *options,
@@ -142,9 +257,9 @@ recto_status recto_scene_check_sized(const recto_scene *scene, const char *path,
     status = preparation_init(&prepared, &scene->scene, &checked, false, error);
     topology_fini(&prepared.topology); /* the judge has its own */
     if (status == RECTO_OK)
-      status = rescale_options(&prepared.rescaled, &checked, error);
-    if (status == RECTO_OK)
-      status = judge_file_drawing(&prepared, &checked, &drawing, &found, error);
+      status =
+          (multiview_is_requested(&checked) ? check_sheet : check_view_alone)(
+              &prepared, &checked, &drawing, &found, error);
     preparation_fini(&prepared);
   }
   if (status == RECTO_OK) {

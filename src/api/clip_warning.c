@@ -52,12 +52,14 @@ static void say_help(struct sentence *words,
                             : "--fit or a smaller --scale shows all");
     break;
   case RECTO_FIT_PAGE:
+  case RECTO_FIT_PREFERRED:
   case RECTO_FIT_SPHERE:
     sentence_add(words, "what is close to the eye is large: a larger --near or "
                         "--section cuts it away");
     break;
   }
   if (narrow && options->camera.fit != RECTO_FIT_PAGE &&
+      options->camera.fit != RECTO_FIT_PREFERRED &&
       options->camera.fit != RECTO_FIT_SPHERE)
     sentence_add(words, ", --landscape too");
   if (overflow->excess_mm > 0 &&

@@ -33,7 +33,8 @@ struct recto_drawing {
   double matrix[12];     /* 3 x 4, from scene units to homogeneous page mm */
   double depth[4];       /* 1 x 4, from scene units to the depth */
   char verdict[VERIFY_SUMMARY_SIZE]; /* "": not verified */
-  ARRAY(struct result_edge) edge;    /* RECTO_RESULT_EDGES */
+  struct verify_counts verified;
+  ARRAY(struct result_edge) edge; /* RECTO_RESULT_EDGES */
   ARRAY(recto_interval) interval;
   ARRAY(recto_fragment) fragment; /* RECTO_RESULT_FACES */
   ARRAY(recto_loop) loop;

@@ -14,7 +14,10 @@ librecto_core_la_SOURCES += \
   %D%/options.c %D%/options.h \
   %D%/output.c \
   %D%/output_format.c %D%/output_format.h \
-  %D%/render.c \
+  %D%/multiview.c %D%/multiview.h \
+  %D%/render.c %D%/render.h \
+  %D%/render_scene.c \
+  %D%/render_sheet.c %D%/render_sheet.h \
   %D%/preparation.c %D%/preparation.h \
   %D%/result.c %D%/result.h %D%/result_edges.c %D%/result_faces.c \
   %D%/scene.c \

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "api/handle.h"
+#include "api/multiview.h"
 #include "api/output_format.h"
 #include "api/sized.h"
 #include "backends/device.h"
@@ -210,7 +211,7 @@ static recto_status check_options(const recto_options *o, recto_error *error) {
       {"the up direction", o->camera.up[1], -huge, huge},
       {"the up direction", o->camera.up[2], -huge, huge},
       {"the field of view", o->camera.fov_deg, 0, 179},
-      {"the fit", o->camera.fit, 0, RECTO_FIT_SPHERE},
+      {"the fit", o->camera.fit, 0, RECTO_FIT_PREFERRED},
       {"the scale", o->camera.scale, small, huge},
       {"the size of a unit", o->camera.unit_mm, 0, huge},
       {"the near distance", o->camera.near_distance, 0, huge},
@@ -278,7 +279,9 @@ static recto_status check_options(const recto_options *o, recto_error *error) {
       check_ranges(range, sizeof range / sizeof range[0], error);
   if (status == RECTO_OK)
     status = check_lists(o, error);
-  return status == RECTO_OK ? check_cut(o, error) : status;
+  if (status == RECTO_OK)
+    status = check_cut(o, error);
+  return status == RECTO_OK ? multiview_check(o, error) : status;
 }
 
 recto_status options_copy(recto_options *own, const recto_options *options,
@@ -301,14 +304,21 @@ recto_status options_copy(recto_options *own, const recto_options *options,
   return status;
 }
 
+double options_unit_mm(const recto_options *options,
+                       const struct scene *scene) {
+  return options->camera.unit_mm > 0 ? options->camera.unit_mm
+         : scene->unit_mm > 0        ? scene->unit_mm
+                                     : 1;
+}
+
 recto_status options_settle_scale(recto_options *own, const struct scene *scene,
                                   recto_error *error) {
-  double unit_mm = own->camera.unit_mm > 0 ? own->camera.unit_mm
-                   : scene->unit_mm > 0    ? scene->unit_mm
-                                           : 1;
-  const struct option_range range = {"the scale", own->camera.scale * unit_mm,
-                                     DBL_MIN, DBL_MAX};
-  if (own->camera.fit != RECTO_FIT_SCALE)
+  double unit_mm = options_unit_mm(own, scene);
+  bool is_preferred = own->camera.fit == RECTO_FIT_PREFERRED;
+  const struct option_range range = {
+      "the scale", (is_preferred ? 1 : own->camera.scale) * unit_mm, DBL_MIN,
+      DBL_MAX};
+  if (own->camera.fit != RECTO_FIT_SCALE && !is_preferred)
     return RECTO_OK;
   own->camera.scale = range.value;
   return check_ranges(&range, 1, error);

@@ -1,7 +1,6 @@
-/* render.c - draws a scene: runs and times the stages one after the other.
+/* render.c - draws a view: runs and times the stages one after the other.
  *
  * Phases
- *   check the options;
  *   rescale a scene of extreme size, weld the corners of borders and find the
  *   edges, unless that was prepared (preparation.h);
  *   aim the camera; lay out the sheet; choose the method and solve;
@@ -14,7 +13,7 @@
 #include "api/clip_warning.h"
 #include "api/group_numbers.h"
 #include "api/handle.h"
-#include "api/options.h"
+#include "api/render.h"
 #include "api/result.h"
 #include "api/shares.h"
 #include "api/stats.h"
@@ -32,6 +31,7 @@
 
 /* The results of the stages; zero-initialised is empty. */
 struct render {
+  const struct render_request *request;
   const recto_scene *model;
   const recto_options *options;
   struct preparation own;             /* empty where the scene has one */
@@ -46,7 +46,6 @@ struct render {
   recto_drawing *made;
   struct drawing *drawing; /* in it */
   struct report *report;
-  char *verdict; /* VERIFY_SUMMARY_SIZE */
 };
 
 /* ---- The method ---------------------------------------------------------- */
@@ -154,7 +153,7 @@ static void warn_of_open_cut(const struct render *render) {
  * that it can be freed early. */
 static recto_status find_topology(struct render *render, recto_error *error) {
   const recto_options *o = render->options;
-  const struct preparation *shared = render->model->prepared;
+  const struct preparation *shared = render->request->prepared;
   recto_status status = RECTO_OK;
   if (shared != NULL && preparation_is_valid_for(shared, o)) {
     render->prepared = shared;
@@ -205,6 +204,8 @@ static recto_status aim(struct render *render, recto_error *error) {
                                    &render->scaled, error);
   if (status != RECTO_OK)
     return status;
+  for (int k = 0; k < 2; k++)
+    render->camera.middle_mm[k] += render->request->shift_mm[k];
   drawing_store_projection(render->made, &render->camera,
                            &render->prepared->rescaled);
   report_doubles(render->report, "camera", "model_to_page_mm",
@@ -300,7 +301,11 @@ static recto_status verify(struct render *render, recto_error *error) {
                               .map = &render->map,
                               .drawing = render->drawing,
                               .options = &render->scaled};
-  return verify_drawing(&what, render->report, render->verdict, error);
+  recto_status status =
+      verify_drawing(&what, render->report, &render->made->verified, error);
+  if (status == RECTO_OK)
+    verify_summarise(render->made->verdict, &render->made->verified);
+  return status;
 }
 
 static recto_status keep_results(struct render *render, recto_error *error) {
@@ -492,36 +497,26 @@ static bool keep_files(recto_drawing *drawing, const struct scene *scene) {
   return true;
 }
 
-recto_status recto_scene_render(const recto_scene *scene,
-                                const recto_options *options,
-                                recto_drawing **drawing, recto_error *error) {
-  recto_options own;
-  if (drawing == NULL)
-    return error_null(error, "the drawing");
+recto_status render_view(recto_drawing **drawing,
+                         const struct render_request *request,
+                         recto_error *error) {
   *drawing = NULL;
-  if (scene == NULL)
-    return error_null(error, "the scene");
-  recto_status status = options_copy_valid(&own, options, error);
-  if (status == RECTO_OK)
-    status = options_settle_scale(&own, &scene->scene, error);
-  if (status != RECTO_OK)
-    return status;
   recto_drawing *made = mem_calloc(1, sizeof *made);
   if (made == NULL)
     return error_memory(error);
   drawing_init(&made->drawing);
   made->report = report_create();
-  struct render render = {.model = scene,
-                          .options = &own,
+  struct render render = {.request = request,
+                          .model = request->scene,
+                          .options = request->options,
                           .made = made,
                           .drawing = &made->drawing,
-                          .report = made->report,
-                          .verdict = made->verdict};
+                          .report = made->report};
   struct poll poll;
-  poll_open(&poll, &own);
-  status = run_and_report(&render, error);
+  poll_open(&poll, request->options);
+  recto_status status = run_and_report(&render, error);
   poll_close(&poll);
-  if (status == RECTO_OK && !keep_files(made, &scene->scene))
+  if (status == RECTO_OK && !keep_files(made, &request->scene->scene))
     status = error_memory(error);
   if (status != RECTO_OK) {
     recto_drawing_destroy(made);

@@ -184,9 +184,16 @@ static recto_status judge_own_drawing(const struct verify *verify,
              : error_memory(error);
 }
 
+void verify_summarise(char summary[VERIFY_SUMMARY_SIZE],
+                      const struct verify_counts *counts) {
+  snprintf(summary, VERIFY_SUMMARY_SIZE,
+           "verified: %zu drawn points visible, %zu others hidden, %zu too "
+           "close to call",
+           counts->visible, counts->hidden, counts->undecided);
+}
+
 recto_status verify_drawing(const struct verify *verify, struct report *report,
-                            char summary[VERIFY_SUMMARY_SIZE],
-                            recto_error *error) {
+                            struct verify_counts *counts, recto_error *error) {
   struct judge_drawing drawing = {0};
   struct judge_verdict verdict;
   struct judge_input input;
@@ -208,11 +215,9 @@ recto_status verify_drawing(const struct verify *verify, struct report *report,
   report_verdict(report, &verdict);
   if (verdict.false_ink.samples > 0 || verdict.missing.samples > 0)
     return verdict_error(verify, &verdict, input.origin, error);
-  snprintf(summary, VERIFY_SUMMARY_SIZE,
-           "verified: %zu drawn points visible, %zu others hidden, %zu too "
-           "close to call",
-           verdict.drawn.samples - verdict.undecided_ink.samples,
-           verdict.hidden.samples,
-           verdict.undecided_ink.samples + verdict.undecided.samples);
+  *counts = (struct verify_counts){
+      verdict.drawn.samples - verdict.undecided_ink.samples,
+      verdict.hidden.samples,
+      verdict.undecided_ink.samples + verdict.undecided.samples};
   return RECTO_OK;
 }

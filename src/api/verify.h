@@ -24,15 +24,24 @@ struct verify {
 
 enum { VERIFY_SUMMARY_SIZE = 160 };
 
+/* Numbers of points: drawn and visible, not drawn and hidden, undecided. */
+struct verify_counts {
+  size_t visible, hidden, undecided;
+};
+
 /* Checks options->verify samples of the drawn lines, which must be visible, and
  * as many of the requested edges, which must be hidden where there is no line.
  * Undecided samples are counted and pass.
- * summary  set to one sentence where nothing is wrong
+ * counts  set where nothing is wrong
  * Errors   RECTO_ERROR_VERIFY: the drawing is wrong; the text says where;
  *          RECTO_ERROR_MEMORY; RECTO_ERROR_CANCELLED. */
 USE_RESULT recto_status verify_drawing(const struct verify *verify,
                                        struct report *report,
-                                       char summary[VERIFY_SUMMARY_SIZE],
+                                       struct verify_counts *counts,
                                        recto_error *error);
+
+/* Writes the sentence of recto_drawing_verdict. */
+void verify_summarise(char summary[VERIFY_SUMMARY_SIZE],
+                      const struct verify_counts *counts);
 
 #endif

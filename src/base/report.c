@@ -9,7 +9,7 @@
 #include "base/number.h"
 #include "base/stream.h"
 
-enum kind { KIND_INT, KIND_DOUBLE, KIND_DOUBLES, KIND_TEXT };
+enum kind { KIND_INT, KIND_DOUBLE, KIND_DOUBLES, KIND_TEXT, KIND_REPORT };
 
 struct report_entry {
   const char *section, *name; /* literals */
@@ -19,6 +19,7 @@ struct report_entry {
   char *text;      /* KIND_TEXT: owned */
   double *numbers; /* KIND_DOUBLES: owned */
   size_t count;
+  struct report *part; /* KIND_REPORT: owned */
 };
 
 struct report {
@@ -49,8 +50,10 @@ void report_unlock(struct report *report) {
 static void forget_value(struct report_entry *entry) {
   mem_free(entry->text);
   mem_free(entry->numbers);
+  report_destroy(entry->part);
   entry->text = NULL;
   entry->numbers = NULL;
+  entry->part = NULL;
   entry->count = 0;
 }
 
@@ -146,6 +149,15 @@ void report_text(struct report *report, const char *section, const char *name,
     memcpy(entry->text, value, size);
 }
 
+void report_adopt(struct report *report, const char *section, const char *name,
+                  struct report *part) {
+  struct report_entry *entry = make_entry(report, section, name, KIND_REPORT);
+  if (entry != NULL)
+    entry->part = part;
+  else
+    report_destroy(part);
+}
+
 int64_t report_get(const struct report *report, const char *section,
                    const char *name, int64_t otherwise) {
   const struct report_entry *entry =
@@ -191,7 +203,19 @@ static void put_doubles(struct stream *stream, const double *value,
   stream_text(stream, "]");
 }
 
-static void put_entry(struct stream *stream, const struct report_entry *entry) {
+static void put_report(struct stream *stream, const struct report *report,
+                       int indent);
+
+static void put_line(struct stream *stream, const char *text, int indent) {
+  stream_text(stream, text);
+  stream_text(stream, "\n");
+  for (int i = 0; i < indent; i++)
+    stream_text(stream, " ");
+}
+
+/* indent  of the line that the entry is on */
+static void put_entry(struct stream *stream, const struct report_entry *entry,
+                      int indent) {
   put_text(stream, entry->name);
   stream_text(stream, ": ");
   switch (entry->kind) {
@@ -207,25 +231,28 @@ static void put_entry(struct stream *stream, const struct report_entry *entry) {
   case KIND_TEXT:
     put_text(stream, entry->text != NULL ? entry->text : "");
     break;
+  case KIND_REPORT:
+    put_report(stream, entry->part, indent);
+    break;
   }
 }
 
 /* The section that starts at entry `first`, with the entries of the same name
  * that follow anywhere. */
 static void put_section(struct stream *stream, const struct report *report,
-                        size_t first) {
+                        size_t first, int indent) {
   const char *section = report->entry.item[first].section;
-  stream_text(stream, "  ");
   put_text(stream, section);
-  stream_text(stream, ": {\n");
+  stream_text(stream, ": {");
   for (size_t i = first; i < report->entry.count; i++) {
     const struct report_entry *entry = &report->entry.item[i];
     if (strcmp(entry->section, section) != 0)
       continue;
-    stream_text(stream, i > first ? ",\n    " : "    ");
-    put_entry(stream, entry);
+    put_line(stream, i > first ? "," : "", indent + 2);
+    put_entry(stream, entry, indent + 2);
   }
-  stream_text(stream, "\n  }");
+  put_line(stream, "", indent);
+  stream_text(stream, "}");
 }
 
 static bool is_first_of_section(const struct report *report, size_t index) {
@@ -236,20 +263,29 @@ static bool is_first_of_section(const struct report *report, size_t index) {
   return true;
 }
 
+/* Reports within reports are of sheets, whose views have none. */
+static void put_report(struct stream *stream, const struct report *report,
+                       int indent) {
+  stream_text(stream, "{");
+  for (size_t i = 0; report != NULL && i < report->entry.count; i++) {
+    if (!is_first_of_section(report, i))
+      continue;
+    put_line(stream, i ? "," : "", indent + 2);
+    put_section(stream, report, i, indent + 2);
+  }
+  if (report != NULL && report->entry.count > 0)
+    put_line(stream, "", indent);
+  stream_text(stream, "}");
+}
+
 const char *report_json(struct report *report) {
   if (report == NULL)
     return NULL;
   stream_discard(report->json);
   if (stream_open_memory(&report->json, NULL) != RECTO_OK)
     return NULL;
-  stream_text(report->json, "{");
-  for (size_t i = 0; i < report->entry.count; i++) {
-    if (!is_first_of_section(report, i))
-      continue;
-    stream_text(report->json, i ? ",\n" : "\n");
-    put_section(report->json, report, i);
-  }
-  stream_text(report->json, report->entry.count ? "\n}\n" : "}\n");
+  put_report(report->json, report, 0);
+  stream_text(report->json, "\n");
   size_t count;
   const char *text = stream_memory(report->json, &count);
   return stream_status(report->json) == RECTO_OK ? text : NULL;

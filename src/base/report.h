@@ -34,6 +34,11 @@ void report_doubles(struct report *report, const char *section,
 void report_text(struct report *report, const char *section, const char *name,
                  const char *value);
 
+/* Makes a report, which may be NULL, an entry of another one, which owns it
+ * from then on. */
+void report_adopt(struct report *report, const char *section, const char *name,
+                  struct report *part);
+
 /* Looks an integer up; `otherwise` where it is not there. */
 int64_t report_get(const struct report *report, const char *section,
                    const char *name, int64_t otherwise);

@@ -8,6 +8,7 @@
 #include "recto.h"
 
 enum { MESSAGE_SIZE = 256, MAX_OPTIONS = 120, OPTION_USES = 2, VIEWS_MAX = 32 };
+enum { SHEET_VIEWS_MAX = 10 };
 
 struct arguments {
   recto_options options;
@@ -33,12 +34,19 @@ struct arguments {
   } view[VIEWS_MAX]; /* as given, view_count of them */
   int view_count;
 
+  struct view_hidden {
+    const char *view;
+    recto_hidden hidden;
+  } view_hidden[VIEWS_MAX]; /* of --hidden-in, view_hidden_count of them */
+  int view_hidden_count;
+
   /* Which options were given, for rules that depend on several. */
   bool view_given, direction_given, eye_given, fov_given;
   bool ortho, landscape, portrait;
   bool seen[MAX_OPTIONS]; /* by the option's index in the table */
 
   /* What the options' arrays refer to. */
+  recto_sheet_view sheet_view[SHEET_VIEWS_MAX];
   recto_plane plane[RECTO_CUT_MAX];
   recto_cut_hatch *cut_hatch;
   recto_pen_use *pen_use;

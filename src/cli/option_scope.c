@@ -13,7 +13,7 @@
 #define BIT(n) ((uint64_t)1 << (n))
 #define METHOD(name) BIT(RECTO_METHOD_##name)
 #define FILL(name) BIT(16 + RECTO_FILL_##name)
-#define FIT(name) BIT(20 + RECTO_FIT_##name)
+#define FIT(name) BIT(FIRST_FIT + RECTO_FIT_##name)
 #define EDGES(mask) ((uint64_t)(mask) << 24)
 enum {
   EYE = 32,
@@ -25,11 +25,11 @@ enum {
   SMOOTH_CONTOURS
 };
 enum { SVG = 40, HPGL, PNG, VECTOR_PAGES };
-enum { STATS = 48, CHECK, BY_CHECK, CUT, CUT_HATCHED };
+enum { STATS = 48, CHECK, BY_CHECK, CUT, CUT_HATCHED, FIRST_FIT };
 
 #define METHODS (METHOD(COUNT) - 1)
 #define FILLS (FILL(NONE) | FILL(PAINT) | FILL(SHADE) | FILL(HATCH))
-#define FITS (FIT(PAGE) | FIT(NONE) | FIT(SCALE) | FIT(SPHERE))
+#define FITS (FIT(PAGE) | FIT(NONE) | FIT(SCALE) | FIT(SPHERE) | FIT(PREFERRED))
 #define FORMATS (BIT(SVG) | BIT(HPGL) | BIT(PNG) | BIT(VECTOR_PAGES))
 #define LINES EDGES(RECTO_EDGES_ALL)
 #define ZBUFFERS (METHOD(ZBUFFER) | METHOD(SCANLINE_ZBUFFER))
@@ -57,7 +57,7 @@ static uint64_t find_format(const struct arguments *a) {
 static uint64_t find_requests(const struct arguments *a) {
   const recto_options *o = &a->options;
   uint64_t bits = BIT(o->solver.method) | BIT(16 + o->ink.fill) |
-                  BIT(20 + o->camera.fit) | EDGES(o->ink.edges);
+                  BIT(FIRST_FIT + o->camera.fit) | EDGES(o->ink.edges);
   bits |= BIT(o->camera.kind == RECTO_CAMERA_EYE ? EYE : NAMED_VIEW);
   bits |= find_format(a);
   if (o->camera.fov_deg > 0)
@@ -106,7 +106,8 @@ static const struct {
     /* With other fits it only makes the view a perspective. */
     [USED_BY_FOV] = {"named views and for --no-fit",
                      BIT(NAMED_VIEW) | FIT(NONE) | BIT(BY_CHECK)},
-    [USED_BY_SCALE] = {"true scale", FIT(SCALE) | BIT(BY_CHECK)},
+    [USED_BY_SCALE] = {"true scale",
+                       FIT(SCALE) | FIT(PREFERRED) | BIT(BY_CHECK)},
     [USED_BY_LINES] = {"lines", LINES},
     [USED_BY_SILHOUETTES] = {"edges of the class silhouette",
                              EDGES(RECTO_EDGE_SILHOUETTE)},
@@ -152,7 +153,8 @@ static const struct {
 static const char *name_instead(const struct arguments *a, uint64_t bits) {
   static const char *const fill[] = {"--fill none", "--fill paint",
                                      "--fill shade", "--fill hatch"};
-  static const char *const fit[] = {"--fit", "--no-fit", "--scale"};
+  static const char *const fit[] = {"--fit", "--no-fit", "--scale", "--fit",
+                                    "--scale auto"};
   if (bits & METHODS)
     return recto_method_name(a->options.solver.method);
   if (bits & FORMATS)

@@ -8,6 +8,7 @@
 
 #include "cli/lists.h"
 #include "cli/option_scope.h"
+#include "cli/sheet.h"
 #include "cli/value.h"
 
 #define AT(member) offsetof(struct arguments, member)
@@ -64,8 +65,10 @@ static bool parse_no_fit(struct arguments *arguments, const char *text) {
 }
 
 static bool parse_scale(struct arguments *arguments, const char *text) {
-  arguments->options.camera.fit = RECTO_FIT_SCALE;
-  return value_scale(text, &arguments->options.camera.scale);
+  bool is_preferred = strcmp(text, "auto") == 0;
+  arguments->options.camera.fit =
+      is_preferred ? RECTO_FIT_PREFERRED : RECTO_FIT_SCALE;
+  return is_preferred || value_scale(text, &arguments->options.camera.scale);
 }
 
 static bool parse_page(struct arguments *arguments, const char *text) {
@@ -259,6 +262,17 @@ const struct option_entry option_table[] = {
      "iso, front, back, left, right, top, bottom, dimetric or trimetric",
      "iso (default) front back left right top bottom", .given = AT(view_given),
      .parse = parse_view, .word = name_view},
+    {OPTION_PARSED, "sheet", 0, "HOW", "first or third",
+     "front, top, side on one page: first or third angle", .parse = sheet_parse,
+     .words = "first third"},
+    {OPTION_PARSED, "views", 0, "LIST",
+     "names of --view, each with :SCALE or not, such as front,top,iso:2",
+     "these on one page: front,top,left,iso:2", .parse = sheet_parse_views,
+     .word = name_view},
+    {OPTION_LIST, "hidden-in", 0, "LIST",
+     "views and none, dashed or layer, such as iso=none",
+     "front=dashed,iso=none: --hidden of single views",
+     .parse_item = sheet_set_hidden, .use = {USED_BY_DRAWING, USED_BY_LINES}},
     {OPTION_INT, "turntable", 0, "N", "a number from 1 to 100000",
      "N drawings all around, to files such as a%03d.svg",
      .offset = AT(turntable), .least = 1, .most = 100000,
@@ -290,9 +304,9 @@ const struct option_entry option_table[] = {
      "fill the page inside the margins (default)", .parse = parse_fit},
     {OPTION_PARSED, "no-fit", 0, NULL, NULL,
      "--fov spans the height inside the margins", .parse = parse_no_fit},
-    {OPTION_PARSED, "scale", 0, "A:B", "a scale such as 1:2",
-     "A mm of page for B mm of the model, or of --unit", .parse = parse_scale,
-     .use = {USED_BY_SCALE}},
+    {OPTION_PARSED, "scale", 0, "A:B", "a scale such as 1:2, or auto",
+     "A mm for B mm of the model, or of --unit; auto: ISO",
+     .parse = parse_scale, .words = "auto", .use = {USED_BY_SCALE}},
     {OPTION_PARSED, "unit", 0, "UNIT", "um, mm, cm, m, in or ft",
      "a model unit, for --scale (glTF: m, 3MF; else mm)", .parse = parse_unit,
      .words = "um mm cm m in ft", .use = {USED_BY_SCALE}},

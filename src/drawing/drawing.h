@@ -50,6 +50,7 @@ struct drawing_layer {
   char label[48];  /* such as "1 visible": the pen's number, then a name */
   uint32_t colour; /* of its strokes, 0xRRGGBB */
   double width_mm;
+  const char *view; /* of a sheet: the view's name, a literal; NULL: none */
 };
 
 /* The numbers of a face and of an edge within their group, or DRAWING_NONE. */

@@ -26,6 +26,7 @@
 #include "view/coordinate_error.h"
 #include "view/extent.h"
 #include "view/camera_axes.h"
+#include "view/preferred_scale.h"
 #include "view/used.h"
 #include "view/vector.h"
 
@@ -342,12 +343,22 @@ static void choose_orientation(struct aim *aim, const struct extent *e,
   }
 }
 
-/* Scales the drawing to fill the page inside the margins. */
-static void fit_page(struct aim *aim) {
+/* Makes the scale a preferred one: that of a perspective view at its target. */
+static void prefer_scale(struct aim *aim) {
+  double depth = aim->camera->perspective ? view_of_aim(aim, aim->target).d : 1;
+  double whole = aim->options->camera.scale * depth;
+  aim->camera->s = preferred_scale(aim->camera->s / whole) * whole;
+}
+
+/* Scales the drawing to fill the page inside the margins.
+ * preferred  as far as a preferred scale does */
+static void fit_page(struct aim *aim, bool preferred) {
   struct camera *camera = aim->camera;
   struct extent e = extent_of_scene(aim);
   choose_orientation(aim, &e, INFINITY);
   camera->s = scale_to_fit(aim, &e, camera->page_mm[0], camera->page_mm[1]);
+  if (preferred)
+    prefer_scale(aim);
   for (int k = 0; k < 2; k++)
     camera->middle_mm[k] =
         camera->page_mm[k] / 2 - camera->s * (e.low[k] / 2 + e.high[k] / 2);
@@ -383,8 +394,8 @@ static void fit_sphere(struct aim *aim) {
 static void set_scale(struct aim *aim) {
   const recto_options *o = aim->options;
   struct camera *camera = aim->camera;
-  if (o->camera.fit == RECTO_FIT_PAGE) {
-    fit_page(aim);
+  if (o->camera.fit == RECTO_FIT_PAGE || o->camera.fit == RECTO_FIT_PREFERRED) {
+    fit_page(aim, o->camera.fit == RECTO_FIT_PREFERRED);
     camera->all_on_page = aim->d_low >= camera->near_d;
     return;
   }

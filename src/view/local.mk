@@ -8,6 +8,7 @@ librecto_core_la_SOURCES += \
   %D%/coordinate_error.c %D%/coordinate_error.h \
   %D%/extent.c %D%/extent.h \
   %D%/camera_aim.c %D%/camera_aim.h \
+  %D%/camera_extent.c %D%/camera_extent.h \
   %D%/camera_axes.c %D%/camera_axes.h \
   %D%/layout.c %D%/layout.h \
   %D%/layout_edges.c \
@@ -18,6 +19,7 @@ librecto_core_la_SOURCES += \
   %D%/layout_triangles.c \
   %D%/layout_unclipped.c %D%/layout_unclipped.h \
   %D%/polygon.c %D%/polygon.h \
+  %D%/preferred_scale.c %D%/preferred_scale.h \
   %D%/project.c %D%/project.h \
   %D%/rescale.c %D%/rescale.h \
   %D%/sheet.c %D%/sheet.h \

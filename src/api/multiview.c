@@ -1,0 +1,411 @@
+/* multiview.c - arranges the views of a sheet on its page. */
+#include "api/multiview.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "api/sized.h"
+#include "base/tolerance.h"
+#include "view/camera_extent.h"
+#include "view/preferred_scale.h"
+
+/* The least distance between views, as a share of the shorter side of the page
+ * inside its margins. */
+#define SHARE_OF_GAP (1.0 / 12)
+
+/* ---- The views that are requested ---------------------------------------- */
+
+/* The cells of aligned views in third-angle projection.  In first-angle
+ * projection what is beside the front view is on its other side; the view from
+ * the back is the last of the row in both. */
+static const struct {
+  const char *name;
+  int column, row;
+} cells[] = {{"front", 0, 0}, {"left", -1, 0},   {"right", 1, 0},
+             {"top", 0, 1},   {"bottom", 0, -1}, {"back", 2, 0}};
+
+/* The least and the greatest column and row of any view. */
+enum { LEAST_CELL = -1, CELLS = MULTIVIEW_MAX + 2 };
+
+static const recto_sheet_view usual_first[] = {
+    {.name = "front"}, {.name = "top"}, {.name = "left"}};
+static const recto_sheet_view usual_third[] = {
+    {.name = "front"}, {.name = "top"}, {.name = "right"}};
+
+static const recto_sheet_view *
+find_requested_views(const recto_options *options, size_t *count) {
+  const recto_sheet_options *sheet = &options->sheet;
+  *count = sheet->view_count > 0 ? sheet->view_count : 3;
+  return sheet->view_count > 0                           ? sheet->view
+         : sheet->arrangement == RECTO_ARRANGEMENT_THIRD ? usual_third
+                                                         : usual_first;
+}
+
+/* The direction of that name, and the literal; NULL: there is none. */
+static const char *find_named_direction(const char *name, double *azimuth_deg,
+                                        double *elevation_deg) {
+  const char *known;
+  for (size_t i = 0;
+       (known = recto_view_name(i, azimuth_deg, elevation_deg)) != NULL; i++)
+    if (strcmp(known, name) == 0)
+      return known;
+  return NULL;
+}
+
+/* Whether the view is along an axis. */
+static bool is_aligned(const char *name) {
+  for (size_t i = 0; i < sizeof cells / sizeof cells[0]; i++)
+    if (name != NULL && strcmp(cells[i].name, name) == 0)
+      return true;
+  return false;
+}
+
+static const char *name_of_view(const recto_sheet_view *view) {
+  return view->name != NULL ? view->name : "view";
+}
+
+static recto_status refuse_sheet(recto_error *error, const char *words) {
+  return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0, "%s", words);
+}
+
+static recto_status check_sheet_view(const recto_sheet_view *view,
+                                     recto_error *error) {
+  if (view->reserved[0] != 0 || view->reserved[1] != 0)
+    return sized_reject(error);
+  if (view->name != NULL &&
+      find_named_direction(view->name, NULL, NULL) == NULL)
+    return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                     "there is no view \"%.60s\"", view->name);
+  if (!(view->scale >= 0 && view->scale <= DBL_MAX) ||
+      (unsigned)view->hidden > RECTO_HIDDEN_LAYER)
+    return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                     "the view %s has a field that is out of range",
+                     name_of_view(view));
+  if (is_aligned(view->name) && view->scale != 0 && view->scale != 1)
+    return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                     "the view %s is aligned with others and has their scale",
+                     view->name);
+  return RECTO_OK;
+}
+
+static recto_status check_sheet_views(const recto_sheet_options *sheet,
+                                      recto_error *error) {
+  recto_status status = RECTO_OK;
+  for (size_t i = 0; i < sheet->view_count && status == RECTO_OK; i++) {
+    status = check_sheet_view(&sheet->view[i], error);
+    for (size_t k = 0; k < i && status == RECTO_OK; k++)
+      if (strcmp(name_of_view(&sheet->view[k]),
+                 name_of_view(&sheet->view[i])) == 0)
+        status = error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                           "the view %s is on the sheet twice",
+                           name_of_view(&sheet->view[i]));
+  }
+  return status;
+}
+
+recto_status multiview_check(const recto_options *options, recto_error *error) {
+  const recto_sheet_options *sheet = &options->sheet;
+  const recto_camera_options *camera = &options->camera;
+  for (size_t i = 0; i < sizeof sheet->reserved / sizeof sheet->reserved[0];
+       i++)
+    if (sheet->reserved[i] != 0)
+      return sized_reject(error);
+  if ((unsigned)sheet->arrangement > RECTO_ARRANGEMENT_THIRD)
+    return refuse_sheet(error, "the arrangement of views is out of range");
+  if (!multiview_is_requested(options))
+    return sheet->view_count == 0
+               ? RECTO_OK
+               : refuse_sheet(error, "the views of a sheet are to be arranged "
+                                     "in first- or third-angle projection");
+  if (sheet->view_count > 0 && sheet->view == NULL)
+    return error_null(error, "a list of the options");
+  if (camera->kind == RECTO_CAMERA_EYE || camera->fov_deg > 0)
+    return refuse_sheet(error, "the views of a sheet are parallel projections, "
+                               "without an eye or a field of view");
+  if (camera->fit != RECTO_FIT_PAGE && camera->fit != RECTO_FIT_SCALE &&
+      camera->fit != RECTO_FIT_PREFERRED)
+    return refuse_sheet(error, "the views of a sheet fit its page, or have a "
+                               "true scale");
+  if (options->results != 0)
+    return refuse_sheet(error, "edges and faces are results of one view, not "
+                               "of a sheet");
+  return check_sheet_views(sheet, error);
+}
+
+/* ---- The grid ------------------------------------------------------------ */
+
+static void place_in_grid(struct multiview *views, recto_arrangement how) {
+  int side = how == RECTO_ARRANGEMENT_FIRST ? -1 : 1, others = 0;
+  for (size_t i = 0; i < views->count; i++) {
+    struct multiview_view *view = &views->view[i];
+    view->is_aligned = is_aligned(view->asked->name);
+    if (!view->is_aligned) {
+      view->column = ++others;
+      view->row = side;
+    }
+    for (size_t c = 0; c < sizeof cells / sizeof cells[0]; c++)
+      if (strcmp(cells[c].name, view->name) == 0) {
+        view->column = cells[c].column == 2 ? 2 : side * cells[c].column;
+        view->row = side * cells[c].row;
+      }
+  }
+}
+
+/* A column or a row of the grid; lengths in units of the prepared scene, of
+ * boxes at the sheet's scale. */
+struct track {
+  bool is_used;
+  double low, high; /* of the aligned views, about their targets */
+  double width;     /* of these, or of the widest other view */
+  double begin_mm;
+};
+
+/* The columns are axis 0, the rows axis 1. */
+struct grid {
+  struct track track[2][CELLS];
+  int used[2];
+  double sum[2]; /* of the widths */
+};
+
+static int find_track(const struct multiview_view *view, int axis) {
+  return (axis == 0 ? view->column : view->row) - LEAST_CELL;
+}
+
+static double relative_scale(const struct multiview_view *view) {
+  return view->asked->scale > 0 ? view->asked->scale : 1;
+}
+
+static void measure_grid(struct grid *grid, const struct multiview *views) {
+  *grid = (struct grid){.used = {0, 0}};
+  for (int axis = 0; axis < 2; axis++)
+    for (size_t i = 0; i < views->count; i++) {
+      const struct multiview_view *view = &views->view[i];
+      struct track *track = &grid->track[axis][find_track(view, axis)];
+      double low = view->box.low[axis], high = view->box.high[axis];
+      grid->used[axis] += !track->is_used;
+      track->is_used = true;
+      if (view->is_aligned) {
+        track->low = fmin(track->low, low);
+        track->high = fmax(track->high, high);
+      } else {
+        track->width = fmax(track->width, relative_scale(view) * (high - low));
+      }
+    }
+  for (int axis = 0; axis < 2; axis++)
+    for (int t = 0; t < CELLS; t++) {
+      struct track *track = &grid->track[axis][t];
+      track->width = fmax(track->width, track->high - track->low);
+      grid->sum[axis] += track->width;
+    }
+}
+
+/* ---- The scale ----------------------------------------------------------- */
+
+/* The room of a page inside its margins. */
+struct room {
+  double mm[2];
+  double gap_mm; /* at least between views */
+};
+
+static struct room room_of(const double page_mm[2], double margin_mm) {
+  struct room room = {{page_mm[0] - 2 * margin_mm, page_mm[1] - 2 * margin_mm},
+                      0};
+  room.gap_mm = fmin(room.mm[0], room.mm[1]) * SHARE_OF_GAP;
+  return room;
+}
+
+/* The largest scale, mm a unit of the prepared scene, at which the views fit;
+ * 0: there is none.  A width that is rounding error only is
+ * ignored; where both are, the scene's size is used. */
+static double scale_to_fit_room(const struct grid *grid,
+                                const struct room *room, double size) {
+  double scale = INFINITY, least = INFINITY;
+  for (int axis = 0; axis < 2; axis++) {
+    double free_mm = room->mm[axis] - (grid->used[axis] - 1) * room->gap_mm;
+    least = fmin(least, free_mm);
+    if (grid->sum[axis] > size * TOLERANCE_EXTENT_SHARE)
+      scale = fmin(scale, free_mm / grid->sum[axis]);
+  }
+  return !(least > 0)       ? 0
+         : scale < INFINITY ? scale
+                            : least / (size > 0 ? size : 1);
+}
+
+/* Chooses the page's orientation and the scale, both as far as the options
+ * leave them open. */
+static recto_status choose_sheet_scale(struct multiview *views,
+                                       const struct grid *grid,
+                                       const recto_options *scaled, double size,
+                                       double *scale, recto_error *error) {
+  const double turned[2] = {views->page_mm[1], views->page_mm[0]};
+  struct room room = room_of(views->page_mm, views->margin_mm);
+  struct room other = room_of(turned, views->margin_mm);
+  double most = scale_to_fit_room(grid, &room, size);
+  double most_turned = scale_to_fit_room(grid, &other, size);
+  double wanted =
+      scaled->camera.fit == RECTO_FIT_SCALE ? scaled->camera.scale : INFINITY;
+  if (scaled->page.may_turn && most < wanted && most_turned > most) {
+    memcpy(views->page_mm, turned, sizeof turned);
+    room = other;
+    most = most_turned;
+  }
+  views->gap_mm = room.gap_mm;
+  if (!(most > 0))
+    return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                     "the page has no room for %zu views: inside its margins "
+                     "it is %.4g x %.4g mm",
+                     views->count, room.mm[0], room.mm[1]);
+  *scale =
+      scaled->camera.fit == RECTO_FIT_PREFERRED
+          ? preferred_scale(most / scaled->camera.scale) * scaled->camera.scale
+          : fmin(most, wanted);
+  if (wanted < INFINITY && wanted > most * (1 + TOLERANCE_EXTENT_SHARE))
+    return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                     "the views do not fit: at this scale they are %.4g x %.4g "
+                     "mm, and the page has %.4g x %.4g mm for them; the "
+                     "largest scale is %.4g times as large",
+                     wanted * grid->sum[0], wanted * grid->sum[1],
+                     room.mm[0] - (grid->used[0] - 1) * room.gap_mm,
+                     room.mm[1] - (grid->used[1] - 1) * room.gap_mm,
+                     most / wanted);
+  return RECTO_OK;
+}
+
+/* ---- Places -------------------------------------------------------------- */
+
+/* Divides what is left of the page evenly, as far as both axes have it. */
+static void choose_gap(struct multiview *views, const struct grid *grid,
+                       double scale) {
+  double even = INFINITY;
+  for (int axis = 0; axis < 2; axis++) {
+    double left =
+        views->page_mm[axis] - 2 * views->margin_mm - grid->sum[axis] * scale;
+    if (grid->used[axis] > 1)
+      even = fmin(even, left / (grid->used[axis] + 1));
+  }
+  if (even < INFINITY)
+    views->gap_mm = fmax(views->gap_mm, even);
+}
+
+static void place_tracks(struct multiview *views, struct grid *grid,
+                         double scale) {
+  for (int axis = 0; axis < 2; axis++) {
+    double all =
+        grid->sum[axis] * scale + (grid->used[axis] - 1) * views->gap_mm;
+    double at = (views->page_mm[axis] - all) / 2;
+    for (int t = 0; t < CELLS; t++) {
+      struct track *track = &grid->track[axis][t];
+      if (!track->is_used)
+        continue;
+      track->begin_mm = at;
+      at += track->width * scale + views->gap_mm;
+    }
+  }
+}
+
+static void place_view(struct multiview_view *view, const struct grid *grid,
+                       double scale) {
+  for (int axis = 0; axis < 2; axis++) {
+    const struct track *track = &grid->track[axis][find_track(view, axis)];
+    double own = view->is_aligned ? scale : scale * relative_scale(view);
+    double low = view->is_aligned ? track->low : view->box.low[axis];
+    double high = view->is_aligned ? track->high : view->box.high[axis];
+    view->centre_mm[axis] = track->begin_mm +
+                            (track->width * scale - (high - low) * own) / 2 -
+                            low * own;
+    view->low_mm[axis] = view->centre_mm[axis] + view->box.low[axis] * own;
+    view->high_mm[axis] = view->centre_mm[axis] + view->box.high[axis] * own;
+  }
+}
+
+static double limit_scale(double scale) {
+  return fmin(fmax(scale, DBL_MIN), DBL_MAX);
+}
+
+static void place_views(struct multiview *views, struct grid *grid,
+                        double scale, int exponent) {
+  choose_gap(views, grid, scale);
+  place_tracks(views, grid, scale);
+  views->scale = limit_scale(ldexp(scale, -exponent));
+  for (size_t i = 0; i < views->count; i++) {
+    struct multiview_view *view = &views->view[i];
+    place_view(view, grid, scale);
+    view->scale = view->is_aligned
+                      ? views->scale
+                      : limit_scale(views->scale * relative_scale(view));
+  }
+}
+
+/* ---- The whole ----------------------------------------------------------- */
+
+static void collect_views(struct multiview *views,
+                          const recto_options *options) {
+  const recto_sheet_view *asked = find_requested_views(options, &views->count);
+  for (size_t i = 0; i < views->count; i++) {
+    struct multiview_view *view = &views->view[i];
+    view->asked = &asked[i];
+    view->azimuth_deg = options->camera.azimuth_deg;
+    view->elevation_deg = options->camera.elevation_deg;
+    view->name = asked[i].name == NULL
+                     ? "view"
+                     : find_named_direction(asked[i].name, &view->azimuth_deg,
+                                            &view->elevation_deg);
+  }
+}
+
+static void turn_camera(recto_options *options,
+                        const struct multiview_view *view) {
+  options->camera.azimuth_deg = view->azimuth_deg;
+  options->camera.elevation_deg = view->elevation_deg;
+  options->camera.has_target = false;
+}
+
+recto_status multiview_arrange(struct multiview *views,
+                               const struct preparation *prepared,
+                               const recto_options *options,
+                               recto_error *error) {
+  recto_options scaled = *options;
+  struct camera camera;
+  struct grid grid;
+  double scale = 0;
+  *views = (struct multiview){.count = 0};
+  collect_views(views, options);
+  recto_status status = rescale_options(&prepared->rescaled, &scaled, error);
+  for (size_t i = 0; i < views->count && status == RECTO_OK; i++) {
+    struct multiview_view *view = &views->view[i];
+    turn_camera(&scaled, view);
+    status =
+        camera_extent(&view->box, &camera, prepared->scene, &scaled, error);
+  }
+  if (status != RECTO_OK)
+    return status;
+  memcpy(views->page_mm, camera.page_mm, sizeof views->page_mm);
+  views->margin_mm = camera.margin_mm;
+  place_in_grid(views, options->sheet.arrangement);
+  measure_grid(&grid, views);
+  status =
+      choose_sheet_scale(views, &grid, &scaled, camera.size, &scale, error);
+  if (status == RECTO_OK)
+    place_views(views, &grid, scale, prepared->rescaled.exponent);
+  return status;
+}
+
+void multiview_options(const struct multiview *views, size_t index,
+                       const recto_options *options, recto_options *of_view,
+                       double shift_mm[2]) {
+  const struct multiview_view *view = &views->view[index];
+  *of_view = *options;
+  of_view->sheet = (recto_sheet_options){.arrangement = 0};
+  turn_camera(of_view, view);
+  of_view->camera.fit = RECTO_FIT_SCALE;
+  of_view->camera.scale = view->scale;
+  of_view->page.width_mm = views->page_mm[0];
+  of_view->page.height_mm = views->page_mm[1];
+  of_view->page.margin_mm = views->margin_mm;
+  of_view->page.may_turn = false;
+  if (view->asked->has_hidden)
+    of_view->ink.hidden = view->asked->hidden;
+  for (int axis = 0; axis < 2; axis++)
+    shift_mm[axis] = view->centre_mm[axis] - views->page_mm[axis] / 2;
+}

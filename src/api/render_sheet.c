@@ -1,0 +1,218 @@
+/* render_sheet.c - draws several views of a scene on one page.
+ *
+ * Phases
+ *   prepare the scene, unless that was done, and arrange the views;
+ *   draw each by itself, on the page of all and moved to its place there;
+ *   put the drawings together. */
+#include "api/render_sheet.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "api/captions.h"
+#include "api/multiview.h"
+#include "api/options.h"
+#include "api/render.h"
+#include "api/shares.h"
+#include "api/stats.h"
+#include "base/clock.h"
+#include "drawing/append.h"
+
+struct sheet_work {
+  const recto_scene *scene;
+  const recto_options *options;
+  struct preparation own;             /* empty where the scene has one */
+  const struct preparation *prepared; /* that one, or its own */
+  struct multiview views;
+  recto_drawing *view[MULTIVIEW_MAX];
+  recto_drawing *made;
+};
+
+/* ---- Progress ------------------------------------------------------------ */
+
+/* The part of the whole work that one view is. */
+struct view_progress {
+  const recto_options *options;
+  double from, to;   /* of the whole work */
+  double begin, end; /* of that of a drawing of one view */
+};
+
+static bool pass_view_progress(void *user, double share, const char *stage) {
+  const struct view_progress *view = user;
+  double done = (share - view->begin) / (view->end - view->begin);
+  return view->options->progress(
+      view->options->user, view->from + done * (view->to - view->from), stage);
+}
+
+static void divide_work(struct view_progress *progress,
+                        const struct sheet_work *work, size_t index,
+                        recto_options *of_view) {
+  double begin[SHARE_STAGES + 1];
+  shares_plan(begin, work->options);
+  double first = begin[SHARE_TOPOLOGY], last = begin[SHARE_WRITE];
+  double each = (last - first) / (double)work->views.count;
+  *progress = (struct view_progress){.options = work->options,
+                                     .from = first + (double)index * each,
+                                     .to = first + (double)(index + 1) * each,
+                                     .begin = first,
+                                     .end = last};
+  if (work->options->progress == NULL)
+    return;
+  of_view->progress = pass_view_progress;
+  of_view->user = progress;
+}
+
+/* ---- Stages -------------------------------------------------------------- */
+
+static recto_status prepare(struct sheet_work *work, recto_error *error) {
+  const struct preparation *shared = work->scene->prepared;
+  struct poll poll;
+  recto_status status = RECTO_OK;
+  shares_open_poll(&poll, work->options, SHARE_TOPOLOGY, "topology");
+  work->prepared = &work->own;
+  if (shared != NULL && preparation_is_valid_for(shared, work->options))
+    work->prepared = shared;
+  else
+    status = preparation_init(&work->own, &work->scene->scene, work->options,
+                              true, error);
+  if (status == RECTO_OK)
+    status =
+        multiview_arrange(&work->views, work->prepared, work->options, error);
+  poll_close(&poll);
+  return status;
+}
+
+/* Says which view an error of verification is in. */
+static void name_view_of_error(const struct multiview_view *view,
+                               recto_error *error) {
+  char text[sizeof error->text];
+  if (error == NULL || error->code != RECTO_ERROR_VERIFY)
+    return;
+  memcpy(text, error->text, sizeof text);
+  (void)snprintf(error->text, sizeof error->text, "the view %s: %.220s",
+                 view->name, text);
+}
+
+/* Warnings that several views have in common are those of the first. */
+static recto_status draw_views(struct sheet_work *work, recto_error *error) {
+  recto_status status = RECTO_OK;
+  for (size_t i = 0; i < work->views.count && status == RECTO_OK; i++) {
+    recto_options of_view;
+    struct view_progress progress;
+    struct render_request request = {
+        .scene = work->scene, .options = &of_view, .prepared = work->prepared};
+    multiview_options(&work->views, i, work->options, &of_view,
+                      request.shift_mm);
+    divide_work(&progress, work, i, &of_view);
+    if (i > 0)
+      of_view.warning = NULL;
+    status = render_view(&work->view[i], &request, error);
+    if (status != RECTO_OK)
+      name_view_of_error(&work->views.view[i], error);
+  }
+  return status;
+}
+
+static recto_status put_together(struct sheet_work *work, recto_error *error) {
+  struct poll poll;
+  struct drawing *drawing = &work->made->drawing;
+  recto_status status = RECTO_OK;
+  shares_open_poll(&poll, work->options, SHARE_WRITE, "sheet");
+  for (size_t i = 0; i < work->views.count && status == RECTO_OK; i++) {
+    status = drawing_append(drawing, &work->view[i]->drawing,
+                            work->views.view[i].name, error);
+    drawing_fini(&work->view[i]->drawing);
+    drawing_init(&work->view[i]->drawing);
+  }
+  if (status == RECTO_OK &&
+      !captions_set_sheet(drawing, work->scene, work->options, &work->views))
+    status = error_memory(error);
+  poll_close(&poll);
+  return status;
+}
+
+/* ---- Reports ------------------------------------------------------------- */
+
+static void sum_verdicts(struct sheet_work *work) {
+  struct verify_counts sum = {0, 0, 0};
+  for (size_t i = 0; i < work->views.count; i++) {
+    const struct verify_counts *counts = &work->view[i]->verified;
+    sum.visible += counts->visible;
+    sum.hidden += counts->hidden;
+    sum.undecided += counts->undecided;
+  }
+  work->made->verified = sum;
+  if (work->options->verify > 0)
+    verify_summarise(work->made->verdict, &sum);
+}
+
+static void report_sheet(struct sheet_work *work) {
+  struct report *report = work->made->report;
+  const struct multiview *views = &work->views;
+  double unit_mm = options_unit_mm(work->options, &work->scene->scene);
+  report_count(report, "sheet", "views", views->count);
+  report_text(report, "sheet", "projection",
+              work->options->sheet.arrangement == RECTO_ARRANGEMENT_FIRST
+                  ? "first-angle"
+                  : "third-angle");
+  report_double(report, "sheet", "scale", views->scale / unit_mm);
+  report_double(report, "sheet", "gap_mm", views->gap_mm);
+  for (size_t i = 0; i < views->count; i++) {
+    report_adopt(report, "views", views->view[i].name, work->view[i]->report);
+    work->view[i]->report = NULL;
+  }
+  stats_add_drawing(report, &work->made->drawing, work->options);
+  report_count(report, "memory", "peak_bytes", mem_peak_bytes());
+}
+
+/* Takes what the sheet has of its first view: its projection, and the files of
+ * the scene. */
+static void take_from_first(recto_drawing *made, recto_drawing *first) {
+  memcpy(made->matrix, first->matrix, sizeof made->matrix);
+  memcpy(made->depth, first->depth, sizeof made->depth);
+  made->file.item = first->file.item;
+  made->file.count = first->file.count;
+  made->file.capacity = first->file.capacity;
+  first->file.item = NULL;
+  first->file.count = first->file.capacity = 0;
+}
+
+/* ---- The whole ----------------------------------------------------------- */
+
+static recto_status run(struct sheet_work *work, recto_error *error) {
+  double cpu = clock_cpu(), wall = clock_wall();
+  work->made = mem_calloc(1, sizeof *work->made);
+  if (work->made == NULL)
+    return error_memory(error);
+  drawing_init(&work->made->drawing);
+  work->made->report = report_create();
+  stats_add_scene(work->made->report, work->scene);
+  recto_status status = prepare(work, error);
+  stats_add_seconds(work->made->report, "topology_cpu_s", clock_cpu() - cpu);
+  stats_add_seconds(work->made->report, "topology_wall_s", clock_wall() - wall);
+  if (status == RECTO_OK)
+    status = draw_views(work, error);
+  if (status == RECTO_OK)
+    status = put_together(work, error);
+  if (status != RECTO_OK)
+    return status;
+  take_from_first(work->made, work->view[0]);
+  sum_verdicts(work);
+  stats_add_seconds(work->made->report, "render_cpu_s", clock_cpu() - cpu);
+  stats_add_seconds(work->made->report, "render_wall_s", clock_wall() - wall);
+  report_sheet(work);
+  return RECTO_OK;
+}
+
+recto_status render_sheet(recto_drawing **drawing, const recto_scene *scene,
+                          const recto_options *options, recto_error *error) {
+  struct sheet_work work = {.scene = scene, .options = options};
+  recto_status status = run(&work, error);
+  for (size_t i = 0; i < work.views.count; i++)
+    recto_drawing_destroy(work.view[i]);
+  preparation_fini(&work.own);
+  *drawing = status == RECTO_OK ? work.made : NULL;
+  if (status != RECTO_OK)
+    recto_drawing_destroy(work.made);
+  return status;
+}

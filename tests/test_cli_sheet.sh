@@ -1,0 +1,136 @@
+#!/bin/bash
+# test_cli_sheet.sh - sheets of several views of real models: aligned, right by
+# the judge, and the same picture in all formats.
+. "$(dirname "$0")/tap.sh"
+. "$(dirname "$0")/cli.sh"
+
+# box VIEW FILE - the box of a view's lines: left, right, top, bottom.
+box() {
+  awk -v view="$1-" '
+    /^<g id="/ { on = index($0, "<g id=\"" view) == 1 }
+    on && / d="/' "$2" | grep -o ' d="[^"]*"' | tr -c '0-9.-' ' ' | awk '
+    { for (i = 1; i < NF; i += 2) {
+        if (n++ == 0) { a = b = $i; c = d = $(i + 1) }
+        if ($i < a) a = $i; if ($i > b) b = $i
+        if ($(i + 1) < c) c = $(i + 1); if ($(i + 1) > d) d = $(i + 1) } }
+    END { print a, b, c, d }'
+}
+# Whether the front, the top and the side view are aligned to 0.001 mm and the
+# top view is above or below, the side on the right; equally far away.
+is_aligned() { # FILE SIDE top|bottom
+  echo "$(box front "$1") $(box top "$1") $(box "$2" "$1")" | awk -v where="$3" '
+    function off(a, b) { return a - b > 0.00101 || b - a > 0.00101 }
+    {
+      if (NF != 12) exit 1
+      if (off($1, $5) || off($2, $6) || off($3, $11) || off($4, $12)) exit 1
+      above = $8 < $3
+      if (above != (where == "top") || !above && $7 < $4 || $9 < $2) exit 1
+      gap = above ? $3 - $8 : $7 - $4
+      exit off($9 - $2, gap)
+    }' || { say "$(box front "$1"); $(box top "$1"); $(box "$2" "$1")" && false; }
+}
+is_right() { # MODEL OPTION...
+  run 0 "$@" --check sheet.svg && grep -qE '^false ink +0.000' out &&
+    grep -qE '^missing ink +0.000' out
+}
+draws_sheet() { # first|third MODEL OPTION...
+  local how=$1 side=left where=bottom
+  shift
+  test "$how" = first || { side=right && where=top; }
+  run 0 "$@" --sheet "$how" --verify -o sheet.svg && says 'verified: ' &&
+    is_aligned sheet.svg $side $where && is_right "$@" --sheet "$how"
+}
+models=$srcdir/examples/models
+for how in first third; do
+  for model in castle gears; do
+    claim "the $model in $how angle projection is aligned and right" \
+      draws_sheet $how "$models/$model.obj"
+    claim "also at a preferred scale and on a landscape A3" \
+      draws_sheet $how "$models/$model.obj" --scale auto --page A3 --landscape
+  done
+  if test -e "${RECTO_MODELS-}/fandisk.obj"; then
+    claim "the fandisk in $how angle projection is aligned and right" \
+      draws_sheet $how "$RECTO_MODELS/fandisk.obj"
+  else
+    skip "the fandisk in $how angle projection" "no RECTO_MODELS"
+  fi
+done
+
+is_wrong() {
+  run 0 "$models/castle.obj" --sheet first -o sheet.svg &&
+    run 1 "$models/castle.obj" --sheet third --check sheet.svg
+}
+claim "a sheet is not right for another arrangement" is_wrong
+is_cropped() {
+  run 0 "$models/castle.obj" --sheet third --tight -o sheet.svg &&
+    is_right "$models/castle.obj" --sheet third --tight
+}
+claim "a cropped sheet is checked too" is_cropped
+
+labels() { grep -o 'inkscape:label="[^"]*"' sheet.svg | cut -d'"' -f2 | tr '\n' ';'; }
+has_labels() { # LABELS ARGUMENT...
+  local wanted=$1
+  shift
+  run 0 cube.obj "$@" -o sheet.svg && test "$(labels)" = "$wanted" && return 0
+  say "$(labels)" && false
+}
+claim "a layer is that of a pen of a view" has_labels \
+  '2 trimetric hidden;1 trimetric visible;1 iso visible;' \
+  --views trimetric,iso --hidden layer --hidden-in iso=none
+claim "fills are too" has_labels \
+  '%2 top fills;1 top visible;%2 left fills;1 left visible;' \
+  --views top,left --fill paint
+claim "ids are" grep -q 'id="left-fills"' sheet.svg
+
+# The pens of an HPGL file, in their order.
+pens() { grep -o 'SP[1-9]' sheet.hpgl | tr '\n' ' '; }
+takes_pens_once() {
+  run 0 "$models/gears.obj" --sheet first --pen-for hidden=2,crease=3 \
+    --hidden dashed -o sheet.hpgl && test "$(pens)" = "SP2 SP1 SP3 " && return 0
+  say "$(pens)" && false
+}
+claim "a plotter takes each pen once" takes_pens_once
+
+# What hp2xx reads in a plot is judged as a drawing of the model.
+is_right_by_hp2xx() {
+  run 0 "$models/gears.obj" --sheet first --portrait -o sheet.hpgl &&
+    hp2xx -q -m svg -t -x0 -X8400 -y0 -Y11880 -f plot.svg sheet.hpgl 2>words &&
+    sed 's/width="100%" height="100%"/width="210mm" height="297mm"/' \
+      plot.svg >sheet.svg && is_right "$models/gears.obj" --sheet first
+}
+if command -v hp2xx >/dev/null; then
+  claim "a plot is right as hp2xx reads it" is_right_by_hp2xx
+else
+  skip "a plot is right as hp2xx reads it" "no hp2xx here"
+fi
+
+refuses_sheet() {
+  local pattern=$1
+  shift
+  refuses "$pattern" cube.obj -o no.svg "$@"
+}
+claim "a scale at which the views do not fit is refused" refuses_sheet \
+  'do not fit: at this scale they are 4000 x 4000 mm' --sheet first --scale 1000
+claim "a view twice is refused" refuses_sheet 'front is on the sheet twice' \
+  --views front,front
+claim "an aligned view of another scale is refused" refuses_sheet \
+  'top is aligned' --views front,top:2
+claim "a view that is not there has no hidden lines" refuses_sheet \
+  'view iso is not on the sheet' --sheet first --hidden-in iso=none
+claim "hidden lines of views are those of a sheet" refuses_sheet \
+  'for --sheet and --views' --hidden-in iso=none
+claim "a direction is refused" refuses_sheet 'say what is seen from where' \
+  --sheet first --view top
+claim "so is an angle" refuses_sheet 'say what is seen from where' \
+  --views front --azimuth 3
+claim "and an eye" refuses_sheet 'say what is seen from where' \
+  --views front --camera 1,2,3
+claim "perspective is refused" refuses_sheet 'parallel projections' \
+  --sheet first --fov 20
+claim "--no-fit is refused" refuses_sheet 'leave out --no-fit' \
+  --sheet first --no-fit
+claim "a turntable is refused" refuses_sheet 'drawings of one view' \
+  --sheet first --turntable 4
+claim "margins without room are refused" refuses_sheet 'margins leave no room' \
+  --sheet first --margin 200
+finish

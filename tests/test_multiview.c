@@ -1,0 +1,639 @@
+/* test_multiview.c - the views of a sheet lie where first- and third-angle
+ * projection have them, aligned and at one scale, and are the drawings that
+ * each view is by itself. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/memory.h"
+#include "recto.h"
+#include "view/preferred_scale.h"
+
+/* A crooked tetrahedron, so that no two corners share a coordinate. */
+static const double points[] = {0, 0, 0, 7, 1, 2, 3, 11, 1, 2, 4, 5};
+static const uint32_t corners[] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
+enum { POINTS = 4 };
+
+static recto_scene *make_scene(void) {
+  const recto_mesh mesh = {.points = points,
+                           .point_count = POINTS,
+                           .corners = corners,
+                           .corner_count = 12};
+  recto_scene *scene;
+  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+  assert_int_equal(recto_scene_add_mesh(scene, &mesh, NULL), RECTO_OK);
+  return scene;
+}
+
+static void init_sheet(recto_options *options, recto_arrangement how,
+                       const recto_sheet_view *view, size_t count) {
+  recto_options_init(options);
+  options->sheet.arrangement = how;
+  options->sheet.view = view;
+  options->sheet.view_count = count;
+}
+
+static recto_drawing *draw(const recto_options *options) {
+  recto_scene *scene = make_scene();
+  recto_drawing *drawing;
+  recto_error error;
+  recto_status status = recto_scene_render(scene, options, &drawing, &error);
+  if (status != RECTO_OK)
+    print_message("%s\n", error.text);
+  assert_int_equal(status, RECTO_OK);
+  recto_scene_destroy(scene);
+  return drawing;
+}
+
+/* ---- What is drawn ------------------------------------------------------- */
+
+struct box {
+  double low[2], high[2];
+};
+
+/* Whether a stroke is of the view: "1 front visible". */
+static bool is_of_view(const recto_drawing *drawing, const recto_stroke *stroke,
+                       const char *view) {
+  recto_layer layer;
+  assert_true(recto_drawing_layer(drawing, stroke->layer, &layer));
+  const char *name = strchr(layer.label, ' ') + 1;
+  return strncmp(name, view, strlen(view)) == 0 && name[strlen(view)] == ' ';
+}
+
+/* The box of a view's strokes. */
+static struct box box_of(const recto_drawing *drawing, const char *view) {
+  struct box box = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+  recto_stroke stroke;
+  for (size_t i = 0; recto_drawing_stroke(drawing, i, &stroke); i++)
+    for (size_t k = 0; is_of_view(drawing, &stroke, view) && k < stroke.count;
+         k++)
+      for (int axis = 0; axis < 2; axis++) {
+        double x = stroke.points[2 * k + (size_t)axis];
+        box.low[axis] = fmin(box.low[axis], x);
+        box.high[axis] = fmax(box.high[axis], x);
+      }
+  assert_true(box.low[0] < box.high[0]);
+  return box;
+}
+
+/* Where the view axis of the box's middle is. */
+static double middle_of(struct box box, int axis) {
+  return (box.low[axis] + box.high[axis]) / 2;
+}
+
+/* ---- Alignment ----------------------------------------------------------- */
+
+static bool is_close(double a, double b) { return fabs(a - b) < 1e-5; }
+
+/* Requires each point of the view's strokes to have the place along an axis of
+ * the page that a corner has in the front view.  A tetrahedron's lines that are
+ * visible from outside end at its corners, or where they cross on the page. */
+static void assert_aligned(const recto_drawing *drawing, const char *view,
+                           int axis) {
+  recto_stroke stroke;
+  size_t found = 0;
+  for (size_t i = 0; recto_drawing_stroke(drawing, i, &stroke); i++)
+    for (size_t k = 0; is_of_view(drawing, &stroke, view) && k < stroke.count;
+         k++) {
+      bool is_corner = false;
+      for (size_t p = 0; p < POINTS; p++) {
+        double mm[2];
+        assert_true(recto_drawing_project(drawing, points + 3 * p, mm, NULL));
+        is_corner |= is_close(stroke.points[2 * k + (size_t)axis], mm[axis]);
+      }
+      assert_true(is_corner);
+      found++;
+    }
+  assert_in_range(found, 3, 100);
+}
+
+static const recto_sheet_view six[] = {{.name = "front"}, {.name = "back"},
+                                       {.name = "left"},  {.name = "right"},
+                                       {.name = "top"},   {.name = "bottom"}};
+
+static void corners_are_aligned_with_the_front_view(void **state) {
+  (void)state;
+  for (int how = RECTO_ARRANGEMENT_FIRST; how <= RECTO_ARRANGEMENT_THIRD;
+       how++) {
+    recto_options options;
+    init_sheet(&options, (recto_arrangement)how, six, 6);
+    recto_drawing *drawing = draw(&options);
+    assert_aligned(drawing, "top", 0);
+    assert_aligned(drawing, "bottom", 0);
+    assert_aligned(drawing, "left", 1);
+    assert_aligned(drawing, "right", 1);
+    assert_aligned(drawing, "back", 1);
+    recto_drawing_destroy(drawing);
+  }
+}
+
+/* ---- Places -------------------------------------------------------------- */
+
+/* Requires one view to be beside another, along an axis, 1: above it. */
+static void assert_after(const recto_drawing *drawing, const char *first,
+                         const char *second, int axis) {
+  assert_true(box_of(drawing, first).high[axis] <
+              box_of(drawing, second).low[axis]);
+  assert_true(is_close(middle_of(box_of(drawing, first), 1 - axis),
+                       middle_of(box_of(drawing, second), 1 - axis)));
+}
+
+static void first_angle_has_views_on_the_far_side(void **state) {
+  (void)state;
+  recto_options options;
+  init_sheet(&options, RECTO_ARRANGEMENT_FIRST, six, 6);
+  recto_drawing *drawing = draw(&options);
+  assert_after(drawing, "right", "front", 0);
+  assert_after(drawing, "front", "left", 0);
+  assert_after(drawing, "left", "back", 0);
+  assert_after(drawing, "top", "front", 1);
+  assert_after(drawing, "front", "bottom", 1);
+  recto_drawing_destroy(drawing);
+}
+
+static void third_angle_has_views_on_the_near_side(void **state) {
+  (void)state;
+  recto_options options;
+  init_sheet(&options, RECTO_ARRANGEMENT_THIRD, six, 6);
+  recto_drawing *drawing = draw(&options);
+  assert_after(drawing, "left", "front", 0);
+  assert_after(drawing, "front", "right", 0);
+  assert_after(drawing, "right", "back", 0);
+  assert_after(drawing, "bottom", "front", 1);
+  assert_after(drawing, "front", "top", 1);
+  recto_drawing_destroy(drawing);
+}
+
+static void three_views_are_usual(void **state) {
+  (void)state;
+  recto_options options;
+  init_sheet(&options, RECTO_ARRANGEMENT_FIRST, NULL, 0);
+  recto_drawing *first = draw(&options);
+  assert_after(first, "front", "left", 0);
+  assert_after(first, "top", "front", 1);
+  options.sheet.arrangement = RECTO_ARRANGEMENT_THIRD;
+  recto_drawing *third = draw(&options);
+  assert_after(third, "front", "right", 0);
+  assert_after(third, "front", "top", 1);
+  recto_drawing_destroy(first);
+  recto_drawing_destroy(third);
+}
+
+static void other_views_stand_in_the_free_corner(void **state) {
+  (void)state;
+  static const recto_sheet_view view[] = {
+      {.name = "front"}, {.name = "top"}, {.name = "left"}, {.name = "iso"}};
+  recto_options options;
+  init_sheet(&options, RECTO_ARRANGEMENT_FIRST, view, 4);
+  recto_drawing *drawing = draw(&options);
+  struct box iso = box_of(drawing, "iso");
+  assert_true(iso.low[0] > box_of(drawing, "top").high[0]);
+  assert_true(iso.high[1] < box_of(drawing, "left").low[1]);
+  assert_true(
+      is_close(middle_of(iso, 0), middle_of(box_of(drawing, "left"), 0)));
+  recto_drawing_destroy(drawing);
+}
+
+static void all_views_lie_inside_the_margins(void **state) {
+  (void)state;
+  static const recto_sheet_view view[] = {
+      {.name = "front"}, {.name = "back"},     {.name = "left"},
+      {.name = "right"}, {.name = "top"},      {.name = "bottom"},
+      {.name = "iso"},   {.name = "dimetric"}, {.name = "trimetric"},
+      {.name = NULL}};
+  for (int turned = 0; turned < 2; turned++) {
+    recto_options options;
+    init_sheet(&options, RECTO_ARRANGEMENT_FIRST, view, 10);
+    options.page.may_turn = turned;
+    options.camera.azimuth_deg = 70;
+    recto_drawing *drawing = draw(&options);
+    double page[2];
+    recto_drawing_page(drawing, page);
+    assert_true(page[0] == (turned ? 297 : 210));
+    recto_stroke stroke;
+    for (size_t i = 0; recto_drawing_stroke(drawing, i, &stroke); i++)
+      for (size_t k = 0; k < 2 * stroke.count; k++) {
+        assert_true(stroke.points[k] >= 10);
+        assert_true(stroke.points[k] <= page[k % 2] - 10);
+      }
+    recto_drawing_destroy(drawing);
+  }
+}
+
+/* ---- The scale ----------------------------------------------------------- */
+
+/* The tetrahedron is 7 units wide and 11 high. */
+static double scale_of(const recto_drawing *drawing) {
+  struct box box = box_of(drawing, "front");
+  assert_true(is_close((box.high[0] - box.low[0]) / 7,
+                       (box.high[1] - box.low[1]) / 11));
+  return (box.high[1] - box.low[1]) / 11;
+}
+
+/* Side by side the views are 7 + 5 wide, above each other 11 + 5; the page has
+ * 190 x 277 mm, of which a twelfth of 190 is between them. */
+static void the_largest_scale_fills_the_page(void **state) {
+  (void)state;
+  recto_options options;
+  init_sheet(&options, RECTO_ARRANGEMENT_FIRST, NULL, 0);
+  recto_drawing *drawing = draw(&options);
+  double gap = 190.0 / 12;
+  assert_true(
+      is_close(scale_of(drawing), fmin((190 - gap) / 12, (277 - gap) / 16)));
+  assert_true(is_close(box_of(drawing, "front").low[0], 10));
+  assert_true(is_close(box_of(drawing, "left").high[0], 200));
+  assert_true(is_close(
+      box_of(drawing, "left").low[0] - box_of(drawing, "front").high[0], gap));
+  recto_drawing_destroy(drawing);
+}
+
+static void a_preferred_scale_is_rounded_down(void **state) {
+  (void)state;
+  recto_options options;
+  init_sheet(&options, RECTO_ARRANGEMENT_FIRST, NULL, 0);
+  options.camera.fit = RECTO_FIT_PREFERRED;
+  recto_drawing *drawing = draw(&options);
+  assert_true(is_close(scale_of(drawing), 10));
+  /* What is left is divided evenly, and as much is between rows. */
+  double gap = (190 - 10 * 12.0) / 3;
+  struct box front = box_of(drawing, "front");
+  assert_true(is_close(box_of(drawing, "left").low[0] - front.high[0], gap));
+  assert_true(is_close(front.low[1] - box_of(drawing, "top").high[1], gap));
+  assert_true(is_close(front.low[0] - 10, gap));
+  recto_drawing_destroy(drawing);
+  options.camera.unit_mm = 1000;
+  drawing = draw(&options);
+  assert_true(is_close(scale_of(drawing), 10)); /* 1:100 */
+  recto_drawing_destroy(drawing);
+  options.camera.unit_mm = 25.4;
+  drawing = draw(&options);
+  assert_true(is_close(scale_of(drawing), 25.4 / 2));
+  recto_drawing_destroy(drawing);
+}
+
+static void a_given_scale_is_kept(void **state) {
+  (void)state;
+  recto_options options;
+  init_sheet(&options, RECTO_ARRANGEMENT_THIRD, NULL, 0);
+  options.camera.fit = RECTO_FIT_SCALE;
+  options.camera.scale = 7.5;
+  recto_drawing *drawing = draw(&options);
+  assert_true(is_close(scale_of(drawing), 7.5));
+  recto_drawing_destroy(drawing);
+}
+
+static void preferred_scales_are_those_of_the_standard(void **state) {
+  (void)state;
+  static const double pair[][2] = {
+      {1, 1},           {1.9, 1},       {2, 2},         {49, 20},
+      {0.99, 0.5},      {0.5, 0.5},     {0.3, 0.2},     {0.1, 0.1},
+      {0.07, 0.05},     {0.012, 0.01},  {5e9, 5e9},     {1e-9, 1e-9},
+      {1e-300, 1e-300}, {9e300, 5e300}, {1 - 1e-15, 1}, {1 - 1e-9, 0.5}};
+  for (size_t i = 0; i < sizeof pair / sizeof pair[0]; i++) {
+    double relative = preferred_scale(pair[i][0]) / pair[i][1] - 1;
+    assert_true(fabs(relative) < 1e-15);
+  }
+}
+
+static void a_single_view_may_have_a_preferred_scale(void **state) {
+  (void)state;
+  recto_options options;
+  recto_options_init(&options);
+  options.camera.fit = RECTO_FIT_PREFERRED;
+  options.camera.azimuth_deg = options.camera.elevation_deg = 0;
+  recto_drawing *drawing = draw(&options);
+  double a[2], b[2];
+  assert_true(recto_drawing_project(drawing, points, a, NULL));
+  assert_true(recto_drawing_project(drawing, points + 3, b, NULL));
+  assert_true(is_close(b[0] - a[0], 7 * 20)); /* 190 / 7 is 27 */
+  recto_drawing_destroy(drawing);
+}
+
+/* ---- Each view as by itself ---------------------------------------------- */
+
+static void a_view_is_what_it_is_by_itself(void **state) {
+  (void)state;
+  recto_options options;
+  init_sheet(&options, RECTO_ARRANGEMENT_FIRST, NULL, 0);
+  options.camera.fit = RECTO_FIT_SCALE;
+  options.camera.scale = 8;
+  options.ink.hidden = RECTO_HIDDEN_DASHED;
+  recto_drawing *sheet = draw(&options);
+  recto_options_init(&options);
+  options.camera.fit = RECTO_FIT_SCALE;
+  options.camera.scale = 8;
+  options.ink.hidden = RECTO_HIDDEN_DASHED;
+  options.camera.azimuth_deg = 0;
+  options.camera.elevation_deg = 90;
+  recto_drawing *alone = draw(&options);
+  struct box box = box_of(sheet, "top");
+  recto_stroke here, there;
+  size_t k = 0;
+  for (size_t i = 0; recto_drawing_stroke(sheet, i, &here); i++) {
+    if (!is_of_view(sheet, &here, "top"))
+      continue;
+    assert_true(recto_drawing_stroke(alone, k++, &there));
+    assert_int_equal(here.count, there.count);
+    assert_int_equal(here.edge_class, there.edge_class);
+    assert_int_equal(here.hidden, there.hidden);
+    for (size_t p = 0; p < 2 * here.count; p++)
+      assert_true(is_close(here.points[p] - middle_of(box, (int)(p % 2)),
+                           there.points[p] - (p % 2 ? 148.5 : 105)));
+  }
+  assert_int_equal(k, recto_drawing_stroke_count(alone));
+  recto_drawing_destroy(sheet);
+  recto_drawing_destroy(alone);
+}
+
+static size_t count_hidden(const recto_drawing *drawing, const char *view) {
+  recto_stroke stroke;
+  size_t count = 0;
+  for (size_t i = 0; recto_drawing_stroke(drawing, i, &stroke); i++)
+    count += stroke.hidden && is_of_view(drawing, &stroke, view);
+  return count;
+}
+
+static void a_view_has_hidden_lines_of_its_own(void **state) {
+  (void)state;
+  static const recto_sheet_view view[] = {
+      {.name = "back"},
+      {.name = "left", .has_hidden = true, .hidden = RECTO_HIDDEN_LAYER},
+      {.name = "right", .has_hidden = true, .hidden = RECTO_HIDDEN_NONE}};
+  recto_options options;
+  init_sheet(&options, RECTO_ARRANGEMENT_FIRST, view, 3);
+  options.ink.hidden = RECTO_HIDDEN_DASHED;
+  recto_drawing *drawing = draw(&options);
+  assert_in_range(count_hidden(drawing, "back"), 4, 1000);
+  assert_in_range(count_hidden(drawing, "left"), 1, 2);
+  assert_int_equal(count_hidden(drawing, "right"), 0);
+  recto_layer layer;
+  bool found = false;
+  for (size_t i = 0; recto_drawing_layer(drawing, i, &layer); i++)
+    found |= strcmp(layer.label, "2 left hidden") == 0;
+  assert_true(found);
+  recto_drawing_destroy(drawing);
+}
+
+static void another_view_may_be_larger(void **state) {
+  (void)state;
+  recto_sheet_view view[] = {
+      {.name = "front"}, {.name = "iso"}, {.name = NULL, .scale = 2.5}};
+  recto_options options;
+  init_sheet(&options, RECTO_ARRANGEMENT_FIRST, view, 3);
+  recto_drawing *drawing = draw(&options); /* the camera is isometric too */
+  struct box iso = box_of(drawing, "iso"), large = box_of(drawing, "view");
+  assert_true(
+      is_close(large.high[0] - large.low[0], 2.5 * (iso.high[0] - iso.low[0])));
+  recto_drawing_destroy(drawing);
+}
+
+static void every_view_is_verified(void **state) {
+  (void)state;
+  recto_options options;
+  init_sheet(&options, RECTO_ARRANGEMENT_FIRST, six, 6);
+  options.verify = 500;
+  recto_drawing *drawing = draw(&options);
+  unsigned drawn = 0;
+  assert_int_equal(
+      sscanf(recto_drawing_verdict(drawing), "verified: %u drawn", &drawn), 1);
+  assert_in_range(drawn, 6 * 400, 6 * 500);
+  recto_drawing_destroy(drawing);
+}
+
+/* ---- Stats, progress, preparation ---------------------------------------- */
+
+struct progress {
+  double share;
+  int calls, cancel_at;
+};
+
+static bool note_progress(void *user, double share, const char *stage) {
+  struct progress *progress = user;
+  (void)stage;
+  assert_true(share >= progress->share && share <= 1);
+  progress->share = share;
+  return ++progress->calls != progress->cancel_at;
+}
+
+static void progress_grows_and_cancels(void **state) {
+  (void)state;
+  recto_scene *scene = make_scene();
+  recto_drawing *drawing;
+  struct progress progress = {0, 0, 0};
+  recto_options options;
+  init_sheet(&options, RECTO_ARRANGEMENT_FIRST, six, 6);
+  options.progress = note_progress;
+  options.user = &progress;
+  assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
+                   RECTO_OK);
+  recto_drawing_destroy(drawing);
+  int calls = progress.calls;
+  assert_in_range(calls, 20, 10000);
+  for (int at = 1; at <= calls; at++) {
+    progress = (struct progress){0, 0, at};
+    assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
+                     RECTO_ERROR_CANCELLED);
+    assert_null(drawing);
+    assert_int_equal(progress.calls, at);
+  }
+  recto_scene_destroy(scene);
+}
+
+struct text {
+  char *bytes;
+  size_t count;
+};
+
+static bool keep_bytes(void *user, const void *bytes, size_t count) {
+  struct text *text = user;
+  text->bytes = realloc(text->bytes, text->count + count + 1);
+  assert_non_null(text->bytes);
+  memcpy(text->bytes + text->count, bytes, count);
+  text->count += count;
+  text->bytes[text->count] = '\0';
+  return true;
+}
+
+static char *draw_text(const recto_scene *scene, const recto_options *options) {
+  struct text text = {NULL, 0};
+  recto_drawing *drawing;
+  assert_int_equal(recto_scene_render(scene, options, &drawing, NULL),
+                   RECTO_OK);
+  assert_int_equal(
+      recto_drawing_write_to(drawing, "svg", options, keep_bytes, &text, NULL),
+      RECTO_OK);
+  recto_drawing_destroy(drawing);
+  return text.bytes;
+}
+
+static void a_prepared_scene_gives_the_same_bytes(void **state) {
+  (void)state;
+  recto_scene *scene = make_scene();
+  recto_options options;
+  init_sheet(&options, RECTO_ARRANGEMENT_FIRST, six, 6);
+  options.ink.fill = RECTO_FILL_PAINT;
+  options.ink.hidden = RECTO_HIDDEN_LAYER;
+  char *before = draw_text(scene, &options);
+  assert_int_equal(recto_scene_prepare(scene, &options, NULL), RECTO_OK);
+  char *after = draw_text(scene, &options);
+  assert_string_equal(before, after);
+  assert_non_null(strstr(before, " id=\"front-layer1\""));
+  assert_non_null(strstr(before, " id=\"bottom-fills\""));
+  assert_non_null(strstr(before, "inkscape:label=\"2 back hidden\""));
+  free(before);
+  free(after);
+  recto_scene_destroy(scene);
+}
+
+static void stats_have_a_part_for_each_view(void **state) {
+  (void)state;
+  recto_options options;
+  init_sheet(&options, RECTO_ARRANGEMENT_THIRD, six, 6);
+  recto_drawing *drawing = draw(&options);
+  const char *stats = recto_drawing_stats(drawing);
+  for (size_t i = 0; i < 6; i++) {
+    char name[32];
+    snprintf(name, sizeof name, "    \"%s\": {\n      \"scene\"", six[i].name);
+    assert_non_null(strstr(stats, name));
+  }
+  assert_non_null(strstr(stats, "\"projection\": \"third-angle\""));
+  recto_drawing_destroy(drawing);
+}
+
+/* ---- Errors -------------------------------------------------------------- */
+
+static void assert_refused(const recto_options *options, const char *words) {
+  recto_scene *scene = make_scene();
+  recto_drawing *drawing;
+  recto_error error;
+  assert_int_equal(recto_scene_render(scene, options, &drawing, &error),
+                   RECTO_ERROR_ARGUMENT);
+  assert_null(drawing);
+  if (strstr(error.text, words) == NULL)
+    fail_msg("\"%s\" is not in: %s", words, error.text);
+  recto_scene_destroy(scene);
+}
+
+static void assert_view_refused(recto_sheet_view view, const char *words) {
+  const recto_sheet_view two[] = {{.name = "front"}, view};
+  recto_options options;
+  init_sheet(&options, RECTO_ARRANGEMENT_FIRST, two, 2);
+  assert_refused(&options, words);
+}
+
+static void views_that_make_no_sense_are_refused(void **state) {
+  (void)state;
+  assert_view_refused((recto_sheet_view){.name = "frnt"}, "no view \"frnt\"");
+  assert_view_refused((recto_sheet_view){.name = "front"}, "front is on");
+  assert_view_refused((recto_sheet_view){.name = "top", .scale = 2},
+                      "top is aligned");
+  assert_view_refused((recto_sheet_view){.name = "iso", .scale = -1},
+                      "out of range");
+  assert_view_refused((recto_sheet_view){.name = "iso", .scale = NAN},
+                      "out of range");
+  assert_view_refused((recto_sheet_view){.name = "iso", .hidden = 9},
+                      "out of range");
+}
+
+static void what_contradicts_a_sheet_is_refused(void **state) {
+  (void)state;
+  recto_options options, sheet;
+  init_sheet(&sheet, RECTO_ARRANGEMENT_FIRST, NULL, 0);
+  options = sheet;
+  options.camera.fov_deg = 30;
+  assert_refused(&options, "parallel projections");
+  options = sheet;
+  options.camera.kind = RECTO_CAMERA_EYE;
+  options.camera.eye[0] = 99;
+  assert_refused(&options, "parallel projections");
+  options = sheet;
+  options.camera.fit = RECTO_FIT_NONE;
+  assert_refused(&options, "fit its page");
+  options = sheet;
+  options.results = RECTO_RESULT_EDGES;
+  assert_refused(&options, "results of one view");
+  options = sheet;
+  options.sheet.arrangement = (recto_arrangement)3;
+  assert_refused(&options, "out of range");
+  init_sheet(&options, RECTO_ARRANGEMENT_NONE, six, 6);
+  assert_refused(&options, "arranged");
+  init_sheet(&options, RECTO_ARRANGEMENT_FIRST, NULL, 6);
+  assert_refused(&options, "a list of the options");
+}
+
+static void views_that_do_not_fit_are_refused(void **state) {
+  (void)state;
+  recto_options options;
+  init_sheet(&options, RECTO_ARRANGEMENT_FIRST, NULL, 0);
+  options.camera.fit = RECTO_FIT_SCALE;
+  options.camera.scale = 14.52; /* 174.17 / 12 is 14.514 */
+  assert_refused(&options, "do not fit: at this scale they are 174.2 x 232.3 "
+                           "mm, and the page has 174.2 x 261.2 mm");
+  options.camera.scale = 14.51;
+  recto_drawing_destroy(draw(&options));
+  init_sheet(&options, RECTO_ARRANGEMENT_FIRST, six, 6);
+  options.page.width_mm = options.page.height_mm = 1;
+  options.page.margin_mm = 0;
+  recto_drawing_destroy(draw(&options));
+}
+
+/* A report that runs out of memory loses entries, not the drawing, so that a
+ * run which succeeds need not be the last one. */
+static void where_memory_runs_out_there_is_no_drawing(void **state) {
+  (void)state;
+  recto_scene *scene = make_scene();
+  recto_options options;
+  init_sheet(&options, RECTO_ARRANGEMENT_FIRST, NULL, 0);
+  options.ink.fill = RECTO_FILL_PAINT;
+  options.ink.ids = true;
+  options.verify = 100;
+  options.solver.threads = 1;
+  unsigned long failed = 0;
+  for (unsigned long at = 1, succeeded = 0; succeeded < 100; at++) {
+    recto_drawing *drawing;
+    mem_fail_after(at);
+    recto_status status = recto_scene_render(scene, &options, &drawing, NULL);
+    mem_fail_after(0);
+    assert_true(status == RECTO_OK ? drawing != NULL : drawing == NULL);
+    assert_true(status == RECTO_OK || status == RECTO_ERROR_MEMORY);
+    failed += status != RECTO_OK;
+    succeeded = status == RECTO_OK ? succeeded + 1 : 0;
+    recto_drawing_destroy(drawing);
+  }
+  assert_in_range(failed, 200, 100000);
+  recto_scene_destroy(scene);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(corners_are_aligned_with_the_front_view),
+      cmocka_unit_test(first_angle_has_views_on_the_far_side),
+      cmocka_unit_test(third_angle_has_views_on_the_near_side),
+      cmocka_unit_test(three_views_are_usual),
+      cmocka_unit_test(other_views_stand_in_the_free_corner),
+      cmocka_unit_test(all_views_lie_inside_the_margins),
+      cmocka_unit_test(the_largest_scale_fills_the_page),
+      cmocka_unit_test(a_preferred_scale_is_rounded_down),
+      cmocka_unit_test(a_given_scale_is_kept),
+      cmocka_unit_test(preferred_scales_are_those_of_the_standard),
+      cmocka_unit_test(a_single_view_may_have_a_preferred_scale),
+      cmocka_unit_test(a_view_is_what_it_is_by_itself),
+      cmocka_unit_test(a_view_has_hidden_lines_of_its_own),
+      cmocka_unit_test(another_view_may_be_larger),
+      cmocka_unit_test(every_view_is_verified),
+      cmocka_unit_test(progress_grows_and_cancels),
+      cmocka_unit_test(a_prepared_scene_gives_the_same_bytes),
+      cmocka_unit_test(stats_have_a_part_for_each_view),
+      cmocka_unit_test(views_that_make_no_sense_are_refused),
+      cmocka_unit_test(what_contradicts_a_sheet_is_refused),
+      cmocka_unit_test(views_that_do_not_fit_are_refused),
+      cmocka_unit_test(where_memory_runs_out_there_is_no_drawing),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
