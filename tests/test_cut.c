@@ -777,6 +777,112 @@ static void too_many_crossings_are_refused(void **state) {
   scene_fini(&c.scene);
 }
 
+/* ---- What only touches a plane ------------------------------------------- */
+
+static void add_triangle(struct scene *scene, const double corner[3][3]) {
+  uint32_t point[3];
+  for (int k = 0; k < 3; k++)
+    point[k] = add_point(scene, corner[k][0], corner[k][1], corner[k][2]);
+  add_face(scene, point, 3);
+}
+
+/* A roof below the plane that its ridge lies in: nothing goes, and the ridge is
+ * a crease still. */
+static void an_edge_in_the_plane_keeps_its_class(void **state) {
+  (void)state;
+  struct cutting c;
+  const struct cut_plane plane = plane_of(0, 0, 1, 1);
+  scene_init(&c.scene);
+  static const double point[6][3] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0},
+                                     {0, 2, 0}, {0, 1, 1}, {2, 1, 1}};
+  static const uint32_t face[3][4] = {{0, 3, 2, 1}, {0, 1, 5, 4}, {2, 3, 4, 5}};
+  static const uint32_t gable[2][3] = {{0, 4, 3}, {1, 2, 5}};
+  for (int i = 0; i < 6; i++)
+    (void)add_point(&c.scene, point[i][0], point[i][1], point[i][2]);
+  for (int i = 0; i < 3; i++)
+    add_face(&c.scene, face[i], 4);
+  for (int i = 0; i < 2; i++)
+    add_face(&c.scene, gable[i], 3);
+  assert_int_equal(run_cut(&c, &plane, 1), RECTO_OK);
+  assert_int_equal(scene_face_count(&c.cut.scene), 5);
+  assert_true(is_closed(&c.cut.scene));
+  int creases = 0;
+  for (uint32_t e = 0; e < c.after.edge.count; e++)
+    creases +=
+        topology_class_mask(&c.after, &c.cut.scene, e, 30) == RECTO_EDGE_CREASE;
+  assert_int_equal(creases, 9);
+  end_cut(&c);
+  scene_fini(&c.scene);
+}
+
+/* A corner that goes leaves a point of the cut in its place, though nothing else
+ * of the face goes. */
+static void a_face_keeps_a_corner_that_goes(void **state) {
+  (void)state;
+  struct cutting c;
+  const struct cut_plane plane[2] = {plane_of(0, -1, 0, -1),
+                                     plane_of(0, 0, 1, 0.5)};
+  scene_init(&c.scene);
+  add_triangle(&c.scene,
+               (const double[3][3]){{0, 0, 0}, {1, 2, 0}, {0, 0, 0.5}});
+  add_triangle(&c.scene, (const double[3][3]){{9, 0, 0}, {9, 0, 1}, {9, 1, 0}});
+  assert_int_equal(run_cut(&c, plane, 2), RECTO_OK);
+  assert_int_equal(scene_face_number(&c.cut.scene, 0), 0);
+  assert_int_equal(c.cut.scene.face_start.item[1], 3);
+  end_cut(&c);
+  scene_fini(&c.scene);
+}
+
+/* Corners in a plane that another one keeps are the same ones in all faces. */
+static void corners_that_stay_are_shared(void **state) {
+  (void)state;
+  struct cutting c;
+  const struct cut_plane plane[2] = {plane_of(0, -1, 0, -1),
+                                     plane_of(0, 0, 1, 0.5)};
+  scene_init(&c.scene);
+  add_box(&c.scene, (double[]){0, 1, 0}, (double[]){1, 2, 1}, false);
+  assert_int_equal(run_cut(&c, plane, 2), RECTO_OK);
+  assert_true(is_closed(&c.cut.scene));
+  end_cut(&c);
+  scene_fini(&c.scene);
+}
+
+/* A triangle with a side in two of three planes: its line in one of them ends
+ * where another one begins, and nothing goes on there. */
+static void a_line_that_ends_where_planes_meet_is_open(void **state) {
+  (void)state;
+  struct cutting c;
+  const struct cut_plane plane[3] = {plane_of(1, 0, 0, 0), plane_of(0, 1, 0, 0),
+                                     plane_of(0, 0, 1, 0)};
+  scene_init(&c.scene);
+  add_triangle(&c.scene,
+               (const double[3][3]){{-1, 1, 0}, {0, -1, -1}, {1, 0, 0}});
+  assert_int_equal(run_cut(&c, plane, 3), RECTO_OK);
+  assert_int_equal(scene_face_count(&c.cut.scene), c.cut.made.first_face);
+  assert_int_equal(c.cut.open, 1);
+  end_cut(&c);
+  scene_fini(&c.scene);
+}
+
+/* A polygon that runs over itself, with a corner in the second plane: where the
+ * third one divides it, its line ends in the point made of that corner. */
+static void polygons_that_run_over_themselves_are_cut(void **state) {
+  (void)state;
+  struct cutting c;
+  const struct cut_plane plane[3] = {plane_of(1, 0, 0, 0), plane_of(0, 1, 0, 0),
+                                     plane_of(0, 0, 1, 0)};
+  scene_init(&c.scene);
+  (void)add_point(&c.scene, 0.5, 2, -0.5);
+  (void)add_point(&c.scene, 0.5, 0, 1.5);
+  (void)add_point(&c.scene, 1.7, -1, -0.5);
+  add_face(&c.scene, (uint32_t[]){1, 0, 1, 0, 2}, 5);
+  assert_int_equal(run_cut(&c, plane, 3), RECTO_OK);
+  for (size_t i = 0; i < c.cut.scene.corner.count; i++)
+    assert_true(c.cut.scene.corner.item[i] < c.cut.scene.point.count);
+  end_cut(&c);
+  scene_fini(&c.scene);
+}
+
 /* ---- Edges and polylines ------------------------------------------------- */
 
 /* Of a cut cube: four sides of the cut face, and none of the bridges. */
@@ -893,6 +999,11 @@ int main(void) {
       cmocka_unit_test(mixed_winding_and_duplicates_are_filled),
       cmocka_unit_test(planes_that_cut_nothing_or_all_are_errors),
       cmocka_unit_test(too_many_crossings_are_refused),
+      cmocka_unit_test(an_edge_in_the_plane_keeps_its_class),
+      cmocka_unit_test(a_face_keeps_a_corner_that_goes),
+      cmocka_unit_test(corners_that_stay_are_shared),
+      cmocka_unit_test(a_line_that_ends_where_planes_meet_is_open),
+      cmocka_unit_test(polygons_that_run_over_themselves_are_cut),
       cmocka_unit_test(the_sides_of_cut_faces_are_sections),
       cmocka_unit_test(faces_are_divided_only_where_something_goes),
       cmocka_unit_test(polylines_lose_what_is_beyond),

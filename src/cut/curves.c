@@ -30,12 +30,6 @@ static uint32_t curve_of(const struct curve_finder *c,
   return union_find_root(c->curve, made_number(c, line->from));
 }
 
-/* Whether another plane cuts a curve at a point. */
-static bool is_at_corner(const struct curve_finder *c, uint32_t made) {
-  uint8_t on = c->points->point.item[made].on;
-  return (on & (on - 1)) != 0;
-}
-
 /* ---- Groups -------------------------------------------------------------- */
 
 static double length_of(const struct curve_finder *c,
@@ -82,7 +76,8 @@ static bool is_on_bad_curve(const struct curve_finder *c,
   return c->bad[curve_of(c, line)] != CURVE_SOUND;
 }
 
-/* Opens all but one of the lines of bad curves between the same two points. */
+/* Opens all but one of the lines of bad curves between the same two points in a
+ * plane. */
 static bool drop_duplicate_lines(struct curve_finder *c) {
   ARRAY(struct sort_key) key = {0};
   for (size_t i = 0; i < c->lines; i++) {
@@ -95,8 +90,12 @@ static bool drop_duplicate_lines(struct curve_finder *c) {
     }
   }
   bool ok = sort_keys_alone(key.item, key.count);
-  for (size_t i = 1; ok && i < key.count; i++)
-    c->line[key.item[i].value].open = key.item[i].key == key.item[i - 1].key;
+  for (size_t i = 1; ok && i < key.count; i++) {
+    struct cut_line *line = &c->line[key.item[i].value];
+    for (size_t k = i; k-- > 0 && key.item[k].key == key.item[i].key;)
+      line->open =
+          line->open || c->line[key.item[k].value].plane == line->plane;
+  }
   ARRAY_FREE(&key);
   return ok;
 }
@@ -151,7 +150,7 @@ static uint32_t other_line_end(const struct curve_finder *c,
 
 /* Opens lines from a loose end on. */
 static void strip_from(struct curve_finder *c, uint32_t made) {
-  while (c->degree[made] == 1 && !is_at_corner(c, made)) {
+  while (c->degree[made] == 1) {
     uint32_t number = 0, start = c->start[made];
     struct cut_line *line = find_line_at(c, made, &number);
     c->start[made] = start;
@@ -196,7 +195,7 @@ static bool repair_curves(struct curve_finder *c) {
   for (uint32_t p = 0; ok && p < points; p++)
     strip_from(c, p);
   for (uint32_t p = 0; ok && p < points; p++)
-    if (c->degree[p] % 2 != 0 || (c->degree[p] > 0 && is_at_corner(c, p)))
+    if (c->degree[p] % 2 != 0)
       c->bad[union_find_root(c->curve, p)] = CURVE_HOPELESS;
   for (size_t i = 0; ok && i < c->lines; i++)
     if (c->bad[curve_of(c, &c->line[i])] == CURVE_HOPELESS)
@@ -224,7 +223,7 @@ static bool join_cut_lines(struct curve_finder *c) {
     c->balance[to]++;
   }
   for (uint32_t p = 0; p < c->points->point.count; p++)
-    if (c->balance[p] != 0 && !is_at_corner(c, p)) {
+    if (c->balance[p] != 0) {
       c->bad[union_find_root(c->curve, p)] = CURVE_UNBALANCED;
       balanced = false;
     }

@@ -54,11 +54,12 @@ static bool find_needed(struct assembly *a) {
   a->needed = mem_calloc(cutter->points.point.count, sizeof *a->needed);
   if (a->needed == NULL)
     return false;
-  for (unsigned k = 0; k < cutter->points.planes; k++)
-    for (size_t i = 0; i < cutter->lines[k].line.count; i++) {
-      const struct cut_line *line = &cutter->lines[k].line.item[i];
-      a->needed[line->from - first] = a->needed[line->to - first] = 1;
-    }
+  for (size_t i = 0; i < cutter->points.point.count; i++)
+    a->needed[i] = cutter->points.point.item[i].is_corner;
+  for (size_t i = 0; i < cutter->lines.line.count; i++) {
+    const struct cut_line *line = &cutter->lines.line.item[i];
+    a->needed[line->from - first] = a->needed[line->to - first] = 1;
+  }
   for (size_t p = 0; p < cutter->part.count; p++) {
     const struct cut_part *part = &cutter->part.item[p];
     const struct cut_corner *corner = cutter->corner.item + part->corner;
@@ -144,10 +145,11 @@ static bool add_section_faces(struct assembly *a, unsigned plane) {
                       cut_node_point(cutter, plane, edge->b)))
       return false;
   }
-  for (size_t i = 0; i < cutter->lines[plane].line.count; i++) {
-    const struct cut_line *line = &cutter->lines[plane].line.item[i];
-    if (line->open && !add_edge_key(a, cut_place(cutter, line->from),
-                                    cut_place(cutter, line->to)))
+  for (size_t i = 0; i < cutter->lines.line.count; i++) {
+    const struct cut_line *line = &cutter->lines.line.item[i];
+    if (line->open && line->plane == plane &&
+        !add_edge_key(a, cut_place(cutter, line->from),
+                      cut_place(cutter, line->to)))
       return false;
   }
   return true;

@@ -9,6 +9,7 @@
 
 struct cut_loop {
   uint32_t face;
+  bool is_convex; /* of a triangle */
   ARRAY(struct cut_corner) corner;
 };
 
@@ -25,6 +26,14 @@ static bool add_corner(struct cut_loop *loop, uint32_t point, uint8_t plane) {
     return true;
   }
   return ARRAY_PUSH(&loop->corner, corner);
+}
+
+/* Ends the corners of a loop: the last is not the first one again. */
+static void end_loop(struct cut_loop *loop) {
+  while (loop->corner.count > 1 &&
+         loop->corner.item[loop->corner.count - 1].point ==
+             loop->corner.item[0].point)
+    loop->corner.count--;
 }
 
 static bool store_part(struct cutter *cutter, const struct cut_loop *loop,
@@ -44,9 +53,9 @@ static bool store_lines(struct cutter *cutter, const struct cut_loop *loop) {
     const struct cut_corner *corner = &loop->corner.item[i];
     const struct cut_line line = {
         corner->point, loop->corner.item[next_in_loop(loop, i)].point, group,
-        false};
+        corner->plane, false};
     if (corner->plane != CUT_NO_PLANE && line.from != line.to &&
-        !ARRAY_PUSH(&cutter->lines[corner->plane].line, line))
+        !ARRAY_PUSH(&cutter->lines.line, line))
       return false;
   }
   return true;
@@ -70,29 +79,67 @@ static bool split_loop(struct cutter *cutter, const struct cut_loop *loop,
     ok = ok && meet != SCENE_NONE && add_corner(here, meet, (uint8_t)plane) &&
          add_corner(from ? below : beyond, meet, a->plane);
   }
+  end_loop(below);
+  end_loop(beyond);
   return ok;
 }
 
 static bool cut_loop(struct cutter *cutter, const struct cut_loop *loop,
                      unsigned plane);
 
+static struct scene_point corner_position(const struct cutter *cutter,
+                                          const struct cut_loop *loop,
+                                          size_t i) {
+  uint32_t p = loop->corner.item[i].point;
+  return p < cutter->points.first
+             ? cutter->scene->point.item[p]
+             : cut_points_position(&cutter->points,
+                                   cut_made_point(&cutter->points, p)->at);
+}
+
+/* Whether two corners of a loop are at one place; they may be a point of the
+ * scene and the one that a plane makes of it. */
+static bool are_together(const struct cutter *cutter,
+                         const struct cut_loop *loop, size_t i, size_t j) {
+  struct scene_point p = corner_position(cutter, loop, i);
+  struct scene_point q = corner_position(cutter, loop, j);
+  return p.x == q.x && p.y == q.y && p.z == q.z;
+}
+
+/* Adds a corner of a triangle, and where its side is one of the loop's in a
+ * plane, that side's own ends. */
+static bool add_triangle_corner(const struct cutter *cutter,
+                                const struct cut_loop *loop,
+                                const struct triangulation_triangle *triangle,
+                                int k, struct cut_loop *part) {
+  const struct cut_corner *corner = loop->corner.item;
+  uint32_t from = triangle->corner[k], to = triangle->corner[(k + 1) % 3];
+  uint32_t side = triangle->side[k];
+  if (!add_corner(part, corner[from].point, CUT_NO_PLANE))
+    return false;
+  if (side >= loop->corner.count || corner[side].plane == CUT_NO_PLANE)
+    return true;
+  size_t next = next_in_loop(loop, side);
+  return !are_together(cutter, loop, from, side) ||
+         !are_together(cutter, loop, to, next) ||
+         (add_corner(part, corner[side].point, corner[side].plane) &&
+          add_corner(part, corner[next].point, CUT_NO_PLANE));
+}
+
 static bool cut_triangles(struct cutter *cutter, const struct cut_loop *loop,
                           unsigned plane) {
   const struct triangulation *triangulation = &cutter->triangulation;
   size_t count = triangulation->triangle.count;
   struct triangulation_triangle *triangle = mem_alloc(count, sizeof *triangle);
-  struct cut_loop part = {.face = loop->face};
+  struct cut_loop part = {.face = loop->face, .is_convex = true};
   bool ok = triangle != NULL;
   for (size_t t = 0; ok && t < count; t++)
     triangle[t] = triangulation->triangle.item[t];
   for (size_t t = 0; ok && t < count; t++) {
     part.corner.count = 0;
-    for (int k = 0; ok && k < 3; k++) {
-      uint32_t side = triangle[t].side[k];
-      ok = add_corner(&part, loop->corner.item[triangle[t].corner[k]].point,
-                      side < loop->corner.count ? loop->corner.item[side].plane
-                                                : CUT_NO_PLANE);
-    }
+    for (int k = 0; ok && k < 3; k++)
+      ok = add_triangle_corner(cutter, loop, &triangle[t], k, &part);
+    end_loop(&part);
     ok = ok && cut_loop(cutter, &part, plane);
   }
   ARRAY_FREE(&part.corner);
@@ -108,13 +155,8 @@ static bool triangulate_loop(struct cutter *cutter,
   uint32_t *corner = mem_alloc(count, sizeof *corner);
   bool ok = point != NULL && corner != NULL;
   for (uint32_t i = 0; ok && i < count; i++) {
-    uint32_t p = loop->corner.item[i].point;
     corner[i] = i;
-    point[i] =
-        p < cutter->points.first
-            ? cutter->scene->point.item[p]
-            : cut_points_position(&cutter->points,
-                                  cut_made_point(&cutter->points, p)->at);
+    point[i] = corner_position(cutter, loop, i);
   }
   ok = ok && triangulate(&cutter->triangulation, point, corner, count);
   mem_free(point);
@@ -145,14 +187,15 @@ static bool cut_loop(struct cutter *cutter, const struct cut_loop *loop,
     return store_part(cutter, loop, false);
   if (beyonds == count)
     return cut_loop(cutter, loop, plane + 1);
-  if (count > 3) {
+  if (count > 3 && !loop->is_convex) {
     if (!triangulate_loop(cutter, loop))
       return false;
     cutter->is_warped = cutter->is_warped || cutter->triangulation.warped;
     if (changes > 2 || cutter->triangulation.warped)
       return cut_triangles(cutter, loop, plane);
   }
-  struct cut_loop below = {.face = loop->face}, beyond = {.face = loop->face};
+  struct cut_loop below = {.face = loop->face, .is_convex = loop->is_convex};
+  struct cut_loop beyond = below;
   bool ok = split_loop(cutter, loop, plane, &below, &beyond) &&
             (below.corner.count < 3 || store_part(cutter, &below, false)) &&
             cut_loop(cutter, &beyond, plane + 1);
@@ -181,7 +224,7 @@ static bool add_part_side(struct part_sides *sides,
       return add_part_side(sides, points, from, meet, k + 1) &&
              add_part_side(sides, points, meet, to, k + 1);
   }
-  const struct cut_line side = {from, to, 0, from == to};
+  const struct cut_line side = {from, to, 0, CUT_NO_PLANE, from == to};
   return ARRAY_PUSH(&sides->side, side);
 }
 
@@ -287,6 +330,7 @@ recto_status cut_faces(struct cutter *cutter, recto_error *error) {
          ok && c < scene->face_start.item[face + 1]; c++)
       ok = add_corner(&loop, cut_weld(cutter, scene->corner.item[c]),
                       CUT_NO_PLANE);
+    end_loop(&loop);
     size_t first = cutter->part.count;
     cutter->is_warped = false;
     ok = ok && cut_loop(cutter, &loop, 0) &&

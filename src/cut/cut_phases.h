@@ -39,7 +39,7 @@ struct cutter {
   bool is_warped;  /* the current face is not planar */
   uint32_t *place; /* of each made point: the first one at its place */
   size_t places;
-  struct cut_lines lines[CUT_PLANES_MAX];
+  struct cut_lines lines;
   struct section section[CUT_PLANES_MAX];
   bool has_tip;     /* three planes have a point in common */
   double tip_at[3]; /* its place, in units of the grid */

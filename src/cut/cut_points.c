@@ -125,7 +125,8 @@ double cut_points_height(const struct cut_points *points, const int64_t at[3],
 
 uint32_t cut_points_add(struct cut_points *points, const int64_t at[3],
                         unsigned on) {
-  struct cut_point made = {{at[0], at[1], at[2]}, (uint8_t)on, (uint8_t)on};
+  struct cut_point made = {
+      {at[0], at[1], at[2]}, (uint8_t)on, (uint8_t)on, false};
   for (unsigned k = 0; k < points->planes; k++)
     if (cut_points_height(points, at, k) >=
         -points->tolerance - 2 * points->unit)
@@ -183,6 +184,20 @@ static void position_of(const struct cut_points *points, uint32_t point,
   at[2] = p.z;
 }
 
+/* The planes in which a point lies, a bit each. */
+static unsigned planes_through(const struct cut_points *points,
+                               uint32_t point) {
+  if (point >= points->first)
+    return cut_made_point(points, point)->on;
+  unsigned on = 0;
+  double at[3];
+  position_of(points, point, at);
+  for (unsigned k = 0; k < points->planes; k++)
+    if (fabs(height(&points->plane[k], at)) <= points->tolerance)
+      on |= 1u << k;
+  return on;
+}
+
 /* Sorts the ends of an edge; where the one beyond the plane lies in it, that is
  * both of them. */
 static void sort_edge_ends(const struct cut_points *points, uint32_t *a,
@@ -201,11 +216,20 @@ static void sort_edge_ends(const struct cut_points *points, uint32_t *a,
   }
 }
 
+/* Whether an edge, after sort_edge_ends, meets its plane in a point that does
+ * not go, as it is not beyond another one. */
+static bool is_end_that_stays(const struct cut_points *points, uint32_t a,
+                              uint32_t b) {
+  return a == b && cut_beyond(points, a) != (1u << points->planes) - 1;
+}
+
 uint32_t cut_points_find(const struct cut_points *points, uint32_t a,
                          uint32_t b, unsigned plane) {
+  sort_edge_ends(points, &a, &b, plane);
+  if (is_end_that_stays(points, a, b))
+    return a;
   if (points->slots == 0)
     return SCENE_NONE;
-  sort_edge_ends(points, &a, &b, plane);
   uint32_t point = find_point_slot(points, a, b, plane)->point;
   return point != 0 ? points->first + point - 1 : SCENE_NONE;
 }
@@ -228,15 +252,17 @@ uint32_t cut_points_meet(struct cut_points *points, uint32_t a, uint32_t b,
   for (int k = 0; k < 3; k++)
     at[k] = p[k] + t * (q[k] - p[k]);
   cut_points_round(points, at, place);
-  unsigned on = 1u << plane;
-  if (a >= points->first && b >= points->first)
-    on |= cut_made_point(points, a)->on & cut_made_point(points, b)->on;
+  unsigned on =
+      1u << plane | (planes_through(points, a) & planes_through(points, b));
   uint32_t made = cut_points_add(points, place, on);
   if (made == SCENE_NONE)
     return SCENE_NONE;
-  if (a == b)
-    points->point.item[made - points->first].beyond =
-        (uint8_t)(on | cut_beyond(points, a));
+  if (a == b) {
+    struct cut_point *point = &points->point.item[made - points->first];
+    point->beyond = (uint8_t)(on | cut_beyond(points, a));
+    point->is_corner =
+        a < points->first || cut_made_point(points, a)->is_corner;
+  }
   *find_point_slot(points, a, b, plane) =
       (struct cut_point_slot){a, b, made - points->first + 1, plane};
   return made;

@@ -3,7 +3,7 @@
  * A point where an edge meets a plane is made once, for all faces that have the
  * edge, on a grid of 2^-38 of the scene's extent: so no rounding moves lines of
  * a section across each other later.  A corner that lies in a plane gets a
- * point of its own there. */
+ * point of its own there, if it goes. */
 #ifndef CUT_CUT_POINTS_H
 #define CUT_CUT_POINTS_H
 
@@ -13,6 +13,7 @@ struct cut_point {
   int64_t at[3];  /* in units of the grid */
   uint8_t on;     /* planes that it was made on, a bit each */
   uint8_t beyond; /* planes that it is beyond, a bit each */
+  bool is_corner; /* it stands for a point of the scene */
 };
 
 struct cut_points {
@@ -54,7 +55,8 @@ static inline bool cut_is_beyond(const struct cut_points *points,
 }
 
 /* The point in which the edge between two points meets a plane; one of them is
- * beyond it.  Returns SCENE_NONE when memory ran out. */
+ * beyond it, and is that point if it lies in the plane and another plane keeps
+ * it.  Returns SCENE_NONE when memory ran out. */
 USE_RESULT uint32_t cut_points_meet(struct cut_points *points, uint32_t a,
                                     uint32_t b, unsigned plane);
 

@@ -11,10 +11,9 @@ static void cutter_fini(struct cutter *cutter) {
   ARRAY_FREE(&cutter->corner);
   ARRAY_FREE(&cutter->part);
   mem_free(cutter->place);
-  for (int k = 0; k < CUT_PLANES_MAX; k++) {
-    ARRAY_FREE(&cutter->lines[k].line);
+  ARRAY_FREE(&cutter->lines.line);
+  for (int k = 0; k < CUT_PLANES_MAX; k++)
     section_fini(&cutter->section[k]);
-  }
 }
 
 /* Borrows all of a scene but what a cut makes anew. */

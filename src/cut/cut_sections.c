@@ -169,11 +169,15 @@ static bool add_meeting(const struct cutter *cutter, unsigned plane,
   return ARRAY_PUSH(&meetings->list, meeting);
 }
 
+static bool is_closed_in(const struct cut_line *line, unsigned plane) {
+  return line->plane == plane && !line->open;
+}
+
 static bool collect_meetings(const struct cutter *cutter, unsigned plane,
                              struct meetings *meetings) {
-  for (size_t i = 0; i < cutter->lines[plane].line.count; i++) {
-    const struct cut_line *line = &cutter->lines[plane].line.item[i];
-    if (!line->open &&
+  for (size_t i = 0; i < cutter->lines.line.count; i++) {
+    const struct cut_line *line = &cutter->lines.line.item[i];
+    if (is_closed_in(line, plane) &&
         (!add_meeting(cutter, plane, cut_place(cutter, line->from), line->group,
                       -1, meetings) ||
          !add_meeting(cutter, plane, cut_place(cutter, line->to), line->group,
@@ -214,9 +218,9 @@ static bool add_section_segment(struct cutter *cutter, unsigned plane,
 static bool add_section_nodes(struct cutter *cutter, unsigned plane) {
   bool ok =
       cutter->tip == SCENE_NONE || add_section_node(cutter, plane, cutter->tip);
-  for (size_t i = 0; ok && i < cutter->lines[plane].line.count; i++) {
-    const struct cut_line *line = &cutter->lines[plane].line.item[i];
-    ok = line->open ||
+  for (size_t i = 0; ok && i < cutter->lines.line.count; i++) {
+    const struct cut_line *line = &cutter->lines.line.item[i];
+    ok = !is_closed_in(line, plane) ||
          (add_section_node(cutter, plane, cut_place(cutter, line->from)) &&
           add_section_node(cutter, plane, cut_place(cutter, line->to)));
   }
@@ -248,9 +252,9 @@ static bool close_section(struct cutter *cutter, unsigned plane) {
 
 static bool add_section_segments(struct cutter *cutter, unsigned plane) {
   bool ok = true;
-  for (size_t i = 0; ok && i < cutter->lines[plane].line.count; i++) {
-    const struct cut_line *line = &cutter->lines[plane].line.item[i];
-    ok = line->open ||
+  for (size_t i = 0; ok && i < cutter->lines.line.count; i++) {
+    const struct cut_line *line = &cutter->lines.line.item[i];
+    ok = !is_closed_in(line, plane) ||
          add_section_segment(cutter, plane, cut_place(cutter, line->from),
                              cut_place(cutter, line->to), line->group, 1);
   }
@@ -292,10 +296,11 @@ recto_status cut_sections(struct cutter *cutter, recto_error *error) {
   cutter->tip =
       cutter->tip != SCENE_NONE ? cut_place(cutter, cutter->tip) : SCENE_NONE;
   uint32_t labels = (uint32_t)cutter->scene->group.count;
+  if (!cut_lines_close(&cutter->lines, &cutter->points, &cutter->cut->open,
+                       &open_at))
+    return error_memory(error);
   for (unsigned k = 0; k < cutter->points.planes; k++) {
-    if (!cut_lines_close(&cutter->lines[k], &cutter->points, &cutter->cut->open,
-                         &open_at) ||
-        !add_section_nodes(cutter, k) || !add_section_segments(cutter, k))
+    if (!add_section_nodes(cutter, k) || !add_section_segments(cutter, k))
       return error_memory(error);
     recto_status status = section_solve(&cutter->section[k], labels, error);
     if (status != RECTO_OK)

@@ -152,17 +152,21 @@ static unsigned class_mask_after_cut(const struct topology_edge *edge,
                                      const struct scene *scene,
                                      unsigned class_mask) {
   const struct scene_cut *cut = scene->cut;
+  /* Where two faces of the scene that was cut meet in a plane, and nothing of
+   * them goes, it does not change their edge. */
+  bool is_of_surfaces = edge->uses == 2 && edge->first < cut->first_face &&
+                        edge->second < cut->first_face;
   if (topology_is_in_cut(scene, edge)) {
     uint64_t key = sort_pair_key(edge->point[0], edge->point[1]);
     size_t i;
     LOWER_BOUND(i, 0, cut->edges, cut->edge[i] < key);
-    return i < cut->edges && cut->edge[i] == key
-               ? class_mask | RECTO_EDGE_SECTION
-               : 0;
+    if (i < cut->edges && cut->edge[i] == key)
+      return class_mask | RECTO_EDGE_SECTION;
+    if (!is_of_surfaces)
+      return 0;
   }
-  bool is_within = edge->uses == 2 && edge->first < cut->first_face &&
-                   edge->second < cut->first_face &&
-                   cut->face[edge->first] == cut->face[edge->second];
+  bool is_within =
+      is_of_surfaces && cut->face[edge->first] == cut->face[edge->second];
   return is_within ? 0 : class_mask ? class_mask : RECTO_EDGE_SMOOTH;
 }
 
