@@ -125,6 +125,18 @@ void sheet_fini(struct sheet *sheet);
  * edges may then not be used any more. */
 USE_RESULT bool sheet_drop_triangles(struct sheet *sheet);
 
+/* Whether two triangles are of one face, or of parts of one that a cut left:
+ * a face does not pierce itself. */
+static inline bool sheet_is_one_face(const struct sheet *sheet, uint32_t f,
+                                     uint32_t g) {
+  uint32_t one = sheet->triangle.item[f].face;
+  uint32_t other = sheet->triangle.item[g].face;
+  const struct scene_cut *cut = sheet->scene != NULL ? sheet->scene->cut : NULL;
+  return one == other ||
+         (cut != NULL && one < cut->first_face && other < cut->first_face &&
+          cut->face[one] == cut->face[other]);
+}
+
 /* The points of an edge or a contour, from its `point`. */
 static inline struct geom_segment sheet_ends(const struct sheet *sheet,
                                              const uint32_t point[2]) {

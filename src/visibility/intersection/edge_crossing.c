@@ -138,10 +138,6 @@ static bool clip_to_edge(const struct sheet *sheet, struct surface_edge e,
   return edge_compare_along(upright, end[0], end[1]) < 0;
 }
 
-static bool is_same_face(const struct sheet *sheet, uint32_t f, uint32_t g) {
-  return sheet->triangle.item[f].face == sheet->triangle.item[g].face;
-}
-
 /* Is a segment so short on the page that rounding decides its direction? */
 static bool is_point(const struct intersection_segment *segment) {
   const struct geom_point *end = segment->end;
@@ -160,7 +156,7 @@ static bool passes_through(const struct sheet *sheet,
   struct occluder hf, hg;
   occluder_init(&hg, sheet, g);
   for (; incidence < end; incidence++) {
-    if (is_same_face(sheet, incidence->triangle, g))
+    if (sheet_is_one_face(sheet, incidence->triangle, g))
       continue;
     occluder_init(&hf, sheet, incidence->triangle);
     if (triangles_coplanar_within_rounding(sheet, incidence->triangle, g, &hf,
@@ -193,7 +189,7 @@ static bool meet_along(const struct sheet *sheet,
   occluder_init(&hg, sheet, g);
   for (; incidence < past; incidence++) {
     struct intersection_segment segment;
-    if (is_same_face(sheet, incidence->triangle, g))
+    if (sheet_is_one_face(sheet, incidence->triangle, g))
       continue;
     occluder_init(&hf, sheet, incidence->triangle);
     if (!ends_on_plane(corner_counts_of(&hg, hf.p)) ||
@@ -240,7 +236,7 @@ static bool diagonals_meet_along(const struct sheet *sheet,
       struct occluder hf, hg;
       occluder_init(&hf, sheet, f->triangle);
       occluder_init(&hg, sheet, g->triangle);
-      if (is_same_face(sheet, f->triangle, g->triangle) ||
+      if (sheet_is_one_face(sheet, f->triangle, g->triangle) ||
           !intersection_segment_find(sheet, f->triangle, g->triangle, &hf, &hg,
                                      &segment) ||
           is_point(&segment))
@@ -355,7 +351,7 @@ static bool add_slanted_segments(const struct sheet *sheet,
     uint32_t f = incidence->triangle;
     struct intersection_segment segment;
     struct corner_counts cf, cg;
-    if (is_same_face(sheet, f, g))
+    if (sheet_is_one_face(sheet, f, g))
       continue;
     occluder_init(&hf, sheet, f);
     cf = corner_counts_of(&hg, hf.p);

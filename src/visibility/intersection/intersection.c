@@ -46,7 +46,7 @@ static bool decide_pair(void *user, uint32_t f, uint32_t g) {
   struct occluder hg;
   struct corner_counts cf, cg;
   struct intersection_segment segment;
-  if (sheet->triangle.item[f].face == sheet->triangle.item[g].face)
+  if (sheet_is_one_face(sheet, f, g))
     return true;
   search->counts.pairs++;
   if (!progress_step(&search->progress, PAIR_WORK))
