@@ -19,7 +19,8 @@ static bool add_cut_edge(const struct cut_edge_finder *finder, int k,
                          const struct judge_source *source) {
   double t0, t1;
   struct judge_point3 along = point3_sub(b, a);
-  return !judge_removed_part(&finder->all->removed, k, a, b, &t0, &t1) ||
+  return !judge_removed_part(&finder->all->removed, -finder->all->removed.near,
+                             k, a, b, &t0, &t1) ||
          judge_edges_add_whole(finder->edges, finder->camera,
                                point3_along(a, t0, along),
                                point3_along(a, t1, along), source);
@@ -136,6 +137,8 @@ enum judge_visibility judge_cut_exists(const struct judge_triangles *all,
   beside = fmax(beside, 2 * depth);
   if (source->cut == JUDGE_CUT_NONE)
     return JUDGE_CLEAR;
+  if (source->cut == JUDGE_CUT_BESIDE)
+    return JUDGE_UNSURE;
   if (source->cut == JUDGE_CUT_OF_PLANES) {
     enum judge_inside inside = is_inside_below(all, at, depth);
     return inside == JUDGE_INSIDE    ? JUDGE_CLEAR

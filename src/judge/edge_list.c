@@ -53,19 +53,35 @@ bool judge_edges_add_whole(struct judge_edges *edges,
   return ARRAY_PUSH(&edges->edge, edge);
 }
 
+/* Adds the part of an edge from t0 to t1. */
+static bool add_part(struct judge_edges *edges,
+                     const struct judge_camera *camera, struct judge_point3 a,
+                     struct judge_point3 b, double t0, double t1,
+                     const struct judge_source *source) {
+  struct judge_point3 along = point3_sub(b, a);
+  return t0 >= t1 ||
+         judge_edges_add_whole(
+             edges, camera, t0 <= 0 ? a : point3_along(a, t0, along),
+             t1 >= 1 ? b : point3_along(a, t1, along), source);
+}
+
 bool judge_edges_add(struct judge_edges *edges,
                      const struct judge_camera *camera, struct judge_point3 a,
                      struct judge_point3 b, const struct judge_source *source) {
-  double t0, t1;
-  if (edges->removed == NULL ||
-      !judge_removed_part(edges->removed, -1, a, b, &t0, &t1))
+  const struct judge_removed *removed = edges->removed;
+  double from, to, surely_from = 1, surely_to = 1;
+  if (removed == NULL ||
+      !judge_removed_part(removed, -removed->near, -1, a, b, &from, &to))
     return judge_edges_add_whole(edges, camera, a, b, source);
-  struct judge_point3 along = point3_sub(b, a);
-  return (t0 <= 0 ||
-          judge_edges_add_whole(edges, camera, a, point3_along(a, t0, along),
-                                source)) &&
-         (t1 >= 1 || judge_edges_add_whole(
-                         edges, camera, point3_along(a, t1, along), b, source));
+  struct judge_source beside = *source;
+  beside.cut = JUDGE_CUT_BESIDE;
+  if (!judge_removed_part(removed, removed->near, -1, a, b, &surely_from,
+                          &surely_to))
+    surely_from = surely_to = to;
+  return add_part(edges, camera, a, b, 0, from, source) &&
+         add_part(edges, camera, a, b, from, surely_from, &beside) &&
+         add_part(edges, camera, a, b, surely_to, to, &beside) &&
+         add_part(edges, camera, a, b, to, 1, source);
 }
 
 void judge_edges_fini(struct judge_edges *edges) {

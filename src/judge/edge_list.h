@@ -9,6 +9,7 @@
 /* What a cut has to do with an edge. */
 enum judge_cut {
   JUDGE_CUT_NONE,
+  JUDGE_CUT_BESIDE,   /* so close to it that it may be removed */
   JUDGE_CUT_OF_FACE,  /* a plane cuts a face there */
   JUDGE_CUT_OF_PLANES /* two planes meet there */
 };

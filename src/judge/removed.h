@@ -33,18 +33,20 @@ static inline double judge_removed_depth(const struct judge_removed *removed,
   return depth;
 }
 
-/* The parameters from *t0 to *t1 of the segment between a and b that are beyond
- * all planes, or within `near` of them, but number `but`, which may be -1.
- * Returns false where none are. */
+/* The parameters from *t0 to *t1 of the segment between a and b that lie higher
+ * than `least` over all planes but number `but`, which may be -1.  Returns false
+ * where none do.
+ * least  -near: what may be removed; near: what surely is */
 static inline bool judge_removed_part(const struct judge_removed *removed,
-                                      int but, struct judge_point3 a,
+                                      double least, int but,
+                                      struct judge_point3 a,
                                       struct judge_point3 b, double *t0,
                                       double *t1) {
   *t0 = 0;
   *t1 = 1;
   for (int k = 0; k < removed->planes; k++) {
-    double from = judge_plane_height(&removed->plane[k], a) + removed->near;
-    double to = judge_plane_height(&removed->plane[k], b) + removed->near;
+    double from = judge_plane_height(&removed->plane[k], a) - least;
+    double to = judge_plane_height(&removed->plane[k], b) - least;
     if (k == but)
       continue;
     if (from < 0 && to < 0)
