@@ -5,8 +5,8 @@
 
 #include "cut/cut_points.h"
 
-/* A line in which a face meets a plane, with the inside on its left as seen from
- * beyond the plane. */
+/* A line in which a face meets a plane, with the inside on its left as seen
+ * from beyond the plane. */
 struct cut_line {
   uint32_t from, to; /* made points */
   uint32_t group;    /* of its face; then of its curve */
@@ -19,8 +19,8 @@ struct cut_lines {
 };
 
 /* Joins the lines to curves by their ends, and gives each curve the group of
- * most of its length.  What all planes remove is convex, and a curve runs on its
- * surface, from plane to plane.
+ * most of its length.  What all planes remove is convex, and a curve runs on
+ * its surface, from plane to plane.
  * A curve is closed where as many of its lines end as begin at each point.  One
  * that is not loses its duplicate lines and its loose ends; if then an even
  * number of lines is left at each point, they are turned to run around.  What

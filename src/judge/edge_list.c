@@ -54,10 +54,10 @@ bool judge_edges_add_whole(struct judge_edges *edges,
 }
 
 /* Adds the part of an edge from t0 to t1. */
-static bool add_part(struct judge_edges *edges,
-                     const struct judge_camera *camera, struct judge_point3 a,
-                     struct judge_point3 b, double t0, double t1,
-                     const struct judge_source *source) {
+static bool add_stretch(struct judge_edges *edges,
+                        const struct judge_camera *camera,
+                        struct judge_point3 a, struct judge_point3 b, double t0,
+                        double t1, const struct judge_source *source) {
   struct judge_point3 along = point3_sub(b, a);
   return t0 >= t1 ||
          judge_edges_add_whole(
@@ -78,10 +78,10 @@ bool judge_edges_add(struct judge_edges *edges,
   if (!judge_removed_part(removed, removed->near, -1, a, b, &surely_from,
                           &surely_to))
     surely_from = surely_to = to;
-  return add_part(edges, camera, a, b, 0, from, source) &&
-         add_part(edges, camera, a, b, from, surely_from, &beside) &&
-         add_part(edges, camera, a, b, surely_to, to, &beside) &&
-         add_part(edges, camera, a, b, to, 1, source);
+  return add_stretch(edges, camera, a, b, 0, from, source) &&
+         add_stretch(edges, camera, a, b, from, surely_from, &beside) &&
+         add_stretch(edges, camera, a, b, surely_to, to, &beside) &&
+         add_stretch(edges, camera, a, b, to, 1, source);
 }
 
 void judge_edges_fini(struct judge_edges *edges) {

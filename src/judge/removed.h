@@ -34,8 +34,8 @@ static inline double judge_removed_depth(const struct judge_removed *removed,
 }
 
 /* The parameters from *t0 to *t1 of the segment between a and b that lie higher
- * than `least` over all planes but number `but`, which may be -1.  Returns false
- * where none do.
+ * than `least` over all planes but number `but`, which may be -1.  Returns
+ * false where none do.
  * least  -near: what may be removed; near: what surely is */
 static inline bool judge_removed_part(const struct judge_removed *removed,
                                       double least, int but,
