@@ -129,7 +129,8 @@ static void write_id(const struct svg *svg, const char *name, uint32_t id) {
 }
 
 static const char *class_name(const struct drawing_stroke *stroke) {
-  return stroke->edge_class == 0
+  return stroke->text ? "text"
+         : stroke->edge_class == 0
              ? "hatch"
              : recto_edge_class_name((recto_edge_class)stroke->edge_class);
 }

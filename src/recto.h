@@ -542,7 +542,8 @@ typedef struct recto_sheet_view {
  * in the corner that these leave free, and beside it. */
 typedef struct recto_sheet_options {
   recto_arrangement arrangement;
-  char unused[4];               /* 0 */
+  bool names;                   /* draw each view's name below it */
+  char unused[3];               /* 0 */
   const recto_sheet_view *view; /* view_count of them, each once; 0: front, top
                                    and left, in third-angle projection right */
   size_t view_count;
@@ -783,7 +784,8 @@ typedef struct recto_verdict {
  * options' edge classes.  Lines may be off by a quarter of the options' pen,
  * and by as much as simplify_mm and the output's unit, or where that is 0 its
  * precision, allow a drawing.  Dashed lines, those of the class hidden or of a
- * layer labelled so, and hatching of the class hatch are not checked.
+ * layer labelled so, hatching of the class hatch and lines of the class text
+ * are not checked.
  * Errors  RECTO_ERROR_IO: the file cannot be read; RECTO_ERROR_FORMAT: it is no
  *         SVG that can be read; RECTO_ERROR_EMPTY, RECTO_ERROR_LIMIT as of
  *         recto_scene_render; RECTO_ERROR_CANCELLED */
@@ -853,6 +855,8 @@ typedef struct recto_stroke {
    * the order in which they were read or added, skipped ones too; groups are
    * those of recto_drawing_group_name. */
   uint32_t face, edge, group;
+  bool is_text; /* of a sheet: a line of its title, of a name or of a mark;
+                   edge_class is 0 too */
 } recto_stroke;
 
 /* How many strokes the drawing has, in drawing order. */

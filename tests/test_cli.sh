@@ -117,7 +117,7 @@ offered_or_refused() {
 }
 for option in output format from method pitch resolution depth-bits subpixels \
   remove-backs contact view azimuth \
-  elevation camera lookat up fov ortho fit no-fit scale sheet views hidden-in near cut cut-fill cut-hatch section page \
+  elevation camera lookat up fov ortho fit no-fit scale sheet views view-names hidden-in near cut cut-fill cut-hatch section page \
   landscape margin edges crease contours hidden dash fill hatch-pitch hatch-angle hatch-inset light ambient fill-light pen \
   pens pen-for pen-width pen-colour pen-color unit portrait weights path order simplify curves min-stroke exact precision ids id-prefix title desc background stats verify check threads progress quiet \
   completion version help; do

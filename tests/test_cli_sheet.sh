@@ -104,6 +104,25 @@ else
   skip "a plot is right as hp2xx reads it" "no hp2xx here"
 fi
 
+# The text of a plot is lines of pen 1: of an L two, of 5 mm, 200 units.
+has_strokes_of_text() {
+  run 0 cube.obj --sheet first -o bare.hpgl &&
+    run 0 cube.obj --sheet first --title LL --scale 20 -o sheet.hpgl && silent &&
+    run 0 cube.obj --sheet first --title LL --scale 20 -o sheet.svg &&
+    test "$(grep -c '<title>LL</title>' sheet.svg)" -eq 1 &&
+    awk '/class="text"/ { on = 1 } /<\/g>/ { on = 0 } on && /<path/ { n++ }
+         END { exit n != 4 }' sheet.svg &&
+    test "$(tr ';' '\n' <sheet.hpgl | grep -c '^PD')" -eq \
+      "$(($(tr ';' '\n' <bare.hpgl | grep -c '^PD') + 4))"
+}
+claim "a title is strokes in a plot, too" has_strokes_of_text
+is_as_judged() {
+  run 0 "$models/castle.obj" --views front,top,iso:2 --view-names --title "Größe" \
+    -o sheet.svg &&
+    is_right "$models/castle.obj" --views front,top,iso:2 --view-names --title a
+}
+claim "text is no false ink" is_as_judged
+
 refuses_sheet() {
   local pattern=$1
   shift
@@ -119,6 +138,12 @@ claim "a view that is not there has no hidden lines" refuses_sheet \
   'view iso is not on the sheet' --sheet first --hidden-in iso=none
 claim "hidden lines of views are those of a sheet" refuses_sheet \
   'for --sheet and --views' --hidden-in iso=none
+claim "names are those of a sheet" refuses_sheet 'for --sheet and --views' \
+  --view-names
+claim "a title that the font lacks is refused" refuses_sheet \
+  'the font has no "Ω" \(U\+03A9\)' --sheet first --title 100Ω
+claim "a title that is too wide is refused" refuses_sheet \
+  'mm wide, and the page has 15 mm' --sheet first --page 30x30 --title "too wide a title"
 claim "a direction is refused" refuses_sheet 'say what is seen from where' \
   --sheet first --view top
 claim "so is an angle" refuses_sheet 'say what is seen from where' \

@@ -63,7 +63,8 @@ static bool is_of_view(const recto_drawing *drawing, const recto_stroke *stroke,
   recto_layer layer;
   assert_true(recto_drawing_layer(drawing, stroke->layer, &layer));
   const char *name = strchr(layer.label, ' ') + 1;
-  return strncmp(name, view, strlen(view)) == 0 && name[strlen(view)] == ' ';
+  return !stroke->is_text && strncmp(name, view, strlen(view)) == 0 &&
+         name[strlen(view)] == ' ';
 }
 
 /* The box of a view's strokes. */
@@ -506,6 +507,70 @@ static void stats_have_a_part_for_each_view(void **state) {
   recto_drawing_destroy(drawing);
 }
 
+/* ---- Text ---------------------------------------------------------------- */
+
+static struct box box_of_text(const recto_drawing *drawing, size_t from,
+                              size_t to) {
+  struct box box = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+  recto_stroke stroke;
+  size_t found = 0;
+  for (size_t i = 0; recto_drawing_stroke(drawing, i, &stroke); i++) {
+    if (!stroke.is_text)
+      continue;
+    assert_int_equal(stroke.edge_class, 0);
+    recto_layer layer;
+    assert_true(recto_drawing_layer(drawing, stroke.layer, &layer));
+    assert_string_equal(layer.label, "1 text");
+    assert_int_equal(layer.pen, 1);
+    for (size_t k = 0; found >= from && found < to && k < 2 * stroke.count;
+         k++) {
+      box.low[k % 2] = fmin(box.low[k % 2], stroke.points[k]);
+      box.high[k % 2] = fmax(box.high[k % 2], stroke.points[k]);
+    }
+    found++;
+  }
+  return box;
+}
+
+/* "LL" has two strokes a letter; the page's shorter side of 210 mm makes the
+ * title 5 mm high and names 3.5 mm. */
+static void text_is_below_what_it_names(void **state) {
+  (void)state;
+  recto_options options;
+  init_sheet(&options, RECTO_ARRANGEMENT_FIRST, NULL, 0);
+  options.output.title = "LL";
+  recto_drawing *drawing = draw(&options);
+  struct box title = box_of_text(drawing, 0, 100);
+  assert_true(is_close(title.high[1] - title.low[1], 5));
+  assert_true(is_close(title.low[1], 12));
+  assert_in_range((int)title.low[0], 95, 105);
+  assert_true(title.high[1] < box_of(drawing, "top").low[1]);
+  recto_drawing_destroy(drawing);
+
+  options.sheet.names = true;
+  options.output.title = "";
+  drawing = draw(&options);
+  struct box name = box_of_text(drawing, 0, 12),
+             front = box_of(drawing, "front");
+  assert_true(is_close(name.high[1] - name.low[1], 3.5));
+  assert_true(is_close(front.low[1] - name.high[1], 3.5));
+  assert_true(fabs(middle_of(name, 0) - middle_of(front, 0)) < 1);
+  assert_true(name.low[1] > box_of(drawing, "top").high[1]);
+  recto_drawing_destroy(drawing);
+}
+
+static void only_sheets_have_text(void **state) {
+  (void)state;
+  recto_options options;
+  recto_options_init(&options);
+  options.output.title = "LL";
+  recto_drawing *drawing = draw(&options);
+  recto_stroke stroke;
+  for (size_t i = 0; recto_drawing_stroke(drawing, i, &stroke); i++)
+    assert_false(stroke.is_text);
+  recto_drawing_destroy(drawing);
+}
+
 /* ---- Errors -------------------------------------------------------------- */
 
 static void assert_refused(const recto_options *options, const char *words) {
@@ -567,6 +632,19 @@ static void what_contradicts_a_sheet_is_refused(void **state) {
   assert_refused(&options, "a list of the options");
 }
 
+static void titles_that_cannot_be_drawn_are_refused(void **state) {
+  (void)state;
+  recto_options options;
+  init_sheet(&options, RECTO_ARRANGEMENT_FIRST, NULL, 0);
+  options.output.title = "\343\201\202";
+  assert_refused(&options, "the font has no \"\343\201\202\" (U+3042)");
+  options.output.title = "\377";
+  assert_refused(&options, "no text in UTF-8");
+  options.output.title =
+      "WWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWW";
+  assert_refused(&options, "mm wide, and the page has 190 mm");
+}
+
 static void views_that_do_not_fit_are_refused(void **state) {
   (void)state;
   recto_options options;
@@ -592,6 +670,8 @@ static void where_memory_runs_out_there_is_no_drawing(void **state) {
   init_sheet(&options, RECTO_ARRANGEMENT_FIRST, NULL, 0);
   options.ink.fill = RECTO_FILL_PAINT;
   options.ink.ids = true;
+  options.sheet.names = true;
+  options.output.title = "LL";
   options.verify = 100;
   options.solver.threads = 1;
   unsigned long failed = 0;
@@ -632,6 +712,9 @@ int main(void) {
       cmocka_unit_test(stats_have_a_part_for_each_view),
       cmocka_unit_test(views_that_make_no_sense_are_refused),
       cmocka_unit_test(what_contradicts_a_sheet_is_refused),
+      cmocka_unit_test(text_is_below_what_it_names),
+      cmocka_unit_test(only_sheets_have_text),
+      cmocka_unit_test(titles_that_cannot_be_drawn_are_refused),
       cmocka_unit_test(views_that_do_not_fit_are_refused),
       cmocka_unit_test(where_memory_runs_out_there_is_no_drawing),
   };

@@ -101,7 +101,8 @@ done <<'END_OF_ROWS'
 --light 1,1,1|a.svg --fill shade|a.svg --fill paint|--fill shade and --fill hatch; --fill paint
 --ids|a.svg|a.hpgl|svg; hpgl
 --id-prefix a|a.svg|a.hpgl|svg; hpgl
---title a|a.svg|a.hpgl|svg, pdf, eps and ps; hpgl
+--title a|a.svg|a.hpgl|svg, pdf, eps, ps and sheets; hpgl
+--title a|a.hpgl --sheet first|a.png|svg, pdf, eps, ps and sheets; png
 --desc a|a.svg|a.hpgl|svg, pdf, eps and ps; hpgl
 --background navy|a.svg|a.hpgl|svg, pdf, eps, ps and png; hpgl
 --precision 2|a.svg|a.hpgl|svg; hpgl
@@ -164,7 +165,7 @@ draws_the_same() {
 claim "the drawing is the same, a line an option" draws_the_same
 
 # Those that always do something, or that refuse what they do not go with.
-always='--output --format --from --method --view --sheet --views --turntable --azimuth --elevation --camera
+always='--output --format --from --method --view --sheet --views --view-names --turntable --azimuth --elevation --camera
 --up --ortho --fit --no-fit --near --cut --section --page --landscape --portrait --margin --edges
 --weld --fill --stats --verify --check --tolerance --threads --progress --quiet --completion --version --help'
 every_option_has_its_row() {

@@ -46,7 +46,8 @@ class Layer(NamedTuple):
 class Stroke(np.ndarray):
     """A polyline: an (n, 2) array of points, x and y in mm of the page.
 
-    edge_class        "silhouette" and so on; None: a line of hatching
+    edge_class        "silhouette" and so on; None: hatching, or text
+    is_text           whether it is a line of a sheet's text
     hidden            whether it is a hidden part of a line
     closed            whether the last point joins the first
     width             mm
@@ -55,6 +56,7 @@ class Stroke(np.ndarray):
     """
 
     edge_class: str | None = None
+    is_text: bool = False
     hidden: bool = False
     closed: bool = False
     width: float = 0
@@ -186,6 +188,7 @@ class Drawing:
             points = view(self._owner, s.points, (s.count, 2), np.float64)
             stroke = points.view(Stroke)
             stroke.edge_class = CLASS_NAMES.get(s.edge_class)
+            stroke.is_text = s.is_text
             stroke.hidden = s.hidden
             stroke.closed = s.closed
             stroke.width = s.width_mm

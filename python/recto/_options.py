@@ -41,6 +41,7 @@ class Options(TypedDict, total=False):
     sheet: str  # first, third: angle projection, several views on one page
     views: Union[str, Sequence[Union[str, tuple[str, float]]]]
     # "front,top,iso:2", or ["front", "top", ("iso", 2)]
+    view_names: bool  # drawn on the sheet
     hidden_in: Mapping[str, str]  # {"iso": "none"}: of single views
     near: float
     section: float
@@ -182,6 +183,7 @@ _FIELDS = {
     "elevation": ("camera", "elevation_deg"),
     "fov": ("camera", "fov_deg"),
     "near": ("camera", "near_distance"),
+    "view_names": ("sheet", "names"),
     "margin": ("page", "margin_mm"),
     "seam": ("ink", "seam_mm"),
     "hatch_pitch": ("ink", "hatch_pitch_mm"),

@@ -24,6 +24,7 @@ librecto_core_la_SOURCES += \
   %D%/sized.c %D%/sized.h \
   %D%/shares.c %D%/shares.h \
   %D%/stats.c %D%/stats.h \
+  %D%/sheet_text.c %D%/sheet_text.h \
   %D%/verify.c %D%/verify.h \
   %D%/version.c \
   %D%/vocabulary.c

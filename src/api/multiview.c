@@ -7,12 +7,17 @@
 
 #include "api/sized.h"
 #include "base/tolerance.h"
+#include "drawing/text.h"
 #include "view/camera_extent.h"
 #include "view/preferred_scale.h"
 
 /* The least distance between views, as a share of the shorter side of the page
  * inside its margins. */
 #define SHARE_OF_GAP (1.0 / 12)
+
+/* What text takes of the page above or below it, in its own height. */
+#define TITLE_BAND 2.5
+#define NAME_BAND 2.5
 
 /* ---- The views that are requested ---------------------------------------- */
 
@@ -89,6 +94,10 @@ static recto_status check_sheet_view(const recto_sheet_view *view,
   return RECTO_OK;
 }
 
+static bool has_title(const recto_options *options) {
+  return options->output.title != NULL && *options->output.title != '\0';
+}
+
 static recto_status check_sheet_views(const recto_sheet_options *sheet,
                                       recto_error *error) {
   recto_status status = RECTO_OK;
@@ -130,7 +139,10 @@ recto_status multiview_check(const recto_options *options, recto_error *error) {
   if (options->results != 0)
     return refuse_sheet(error, "edges and faces are results of one view, not "
                                "of a sheet");
-  return check_sheet_views(sheet, error);
+  recto_status status = check_sheet_views(sheet, error);
+  return status == RECTO_OK && has_title(options)
+             ? text_check(options->output.title, "the title", error)
+             : status;
 }
 
 /* ---- The grid ------------------------------------------------------------ */
@@ -204,15 +216,37 @@ static void measure_grid(struct grid *grid, const struct multiview *views) {
 
 /* The room of a page inside its margins. */
 struct room {
-  double mm[2];
-  double gap_mm; /* at least between views */
+  double mm[2];      /* without the title's */
+  double gap_mm;     /* at least between views */
+  double band_mm[2]; /* of each column, and of each row: for names */
 };
 
-static struct room room_of(const double page_mm[2], double margin_mm) {
-  struct room room = {{page_mm[0] - 2 * margin_mm, page_mm[1] - 2 * margin_mm},
-                      0};
+static struct room room_of(const struct multiview *views,
+                           const double page_mm[2]) {
+  struct room room = {
+      {page_mm[0] - 2 * views->margin_mm, page_mm[1] - 2 * views->margin_mm},
+      0,
+      {0, NAME_BAND * views->name_mm}};
   room.gap_mm = fmin(room.mm[0], room.mm[1]) * SHARE_OF_GAP;
+  room.mm[1] -= TITLE_BAND * views->title_mm;
   return room;
+}
+
+/* What the least gaps and the names leave. */
+static double free_room(const struct grid *grid, const struct room *room,
+                        int axis) {
+  return room->mm[axis] - (grid->used[axis] - 1) * room->gap_mm -
+         grid->used[axis] * room->band_mm[axis];
+}
+
+/* Heights of letters that ISO 3098 has, to 20 mm: the largest that is not above
+ * a share of the page's shorter side, or one of the next lower. */
+static double choose_text_height(const double page_mm[2], int lower) {
+  static const double height[] = {1.8, 2.5, 3.5, 5, 7, 10, 14, 20};
+  int i = sizeof height / sizeof height[0] - 1;
+  while (i > 0 && height[i] > fmin(page_mm[0], page_mm[1]) / 40)
+    i--;
+  return height[i > lower ? i - lower : 0];
 }
 
 /* The largest scale, mm a unit of the prepared scene, at which the views fit;
@@ -222,7 +256,7 @@ static double scale_to_fit_room(const struct grid *grid,
                                 const struct room *room, double size) {
   double scale = INFINITY, least = INFINITY;
   for (int axis = 0; axis < 2; axis++) {
-    double free_mm = room->mm[axis] - (grid->used[axis] - 1) * room->gap_mm;
+    double free_mm = free_room(grid, room, axis);
     least = fmin(least, free_mm);
     if (grid->sum[axis] > size * TOLERANCE_EXTENT_SHARE)
       scale = fmin(scale, free_mm / grid->sum[axis]);
@@ -239,8 +273,8 @@ static recto_status choose_sheet_scale(struct multiview *views,
                                        const recto_options *scaled, double size,
                                        double *scale, recto_error *error) {
   const double turned[2] = {views->page_mm[1], views->page_mm[0]};
-  struct room room = room_of(views->page_mm, views->margin_mm);
-  struct room other = room_of(turned, views->margin_mm);
+  struct room room = room_of(views, views->page_mm);
+  struct room other = room_of(views, turned);
   double most = scale_to_fit_room(grid, &room, size);
   double most_turned = scale_to_fit_room(grid, &other, size);
   double wanted =
@@ -266,8 +300,7 @@ static recto_status choose_sheet_scale(struct multiview *views,
                      "mm, and the page has %.4g x %.4g mm for them; the "
                      "largest scale is %.4g times as large",
                      wanted * grid->sum[0], wanted * grid->sum[1],
-                     room.mm[0] - (grid->used[0] - 1) * room.gap_mm,
-                     room.mm[1] - (grid->used[1] - 1) * room.gap_mm,
+                     free_room(grid, &room, 0), free_room(grid, &room, 1),
                      most / wanted);
   return RECTO_OK;
 }
@@ -277,10 +310,11 @@ static recto_status choose_sheet_scale(struct multiview *views,
 /* Divides what is left of the page evenly, as far as both axes have it. */
 static void choose_gap(struct multiview *views, const struct grid *grid,
                        double scale) {
+  struct room room = room_of(views, views->page_mm);
   double even = INFINITY;
   for (int axis = 0; axis < 2; axis++) {
-    double left =
-        views->page_mm[axis] - 2 * views->margin_mm - grid->sum[axis] * scale;
+    double left = room.mm[axis] - grid->used[axis] * room.band_mm[axis] -
+                  grid->sum[axis] * scale;
     if (grid->used[axis] > 1)
       even = fmin(even, left / (grid->used[axis] + 1));
   }
@@ -290,16 +324,19 @@ static void choose_gap(struct multiview *views, const struct grid *grid,
 
 static void place_tracks(struct multiview *views, struct grid *grid,
                          double scale) {
+  struct room room = room_of(views, views->page_mm);
   for (int axis = 0; axis < 2; axis++) {
-    double all =
-        grid->sum[axis] * scale + (grid->used[axis] - 1) * views->gap_mm;
-    double at = (views->page_mm[axis] - all) / 2;
+    double all = grid->sum[axis] * scale +
+                 (grid->used[axis] - 1) * views->gap_mm +
+                 grid->used[axis] * room.band_mm[axis];
+    double at =
+        views->page_mm[axis] - views->margin_mm - (room.mm[axis] + all) / 2;
     for (int t = 0; t < CELLS; t++) {
       struct track *track = &grid->track[axis][t];
       if (!track->is_used)
         continue;
-      track->begin_mm = at;
-      at += track->width * scale + views->gap_mm;
+      track->begin_mm = at + room.band_mm[axis];
+      at = track->begin_mm + track->width * scale + views->gap_mm;
     }
   }
 }
@@ -361,6 +398,21 @@ static void turn_camera(recto_options *options,
   options->camera.has_target = false;
 }
 
+static recto_status check_title_width(const struct multiview *views,
+                                      recto_error *error) {
+  double room_mm = views->page_mm[0] - 2 * views->margin_mm;
+  if (views->title == NULL)
+    return RECTO_OK;
+  const struct text_line line = {views->title, views->title_mm};
+  double width_mm = text_width_mm(&line);
+  return width_mm <= room_mm
+             ? RECTO_OK
+             : error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                         "the title is %.4g mm wide, and the page has %.4g mm "
+                         "inside its margins",
+                         width_mm, room_mm);
+}
+
 recto_status multiview_arrange(struct multiview *views,
                                const struct preparation *prepared,
                                const recto_options *options,
@@ -382,13 +434,19 @@ recto_status multiview_arrange(struct multiview *views,
     return status;
   memcpy(views->page_mm, camera.page_mm, sizeof views->page_mm);
   views->margin_mm = camera.margin_mm;
+  if (has_title(options)) {
+    views->title = options->output.title;
+    views->title_mm = choose_text_height(views->page_mm, 0);
+  }
+  if (options->sheet.names)
+    views->name_mm = choose_text_height(views->page_mm, 1);
   place_in_grid(views, options->sheet.arrangement);
   measure_grid(&grid, views);
   status =
       choose_sheet_scale(views, &grid, &scaled, camera.size, &scale, error);
   if (status == RECTO_OK)
     place_views(views, &grid, scale, prepared->rescaled.exponent);
-  return status;
+  return status == RECTO_OK ? check_title_width(views, error) : status;
 }
 
 void multiview_options(const struct multiview *views, size_t index,

@@ -28,6 +28,9 @@ struct multiview {
   double page_mm[2], margin_mm;
   double scale;  /* page mm for a unit of the user's scene */
   double gap_mm; /* between views */
+  /* Text, its capitals so high; 0: there is none. */
+  double title_mm, name_mm;
+  const char *title;
 };
 
 /* Whether the options request a sheet. */

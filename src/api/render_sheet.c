@@ -14,6 +14,7 @@
 #include "api/options.h"
 #include "api/render.h"
 #include "api/shares.h"
+#include "api/sheet_text.h"
 #include "api/stats.h"
 #include "base/clock.h"
 #include "drawing/append.h"
@@ -124,8 +125,10 @@ static recto_status put_together(struct sheet_work *work, recto_error *error) {
     drawing_fini(&work->view[i]->drawing);
     drawing_init(&work->view[i]->drawing);
   }
+  double unit_mm = options_unit_mm(work->options, &work->scene->scene);
   if (status == RECTO_OK &&
-      !captions_set_sheet(drawing, work->scene, work->options, &work->views))
+      !(sheet_text_add(drawing, &work->views, work->options, unit_mm) &&
+        captions_set_sheet(drawing, work->scene, work->options, &work->views)))
     status = error_memory(error);
   poll_close(&poll);
   return status;

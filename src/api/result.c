@@ -104,6 +104,7 @@ bool recto_drawing_stroke_sized(const recto_drawing *drawing, size_t index,
         .face = from->face,
         .edge = from->edge,
         .group = from->group,
+        .is_text = from->text,
     };
   }
   return sized_copy_out(stroke, size, &own, sizeof own) && is_there;

@@ -25,7 +25,7 @@ enum {
   SMOOTH_CONTOURS
 };
 enum { SVG = 40, HPGL, PNG, VECTOR_PAGES };
-enum { STATS = 48, CHECK, BY_CHECK, CUT, CUT_HATCHED, FIRST_FIT };
+enum { STATS = 48, CHECK, BY_CHECK, CUT, CUT_HATCHED, SHEET, FIRST_FIT };
 
 #define METHODS (METHOD(COUNT) - 1)
 #define FILLS (FILL(NONE) | FILL(PAINT) | FILL(SHADE) | FILL(HATCH))
@@ -74,6 +74,8 @@ static uint64_t find_requests(const struct arguments *a) {
     bits |= BIT(CUT);
   if (o->mesh.cut_count > 0 && o->mesh.cut_fill == RECTO_CUT_FILL_HATCH)
     bits |= BIT(CUT_HATCHED);
+  if (o->sheet.arrangement != RECTO_ARRANGEMENT_NONE)
+    bits |= BIT(SHEET);
   if (a->stats)
     bits |= BIT(STATS);
   if (a->check_file != NULL)
@@ -137,6 +139,9 @@ static const struct {
     [USED_BY_SCREENS] = {"svg, pdf, eps, ps and png",
                          BIT(SVG) | BIT(PNG) | BIT(VECTOR_PAGES)},
     [USED_BY_PAGES] = {"svg, pdf, eps and ps", BIT(SVG) | BIT(VECTOR_PAGES)},
+    [USED_BY_PAGES_AND_SHEETS] = {"svg, pdf, eps, ps and sheets",
+                                  BIT(SVG) | BIT(VECTOR_PAGES) | BIT(SHEET) |
+                                      BIT(BY_CHECK)},
     [USED_BY_TIGHT] = {"svg, pdf, eps, ps and png",
                        BIT(SVG) | BIT(PNG) | BIT(VECTOR_PAGES) | BIT(BY_CHECK)},
     /* A drawing that is checked brings its page, unless that was cropped. */

@@ -108,6 +108,8 @@ bool sheet_settle(struct arguments *a, char message[MESSAGE_SIZE]) {
   if (!sheet_is_requested(a)) {
     if (a->view_hidden_count > 0)
       wrong = "--hidden-in is for --sheet and --views";
+    else if (a->options.sheet.names)
+      wrong = "--view-names is for --sheet and --views";
   } else if (a->view_given || a->direction_given || a->eye_given) {
     wrong = "--sheet and --views say what is seen from where: leave out "
             "--view, --azimuth, --elevation and --camera";

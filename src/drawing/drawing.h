@@ -22,6 +22,7 @@ struct drawing_stroke {
   uint16_t edge_class;        /* one recto_edge_class, or 0 for a hatch line */
   bool closed;
   bool hidden; /* a hidden part of a line */
+  bool text;   /* no line of the model: its edge_class is 0 */
 };
 
 /* The cubic Bezier curves that stand for a stroke in formats that have curves:

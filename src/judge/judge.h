@@ -48,7 +48,8 @@ struct judge_drawing {
 /* Reads an SVG file such as recto writes: a root in mm with a viewBox in the
  * same, paths of M, L, Z with absolute numbers, polylines and polygons.
  * Strokes of the class hidden are JUDGE_HIDDEN, and without a class those on a
- * layer labelled "hidden" or "2 hidden"; hatching and seams are left out.
+ * layer labelled "hidden" or "2 hidden"; hatching, seams and text are left
+ * out.
  * Returns NULL, or what is wrong with it: JUDGE_NO_MEMORY itself where memory
  * ran out. */
 const char *judge_read_svg(struct judge_drawing *drawing, const char *text,

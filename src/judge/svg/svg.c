@@ -75,7 +75,8 @@ static void apply_class(struct svg_text list, struct svg_style *style) {
   while (svg_next_word(&list, &word)) {
     if (svg_is(word, "hidden"))
       style->hidden = true;
-    else if (svg_is(word, "hatch") || svg_is(word, "seam"))
+    else if (svg_is(word, "hatch") || svg_is(word, "seam") ||
+             svg_is(word, "text"))
       style->filling = true;
     for (int i = 0; i < RECTO_EDGE_CLASS_COUNT; i++)
       if (svg_is(word, recto_edge_class_name((recto_edge_class)(1u << i))))

@@ -1,0 +1,17 @@
+/* sheet_text.h - the title of a sheet, and the names of its views. */
+#ifndef API_SHEET_TEXT_H
+#define API_SHEET_TEXT_H
+
+#include "api/multiview.h"
+#include "drawing/drawing.h"
+
+/* Draws the title at the foot of the page, and below each view its name, with
+ * its scale if that is a true one and not the sheet's: strokes of pen 1, on a
+ * layer of their own.
+ * unit_mm  of a unit of the user's scene
+ * Returns false when memory ran out. */
+USE_RESULT bool sheet_text_add(struct drawing *drawing,
+                               const struct multiview *views,
+                               const recto_options *options, double unit_mm);
+
+#endif
