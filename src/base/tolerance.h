@@ -48,6 +48,17 @@
  * Ten times   gaps of a millimetre stay open. */
 #define TOLERANCE_OUTLINE_UNITS (1 << 17)
 
+/* The outline of fills follows the drawn outline where it is farther from it
+ * than this.
+ * Unit        page grid units (2^-20 mm)
+ * Derivation  1/64 mm, a tenth of what the thinnest pens draw.
+ * Users       visibility/contour/corner_moves.c,
+ *             visibility/contour/drawn_outlines.c,
+ *             visibility/contour/fit_outline.c
+ * Ten times   a rim of the fill 0.16 mm wide, or of paper, shows beside a thin
+ *             line. */
+#define TOLERANCE_FILL_UNITS (1 << 14)
+
 /* Two faces bend only if the cosine between their normals is below that of the
  * crease angle by more than this.
  * Unit        1 (a cosine)

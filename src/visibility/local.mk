@@ -30,9 +30,12 @@ librecto_core_la_SOURCES += \
   %D%/culling/potentially_visible.c %D%/culling/potentially_visible.h \
   %D%/contour/contour_curves.c %D%/contour/contour_curves.h \
   %D%/contour/corner_moves.c %D%/contour/corner_moves.h \
+  %D%/contour/drawn_outlines.c %D%/contour/drawn_outlines.h \
   %D%/contour/facing.c %D%/contour/facing.h \
   %D%/contour/fit_fragments.c %D%/contour/fit_fragments.h \
+  %D%/contour/fit_outline.c %D%/contour/fit_outline.h \
   %D%/contour/line_ends.c %D%/contour/line_ends.h \
+  %D%/contour/loop_changes.c %D%/contour/loop_changes.h \
   %D%/contour/outline_gaps.c %D%/contour/outline_gaps.h \
   %D%/contour/page_crossings.c %D%/contour/page_crossings.h \
   %D%/contour/segment_grid.c %D%/contour/segment_grid.h \

@@ -11,6 +11,7 @@
 #include "base/sort.h"
 #include "view/clip.h"
 #include "visibility/contour/fit_fragments.h"
+#include "visibility/contour/fit_outline.h"
 #include "visibility/contour/line_ends.h"
 #include "visibility/contour/outline_gaps.h"
 #include "visibility/contour/page_crossings.h"
@@ -368,6 +369,17 @@ static bool add_pieces(struct contour_pieces *c) {
   return ok;
 }
 
+/* Makes the visible fragments end at the contours. */
+static bool fit_to_contours(const struct sheet *sheet, struct map *map,
+                            const struct topology *topology, uint32_t first) {
+  struct drawn_outlines drawn = {.map = map, .sheet = sheet, .first = first};
+  bool ok = drawn_outlines_list(&drawn) &&
+            fit_fragments(map, sheet, topology, &drawn) &&
+            fit_outline(map, sheet, &drawn);
+  drawn_outlines_fini(&drawn);
+  return ok;
+}
+
 /* Makes other lines and the visible fragments end at the contours, which are
  * the sheet's edges from `first` on. */
 static bool end_at_contours(const struct sheet *sheet, struct map *map,
@@ -375,7 +387,7 @@ static bool end_at_contours(const struct sheet *sheet, struct map *map,
   return first == sheet->edge.count ||
          (line_ends_move(map, sheet, first) &&
           (map->fragment.count == 0 ||
-           fit_fragments(map, sheet, topology, first)));
+           fit_to_contours(sheet, map, topology, first)));
 }
 
 recto_status smooth_contours_add(struct sheet *sheet, struct map *map,

@@ -11,6 +11,7 @@
 
 #include "base/hash.h"
 #include "base/poll.h"
+#include "base/tolerance.h"
 
 /* ---- 1 Contour edges about points ---------------------------------------- */
 
@@ -104,9 +105,8 @@ static void try_point(const struct corner_moves *moves, uint32_t point,
     try_contour(moves, moves->item[i], beyond, move);
 }
 
-/* Whether an edge is an outline: its triangles are on one side of it. */
-static bool is_outline(const struct sheet *sheet,
-                       const struct sheet_edge *edge) {
+bool sheet_edge_is_outline(const struct sheet *sheet,
+                           const struct sheet_edge *edge) {
   int side[2] = {0, 0};
   struct geom_segment s = sheet_ends(sheet, edge->point);
   for (int k = 0; k < 2; k++) {
@@ -129,7 +129,8 @@ bool corner_moves_is_along(const struct corner_moves *moves,
     return false;
   const struct sheet_edge *edge = &moves->sheet->edge.item[corner->id];
   return edge->edge_class == 0 && edge->source < moves->topology->edge.count &&
-         (corner->side == MAP_SIDE_OCCLUDER || is_outline(moves->sheet, edge));
+         (corner->side == MAP_SIDE_OCCLUDER ||
+          sheet_edge_is_outline(moves->sheet, edge));
 }
 
 /* Tries the contours about the edge along a side that starts or ends at a
@@ -154,7 +155,7 @@ static void try_side(const struct corner_moves *moves,
     move->occluder = true;
     move->distance = INFINITY;
   }
-  bool beyond = !occluder && !is_outline(sheet, edge);
+  bool beyond = !occluder && !sheet_edge_is_outline(sheet, edge);
   for (int k = 0; k < 2; k++)
     try_point(moves, point[k], beyond, move);
 }
@@ -194,6 +195,25 @@ static void meet_contours(const struct corner_moves *moves,
     }
 }
 
+/* Keeps a corner that is on a contour already where it is, rather than moving it
+ * to another one. */
+static void stay_on_contour(const struct corner_moves *moves,
+                            struct corner_move *move) {
+  static const double any[2] = {0, 0};
+  if (move->distance <= (double)TOLERANCE_FILL_UNITS * TOLERANCE_FILL_UNITS ||
+      move->distance == INFINITY)
+    return;
+  struct drawn_place on =
+      drawn_outlines_find(moves->drawn, move->from, any, TOLERANCE_FILL_UNITS);
+  if (on.distance > TOLERANCE_FILL_UNITS || on.edge < moves->first)
+    return;
+  move->to[0] = on.at[0];
+  move->to[1] = on.at[1];
+  move->edge = on.edge;
+  move->farther = SHEET_NONE;
+  move->distance = on.distance * on.distance;
+}
+
 /* Finds the move of the corner between two sides, if it has one. */
 static bool add_move(struct corner_moves *moves,
                      const struct map_corner *before,
@@ -207,6 +227,7 @@ static bool add_move(struct corner_moves *moves,
   try_side(moves, corner, &move);
   meet_contours(moves, before, corner, &move);
   meet_contours(moves, corner, before, &move);
+  stay_on_contour(moves, &move);
   return move.distance == INFINITY || ARRAY_PUSH(&moves->move, move);
 }
 

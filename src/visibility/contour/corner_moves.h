@@ -3,7 +3,7 @@
 #ifndef VISIBILITY_CONTOUR_CORNER_MOVES_H
 #define VISIBILITY_CONTOUR_CORNER_MOVES_H
 
-#include "visibility/map.h"
+#include "visibility/contour/drawn_outlines.h"
 
 /* From a point of the page to the nearest one of a contour. */
 struct corner_move {
@@ -15,10 +15,11 @@ struct corner_move {
 };
 
 struct corner_moves {
-  const struct map *map;           /* borrowed, not owned */
-  const struct sheet *sheet;       /* borrowed, not owned */
-  const struct topology *topology; /* borrowed, not owned */
-  uint32_t first, first_point;     /* the sheet's of contours */
+  const struct map *map;              /* borrowed, not owned */
+  const struct sheet *sheet;          /* borrowed, not owned */
+  const struct topology *topology;    /* borrowed, not owned */
+  const struct drawn_outlines *drawn; /* borrowed, not owned */
+  uint32_t first, first_point;        /* the sheet's of contours */
   uint32_t (
       *at_point)[2]; /* one a point of the contours: the visible edges that
                               meet there; SHEET_NONE */
@@ -48,5 +49,9 @@ corner_moves_at(const struct corner_moves *moves, uint32_t corner) {
  * that is not drawn. */
 bool corner_moves_is_along(const struct corner_moves *moves,
                            const struct map_corner *corner);
+
+/* Whether an edge is an outline: its triangles are on one side of it. */
+bool sheet_edge_is_outline(const struct sheet *sheet,
+                           const struct sheet_edge *edge);
 
 #endif

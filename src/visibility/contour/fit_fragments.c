@@ -3,10 +3,10 @@
 #include "visibility/contour/fit_fragments.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/poll.h"
 #include "visibility/contour/corner_moves.h"
+#include "visibility/contour/loop_changes.h"
 
 /* The points of the contour between two places, and the edges after them. */
 enum { WAY_MAX = 64 };
@@ -18,11 +18,7 @@ struct fit_way {
 struct fit {
   struct map *map;
   struct corner_moves moves;
-  uint32_t *new_half;   /* one a half-edge and one more: the first it becomes */
-  uint32_t *new_corner; /* one a corner */
-  uint8_t *is_bent;     /* one a corner: a point of its side is moved */
-  ARRAY(struct map_corner) corner; /* the new ones */
-  ARRAY(struct map_half_edge) half_edge;
+  struct loop_changes changes;
 };
 
 /* ---- Sides along the contour ------------------------------------------- */
@@ -92,162 +88,67 @@ static struct fit_way way_between(const struct fit *f,
   return best;
 }
 
-/* Finds how many points of the contour each half-edge gets. */
-static bool count_points(struct fit *f) {
-  const struct map_half_edge *half = f->map->half_edge.item;
-  f->new_half = mem_alloc(f->map->half_edge.count + 1, sizeof *f->new_half);
-  if (f->new_half == NULL)
-    return false;
-  f->new_half[0] = 0;
-  for (size_t h = 0; h < f->map->half_edge.count; h++) {
-    const struct map_half_edge *twin =
-        half[h].twin == SHEET_NONE ? NULL : &half[half[h].twin];
-    uint32_t between = 0;
-    if (!poll_at(h))
-      return false;
-    const struct corner_move *from = corner_moves_at(&f->moves, half[h].origin);
-    const struct corner_move *to =
-        corner_moves_at(&f->moves, half[half[h].next].origin);
-    if (from != NULL && to != NULL &&
-        (is_along(f, &half[h]) || (twin != NULL && is_along(f, twin))) &&
-        (twin == NULL || is_matched(f->map, &half[h], twin)))
-      between = way_between(f, from, to).count;
-    f->new_half[h + 1] = f->new_half[h] + 1 + between;
-  }
-  return true;
-}
-
 /* ---- The fragments ----------------------------------------------------- */
 
-static double map_coordinate(double x) {
-  return rint(x * MAP_CORNER_SCALE) / MAP_CORNER_SCALE;
-}
-
-/* Whether a half-edge starts a side of its own: sides of which a point is moved
- * bend at each of their neighbours' corners. */
-static bool starts_side(const struct fit *f, const struct map_half_edge *half) {
-  return half->origin == half->side || f->is_bent[half->side] ||
-         is_along(f, half);
-}
-
-static bool find_bent_sides(struct fit *f) {
-  const struct map_half_edge *half = f->map->half_edge.item;
-  f->is_bent = mem_calloc(f->map->corner.count, 1);
-  for (size_t h = 0; f->is_bent != NULL && h < f->map->half_edge.count; h++)
-    if (corner_moves_at(&f->moves, half[h].origin) != NULL ||
-        corner_moves_at(&f->moves, half[half[h].next].origin) != NULL)
-      f->is_bent[half[h].side] = 1;
-  return f->is_bent != NULL;
-}
-
-static bool add_half_edge(struct fit *f, struct map_half_edge half) {
-  half.next = (uint32_t)f->half_edge.count + 1;
-  return ARRAY_PUSH(&f->half_edge, half);
-}
-
-static bool add_side(struct fit *f, struct map_corner corner,
-                     struct map_half_edge half) {
-  half.side = half.origin = (uint32_t)f->corner.count;
-  return ARRAY_PUSH(&f->corner, corner) && add_half_edge(f, half);
-}
-
-/* Adds what half-edge h becomes: one, or one for each edge of the contour along
- * which it runs. */
-static bool add_half_edges(struct fit *f, uint32_t h) {
-  const struct map_half_edge *all = f->map->half_edge.item, *old = &all[h];
-  const struct corner_move *from = corner_moves_at(&f->moves, old->origin);
-  struct map_corner corner = f->map->corner.item[old->side];
-  struct map_half_edge half = *old;
-  uint32_t between = f->new_half[h + 1] - f->new_half[h] - 1;
-  if (old->twin != SHEET_NONE)
-    half.twin = f->new_half[old->twin] + between;
-  if (!starts_side(f, old)) {
-    half.side = (uint32_t)f->corner.count - 1;
-    return add_half_edge(f, half);
+static void move_corners(struct fit *f) {
+  for (uint32_t c = 0; c < f->map->corner.count; c++) {
+    const struct corner_move *move = corner_moves_at(&f->moves, c);
+    f->changes.is_moved[c] = move != NULL;
+    for (int k = 0; k < 2 && move != NULL; k++)
+      f->changes.to[c][k] = move->to[k];
   }
-  corner.x = f->map->corner.item[old->origin].x;
-  corner.y = f->map->corner.item[old->origin].y;
-  if (from != NULL) {
-    corner.x = map_coordinate(from->to[0]);
-    corner.y = map_coordinate(from->to[1]);
-    if (is_along(f, old))
-      corner.id = from->edge;
-  }
-  if (old->origin == old->side)
-    f->new_corner[old->side] = (uint32_t)f->corner.count;
-  if (!add_side(f, corner, half))
-    return false;
+}
+
+/* Puts the points of the contour along which a half-edge runs into it. */
+static bool follow(struct fit *f, uint32_t h) {
+  const struct map_half_edge *all = f->map->half_edge.item, *half = &all[h];
+  const struct map_half_edge *twin =
+      half->twin == SHEET_NONE ? NULL : &all[half->twin];
+  const struct corner_move *from = corner_moves_at(&f->moves, half->origin);
   const struct corner_move *to =
-      corner_moves_at(&f->moves, all[old->next].origin);
-  struct fit_way way = {.count = 0};
-  if (between > 0)
-    way = way_between(f, from, to);
-  for (uint32_t i = 0; i < between; i++) {
+      corner_moves_at(&f->moves, all[half->next].origin);
+  bool along = is_along(f, half);
+  f->changes.starts_side[h] = along;
+  if (along && from != NULL)
+    f->changes.first_id[h] = from->edge;
+  if (from == NULL || to == NULL ||
+      !(along || (twin != NULL && is_along(f, twin))) ||
+      (twin != NULL && !is_matched(f->map, half, twin)))
+    return true;
+  struct fit_way way = way_between(f, from, to);
+  for (uint32_t i = 0; i < way.count; i++) {
     struct geom_point p = f->moves.sheet->point.item[way.point[i]];
-    corner.x = p.x;
-    corner.y = p.y;
-    if (is_along(f, old))
-      corner.id = way.edge[i];
-    half.twin -= half.twin != SHEET_NONE;
-    if (!add_side(f, corner, half))
+    struct side_point made = {p.x, p.y, along ? way.edge[i] : SHEET_NONE};
+    if (!ARRAY_PUSH(&f->changes.point, made))
       return false;
   }
   return true;
 }
 
-/* Makes the map's loops anew. */
-static bool make_loops(struct fit *f) {
-  struct map *map = f->map;
-  f->new_corner = mem_alloc(map->corner.count, sizeof *f->new_corner);
-  if (f->new_corner == NULL)
-    return false;
-  for (size_t l = 0; l < map->loop.count; l++) {
-    struct map_loop *loop = &map->loop.item[l];
-    uint32_t first = loop->half_edge, h = first;
-    uint32_t corner = (uint32_t)f->corner.count;
-    if (!poll_at(l))
+static bool follow_contours(struct fit *f) {
+  for (uint32_t h = 0; h < f->map->half_edge.count; h++) {
+    if (!poll_at(h) || !follow(f, h))
       return false;
-    do {
-      if (!add_half_edges(f, h))
-        return false;
-      h = map->half_edge.item[h].next;
-    } while (h != first);
-    f->half_edge.item[f->half_edge.count - 1].next = f->new_half[first];
-    *loop = (struct map_loop){corner, (uint32_t)f->corner.count - corner,
-                              f->new_half[first]};
+    f->changes.start[h + 1] = (uint32_t)f->changes.point.count;
   }
-  for (size_t h = 0; h < map->half_edge.count; h++)
-    if (!starts_side(f, &map->half_edge.item[h]))
-      f->half_edge.item[f->new_half[h]].origin =
-          f->new_corner[map->half_edge.item[h].origin];
   return true;
-}
-
-static void replace_loops(struct fit *f) {
-  struct map *map = f->map;
-  ARRAY_FREE(&map->corner);
-  ARRAY_FREE(&map->half_edge);
-  memcpy(&map->corner, &f->corner, sizeof f->corner);
-  memcpy(&map->half_edge, &f->half_edge, sizeof f->half_edge);
-  memset(&f->corner, 0, sizeof f->corner);
-  memset(&f->half_edge, 0, sizeof f->half_edge);
 }
 
 bool fit_fragments(struct map *map, const struct sheet *sheet,
-                   const struct topology *topology, uint32_t first) {
-  struct fit f = {
-      .map = map,
-      .moves = {
-          .map = map, .sheet = sheet, .topology = topology, .first = first}};
-  bool ok = corner_moves_find(&f.moves) && count_points(&f) &&
-            find_bent_sides(&f) && make_loops(&f);
-  if (ok)
-    replace_loops(&f);
+                   const struct topology *topology,
+                   const struct drawn_outlines *drawn) {
+  struct fit f = {.map = map,
+                  .moves = {.map = map,
+                            .sheet = sheet,
+                            .topology = topology,
+                            .first = drawn->first,
+                            .drawn = drawn}};
+  bool ok = corner_moves_find(&f.moves) && loop_changes_init(&f.changes, map);
+  if (ok) {
+    move_corners(&f);
+    ok = follow_contours(&f) && loop_changes_apply(&f.changes);
+  }
   corner_moves_fini(&f.moves);
-  mem_free(f.new_half);
-  mem_free(f.new_corner);
-  mem_free(f.is_bent);
-  ARRAY_FREE(&f.corner);
-  ARRAY_FREE(&f.half_edge);
+  loop_changes_fini(&f.changes);
   return ok;
 }

@@ -3,7 +3,7 @@
 #ifndef VISIBILITY_CONTOUR_FIT_FRAGMENTS_H
 #define VISIBILITY_CONTOUR_FIT_FRAGMENTS_H
 
-#include "visibility/map.h"
+#include "visibility/contour/drawn_outlines.h"
 
 /* Moves corners of fragments onto the visible contours.
  *
@@ -14,15 +14,14 @@
  * it.  A point of the page is moved as one, whatever fragments meet there: they
  * remain a subdivision of the page, on both sides of a contour, without gaps.
  * Sides along contours get their ids.  Where there is no contour in the faces
- * about an edge nothing is moved.
+ * about an edge nothing is moved, nor where a corner is on a contour already.
  *
  * Bound   no corner leaves the images of the faces about its edge; between two
  *         corners a side is the chord of the contour there
- * first   of the sheet's edges: the first one of a contour.  The surface is on
- *         their left
  * Cost    linear in the scene's points and the map's corners
  * Returns false when memory ran out or the caller cancelled. */
 USE_RESULT bool fit_fragments(struct map *map, const struct sheet *sheet,
-                              const struct topology *topology, uint32_t first);
+                              const struct topology *topology,
+                              const struct drawn_outlines *drawn);
 
 #endif

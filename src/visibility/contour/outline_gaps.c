@@ -85,7 +85,11 @@ static void try_segment(const struct outline_gaps *g,
   double t = fmin(fmax((px * x + py * y) / (x * x + y * y), 0), 1);
   double distance = hypot(px - t * x, py - t * y);
   if (s->owner < g->first) {
-    best->on_edge = best->on_edge || distance <= TOLERANCE_COINCIDENT_UNITS;
+    unsigned edge_class = g->sheet->edge.item[s->owner].edge_class;
+    best->on_edge =
+        best->on_edge ||
+        ((edge_class & (RECTO_EDGE_CREASE | RECTO_EDGE_GROUP)) == 0 &&
+         distance <= TOLERANCE_COINCIDENT_UNITS);
     return;
   }
   if (x * along[0] + y * along[1] < TURNED_COSINE * hypot(x, y))
@@ -191,21 +195,6 @@ static struct outline_sample look(struct outline_gaps *g,
 }
 
 /* ---- Parts --------------------------------------------------------------- */
-
-/* How far apart points of a face's image are, at most. */
-static double extent_of_face(const struct sheet *sheet, uint32_t face) {
-  struct box2 box = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
-  for (size_t t = first_triangle_of_face(sheet, face);
-       t < sheet->triangle.count && sheet->triangle.item[t].face == face; t++)
-    for (int k = 0; k < 3; k++) {
-      struct geom_point p = sheet_corners(sheet, t).p[k];
-      box = (struct box2){box2_min(box.x0, p.x), box2_min(box.y0, p.y),
-                          box2_max(box.x1, p.x), box2_max(box.y1, p.y)};
-    }
-  return box.x0 > box.x1
-             ? 0
-             : hypot((double)box.x1 - box.x0, (double)box.y1 - box.y0);
-}
 
 /* Adds the parts of an outline that are not drawn. */
 static bool add_open_parts(struct outline_gaps *g,

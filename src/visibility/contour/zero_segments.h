@@ -2,7 +2,10 @@
 #ifndef VISIBILITY_CONTOUR_ZERO_SEGMENTS_H
 #define VISIBILITY_CONTOUR_ZERO_SEGMENTS_H
 
+#include <math.h>
+
 #include "base/sort.h"
+#include "visibility/predicate/box2.h"
 #include "visibility/contour/facing.h"
 
 /* Where the contour crosses an edge or a diagonal, or meets a vertex. */
@@ -50,6 +53,21 @@ static inline uint32_t first_triangle_of_face(const struct sheet *sheet,
   return t < sheet->triangle.count && sheet->triangle.item[t].face == face
              ? (uint32_t)t
              : SHEET_NONE;
+}
+
+/* How far apart points of a face's image are, at most. */
+static inline double extent_of_face(const struct sheet *sheet, uint32_t face) {
+  struct box2 box = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
+  for (size_t t = first_triangle_of_face(sheet, face);
+       t < sheet->triangle.count && sheet->triangle.item[t].face == face; t++)
+    for (int k = 0; k < 3; k++) {
+      struct geom_point p = sheet_corners(sheet, t).p[k];
+      box = (struct box2){box2_min(box.x0, p.x), box2_min(box.y0, p.y),
+                          box2_max(box.x1, p.x), box2_max(box.y1, p.y)};
+    }
+  return box.x0 > box.x1
+             ? 0
+             : hypot((double)box.x1 - box.x0, (double)box.y1 - box.y0);
 }
 
 #endif

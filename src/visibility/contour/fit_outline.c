@@ -1,0 +1,161 @@
+/* fit_outline.c - moves the outline of the visible fragments onto the lines
+ * that are drawn there.
+ *
+ * Phases
+ *   1 move the corners of the fragments' outline onto drawn ones
+ *   2 put points of these into its sides
+ * Beyond a side of the outline there is no fragment, so that its shape is free;
+ * a corner is moved with all that are at its place. */
+#include "visibility/contour/fit_outline.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/poll.h"
+#include "base/tolerance.h"
+#include "visibility/contour/loop_changes.h"
+#include "visibility/contour/zero_segments.h"
+
+/* The distance between two places of a side that are looked at, grid units, and
+ * how many there are in one half-edge, at most. */
+#define FIT_SPACING 0x1p18
+enum { FIT_SAMPLES_MAX = 4096 };
+
+/* From one place of the page to another one. */
+struct place_move {
+  double from[2];
+  struct drawn_place to;
+};
+
+struct outline_fit {
+  struct map *map;
+  const struct sheet *sheet;
+  const struct drawn_outlines *drawn;
+  struct loop_changes changes;
+  ARRAY(struct place_move) move;
+};
+
+/* Whether a place is to be moved to another one. */
+static bool is_off(const struct drawn_place *to) {
+  return to->distance > TOLERANCE_FILL_UNITS && to->distance < INFINITY;
+}
+
+/* ---- The fragments' outline ---------------------------------------------- */
+
+static bool is_on_outline(const struct outline_fit *f, uint32_t h) {
+  const struct map_half_edge *half = &f->map->half_edge.item[h];
+  return half->twin == SHEET_NONE &&
+         f->map->corner.item[half->side].side != MAP_SIDE_CLIP;
+}
+
+/* Where a corner is, or will be. */
+static void place_of_corner(const struct outline_fit *f, uint32_t corner,
+                            double at[2]) {
+  const struct map_corner *c = &f->map->corner.item[corner];
+  at[0] = f->changes.is_moved[corner] ? f->changes.to[corner][0] : c->x;
+  at[1] = f->changes.is_moved[corner] ? f->changes.to[corner][1] : c->y;
+}
+
+static void ends_of_half(const struct outline_fit *f, uint32_t h, double a[2],
+                         double b[2]) {
+  const struct map_half_edge *all = f->map->half_edge.item;
+  place_of_corner(f, all[h].origin, a);
+  place_of_corner(f, all[all[h].next].origin, b);
+}
+
+static double radius_about(const struct outline_fit *f, uint32_t h) {
+  uint32_t fragment = f->map->half_edge.item[h].fragment;
+  uint32_t face = f->map->fragment.item[fragment].face;
+  return fmin(extent_of_face(f->sheet, face), SHEET_XY_MAX);
+}
+
+/* ---- 1 Corners ----------------------------------------------------------- */
+
+static int compare_places(const void *a, const void *b, void *user) {
+  const double *p = ((const struct place_move *)a)->from;
+  const double *q = ((const struct place_move *)b)->from;
+  (void)user;
+  if (p[0] != q[0])
+    return p[0] < q[0] ? -1 : 1;
+  return (p[1] > q[1]) - (p[1] < q[1]);
+}
+
+/* Finds the moves of the places at which sides of the outline start, in the
+ * order of the places. */
+static bool find_place_moves(struct outline_fit *f) {
+  for (uint32_t h = 0; h < f->map->half_edge.count; h++) {
+    double from[2], next[2];
+    if (!poll_at(h))
+      return false;
+    if (!is_on_outline(f, h))
+      continue;
+    ends_of_half(f, h, from, next);
+    const double along[2] = {next[0] - from[0], next[1] - from[1]};
+    struct place_move move = {
+        {from[0], from[1]},
+        drawn_outlines_find(f->drawn, from, along, radius_about(f, h))};
+    if (is_off(&move.to) && !ARRAY_PUSH(&f->move, move))
+      return false;
+  }
+  return sort_stable(f->move.item, f->move.count, sizeof *f->move.item,
+                     compare_places, NULL);
+}
+
+/* Moves a corner if its place is; of several moves, by the shortest one. */
+static void move_corner(struct outline_fit *f, uint32_t corner) {
+  const struct map_corner *c = &f->map->corner.item[corner];
+  const struct place_move at = {.from = {c->x, c->y}};
+  const struct drawn_place *best = NULL;
+  size_t i = 0;
+  LOWER_BOUND(i, 0, f->move.count,
+              compare_places(&f->move.item[i], &at, NULL) < 0);
+  for (; i < f->move.count && compare_places(&f->move.item[i], &at, NULL) == 0;
+       i++)
+    if (best == NULL || f->move.item[i].to.distance < best->distance)
+      best = &f->move.item[i].to;
+  if (best == NULL)
+    return;
+  f->changes.is_moved[corner] = 1;
+  memcpy(f->changes.to[corner], best->at, sizeof best->at);
+}
+
+/* ---- 2 Sides ------------------------------------------------------------- */
+
+/* Puts places of the drawn outlines into a half-edge where it is off them. */
+static bool bend_half(struct outline_fit *f, uint32_t h) {
+  double a[2], b[2], radius = radius_about(f, h);
+  ends_of_half(f, h, a, b);
+  const double along[2] = {b[0] - a[0], b[1] - a[1]};
+  double samples = ceil(hypot(along[0], along[1]) / FIT_SPACING);
+  int n = (int)fmin(samples, FIT_SAMPLES_MAX);
+  for (int i = 1; i < n; i++) {
+    const double p[2] = {a[0] + along[0] * i / n, a[1] + along[1] * i / n};
+    struct drawn_place to = drawn_outlines_find(f->drawn, p, along, radius);
+    struct side_point made = {loop_changes_round(to.at[0]),
+                              loop_changes_round(to.at[1]), SHEET_NONE};
+    if (is_off(&to) && !ARRAY_PUSH(&f->changes.point, made))
+      return false;
+  }
+  return true;
+}
+
+static bool bend_sides(struct outline_fit *f) {
+  for (uint32_t h = 0; h < f->map->half_edge.count; h++) {
+    if (!poll_at(h) || (is_on_outline(f, h) && !bend_half(f, h)))
+      return false;
+    f->changes.start[h + 1] = (uint32_t)f->changes.point.count;
+  }
+  return true;
+}
+
+bool fit_outline(struct map *map, const struct sheet *sheet,
+                 const struct drawn_outlines *drawn) {
+  struct outline_fit f = {.map = map, .sheet = sheet, .drawn = drawn};
+  bool ok = loop_changes_init(&f.changes, map) && find_place_moves(&f);
+  for (uint32_t c = 0; ok && c < map->corner.count; c++)
+    move_corner(&f, c);
+  ok = ok && bend_sides(&f) && loop_changes_apply(&f.changes);
+  loop_changes_fini(&f.changes);
+  ARRAY_FREE(&f.move);
+  return ok;
+}
