@@ -195,8 +195,8 @@ static void meet_contours(const struct corner_moves *moves,
     }
 }
 
-/* Keeps a corner that is on a contour already where it is, rather than moving it
- * to another one. */
+/* Keeps a corner that is on a contour already where it is, rather than moving
+ * it to another one. */
 static void stay_on_contour(const struct corner_moves *moves,
                             struct corner_move *move) {
   static const double any[2] = {0, 0};

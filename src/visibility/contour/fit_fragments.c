@@ -100,7 +100,7 @@ static void move_corners(struct fit *f) {
 }
 
 /* Puts the points of the contour along which a half-edge runs into it. */
-static bool follow(struct fit *f, uint32_t h) {
+static bool follow_along_half(struct fit *f, uint32_t h) {
   const struct map_half_edge *all = f->map->half_edge.item, *half = &all[h];
   const struct map_half_edge *twin =
       half->twin == SHEET_NONE ? NULL : &all[half->twin];
@@ -127,7 +127,7 @@ static bool follow(struct fit *f, uint32_t h) {
 
 static bool follow_contours(struct fit *f) {
   for (uint32_t h = 0; h < f->map->half_edge.count; h++) {
-    if (!poll_at(h) || !follow(f, h))
+    if (!poll_at(h) || !follow_along_half(f, h))
       return false;
     f->changes.start[h + 1] = (uint32_t)f->changes.point.count;
   }
