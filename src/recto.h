@@ -710,6 +710,52 @@ RECTO_USE_RESULT recto_status recto_scene_render(const recto_scene *scene,
                                                  recto_drawing **drawing,
                                                  recto_error *error);
 
+/* The most parts of a drawing. */
+#define RECTO_PARTS_MAX 4096
+
+/* Draws one of `count` parts of a drawing, a window of the page, and writes it
+ * to a file that recto_join_parts takes.  A part knows of the model what meets
+ * its window; the windows depend on the scene, the options and `count`, and
+ * have about as many points each.  Of the options for ink those say what is
+ * solved that choose what is drawn: edges, hidden, fill.  `output.format` is
+ * that of the joined drawing, as its margin may depend on it.
+ * number  from 1 to `count`
+ * count   at most RECTO_PARTS_MAX
+ * path    written whole or not at all, as by recto_drawing_write
+ * Errors  those of recto_scene_render; RECTO_ERROR_UNSUPPORTED also where the
+ *         parts could not be joined to the same drawing: with approximate
+ *         methods, smooth contours, cuts, creases with a second angle, lines
+ *         behind a number of faces, results or verification, in a view that the
+ *         page or the near plane clips, of a scene of extreme size, and where
+ *         welding might join corners; RECTO_ERROR_IO */
+RECTO_USE_RESULT recto_status recto_scene_write_part(
+    const recto_scene *scene, const recto_options *options, unsigned number,
+    unsigned count, const char *path, recto_error *error);
+
+/* Sets *is_there to whether a file is the very part that
+ * recto_scene_write_part would write there, whole, and need not be made again.
+ * Errors  those of it, but for the solver's */
+RECTO_USE_RESULT recto_status recto_scene_has_part(
+    const recto_scene *scene, const recto_options *options, unsigned number,
+    unsigned count, const char *path, bool *is_there, recto_error *error);
+
+/* Joins the parts of a drawing, in any order, and inks it: the drawing is the
+ * one that recto_scene_render would make of the whole, to the byte.  Camera,
+ * page and mesh are those of the parts, and so are the edges; of the options
+ * those for ink and output are used.
+ * Errors  RECTO_ERROR_ARGUMENT: a part is missing, there twice, or of another
+ *         drawing; RECTO_ERROR_FORMAT: a file is no part, cut short or damaged;
+ *         the error names it; RECTO_ERROR_UNSUPPORTED: the options want what
+ *         the parts do not have: fills or hidden lines that these were made
+ *         without, ids, tone hatching, lines behind a number of faces, results
+ *         or verification; RECTO_ERROR_IO; RECTO_ERROR_LIMIT;
+ *         RECTO_ERROR_CANCELLED */
+RECTO_USE_RESULT recto_status recto_join_parts(const char *const *paths,
+                                               size_t count,
+                                               const recto_options *options,
+                                               recto_drawing **drawing,
+                                               recto_error *error);
+
 /* Destroys a drawing and what its getters returned. */
 void recto_drawing_destroy(recto_drawing *drawing);
 

@@ -103,21 +103,20 @@ static void describe_sheet(struct sentence *words, const recto_options *o,
   sentence_add(words, ".");
 }
 
-static bool store_captions(struct drawing *drawing, const recto_scene *scene,
+static bool store_captions(struct drawing *drawing, const char *path,
                            const struct sentence *words) {
   drawing->description = mem_copy_text(words->text);
-  if (drawing->description == NULL || scene->path == NULL ||
-      strcmp(scene->path, "-") == 0)
+  if (drawing->description == NULL || path == NULL || strcmp(path, "-") == 0)
     return drawing->description != NULL;
-  drawing->title = title_of(scene->path);
+  drawing->title = title_of(path);
   return drawing->title != NULL;
 }
 
-bool captions_set(struct drawing *drawing, const recto_scene *scene,
+bool captions_set(struct drawing *drawing, const char *path,
                   const recto_options *options) {
   struct sentence words = {.length = 0};
   describe_view(&words, options);
-  return store_captions(drawing, scene, &words);
+  return store_captions(drawing, path, &words);
 }
 
 bool captions_set_sheet(struct drawing *drawing, const recto_scene *scene,
@@ -125,5 +124,5 @@ bool captions_set_sheet(struct drawing *drawing, const recto_scene *scene,
                         const struct multiview *views) {
   struct sentence words = {.length = 0};
   describe_sheet(&words, options, views, &scene->scene);
-  return store_captions(drawing, scene, &words);
+  return store_captions(drawing, scene->path, &words);
 }

@@ -8,8 +8,9 @@
 /* Sets the title, the name of the only file that was read without its folder
  * and extension, and the description, a sentence about what is drawn from
  * where.
+ * path  of that file; NULL: none
  * Returns false when memory ran out. */
-USE_RESULT bool captions_set(struct drawing *drawing, const recto_scene *scene,
+USE_RESULT bool captions_set(struct drawing *drawing, const char *path,
                              const recto_options *options);
 
 /* The same of a sheet. */

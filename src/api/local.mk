@@ -9,12 +9,15 @@ librecto_core_la_SOURCES += \
   %D%/draw_file.c \
   %D%/group_numbers.c %D%/group_numbers.h \
   %D%/handle.h \
+  %D%/join.c \
   %D%/mesh.c \
   %D%/judge_input.c %D%/judge_input.h \
   %D%/options.c %D%/options.h \
   %D%/output.c \
   %D%/output_format.c %D%/output_format.h \
   %D%/multiview.c %D%/multiview.h \
+  %D%/part.c \
+  %D%/part_check.c %D%/part_check.h \
   %D%/render.c %D%/render.h \
   %D%/render_scene.c \
   %D%/render_sheet.c %D%/render_sheet.h \

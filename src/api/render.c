@@ -457,7 +457,7 @@ static recto_status run_and_report(struct render *render, recto_error *error) {
   status = run_stages(render, error);
   if (status == RECTO_OK) {
     const struct scene *scene = render->prepared->scene;
-    if (!captions_set(render->drawing, render->model, render->options) ||
+    if (!captions_set(render->drawing, render->model->path, render->options) ||
         (render->drawing->ids &&
          !group_numbers_set(render->drawing, scene,
                             &render->prepared->welded.scene,

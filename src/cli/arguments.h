@@ -33,6 +33,11 @@ struct arguments {
     double azimuth_deg, elevation_deg;
   } view[VIEWS_MAX]; /* as given, view_count of them */
   int view_count;
+  int first_frame, past_frame; /* of a turntable's; both 0: all */
+
+  /* Drawings in parts. */
+  int part, parts;    /* the part to draw, from 1, and how many; 0: none */
+  bool resumes, joins; /* the models are parts */
 
   struct view_hidden {
     const char *view;
@@ -108,7 +113,9 @@ enum option_use {
   USED_BY_PNG,
   USED_BY_PLOTTER,
   USED_BY_STATS,
-  USED_BY_CHECK
+  USED_BY_CHECK,
+  USED_BY_TURNTABLE,
+  USED_BY_PART
 };
 
 /* The word at `index` of a list; NULL past the last. */

@@ -10,6 +10,12 @@ int frames_count(const struct arguments *a) {
   return a->view_count > 1 ? a->view_count : 1;
 }
 
+int frames_first(const struct arguments *a) { return a->first_frame; }
+
+int frames_past(const struct arguments *a) {
+  return a->past_frame > 0 ? a->past_frame : frames_count(a);
+}
+
 void frame_options(const struct arguments *a, int frame,
                    recto_options *options) {
   *options = a->options;

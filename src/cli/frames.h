@@ -7,8 +7,13 @@
 
 enum { FRAME_PATH_SIZE = 4096 };
 
-/* How many drawings the run makes. */
+/* How many drawings there are; --frames chooses some of them. */
 int frames_count(const struct arguments *arguments);
+
+/* The drawings that the run makes of these: from the first to before the
+ * other. */
+int frames_first(const struct arguments *arguments);
+int frames_past(const struct arguments *arguments);
 
 /* Sets the options for a drawing, counted from 0.  All frames of a turntable
  * have one scale: the direction turns about the up axis, and where nothing else

@@ -25,7 +25,17 @@ enum {
   SMOOTH_CONTOURS
 };
 enum { SVG = 40, HPGL, PNG, VECTOR_PAGES };
-enum { STATS = 48, CHECK, BY_CHECK, CUT, CUT_HATCHED, SHEET, FIRST_FIT };
+enum {
+  STATS = 48,
+  CHECK,
+  BY_CHECK,
+  CUT,
+  CUT_HATCHED,
+  SHEET,
+  FIRST_FIT,
+  TURNTABLE = FIRST_FIT + 8, /* there are fewer fits */
+  PART
+};
 
 #define METHODS (METHOD(COUNT) - 1)
 #define FILLS (FILL(NONE) | FILL(PAINT) | FILL(SHADE) | FILL(HATCH))
@@ -45,7 +55,9 @@ static const struct {
 
 /* All formats where none is known, which is an error of its own. */
 static uint64_t find_format(const struct arguments *a) {
-  const char *name = recto_output_format(a->output, a->format);
+  const char *name = a->parts > 0 && a->format == NULL
+                         ? "svg"
+                         : recto_output_format(a->output, a->format);
   if (name == NULL)
     return FORMATS;
   for (size_t i = 0; i < sizeof format / sizeof *format; i++)
@@ -80,6 +92,10 @@ static uint64_t find_requests(const struct arguments *a) {
     bits |= BIT(STATS);
   if (a->check_file != NULL)
     bits |= BIT(CHECK);
+  if (a->turntable > 0)
+    bits |= BIT(TURNTABLE);
+  if (a->parts > 0)
+    bits |= BIT(PART);
   return bits;
 }
 
@@ -150,7 +166,22 @@ static const struct {
     [USED_BY_PLOTTER] = {"hpgl and --stats", BIT(HPGL) | BIT(STATS)},
     [USED_BY_STATS] = {"the time in --stats", BIT(STATS)},
     [USED_BY_CHECK] = {"--check", BIT(CHECK) | BIT(BY_CHECK)},
+    [USED_BY_TURNTABLE] = {"--turntable", BIT(TURNTABLE)},
+    [USED_BY_PART] = {"--part", BIT(PART)},
 };
+
+/* What a join takes from the parts. */
+static const char of_parts[] =
+    " from method contact weld pitch resolution divide depth-bits subpixels "
+    "remove-backs view turntable azimuth elevation camera lookat up fov ortho "
+    "fit no-fit scale unit near cut cut-fill cut-hatch section page landscape "
+    "portrait margin edges crease ";
+
+static bool is_of_parts(const char *name) {
+  char word[40];
+  snprintf(word, sizeof word, " %s ", name);
+  return strstr(of_parts, word) != NULL;
+}
 
 /* ---- Warnings ------------------------------------------------------------ */
 
@@ -171,10 +202,12 @@ static const char *name_instead(const struct arguments *a, uint64_t bits) {
     return fill[a->options.ink.fill];
   if (bits & FITS)
     return fit[a->options.camera.fit];
-  return bits & BIT(NO_LIGHT) ? "hatching by --light"
-         : bits & BIT(STATS)  ? "a run without --stats"
-         : bits & BIT(CUT)    ? "a run without --cut"
-                              : "a run without --check";
+  return bits & BIT(NO_LIGHT)    ? "hatching by --light"
+         : bits & BIT(STATS)     ? "a run without --stats"
+         : bits & BIT(CUT)       ? "a run without --cut"
+         : bits & BIT(PART)      ? "a run without --part"
+         : bits & BIT(TURNTABLE) ? "a run without --turntable"
+                                 : "a run without --check";
 }
 
 void option_scope_warn(const struct arguments *arguments,
@@ -182,6 +215,13 @@ void option_scope_warn(const struct arguments *arguments,
   uint64_t requests = find_requests(arguments);
   for (int i = 0; !option_is_end(&option_table[i]); i++) {
     const struct option_entry *entry = &option_table[i];
+    char text[MESSAGE_SIZE];
+    if (arguments->seen[i] && arguments->joins && is_of_parts(entry->name)) {
+      snprintf(text, sizeof text, "--%s is for parts; --join does not use it",
+               entry->name);
+      warn("", 0, text);
+      continue;
+    }
     for (int k = 0; arguments->seen[i] && k < OPTION_USES; k++) {
       uint64_t bits = condition[entry->use[k]].bits;
       bool by_page =
@@ -190,7 +230,6 @@ void option_scope_warn(const struct arguments *arguments,
           requests & BIT(CHECK) && !(bits & BIT(BY_CHECK)) && !by_page;
       if (entry->use[k] == USED_ALWAYS || (!checks && bits & requests))
         continue;
-      char text[MESSAGE_SIZE];
       snprintf(text, sizeof text, "--%s is for %s; %s does not use it",
                entry->name, condition[entry->use[k]].by,
                checks ? "--check" : name_instead(arguments, bits));

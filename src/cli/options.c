@@ -206,6 +206,23 @@ static bool parse_verify(struct arguments *arguments, const char *text) {
                           arguments->options.verify <= 10000000);
 }
 
+/* A-B or A: frames, from 0. */
+static bool parse_frames(struct arguments *arguments, const char *text) {
+  int first, last;
+  if (!value_range(text, '-', &first, &last) || first < 0 || last < first)
+    return false;
+  arguments->first_frame = first;
+  arguments->past_frame = last + 1;
+  return true;
+}
+
+static bool parse_part(struct arguments *arguments, const char *text) {
+  return strchr(text, '/') != NULL &&
+         value_range(text, '/', &arguments->part, &arguments->parts) &&
+         arguments->part >= 1 && arguments->part <= arguments->parts &&
+         arguments->parts <= RECTO_PARTS_MAX;
+}
+
 /* ---- The table ----------------------------------------------------------- */
 
 #define HEADING(text)                                                          \
@@ -280,6 +297,9 @@ const struct option_entry option_table[] = {
      "N drawings all around, to files such as a%03d.svg",
      .offset = AT(turntable), .least = 1, .most = 100000,
      .use = {USED_BY_DRAWING}},
+    {OPTION_PARSED, "frames", 0, "A-B", "numbers of drawings such as 0-99",
+     "of a turntable's drawings only those, from 0", .parse = parse_frames,
+     .use = {USED_BY_TURNTABLE}},
     {OPTION_NUMBER, "azimuth", 0, "DEG", "an angle in degrees",
      "turn the eye to the right, from the front",
      .offset = AT(options.camera.azimuth_deg), .given = AT(direction_given),
@@ -489,6 +509,15 @@ const struct option_entry option_table[] = {
 #else
     ABSENT("dpi", "N"),
 #endif
+
+    HEADING("Drawings in parts"),
+    {OPTION_PARSED, "part", 0, "I/N", "a part such as 2/16",
+     "draw a window of the page to a file for --join", .parse = parse_part},
+    {OPTION_FLAG, "resume", 0, NULL, NULL,
+     "keep a part that is there and whole", .offset = AT(resumes),
+     .use = {USED_BY_PART}},
+    {OPTION_FLAG, "join", 0, NULL, NULL, "make the drawing of its parts",
+     .offset = AT(joins)},
 
     HEADING("Reports"),
     {OPTION_TEXT, "stats", 0, "[=FILE]", "a file",

@@ -188,6 +188,24 @@ static bool settle_camera(struct arguments *a, char message[MESSAGE_SIZE]) {
   return true;
 }
 
+/* An error of the options for parts and frames; NULL: none. */
+static const char *judge_parts(const struct arguments *a) {
+  if (a->past_frame > 0 && a->turntable > 0 && a->past_frame > a->turntable)
+    return "--frames goes beyond the last drawing of --turntable";
+  if (a->parts == 0 && !a->joins)
+    return NULL;
+  if (a->parts > 0 && a->joins)
+    return "--part and --join exclude each other";
+  if (a->check_file != NULL)
+    return "--check takes neither --part nor --join";
+  if (frames_count(a) > 1)
+    return "--part and --join make one drawing: leave out --turntable and "
+           "further views";
+  if (a->parts > 0 && a->stats)
+    return "--part makes no drawing: leave out --stats";
+  return NULL;
+}
+
 /* An error of the files' names; NULL: none. */
 static const char *judge_files(const struct arguments *a) {
   if (a->model_count == 0)
@@ -200,7 +218,7 @@ static const char *judge_files(const struct arguments *a) {
     return "--check takes one view";
   if (a->output == NULL && a->check_file == NULL)
     return "no output: say -o FILE";
-  for (int i = 0; i < a->model_count && a->from == NULL; i++)
+  for (int i = 0; i < a->model_count && a->from == NULL && !a->joins; i++)
     if (strcmp(a->model[i], "-") == 0)
       return "standard input needs --from FORMAT";
   return NULL;
@@ -208,6 +226,8 @@ static const char *judge_files(const struct arguments *a) {
 
 static bool settle_files(struct arguments *a, char message[MESSAGE_SIZE]) {
   const char *wrong = judge_files(a);
+  if (wrong == NULL)
+    wrong = judge_parts(a);
   if (wrong != NULL) {
     snprintf(message, MESSAGE_SIZE, "%s", wrong);
     return false;
@@ -223,6 +243,8 @@ static bool settle_files(struct arguments *a, char message[MESSAGE_SIZE]) {
       return false;
     }
   }
+  if (a->parts > 0 && a->format == NULL)
+    return true;
   if (recto_output_format(a->output, a->format) == NULL) {
     snprintf(message, MESSAGE_SIZE, "there is no output format for \"%.100s\"",
              a->format != NULL ? a->format : a->output);

@@ -130,7 +130,8 @@ static recto_status check_outputs(const struct arguments *arguments,
                                   recto_error *error) {
   struct output_paths outputs;
   recto_status status = RECTO_OK;
-  for (int i = 0; i < frames_count(arguments) && status == RECTO_OK; i++) {
+  for (int i = frames_first(arguments);
+       i < frames_past(arguments) && status == RECTO_OK; i++) {
     find_outputs(&outputs, arguments, i);
     status =
         recto_scene_try_output(scene, outputs.drawing, outputs.stats, error);
@@ -232,14 +233,16 @@ static recto_status write_outputs(const struct arguments *arguments,
 static recto_status draw_frame(const struct arguments *arguments,
                                const recto_scene *scene, int frame,
                                struct written *written, recto_error *error) {
-  struct current_frame current = {frame, frames_count(arguments)};
+  int first = frames_first(arguments);
+  struct current_frame current = {frame - first,
+                                  frames_past(arguments) - first};
   recto_drawing *drawing = NULL;
   recto_options options;
   frame_options(arguments, frame, &options);
   options.output.format =
       recto_output_format(arguments->output, arguments->format);
   options.user = &current;
-  if (frame > 0)
+  if (frame > first)
     options.warning = NULL;
   recto_status status = recto_scene_render(scene, &options, &drawing, error);
   if (status == RECTO_OK)
@@ -251,7 +254,7 @@ static recto_status draw_frame(const struct arguments *arguments,
 static recto_status draw_models(const struct arguments *arguments,
                                 recto_error *error) {
   recto_scene *scene = NULL;
-  int frames = frames_count(arguments);
+  int frames = frames_past(arguments) - frames_first(arguments);
   struct written written = {calloc(2 * (size_t)frames, sizeof *written.file),
                             0};
   recto_status status = recto_scene_create(&scene, error);
@@ -268,11 +271,56 @@ static recto_status draw_models(const struct arguments *arguments,
   signals_catch();
   if (status == RECTO_OK && frames > 1)
     status = recto_scene_prepare(scene, &arguments->options, error);
-  for (int i = 0; i < frames && status == RECTO_OK; i++)
+  for (int i = frames_first(arguments);
+       i < frames_past(arguments) && status == RECTO_OK; i++)
     status = draw_frame(arguments, scene, i, &written, error);
   progress_bar_end();
   recto_scene_destroy(scene);
   free(written.file);
+  return status;
+}
+
+/* Draws one part of a drawing. */
+static recto_status draw_part(const struct arguments *arguments,
+                              recto_error *error) {
+  recto_scene *scene = NULL;
+  recto_options options = arguments->options;
+  unsigned part = (unsigned)arguments->part, parts = (unsigned)arguments->parts;
+  bool is_there = false;
+  options.output.format = arguments->format != NULL ? arguments->format : "svg";
+  recto_status status = recto_scene_create(&scene, error);
+  if (status == RECTO_OK)
+    status = read_models(arguments, scene, error);
+  if (status == RECTO_OK)
+    status = recto_scene_try_output(scene, arguments->output, NULL, error);
+  signals_catch();
+  if (status == RECTO_OK && arguments->resumes)
+    status = recto_scene_has_part(scene, &options, part, parts,
+                                  arguments->output, &is_there, error);
+  if (status == RECTO_OK && !is_there)
+    status = recto_scene_write_part(scene, &options, part, parts,
+                                    arguments->output, error);
+  progress_bar_end();
+  recto_scene_destroy(scene);
+  return status;
+}
+
+/* Makes a drawing of its parts. */
+static recto_status join_parts(const struct arguments *arguments,
+                               recto_error *error) {
+  recto_drawing *drawing = NULL;
+  recto_options options = arguments->options;
+  struct written_file file[2];
+  struct written written = {file, 0};
+  options.output.format =
+      recto_output_format(arguments->output, arguments->format);
+  signals_catch();
+  recto_status status = recto_join_parts((const char *const *)arguments->model,
+                                         (size_t)arguments->model_count,
+                                         &options, &drawing, error);
+  if (status == RECTO_OK)
+    status = write_outputs(arguments, drawing, 0, &options, &written, error);
+  recto_drawing_destroy(drawing);
   return status;
 }
 
@@ -300,7 +348,9 @@ int cli_run(struct arguments *arguments) {
   if (!arguments->quiet)
     progress_bar_start(arguments->progress);
   recto_status status = checks ? check_drawing(arguments, &is_right, &error)
-                               : draw_models(arguments, &error);
+                        : arguments->parts > 0 ? draw_part(arguments, &error)
+                        : arguments->joins     ? join_parts(arguments, &error)
+                                               : draw_models(arguments, &error);
   progress_bar_end();
   if (status != RECTO_OK && !signals_are_of_a_pipe())
     message_print(error.file, error.line, error.text);

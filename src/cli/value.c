@@ -40,6 +40,22 @@ bool value_int(const char *text, int *number) {
   return true;
 }
 
+bool value_range(const char *text, char between, int *first, int *last) {
+  char start[16];
+  const char *sign = strchr(text, between);
+  size_t length = sign != NULL ? (size_t)(sign - text) : strlen(text);
+  int a, b;
+  if (length >= sizeof start)
+    return false;
+  memcpy(start, text, length);
+  start[length] = '\0';
+  if (!value_int(start, &a) || !value_int(sign != NULL ? sign + 1 : start, &b))
+    return false;
+  *first = a;
+  *last = b;
+  return true;
+}
+
 /* ---- Lengths ------------------------------------------------------------- */
 
 /* Reads a number and its unit, which is stored in millimetres, `usual_mm` where

@@ -14,6 +14,9 @@ bool value_number(const char *text, double *number);
 /* A whole number. */
 bool value_int(const char *text, int *number);
 
+/* Two whole numbers with a sign between them; one alone counts twice. */
+bool value_range(const char *text, char between, int *first, int *last);
+
 /* A length on paper: a number and mm (also where it is left out), cm, in or
  * pt. */
 bool value_length(const char *text, double *mm);

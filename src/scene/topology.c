@@ -225,18 +225,26 @@ static bool weld_border(struct topology *topology, const struct scene *scene) {
   return ok;
 }
 
-recto_status topology_init(struct topology *topology, const struct scene *scene,
-                           recto_error *error) {
+recto_status topology_init_welded(struct topology *topology,
+                                  const struct scene *scene,
+                                  recto_error *error) {
   memset(topology, 0, sizeof *topology);
   topology->corner_edge =
       mem_alloc(scene->corner.count, sizeof *topology->corner_edge);
-  if (topology->corner_edge == NULL || !build_edges(topology, scene) ||
-      !weld_border(topology, scene))
-    goto fail;
-  if (topology->weld != NULL && !build_edges(topology, scene))
-    goto fail;
-  return RECTO_OK;
-fail:
+  if (topology->corner_edge != NULL && build_edges(topology, scene))
+    return RECTO_OK;
+  topology_fini(topology);
+  return error_memory(error);
+}
+
+recto_status topology_init(struct topology *topology, const struct scene *scene,
+                           recto_error *error) {
+  recto_status status = topology_init_welded(topology, scene, error);
+  if (status != RECTO_OK)
+    return status;
+  if (weld_border(topology, scene) &&
+      (topology->weld == NULL || build_edges(topology, scene)))
+    return RECTO_OK;
   topology_fini(topology);
   return error_memory(error);
 }

@@ -27,6 +27,11 @@ struct topology {
 USE_RESULT recto_status topology_init(struct topology *topology,
                                       const struct scene *scene,
                                       recto_error *error);
+/* The same for a scene whose points are welded: those at one position that have
+ * different numbers stay apart. */
+USE_RESULT recto_status topology_init_welded(struct topology *topology,
+                                             const struct scene *scene,
+                                             recto_error *error);
 void topology_fini(struct topology *topology);
 
 /* Gives up corner_edge. */

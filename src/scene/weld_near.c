@@ -237,6 +237,25 @@ static double set_explained_radii(struct candidates *candidates,
   return length;
 }
 
+double weld_near_length_most(const struct scene *scene,
+                             const struct weld_request *request) {
+  double largest = 0, most = 0;
+  int exponent;
+  if (request->length >= 0)
+    return fmin(request->length, LENGTH_MAX);
+  for (size_t p = 0; p < scene->point.count; p++) {
+    const struct scene_point *at = &scene->point.item[p];
+    largest = fmax(largest, fmax(fabs(at->x), fmax(fabs(at->y), fabs(at->z))));
+  }
+  frexp(largest, &exponent);
+  most = explained_length(ldexp(1, exponent), request->unstated);
+  for (size_t r = 0; r < scene->precision.count; r++)
+    if (scene->precision.item[r].stated)
+      most = fmax(most, explained_length(ldexp(1, exponent),
+                                         scene->precision.item[r].precision));
+  return most;
+}
+
 /* ---- Rewriting ----------------------------------------------------------- */
 
 /* Makes `number` the map from each point to the one it is welded to, which is

@@ -35,6 +35,11 @@ USE_RESULT recto_status weld_near(struct welded *welded,
                                   recto_error *error);
 void welded_fini(struct welded *welded);
 
+/* An upper bound of the length over which weld_near may join points of the
+ * scene, or of any part of it: 0 where it joins none. */
+double weld_near_length_most(const struct scene *scene,
+                             const struct weld_request *request);
+
 /* Whether the borders look like edges of a connected mesh whose corners were
  * moved apart: there are at least a hundred faces, three edges in ten are
  * borders, and a quarter of their points would be welded by a length of a 64th

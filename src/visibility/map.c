@@ -17,5 +17,6 @@ void map_fini(struct map *map) {
   ARRAY_FREE(&map->loop);
   ARRAY_FREE(&map->corner);
   ARRAY_FREE(&map->half_edge);
+  ARRAY_FREE(&map->side_line);
   map_init(map);
 }

@@ -106,6 +106,11 @@ struct map {
   ARRAY(struct map_loop) loop;
   ARRAY(struct map_corner) corner;
   ARRAY(struct map_half_edge) half_edge; /* loop by loop, in order */
+
+  /* The lines of the sides (fragments/planar_subdivision.h), one a corner; kept
+   * only where `keeps_side_lines` is set before the map is made. */
+  bool keeps_side_lines;
+  ARRAY(uint64_t) side_line;
 };
 
 void map_init(struct map *map);

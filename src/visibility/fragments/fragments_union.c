@@ -257,7 +257,13 @@ bool fragments_finish(struct fragments *fragments, struct map *map) {
   int workers = parallel_workers(fragments->piece.count, PIECES_IN_RANGE);
   bool ok = unite(&work, workers) &&
             planar_subdivision_store(&work.lines, fragments->sheet, map);
-  ARRAY_FREE(&work.lines);
+  if (ok && map->keeps_side_lines) {
+    map->side_line.item = work.lines.item;
+    map->side_line.count = work.lines.count;
+    map->side_line.capacity = work.lines.capacity;
+  } else {
+    ARRAY_FREE(&work.lines);
+  }
   report_counts(fragments);
   return ok;
 }

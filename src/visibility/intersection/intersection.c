@@ -131,16 +131,17 @@ static int compare_ends(const void *a, const void *b, void *user) {
 
 /* Adds the ends to the sheet's points, equal ones once, and sets the edges'
  * point indices.  Returns false when memory ran out. */
-static bool add_intersection_points(struct sheet *sheet,
-                                    const struct intersection_search *search,
-                                    struct sheet_edge *edge) {
-  size_t n = 2 * search->segment.list.count;
+static bool
+add_intersection_points(struct sheet *sheet,
+                        const struct intersection_segments *segments,
+                        struct sheet_edge *edge) {
+  size_t n = 2 * segments->list.count;
   struct segment_end *end = mem_alloc(n, sizeof *end);
   bool ok = false;
   if (end == NULL)
     return false;
   for (size_t i = 0; i < n; i++)
-    end[i] = (struct segment_end){search->segment.list.item[i / 2].end[i % 2],
+    end[i] = (struct segment_end){segments->list.item[i / 2].end[i % 2],
                                   (uint32_t)(i / 2), (uint32_t)(i % 2)};
   if (!sort_stable(end, n, sizeof *end, compare_ends, NULL))
     goto end;
@@ -156,29 +157,27 @@ end:
   return ok;
 }
 
-/* Adds the segments to the sheet as drawable edges.  Returns false when memory
- * ran out. */
-static bool add_intersection_edges(struct sheet *sheet,
-                                   struct intersection_search *search) {
+bool intersection_add_edges(struct sheet *sheet,
+                            struct intersection_segments *segments) {
   size_t n;
   struct sheet_edge *edge;
-  if (search->segment.list.count == 0)
+  if (segments->list.count == 0)
     return true;
-  if (!unite_segments(&search->segment))
+  if (!unite_segments(segments))
     return false;
-  n = search->segment.list.count;
+  n = segments->list.count;
   if (!ARRAY_RESERVE(&sheet->edge, n))
     return false;
   edge = sheet->edge.item + sheet->edge.count;
   for (size_t i = 0; i < n; i++) {
-    const struct intersection_segment *s = &search->segment.list.item[i];
+    const struct intersection_segment *s = &segments->list.item[i];
     edge[i] = (struct sheet_edge){
         .triangle = {s->triangle[0], s->triangle[1]},
         .source = SHEET_NONE,
         .group = sheet->face_group[sheet->triangle.item[s->triangle[0]].face],
         .edge_class = RECTO_EDGE_INTERSECTION};
   }
-  if (!add_intersection_points(sheet, search, edge))
+  if (!add_intersection_points(sheet, segments, edge))
     return false;
   sheet->edge.count += n;
   return true;
@@ -259,7 +258,7 @@ recto_status intersection_find_all(struct sheet *sheet,
   ok = ok &&
        edge_crossings_resolve(&search->crossings, sheet, &search->segment,
                               &crossings) &&
-       add_intersection_edges(sheet, search);
+       intersection_add_edges(sheet, &search->segment);
   report_search(search, crossings, report);
   search_fini(search);
   mem_free(search);

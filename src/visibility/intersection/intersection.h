@@ -21,6 +21,7 @@
 
 #include "base/report.h"
 #include "visibility/index/triangle_grid.h"
+#include "visibility/intersection/intersection_segment.h"
 #include "visibility/solver.h"
 
 /* Finds the piercing pairs that share a cell of the grid with a list, and
@@ -38,5 +39,10 @@ USE_RESULT recto_status intersection_find_all(
 USE_RESULT recto_status intersection_find_everywhere(
     struct sheet *sheet, const struct solver_request *request,
     struct report *report, recto_error *error);
+
+/* Adds segments to the sheet as drawable edges, each of them once, sorted by
+ * their triangles; sorts them.  Returns false when memory ran out. */
+USE_RESULT bool intersection_add_edges(struct sheet *sheet,
+                                       struct intersection_segments *segments);
 
 #endif

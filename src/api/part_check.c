@@ -1,0 +1,71 @@
+/* part_check.c - which options can be used with parts of a drawing. */
+#include "api/part_check.h"
+
+static recto_status refuse_parts(const char *what, recto_error *error) {
+  return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
+                   "drawings in parts have no %s", what);
+}
+
+/* Whether the method is exact as the options are. */
+static bool is_method_exact(const recto_options *o) {
+  switch (o->solver.method) {
+  case RECTO_METHOD_AUTO:
+  case RECTO_METHOD_TILES:
+  case RECTO_METHOD_BRUTE:
+  case RECTO_METHOD_NEWELL:
+    return true;
+  case RECTO_METHOD_WATKINS:
+    return o->solver.pitch_mm == 0;
+  case RECTO_METHOD_WARNOCK:
+    return o->solver.resolution == 0;
+  default:
+    return false;
+  }
+}
+
+/* What neither parts nor their join can do. */
+static const char *name_unsupported(const recto_options *o) {
+  if (o->results != 0)
+    return "results as data";
+  if (o->verify != 0)
+    return "verification";
+  if (o->ink.contours == RECTO_CONTOURS_SMOOTH)
+    return "smooth contours";
+  if (o->ink.hidden != RECTO_HIDDEN_NONE && o->ink.hidden_by_max > 0)
+    return "lines behind a number of faces";
+  return NULL;
+}
+
+recto_status part_check_solve(const recto_options *o, recto_error *error) {
+  const char *what = name_unsupported(o);
+  if (what == NULL && !is_method_exact(o))
+    what = "approximate methods";
+  if (what == NULL && o->mesh.cut_count > 0)
+    what = "cuts";
+  if (what == NULL && o->mesh.crease_start_deg > o->mesh.crease_deg)
+    what = "second angle of creases";
+  return what != NULL ? refuse_parts(what, error) : RECTO_OK;
+}
+
+recto_status part_check_ink(const recto_options *o,
+                            const struct part_common *common,
+                            recto_error *error) {
+  const double *light = o->ink.light;
+  const char *what = name_unsupported(o);
+  if (what == NULL && o->ink.ids)
+    what = "ids";
+  if (what == NULL && o->ink.fill == RECTO_FILL_HATCH &&
+      (light[0] != 0 || light[1] != 0 || light[2] != 0))
+    what = "tone hatching";
+  if (what != NULL)
+    return refuse_parts(what, error);
+  if (o->ink.fill != RECTO_FILL_NONE && !common->has_fragments)
+    return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
+                     "the parts were made without visible faces: make them "
+                     "with --fill");
+  if (o->ink.hidden != RECTO_HIDDEN_NONE && !common->has_hidden)
+    return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
+                     "the parts were made without hidden lines: make them with "
+                     "--hidden");
+  return RECTO_OK;
+}

@@ -1,0 +1,19 @@
+/* part_check.h - which options can be used with parts of a drawing. */
+#ifndef API_PART_CHECK_H
+#define API_PART_CHECK_H
+
+#include "base/status.h"
+#include "parts/part.h"
+
+/* Whether parts that are solved with these options can be joined exactly.
+ * Errors  RECTO_ERROR_UNSUPPORTED: the text says what cannot be */
+USE_RESULT recto_status part_check_solve(const recto_options *options,
+                                         recto_error *error);
+
+/* Whether parts have what these options want to ink.
+ * Errors  RECTO_ERROR_UNSUPPORTED */
+USE_RESULT recto_status part_check_ink(const recto_options *options,
+                                       const struct part_common *common,
+                                       recto_error *error);
+
+#endif

@@ -1,0 +1,153 @@
+/* byte_codec.c - numbers as bytes, and their checksum. */
+#include "parts/byte_codec.h"
+
+#include <string.h>
+
+static void fail_for_memory(struct byte_codec *codec) {
+  codec->failed = codec->out_of_memory = true;
+}
+
+/* Writes or reads the `size` low bytes of a number. */
+static void code_number(struct byte_codec *codec, uint64_t *value,
+                        size_t size) {
+  if (codec->writes) {
+    if (!ARRAY_RESERVE(&codec->bytes, size)) {
+      fail_for_memory(codec);
+      return;
+    }
+    for (size_t i = 0; i < size; i++)
+      codec->bytes.item[codec->bytes.count++] = (char)(*value >> 8 * i & 0xff);
+    return;
+  }
+  *value = 0;
+  if (codec->failed || codec->left < size) {
+    codec->failed = true;
+    return;
+  }
+  for (size_t i = 0; i < size; i++)
+    *value |= (uint64_t)codec->at[i] << 8 * i;
+  codec->at += size;
+  codec->left -= size;
+}
+
+void byte_codec_u8(struct byte_codec *codec, uint8_t *value) {
+  uint64_t number = *value;
+  code_number(codec, &number, 1);
+  *value = (uint8_t)number;
+}
+
+void byte_codec_u16(struct byte_codec *codec, uint16_t *value) {
+  uint64_t number = *value;
+  code_number(codec, &number, 2);
+  *value = (uint16_t)number;
+}
+
+void byte_codec_u32(struct byte_codec *codec, uint32_t *value) {
+  uint64_t number = *value;
+  code_number(codec, &number, 4);
+  *value = (uint32_t)number;
+}
+
+void byte_codec_u64(struct byte_codec *codec, uint64_t *value) {
+  code_number(codec, value, 8);
+}
+
+void byte_codec_i64(struct byte_codec *codec, int64_t *value) {
+  uint64_t number = (uint64_t)*value;
+  code_number(codec, &number, 8);
+  memcpy(value, &number, sizeof *value);
+}
+
+void byte_codec_double(struct byte_codec *codec, double *value) {
+  uint64_t bits;
+  memcpy(&bits, value, sizeof bits);
+  code_number(codec, &bits, 8);
+  memcpy(value, &bits, sizeof bits);
+}
+
+void byte_codec_bool(struct byte_codec *codec, bool *value) {
+  uint8_t byte = *value;
+  byte_codec_u8(codec, &byte);
+  codec->failed |= byte > 1;
+  *value = byte == 1;
+}
+
+static void code_int128(struct byte_codec *codec, int128 *value) {
+  uint64_t low = (uint64_t)*value, high = (uint64_t)(*value >> 64);
+  code_number(codec, &low, 8);
+  code_number(codec, &high, 8);
+  if (high >> 62 != 0) /* negative, or 2^126 or more */
+    codec->failed = true;
+  else
+    *value = (int128)high << 64 | low;
+}
+
+void byte_codec_ratio(struct byte_codec *codec, struct ratio *value) {
+  code_int128(codec, &value->num);
+  code_int128(codec, &value->den);
+  if (codec->failed || value->den <= 0 || value->num < 0 ||
+      value->num > value->den) {
+    codec->failed = true;
+    *value = ratio_of(0, 1);
+  }
+}
+
+void byte_codec_count(struct byte_codec *codec, size_t *count, size_t size) {
+  uint64_t number = *count;
+  code_number(codec, &number, 8);
+  if (!codec->writes && number > codec->left / size) {
+    codec->failed = true;
+    number = 0;
+  }
+  *count = (size_t)number;
+}
+
+void byte_codec_text(struct byte_codec *codec, char **text) {
+  size_t length = codec->writes ? strlen(*text) : 0;
+  byte_codec_count(codec, &length, 1);
+  if (codec->writes) {
+    if (!ARRAY_RESERVE(&codec->bytes, length)) {
+      fail_for_memory(codec);
+      return;
+    }
+    if (length > 0)
+      memcpy(codec->bytes.item + codec->bytes.count, *text, length);
+    codec->bytes.count += length;
+    return;
+  }
+  *text = NULL;
+  if (codec->failed)
+    return;
+  if (length > 0 && memchr(codec->at, 0, length) != NULL) {
+    codec->failed = true;
+    return;
+  }
+  *text = mem_alloc(length + 1, 1);
+  if (*text == NULL) {
+    fail_for_memory(codec);
+    return;
+  }
+  if (length > 0)
+    memcpy(*text, codec->at, length);
+  (*text)[length] = '\0';
+  codec->at += length;
+  codec->left -= length;
+}
+
+/* ---- The checksum -------------------------------------------------------- */
+
+#define POLYNOMIAL UINT64_C(0x42f0e1eba9ea3693) /* ECMA-182, x^64 left out */
+
+uint64_t byte_codec_checksum(const void *bytes, size_t count) {
+  uint64_t table[256], sum = 0;
+  const unsigned char *at = bytes;
+  for (unsigned i = 0; i < 256; i++) {
+    uint64_t rest = (uint64_t)i << 56;
+    for (int bit = 0; bit < 8; bit++)
+      rest = rest << 1 ^ (rest >> 63 ? POLYNOMIAL : 0);
+    table[i] = rest;
+  }
+  for (size_t i = 0; i < count; i++)
+    sum = sum << 8 ^ table[(sum >> 56 ^ at[i]) & 0xff];
+  return sum;
+}

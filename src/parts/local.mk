@@ -1,0 +1,11 @@
+# src/parts/local.mk - the sources of this layer.
+librecto_core_la_SOURCES += \
+  %D%/byte_codec.c %D%/byte_codec.h \
+  %D%/may_weld.c \
+  %D%/page_windows.c %D%/page_windows.h \
+  %D%/part.c %D%/part.h \
+  %D%/part_collect.c %D%/part_collect.h \
+  %D%/part_file.c %D%/part_file.h \
+  %D%/part_join.c %D%/part_join.h \
+  %D%/part_merge.c %D%/part_merge.h \
+  %D%/part_scene.c %D%/part_scene.h

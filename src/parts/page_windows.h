@@ -1,0 +1,36 @@
+/* page_windows.h - divides the page into windows, one for each part. */
+#ifndef PARTS_PAGE_WINDOWS_H
+#define PARTS_PAGE_WINDOWS_H
+
+#include "parts/part.h"
+
+/* The most parts of a drawing. */
+enum { PAGE_WINDOWS_MAX = 4096 };
+
+/* Where a point of the model lies on the page, grid units. */
+struct page_place {
+  int32_t at[2];
+};
+
+/* Projects all points, of which those that are not used get some place inside.
+ * Returns NULL when memory ran out or the caller cancelled. */
+struct page_place *page_places(const struct camera *camera,
+                               const struct scene *scene, const uint8_t *used);
+
+/* Divides the plane into `count` windows with about as many of the used points
+ * in each: the page is halved across its longer side, and each half again.
+ * Cuts lie on a raster of the page, so where very many points share a cell some
+ * windows are empty (low above high).  Windows touch along their borders; those
+ * at the page's border extend beyond it.
+ * window  room for `count`
+ * Returns false when memory ran out. */
+USE_RESULT bool page_windows_make(const struct camera *camera,
+                                  const struct page_place *place,
+                                  const uint8_t *used, size_t points,
+                                  uint32_t count, struct part_window *window);
+
+/* Whether the window is the one of all that a place belongs to: its lower
+ * borders are its own, the upper ones are not. */
+bool page_window_owns(const struct part_window *window, const int32_t at[2]);
+
+#endif

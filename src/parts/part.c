@@ -1,0 +1,51 @@
+/* part.c - compares what parts consist of, and frees them. */
+#include "parts/part.h"
+
+void part_fini(struct part *part) {
+  mem_free(part->common.path);
+  for (size_t g = 0; g < part->common.group.count; g++)
+    mem_free(part->common.group.item[g].name);
+  ARRAY_FREE(&part->common.group);
+  ARRAY_FREE(&part->common.precision);
+  ARRAY_FREE(&part->point);
+  ARRAY_FREE(&part->face);
+  ARRAY_FREE(&part->wire);
+  ARRAY_FREE(&part->corner);
+  ARRAY_FREE(&part->interval);
+  ARRAY_FREE(&part->edge);
+  ARRAY_FREE(&part->crossing);
+  ARRAY_FREE(&part->fragment);
+  ARRAY_FREE(&part->loop);
+  ARRAY_FREE(&part->fragment_corner);
+  *part = (struct part){0};
+}
+
+static int compare_u32(uint32_t a, uint32_t b) { return (a > b) - (a < b); }
+
+int part_edge_key_compare(struct part_edge_key a, struct part_edge_key b) {
+  int order = compare_u32(a.kind, b.kind);
+  if (order == 0)
+    order = compare_u32(a.element, b.element);
+  return order != 0 ? order : compare_u32(a.place, b.place);
+}
+
+int part_crossing_compare(const struct part_crossing *a,
+                          const struct part_crossing *b) {
+  int order = 0;
+  for (int k = 0; order == 0 && k < 2; k++) {
+    order = compare_u32(a->triangle[k].face, b->triangle[k].face);
+    if (order == 0)
+      order = compare_u32(a->triangle[k].place, b->triangle[k].place);
+  }
+  for (int k = 0; order == 0 && k < 2; k++)
+    order = geom_compare_points(a->end[k], b->end[k]);
+  return order;
+}
+
+bool part_window_meets(const struct part_window *window, const int32_t low[2],
+                       const int32_t high[2]) {
+  for (int k = 0; k < 2; k++)
+    if (high[k] < window->low[k] || low[k] > window->high[k])
+      return false;
+  return true;
+}

@@ -1,0 +1,129 @@
+/* part.h - what one part of a drawing knows: the edges and the visible
+ * fragments in one window of the page, and all that ink needs of the model for
+ * them.
+ *
+ * Faces, points and polylines have the numbers that they have in the whole
+ * model: those of faces count skipped ones too.  Elements of all lists are
+ * ascending.  doc/part-format.md describes the file; decision 0053 says why
+ * parts can be joined exactly.
+ */
+#ifndef PARTS_PART_H
+#define PARTS_PART_H
+
+#include "geom/predicate.h"
+#include "scene/scene.h"
+#include "view/camera.h"
+#include "visibility/map.h"
+
+/* A closed rectangle of the page, grid units. */
+struct part_window {
+  int32_t low[2], high[2];
+};
+
+/* What all parts of a drawing have in common. */
+struct part_common {
+  uint64_t id;    /* a hash of the model, the options and the windows */
+  uint32_t parts; /* how many there are */
+  uint32_t edges; /* recto_options.ink.edges */
+  bool has_fragments;
+  bool has_hidden; /* intersections that are hidden were looked for too */
+  double crease_deg;
+  struct camera camera;
+  /* For the description of the drawing: */
+  uint32_t camera_kind;
+  double azimuth_deg, elevation_deg, eye[3], fov_deg;
+  char *path; /* of the model's only file; "": none */
+  ARRAY(struct scene_group) group;
+  ARRAY(struct precision_range) precision;
+};
+
+struct part_point {
+  uint32_t number;
+  struct scene_point at;
+};
+
+/* A face, or a polyline. */
+struct part_element {
+  uint32_t number, group;
+  uint32_t corner, count; /* its numbers of points: in part.corner */
+};
+
+enum part_edge_kind {
+  PART_EDGE_OF_FACE, /* side `place` of face `element`, the first that has it */
+  PART_EDGE_FOLD,    /* fold number `place` of face `element` */
+  PART_EDGE_OF_WIRE  /* edge number `place` of polyline `element` */
+};
+
+/* Which edge it is: in this order, edges stand as on the sheet. */
+struct part_edge_key {
+  uint8_t kind;
+  uint32_t element, place;
+};
+
+int part_edge_key_compare(struct part_edge_key a, struct part_edge_key b);
+
+/* Where an edge is visible, as far as the faces of one window hide it. */
+struct part_visibility {
+  uint8_t state;            /* enum map_state */
+  uint32_t interval, count; /* MAP_MIXED: its visible intervals */
+};
+
+struct part_edge {
+  struct part_edge_key key;
+  uint16_t edge_class; /* never 0 */
+  struct part_visibility visibility;
+};
+
+/* A triangle: number `place` of those of a face. */
+struct part_triangle {
+  uint32_t face, place;
+};
+
+/* The line in which two triangles pierce each other. */
+struct part_crossing {
+  struct part_triangle triangle[2]; /* the lower first */
+  struct geom_point end[2];
+  struct part_visibility visibility;
+};
+
+int part_crossing_compare(const struct part_crossing *a,
+                          const struct part_crossing *b);
+
+/* A corner of a fragment, and the side that starts there. */
+struct part_corner {
+  int64_t x, y;              /* 1 / MAP_CORNER_SCALE grid units */
+  uint8_t side;              /* enum map_side */
+  struct part_edge_key edge; /* MAP_SIDE_EDGE, _OCCLUDER */
+  uint32_t face;             /* MAP_SIDE_INTERSECTION: the other one */
+  uint64_t line;             /* planar_subdivision.h */
+};
+
+struct part_fragment {
+  uint32_t face;
+  uint32_t loop, loops; /* in part.loop */
+};
+
+struct part {
+  struct part_common common;
+  uint32_t index; /* from 0 */
+  struct part_window window;
+  ARRAY(struct part_point) point;
+  ARRAY(struct part_element) face;
+  ARRAY(struct part_element) wire;
+  ARRAY(uint32_t) corner;
+  ARRAY(struct map_interval) interval;
+  ARRAY(struct part_edge) edge;
+  ARRAY(struct part_crossing) crossing;
+  ARRAY(struct part_fragment) fragment;
+  ARRAY(uint32_t) loop; /* how many corners each has */
+  ARRAY(struct part_corner) fragment_corner;
+};
+
+/* Zero-initialised is empty. */
+void part_fini(struct part *part);
+
+/* Whether a segment's or a triangle's bounding box meets the window. */
+bool part_window_meets(const struct part_window *window, const int32_t low[2],
+                       const int32_t high[2]);
+
+#endif

@@ -1,0 +1,331 @@
+/* part_collect.c - takes from a solved sheet what a part knows.
+ *
+ * Phases
+ *   keys       of the sheet's edges: which is which fold of its face, and which
+ *              segment of its polyline
+ *   edges      with a class that meet the window, and intersections
+ *   fragments  of the faces that the window owns
+ *   elements   the faces of all edges so stored or referred to, and the points
+ */
+#include "parts/part_collect.h"
+
+#include "base/poll.h"
+
+struct collection {
+  struct part *part;
+  const struct part_sources *from;
+  uint32_t *place;      /* of each sheet edge that is a fold or a polyline's:
+                            its number there */
+  uint8_t *edge_needed; /* one a topology edge */
+  uint8_t *face_needed; /* one a face of the part's scene */
+  uint8_t *wire_needed;
+  uint8_t *point_needed;    /* one a point of the part's scene */
+  uint32_t *first_triangle; /* of each face: on the sheet */
+};
+
+static bool is_intersection(const struct sheet_edge *edge) {
+  return edge->edge_class == RECTO_EDGE_INTERSECTION;
+}
+
+static bool is_wire(const struct sheet_edge *edge) {
+  return edge->edge_class == RECTO_EDGE_WIRE;
+}
+
+static bool is_fold(const struct sheet_edge *edge) {
+  return edge->source == SHEET_NONE && !is_intersection(edge);
+}
+
+/* ---- Keys ---------------------------------------------------------------- */
+
+/* Numbers folds within their faces, and edges of polylines within these. */
+static void number_places(struct collection *c) {
+  const struct sheet *sheet = c->from->sheet;
+  uint32_t element = SHEET_NONE, next = 0;
+  bool fold = false;
+  for (size_t e = 0; e < sheet->edge.count; e++) {
+    const struct sheet_edge *edge = &sheet->edge.item[e];
+    c->place[e] = 0;
+    if (is_intersection(edge) || !(is_fold(edge) || is_wire(edge)))
+      continue;
+    uint32_t own = is_fold(edge) ? sheet_edge_face(sheet, edge) : edge->source;
+    if (own != element || fold != is_fold(edge))
+      next = 0;
+    element = own;
+    fold = is_fold(edge);
+    c->place[e] = next++;
+  }
+}
+
+/* The side of its first face that is a topology edge. */
+static uint32_t first_side(const struct collection *c, uint32_t edge) {
+  const struct scene *scene = &c->from->scene->scene;
+  uint32_t face = c->from->topology->edge.item[edge].first;
+  uint32_t start = scene->face_start.item[face], side = start;
+  while (c->from->topology->corner_edge[side] != edge)
+    side++;
+  return side - start;
+}
+
+static struct part_edge_key key_of(const struct collection *c, uint32_t e) {
+  const struct sheet_edge *edge = &c->from->sheet->edge.item[e];
+  const struct part_scene *scene = c->from->scene;
+  if (is_wire(edge))
+    return (struct part_edge_key){
+        PART_EDGE_OF_WIRE, scene->wire_number[edge->source], c->place[e]};
+  if (is_fold(edge))
+    return (struct part_edge_key){
+        PART_EDGE_FOLD,
+        scene->face_number[sheet_edge_face(c->from->sheet, edge)], c->place[e]};
+  uint32_t face = c->from->topology->edge.item[edge->source].first;
+  return (struct part_edge_key){PART_EDGE_OF_FACE, scene->face_number[face],
+                                first_side(c, edge->source)};
+}
+
+/* Notes that the join needs the edge, and so the faces that meet there. */
+static void need_edge(struct collection *c, uint32_t e) {
+  const struct sheet_edge *edge = &c->from->sheet->edge.item[e];
+  if (is_wire(edge))
+    c->wire_needed[edge->source] = 1;
+  else if (is_fold(edge))
+    c->face_needed[sheet_edge_face(c->from->sheet, edge)] = 1;
+  else
+    c->edge_needed[edge->source] = 1;
+}
+
+/* ---- Edges --------------------------------------------------------------- */
+
+static bool meets_window(const struct collection *c, uint32_t e) {
+  const struct sheet *sheet = c->from->sheet;
+  struct geom_segment s = sheet_ends(sheet, sheet->edge.item[e].point);
+  const int32_t low[2] = {s.p.x < s.q.x ? s.p.x : s.q.x,
+                          s.p.y < s.q.y ? s.p.y : s.q.y};
+  const int32_t high[2] = {s.p.x > s.q.x ? s.p.x : s.q.x,
+                           s.p.y > s.q.y ? s.p.y : s.q.y};
+  return part_window_meets(&c->part->window, low, high);
+}
+
+/* Stores where an edge is visible.
+ * mixed  the map's row of it, if it has one */
+static bool store_visibility(struct collection *c, uint32_t e,
+                             const struct map_mixed *mixed,
+                             struct part_visibility *to) {
+  const struct map *map = c->from->map;
+  *to = (struct part_visibility){e < map->edge_count ? map->edge_state[e]
+                                                     : (uint8_t)MAP_HIDDEN,
+                                 (uint32_t)c->part->interval.count, 0};
+  if (to->state != MAP_MIXED)
+    return true;
+  for (uint32_t i = 0; i < mixed->count; i++)
+    if (!ARRAY_PUSH(&c->part->interval,
+                    map->interval.item[mixed->interval + i]))
+      return false;
+  to->count = mixed->count;
+  return true;
+}
+
+static struct part_triangle triangle_of(const struct collection *c,
+                                        uint32_t triangle) {
+  uint32_t face = c->from->sheet->triangle.item[triangle].face;
+  return (struct part_triangle){c->from->scene->face_number[face],
+                                triangle - c->first_triangle[face]};
+}
+
+static bool store_crossing(struct collection *c, uint32_t e,
+                           const struct map_mixed *mixed) {
+  const struct sheet *sheet = c->from->sheet;
+  const struct sheet_edge *edge = &sheet->edge.item[e];
+  struct part_crossing crossing = {.triangle = {{0, 0}, {0, 0}}};
+  for (int k = 0; k < 2; k++) {
+    crossing.triangle[k] = triangle_of(c, edge->triangle[k]);
+    crossing.end[k] = sheet->point.item[edge->point[k]];
+    c->face_needed[sheet->triangle.item[edge->triangle[k]].face] = 1;
+  }
+  return store_visibility(c, e, mixed, &crossing.visibility) &&
+         ARRAY_PUSH(&c->part->crossing, crossing);
+}
+
+static bool collect_edges(struct collection *c) {
+  const struct sheet *sheet = c->from->sheet;
+  const struct map *map = c->from->map;
+  const struct map_mixed *mixed = map->mixed.item;
+  const struct map_mixed *end = ARRAY_AT(&map->mixed, map->mixed.count);
+  for (uint32_t e = 0; map->edge_state != NULL && e < sheet->edge.count; e++) {
+    const struct sheet_edge *edge = &sheet->edge.item[e];
+    while (mixed < end && mixed->edge < e)
+      mixed++;
+    if (!poll_at(e))
+      return false;
+    if (edge->edge_class == 0 || !meets_window(c, e))
+      continue;
+    if (is_intersection(edge)) {
+      if (!store_crossing(c, e, mixed))
+        return false;
+      continue;
+    }
+    struct part_edge own = {.key = key_of(c, e),
+                            .edge_class = edge->edge_class};
+    need_edge(c, e);
+    if (!store_visibility(c, e, mixed, &own.visibility) ||
+        !ARRAY_PUSH(&c->part->edge, own))
+      return false;
+  }
+  return true;
+}
+
+/* ---- Fragments ----------------------------------------------------------- */
+
+static bool is_owned(const struct collection *c, uint32_t face) {
+  const struct scene *scene = &c->from->scene->scene;
+  int32_t low[2] = {INT32_MAX, INT32_MAX};
+  for (uint32_t i = scene->face_start.item[face];
+       i < scene->face_start.item[face + 1]; i++) {
+    uint32_t point = c->from->scene->point_number[scene->corner.item[i]];
+    for (int k = 0; k < 2; k++) {
+      int32_t at = c->from->place[point].at[k];
+      low[k] = at < low[k] ? at : low[k];
+    }
+  }
+  return page_window_owns(&c->part->window, low);
+}
+
+static bool collect_corner(struct collection *c, uint32_t corner) {
+  const struct map *map = c->from->map;
+  const struct map_corner *from = &map->corner.item[corner];
+  struct part_corner own = {
+      .x = (int64_t)(from->x * MAP_CORNER_SCALE),
+      .y = (int64_t)(from->y * MAP_CORNER_SCALE),
+      .side = from->side,
+      .line = map->side_line.item[corner],
+  };
+  if (from->side == MAP_SIDE_EDGE || from->side == MAP_SIDE_OCCLUDER) {
+    own.edge = key_of(c, from->id);
+    need_edge(c, from->id);
+  } else if (from->side == MAP_SIDE_INTERSECTION) {
+    own.face = c->from->scene->face_number[from->id];
+    c->face_needed[from->id] = 1;
+  }
+  return ARRAY_PUSH(&c->part->fragment_corner, own);
+}
+
+static bool collect_fragments(struct collection *c) {
+  const struct map *map = c->from->map;
+  struct part *part = c->part;
+  for (size_t f = 0; f < map->fragment.count; f++) {
+    const struct map_fragment *from = &map->fragment.item[f];
+    struct part_fragment own = {c->from->scene->face_number[from->face],
+                                (uint32_t)part->loop.count, from->loops};
+    if (!poll_at(f))
+      return false;
+    if (!is_owned(c, from->face))
+      continue;
+    c->face_needed[from->face] = 1;
+    if (!ARRAY_PUSH(&part->fragment, own))
+      return false;
+    for (uint32_t l = from->loop; l < from->loop + from->loops; l++) {
+      const struct map_loop *loop = &map->loop.item[l];
+      if (!ARRAY_PUSH(&part->loop, loop->count))
+        return false;
+      for (uint32_t k = 0; k < loop->count; k++)
+        if (!collect_corner(c, loop->corner + k))
+          return false;
+    }
+  }
+  return true;
+}
+
+/* ---- Faces, polylines and points ----------------------------------------- */
+
+static void need_faces_of_edges(struct collection *c) {
+  const struct scene *scene = &c->from->scene->scene;
+  for (uint32_t f = 0; f < scene_face_count(scene); f++)
+    for (uint32_t i = scene->face_start.item[f];
+         i < scene->face_start.item[f + 1]; i++)
+      if (c->edge_needed[c->from->topology->corner_edge[i]])
+        c->face_needed[f] = 1;
+}
+
+/* Stores a face or a polyline; of its points those that they are welded to. */
+static bool store_element(struct collection *c, const uint32_t *corner,
+                          struct part_element *element, bool welds) {
+  const uint32_t *weld = welds ? c->from->topology->weld : NULL;
+  struct part *part = c->part;
+  element->corner = (uint32_t)part->corner.count;
+  for (uint32_t i = 0; i < element->count; i++) {
+    uint32_t point = weld != NULL ? weld[corner[i]] : corner[i];
+    c->point_needed[point] = 1;
+    if (!ARRAY_PUSH(&part->corner, c->from->scene->point_number[point]))
+      return false;
+  }
+  return true;
+}
+
+static bool collect_elements(struct collection *c) {
+  const struct scene *scene = &c->from->scene->scene;
+  struct part *part = c->part;
+  need_faces_of_edges(c);
+  for (uint32_t f = 0; f < scene_face_count(scene); f++) {
+    uint32_t start = scene->face_start.item[f];
+    struct part_element face = {c->from->scene->face_number[f],
+                                scene->face_group.item[f], 0,
+                                scene->face_start.item[f + 1] - start};
+    if (c->face_needed[f] &&
+        !(store_element(c, scene->corner.item + start, &face, true) &&
+          ARRAY_PUSH(&part->face, face)))
+      return false;
+  }
+  for (uint32_t w = 0; w < scene_wire_count(scene); w++) {
+    uint32_t start = scene->wire_start.item[w];
+    struct part_element wire = {c->from->scene->wire_number[w],
+                                scene->wire_group.item[w], 0,
+                                scene->wire_start.item[w + 1] - start};
+    if (c->wire_needed[w] &&
+        !(store_element(c, scene->wire_corner.item + start, &wire, true) &&
+          ARRAY_PUSH(&part->wire, wire)))
+      return false;
+  }
+  for (size_t p = 0; p < scene->point.count; p++) {
+    struct part_point point = {c->from->scene->point_number[p],
+                               scene->point.item[p]};
+    if (c->point_needed[p] && !ARRAY_PUSH(&part->point, point))
+      return false;
+  }
+  return true;
+}
+
+/* -------------------------------------------------------------------------- */
+
+static void find_first_triangles(struct collection *c) {
+  const struct sheet *sheet = c->from->sheet;
+  for (size_t t = sheet->triangle.count; t > 0; t--)
+    c->first_triangle[sheet->triangle.item[t - 1].face] = (uint32_t)(t - 1);
+}
+
+recto_status part_collect(struct part *part, const struct part_sources *sources,
+                          recto_error *error) {
+  const struct scene *scene = &sources->scene->scene;
+  struct collection c = {
+      .part = part,
+      .from = sources,
+      .place = mem_alloc(sources->sheet->edge.count, sizeof *c.place),
+      .edge_needed = mem_calloc(sources->topology->edge.count, 1),
+      .face_needed = mem_calloc(scene_face_count(scene), 1),
+      .wire_needed = mem_calloc(scene_wire_count(scene), 1),
+      .point_needed = mem_calloc(scene->point.count, 1),
+      .first_triangle =
+          mem_calloc(scene_face_count(scene), sizeof *c.first_triangle)};
+  bool ok = c.place != NULL && c.edge_needed != NULL && c.face_needed != NULL &&
+            c.wire_needed != NULL && c.point_needed != NULL &&
+            c.first_triangle != NULL;
+  if (ok) {
+    number_places(&c);
+    find_first_triangles(&c);
+  }
+  ok = ok && collect_edges(&c) && collect_fragments(&c) && collect_elements(&c);
+  mem_free(c.place);
+  mem_free(c.edge_needed);
+  mem_free(c.face_needed);
+  mem_free(c.wire_needed);
+  mem_free(c.point_needed);
+  mem_free(c.first_triangle);
+  return ok && !poll_is_cancelled() ? RECTO_OK : error_memory(error);
+}

@@ -1,0 +1,24 @@
+/* part_collect.h - takes from a solved sheet what a part knows. */
+#ifndef PARTS_PART_COLLECT_H
+#define PARTS_PART_COLLECT_H
+
+#include "parts/part.h"
+#include "parts/part_scene.h"
+
+struct part_sources {
+  const struct part_scene *scene;
+  const struct topology *topology; /* of it */
+  const struct page_place *place;  /* of the model's points */
+  const struct sheet *sheet;
+  const struct map *map; /* with side lines, if it has fragments */
+};
+
+/* Fills the lists of a part whose window is set: its edges of a class and its
+ * intersections that meet the window, the fragments of the faces that the
+ * window owns, and the faces, polylines and points of these.
+ * Errors  RECTO_ERROR_MEMORY, _CANCELLED */
+USE_RESULT recto_status part_collect(struct part *part,
+                                     const struct part_sources *sources,
+                                     recto_error *error);
+
+#endif

@@ -1,0 +1,443 @@
+/* part_file.c - writes and reads parts, by one description of the format. */
+#include "parts/part_file.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "parts/byte_codec.h"
+#include "parts/page_windows.h"
+#include "scene/limit.h"
+
+static const unsigned char magic[8] = {'r', 'e', 'c', 't', 'o', 'p', 't', '\n'};
+enum { FORMAT_VERSION = 1, SUM_SIZE = 8, HEAD_SIZE = 8 + 4 + 8 };
+
+/* Sizes of items, at least, in bytes. */
+enum {
+  GROUP_SIZE = 14,
+  PRECISION_SIZE = 21,
+  POINT_SIZE = 28,
+  ELEMENT_SIZE = 12,
+  NUMBER_SIZE = 4,
+  INTERVAL_SIZE = 64,
+  EDGE_SIZE = 16,
+  CROSSING_SIZE = 53,
+  FRAGMENT_SIZE = 8,
+  CORNER_SIZE = 25
+};
+
+static void require(struct byte_codec *codec, bool condition) {
+  codec->failed |= !codec->writes && !condition;
+}
+
+/* Makes room for the items of a list that is read, and sets its count. */
+#define CODE_COUNT(codec, array, size)                                         \
+  do {                                                                         \
+    size_t count_ = (array)->count;                                            \
+    byte_codec_count((codec), &count_, (size));                                \
+    if (!(codec)->writes) {                                                    \
+      if (!ARRAY_RESERVE((array), count_)) {                                   \
+        (codec)->failed = (codec)->out_of_memory = true;                       \
+        count_ = 0;                                                            \
+      }                                                                        \
+      (array)->count = count_;                                                 \
+    }                                                                          \
+  } while (0)
+
+/* ---- What all parts have in common --------------------------------------- */
+
+static void code_doubles(struct byte_codec *codec, double *value, int count) {
+  for (int i = 0; i < count; i++) {
+    byte_codec_double(codec, &value[i]);
+    require(codec, isfinite(value[i]));
+  }
+}
+
+static void code_precision(struct byte_codec *codec,
+                           struct precision *precision) {
+  code_doubles(codec, &precision->absolute, 1);
+  code_doubles(codec, &precision->relative, 1);
+  require(codec, precision->absolute >= 0 && precision->relative >= 0);
+}
+
+static void code_camera(struct byte_codec *codec, struct camera *camera) {
+  code_doubles(codec, camera->right, 3);
+  code_doubles(codec, camera->up, 3);
+  code_doubles(codec, camera->back, 3);
+  code_doubles(codec, camera->eye, 3);
+  byte_codec_bool(codec, &camera->perspective);
+  code_doubles(codec, &camera->s, 1);
+  code_doubles(codec, camera->middle_mm, 2);
+  code_doubles(codec, &camera->near_d, 1);
+  code_doubles(codec, &camera->d_min, 1);
+  code_doubles(codec, &camera->d_max, 1);
+  code_doubles(codec, camera->page_mm, 2);
+  code_doubles(codec, &camera->margin_mm, 1);
+  code_doubles(codec, &camera->size, 1);
+  code_doubles(codec, &camera->contact, 1);
+  code_doubles(codec, &camera->contact_most, 1);
+  code_doubles(codec, &camera->error, 1);
+  code_precision(codec, &camera->unstated);
+  byte_codec_bool(codec, &camera->near_chosen);
+  camera->all_on_page = true;
+  for (int k = 0; k < 2; k++)
+    require(codec, camera->page_mm[k] > 0 && camera->page_mm[k] <= 2000 &&
+                       camera->margin_mm >= 0 &&
+                       2 * camera->margin_mm < camera->page_mm[k] &&
+                       fabs(camera->middle_mm[k]) <= 1e9);
+  require(codec, camera->s > 0 && camera->d_min <= camera->d_max &&
+                     camera->near_d <= camera->d_min &&
+                     (!camera->perspective || camera->near_d > 0));
+}
+
+static void code_groups(struct byte_codec *codec, struct part_common *common) {
+  CODE_COUNT(codec, &common->group, GROUP_SIZE);
+  for (size_t g = 0; g < common->group.count; g++) {
+    struct scene_group *group = &common->group.item[g];
+    if (!codec->writes)
+      *group = (struct scene_group){.name = NULL};
+    byte_codec_text(codec, &group->name);
+    byte_codec_u32(codec, &group->colour);
+    byte_codec_bool(codec, &group->has_colour);
+    byte_codec_bool(codec, &group->is_shade);
+    require(codec, group->colour <= 0xffffff);
+  }
+}
+
+static void code_precisions(struct byte_codec *codec,
+                            struct part_common *common) {
+  CODE_COUNT(codec, &common->precision, PRECISION_SIZE);
+  for (size_t r = 0; r < common->precision.count; r++) {
+    struct precision_range *range = &common->precision.item[r];
+    byte_codec_u32(codec, &range->first_point);
+    byte_codec_bool(codec, &range->stated);
+    code_precision(codec, &range->precision);
+    require(codec, r == 0 || range->first_point > range[-1].first_point);
+  }
+}
+
+static void code_common(struct byte_codec *codec, struct part_common *common) {
+  byte_codec_u64(codec, &common->id);
+  byte_codec_u32(codec, &common->parts);
+  byte_codec_u32(codec, &common->edges);
+  byte_codec_bool(codec, &common->has_fragments);
+  byte_codec_bool(codec, &common->has_hidden);
+  code_doubles(codec, &common->crease_deg, 1);
+  code_camera(codec, &common->camera);
+  byte_codec_u32(codec, &common->camera_kind);
+  code_doubles(codec, &common->azimuth_deg, 1);
+  code_doubles(codec, &common->elevation_deg, 1);
+  code_doubles(codec, common->eye, 3);
+  code_doubles(codec, &common->fov_deg, 1);
+  byte_codec_text(codec, &common->path);
+  code_groups(codec, common);
+  code_precisions(codec, common);
+  require(codec, common->parts > 0 && common->parts <= PAGE_WINDOWS_MAX &&
+                     common->edges <= RECTO_EDGES_ALL &&
+                     common->crease_deg >= 0 && common->crease_deg <= 180 &&
+                     common->camera_kind <= RECTO_CAMERA_EYE &&
+                     common->fov_deg >= 0 && common->fov_deg <= 179);
+}
+
+/* ---- Lists --------------------------------------------------------------- */
+
+static void code_points(struct byte_codec *codec, struct part *part) {
+  CODE_COUNT(codec, &part->point, POINT_SIZE);
+  for (size_t p = 0; p < part->point.count && !codec->failed; p++) {
+    struct part_point *point = &part->point.item[p];
+    byte_codec_u32(codec, &point->number);
+    code_doubles(codec, &point->at.x, 1);
+    code_doubles(codec, &point->at.y, 1);
+    code_doubles(codec, &point->at.z, 1);
+    require(codec, point->number < SCENE_LIMIT &&
+                       (p == 0 || point->number > point[-1].number));
+  }
+}
+
+/* Faces or polylines of at least so many corners.  Their corners follow one
+ * another in the list of corners. */
+static void code_element(struct byte_codec *codec, struct part *part,
+                         struct part_element *element, bool is_first,
+                         uint32_t least) {
+  byte_codec_u32(codec, &element->number);
+  byte_codec_u32(codec, &element->group);
+  byte_codec_u32(codec, &element->count);
+  if (codec->writes) {
+    for (uint32_t i = 0; i < element->count; i++)
+      byte_codec_u32(codec, &part->corner.item[element->corner + i]);
+    return;
+  }
+  require(codec, element->group < part->common.group.count &&
+                     element->count >= least &&
+                     element->count <= codec->left / NUMBER_SIZE &&
+                     part->corner.count + element->count < SCENE_LIMIT &&
+                     element->number < SCENE_LIMIT &&
+                     (is_first || element->number > element[-1].number));
+  element->corner = (uint32_t)part->corner.count;
+  for (uint32_t i = 0; i < element->count && !codec->failed; i++) {
+    uint32_t point = 0;
+    byte_codec_u32(codec, &point);
+    if (!ARRAY_PUSH(&part->corner, point))
+      codec->failed = codec->out_of_memory = true;
+  }
+}
+
+static void code_elements(struct byte_codec *codec, struct part *part) {
+  CODE_COUNT(codec, &part->face, ELEMENT_SIZE);
+  for (size_t f = 0; f < part->face.count && !codec->failed; f++)
+    code_element(codec, part, &part->face.item[f], f == 0, 3);
+  CODE_COUNT(codec, &part->wire, ELEMENT_SIZE);
+  for (size_t w = 0; w < part->wire.count && !codec->failed; w++)
+    code_element(codec, part, &part->wire.item[w], w == 0, 2);
+}
+
+static void code_intervals(struct byte_codec *codec, struct part *part) {
+  CODE_COUNT(codec, &part->interval, INTERVAL_SIZE);
+  for (size_t i = 0; i < part->interval.count && !codec->failed; i++) {
+    struct map_interval *interval = &part->interval.item[i];
+    byte_codec_ratio(codec, &interval->t0);
+    byte_codec_ratio(codec, &interval->t1);
+    require(codec,
+            !codec->failed && ratio_compare(interval->t0, interval->t1) < 0);
+  }
+}
+
+/* The intervals of edges follow one another.
+ * next  how many were used before; grows */
+static void code_visibility(struct byte_codec *codec, const struct part *part,
+                            struct part_visibility *visibility, size_t *next) {
+  byte_codec_u8(codec, &visibility->state);
+  if (!codec->writes)
+    visibility->count = 0;
+  if (visibility->state == MAP_MIXED)
+    byte_codec_u32(codec, &visibility->count);
+  if (codec->writes)
+    return;
+  require(codec,
+          visibility->state <= MAP_MIXED &&
+              (visibility->state != MAP_MIXED || visibility->count > 0) &&
+              visibility->count <= part->interval.count - *next);
+  visibility->interval = (uint32_t)*next;
+  *next += codec->failed ? 0 : visibility->count;
+  const struct map_interval *interval = part->interval.item;
+  for (size_t i = visibility->interval + 1u; i < *next; i++)
+    require(codec, ratio_compare(interval[i - 1].t1, interval[i].t0) <= 0);
+}
+
+static void code_key(struct byte_codec *codec, struct part_edge_key *key) {
+  byte_codec_u8(codec, &key->kind);
+  byte_codec_u32(codec, &key->element);
+  byte_codec_u32(codec, &key->place);
+  require(codec, key->kind <= PART_EDGE_OF_WIRE);
+}
+
+static bool is_one_class(unsigned edge_class) {
+  return edge_class != 0 && (edge_class & (edge_class - 1)) == 0 &&
+         edge_class <= RECTO_EDGES_ALL && edge_class != RECTO_EDGE_INTERSECTION;
+}
+
+static void code_edges(struct byte_codec *codec, struct part *part) {
+  size_t next = 0;
+  CODE_COUNT(codec, &part->edge, EDGE_SIZE - 4);
+  for (size_t e = 0; e < part->edge.count && !codec->failed; e++) {
+    struct part_edge *edge = &part->edge.item[e];
+    code_key(codec, &edge->key);
+    byte_codec_u16(codec, &edge->edge_class);
+    code_visibility(codec, part, &edge->visibility, &next);
+    bool is_wire = edge->key.kind == PART_EDGE_OF_WIRE;
+    require(codec,
+            is_one_class(edge->edge_class) &&
+                (edge->edge_class == RECTO_EDGE_WIRE) == is_wire &&
+                (e == 0 || part_edge_key_compare(edge[-1].key, edge->key) < 0));
+  }
+  CODE_COUNT(codec, &part->crossing, CROSSING_SIZE - 4);
+  for (size_t i = 0; i < part->crossing.count && !codec->failed; i++) {
+    struct part_crossing *crossing = &part->crossing.item[i];
+    for (int k = 0; k < 2; k++) {
+      byte_codec_u32(codec, &crossing->triangle[k].face);
+      byte_codec_u32(codec, &crossing->triangle[k].place);
+      struct geom_point *end = &crossing->end[k];
+      int64_t xyz[3] = {end->x, end->y, end->z};
+      for (int axis = 0; axis < 3; axis++)
+        byte_codec_i64(codec, &xyz[axis]);
+      require(codec, xyz[0] >= -SHEET_XY_MAX && xyz[0] <= SHEET_XY_MAX &&
+                         xyz[1] >= -SHEET_XY_MAX && xyz[1] <= SHEET_XY_MAX &&
+                         xyz[2] >= 0 && xyz[2] <= SHEET_Z_MAX);
+      if (!codec->writes && !codec->failed)
+        *end = (struct geom_point){(int32_t)xyz[0], (int32_t)xyz[1], xyz[2]};
+    }
+    code_visibility(codec, part, &crossing->visibility, &next);
+    require(codec, crossing->triangle[0].face < crossing->triangle[1].face);
+  }
+}
+
+/* ---- Fragments ----------------------------------------------------------- */
+
+static void code_corner(struct byte_codec *codec, struct part_corner *corner) {
+  const int64_t most = (int64_t)SHEET_XY_MAX * MAP_CORNER_SCALE;
+  if (!codec->writes)
+    *corner = (struct part_corner){.x = 0};
+  byte_codec_i64(codec, &corner->x);
+  byte_codec_i64(codec, &corner->y);
+  byte_codec_u64(codec, &corner->line);
+  byte_codec_u8(codec, &corner->side);
+  if (corner->side == MAP_SIDE_EDGE || corner->side == MAP_SIDE_OCCLUDER)
+    code_key(codec, &corner->edge);
+  else if (corner->side == MAP_SIDE_INTERSECTION)
+    byte_codec_u32(codec, &corner->face);
+  require(codec, corner->side <= MAP_SIDE_CLIP &&
+                     corner->edge.kind <= PART_EDGE_FOLD &&
+                     corner->x >= -most && corner->x <= most &&
+                     corner->y >= -most && corner->y <= most);
+}
+
+static void code_loops(struct byte_codec *codec, struct part *part,
+                       struct part_fragment *fragment) {
+  if (!codec->writes) {
+    require(codec, fragment->loops > 0 &&
+                       fragment->loops <= codec->left / NUMBER_SIZE &&
+                       part->loop.count + fragment->loops < SCENE_LIMIT);
+    fragment->loop = (uint32_t)part->loop.count;
+  }
+  for (uint32_t l = 0; l < fragment->loops && !codec->failed; l++) {
+    uint32_t count = codec->writes ? part->loop.item[fragment->loop + l] : 0;
+    byte_codec_u32(codec, &count);
+    require(codec, count >= 3 && count <= codec->left / CORNER_SIZE);
+    if (!codec->writes && !codec->failed && !ARRAY_PUSH(&part->loop, count))
+      codec->failed = codec->out_of_memory = true;
+  }
+}
+
+static void code_fragments(struct byte_codec *codec, struct part *part) {
+  size_t corner = 0;
+  CODE_COUNT(codec, &part->fragment, FRAGMENT_SIZE);
+  for (size_t f = 0; f < part->fragment.count && !codec->failed; f++) {
+    struct part_fragment *fragment = &part->fragment.item[f];
+    byte_codec_u32(codec, &fragment->face);
+    byte_codec_u32(codec, &fragment->loops);
+    code_loops(codec, part, fragment);
+    require(codec, f == 0 || fragment->face >= fragment[-1].face);
+    for (uint32_t l = 0; l < fragment->loops && !codec->failed; l++)
+      for (uint32_t k = 0;
+           k < part->loop.item[fragment->loop + l] && !codec->failed; k++) {
+        struct part_corner own = {.x = 0};
+        if (codec->writes)
+          own = part->fragment_corner.item[corner++];
+        code_corner(codec, &own);
+        if (!codec->writes && !ARRAY_PUSH(&part->fragment_corner, own))
+          codec->failed = codec->out_of_memory = true;
+      }
+  }
+}
+
+static void code_part(struct byte_codec *codec, struct part *part) {
+  code_common(codec, &part->common);
+  byte_codec_u32(codec, &part->index);
+  for (int k = 0; k < 2; k++) {
+    byte_codec_u32(codec, (uint32_t *)&part->window.low[k]);
+    byte_codec_u32(codec, (uint32_t *)&part->window.high[k]);
+  }
+  require(codec, part->index < part->common.parts);
+  code_points(codec, part);
+  code_elements(codec, part);
+  code_intervals(codec, part);
+  code_edges(codec, part);
+  code_fragments(codec, part);
+}
+
+/* ---- Files --------------------------------------------------------------- */
+
+recto_status part_file_make(struct part *part, struct byte_array *bytes,
+                            recto_error *error) {
+  struct byte_codec codec = {.writes = true};
+  uint32_t version = FORMAT_VERSION;
+  uint64_t size = 0, sum = 0;
+  for (size_t i = 0; i < sizeof magic; i++) {
+    uint8_t byte = magic[i];
+    byte_codec_u8(&codec, &byte);
+  }
+  byte_codec_u32(&codec, &version);
+  byte_codec_u64(&codec, &size);
+  code_part(&codec, part);
+  if (!codec.failed) {
+    size = codec.bytes.count + SUM_SIZE;
+    for (int i = 0; i < 8; i++)
+      codec.bytes.item[sizeof magic + 4 + (size_t)i] =
+          (char)(size >> 8 * i & 0xff);
+    sum = byte_codec_checksum(codec.bytes.item, codec.bytes.count);
+    byte_codec_u64(&codec, &sum);
+  }
+  if (codec.failed) {
+    ARRAY_FREE(&codec.bytes);
+    return error_memory(error);
+  }
+  *bytes = codec.bytes;
+  return RECTO_OK;
+}
+
+static recto_status refuse(const char *path, const char *why,
+                           recto_error *error) {
+  return error_set(error, RECTO_ERROR_FORMAT, path, 0, "%s", why);
+}
+
+/* Checks the frame of a file: whether it is one, of this version, and whole. */
+static recto_status check_frame(const unsigned char *bytes, size_t count,
+                                const char *path, recto_error *error) {
+  if (count < HEAD_SIZE + SUM_SIZE || memcmp(bytes, magic, sizeof magic) != 0)
+    return refuse(path,
+                  count < HEAD_SIZE + SUM_SIZE &&
+                          memcmp(bytes, magic,
+                                 count < sizeof magic ? count : sizeof magic) ==
+                              0
+                      ? "the part is cut short"
+                      : "this is no part of a drawing",
+                  error);
+  struct byte_codec codec = {.at = bytes + sizeof magic,
+                             .left = count - sizeof magic};
+  uint32_t version = 0;
+  uint64_t size = 0, sum = 0;
+  byte_codec_u32(&codec, &version);
+  byte_codec_u64(&codec, &size);
+  if (version != FORMAT_VERSION)
+    return error_set(error, RECTO_ERROR_UNSUPPORTED, path, 0,
+                     "the part is of format %lu, and this program reads "
+                     "format %d",
+                     (unsigned long)version, FORMAT_VERSION);
+  if (count < size)
+    return refuse(path, "the part is cut short", error);
+  codec.at = bytes + count - SUM_SIZE;
+  codec.left = SUM_SIZE;
+  byte_codec_u64(&codec, &sum);
+  if (count > size || sum != byte_codec_checksum(bytes, count - SUM_SIZE))
+    return refuse(path, "the part is damaged: its checksum is wrong", error);
+  return RECTO_OK;
+}
+
+recto_status part_file_parse(struct part *part, const void *bytes, size_t count,
+                             const char *path, recto_error *error) {
+  struct byte_codec codec = {.at = (const unsigned char *)bytes + HEAD_SIZE};
+  *part = (struct part){.index = 0};
+  recto_status status = check_frame(bytes, count, path, error);
+  if (status != RECTO_OK)
+    return status;
+  codec.left = count - HEAD_SIZE - SUM_SIZE;
+  code_part(&codec, part);
+  if (!codec.failed && codec.left == 0)
+    return RECTO_OK;
+  part_fini(part);
+  return codec.out_of_memory
+             ? error_memory(error)
+             : refuse(path, "the part is damaged: a value is out of range",
+                      error);
+}
+
+recto_status part_file_checksum_common(struct part_common *common,
+                                       uint64_t *sum, recto_error *error) {
+  struct byte_codec codec = {.writes = true};
+  uint64_t id = common->id;
+  common->id = 0;
+  code_common(&codec, common);
+  common->id = id;
+  *sum = byte_codec_checksum(codec.bytes.item, codec.bytes.count);
+  ARRAY_FREE(&codec.bytes);
+  return codec.failed ? error_memory(error) : RECTO_OK;
+}

@@ -1,0 +1,30 @@
+/* part_file.h - parts as bytes of a file: doc/part-format.md. */
+#ifndef PARTS_PART_FILE_H
+#define PARTS_PART_FILE_H
+
+#include "parts/part.h"
+
+/* Makes the bytes of a file, to be freed with ARRAY_FREE.
+ * Errors  RECTO_ERROR_MEMORY */
+USE_RESULT recto_status part_file_make(struct part *part,
+                                       struct byte_array *bytes,
+                                       recto_error *error);
+
+/* Reads the bytes of a file, which may be hostile: what is accepted has its
+ * numbers in range and its lists in order, so that the join need not check them
+ * again.
+ * path    for messages
+ * Errors  RECTO_ERROR_FORMAT: it is no part, cut short or damaged;
+ *         RECTO_ERROR_UNSUPPORTED: of another version; RECTO_ERROR_MEMORY; the
+ *         part is then empty */
+USE_RESULT recto_status part_file_parse(struct part *part, const void *bytes,
+                                        size_t count, const char *path,
+                                        recto_error *error);
+
+/* A checksum of what all parts have in common, but for the id.
+ * Errors  RECTO_ERROR_MEMORY */
+USE_RESULT recto_status part_file_checksum_common(struct part_common *common,
+                                                  uint64_t *sum,
+                                                  recto_error *error);
+
+#endif

@@ -1,0 +1,442 @@
+/* part_join.c - the sheet and the visible map of a whole drawing.
+ *
+ * Phases
+ *   scene      all faces, polylines and points of the parts
+ *   sheet      laid out by the camera of the whole; intersections are appended
+ *   edges      their classes and where they are visible
+ *   fragments  and what runs along their sides */
+#include "parts/part_join.h"
+
+#include <string.h>
+
+#include "base/poll.h"
+#include "base/sort.h"
+#include "view/layout.h"
+#include "visibility/fragments/planar_subdivision.h"
+#include "visibility/intersection/intersection_segment.h"
+#include "visibility/intersection/intersection.h"
+#include "visibility/predicate/edge_intervals.h"
+
+struct join_work {
+  struct part_join *join;
+  const struct part *all;
+  uint32_t *sheet_edge;     /* of each topology edge; SHEET_NONE */
+  uint32_t *first_triangle; /* of each face and one more: on the sheet */
+  ARRAY(uint32_t) fold;     /* the sheet's folds, by face */
+  ARRAY(uint32_t) wire;     /* the edges of polylines, by polyline */
+  struct part_visibility *visibility; /* of each sheet edge */
+  recto_error *error;
+};
+
+static recto_status misfit(const struct join_work *work) {
+  return error_set(work->error, RECTO_ERROR_FORMAT, NULL, 0,
+                   "the parts do not fit together");
+}
+
+/* ---- The scene ----------------------------------------------------------- */
+
+static bool find_number(const struct part_element *item, size_t count,
+                        uint32_t number, uint32_t *at) {
+  size_t i = 0;
+  LOWER_BOUND(i, 0, count, item[i].number < number);
+  *at = (uint32_t)i;
+  return i < count && item[i].number == number;
+}
+
+static bool find_face(const struct join_work *work, uint32_t number,
+                      uint32_t *face) {
+  return find_number(work->all->face.item, work->all->face.count, number, face);
+}
+
+/* Replaces the points' numbers by those in the scene. */
+static bool local_corners(const struct join_work *work,
+                          const struct part_element *element,
+                          uint32_t *corner) {
+  const struct part *all = work->all;
+  for (uint32_t i = 0; i < element->count; i++) {
+    uint32_t number = all->corner.item[element->corner + i];
+    size_t at = 0;
+    LOWER_BOUND(at, 0, all->point.count, all->point.item[at].number < number);
+    if (at == all->point.count || all->point.item[at].number != number)
+      return false;
+    corner[i] = (uint32_t)at;
+  }
+  return true;
+}
+
+static recto_status add_groups(struct join_work *work) {
+  struct scene *scene = &work->join->scene;
+  for (size_t g = 0; g < work->all->common.group.count; g++) {
+    const struct scene_group *from = &work->all->common.group.item[g];
+    recto_status status =
+        scene_use_group(scene, from->name, strlen(from->name), work->error);
+    if (status != RECTO_OK)
+      return status;
+    if (scene->group.count != g + 1)
+      return misfit(work);
+    struct scene_group *group = &scene->group.item[g];
+    group->colour = from->colour;
+    group->has_colour = from->has_colour;
+    group->is_shade = from->is_shade;
+  }
+  return RECTO_OK;
+}
+
+static bool add_points(struct join_work *work) {
+  struct scene *scene = &work->join->scene;
+  const struct part *all = work->all;
+  size_t range = 0;
+  if (!ARRAY_RESERVE(&scene->point, all->point.count))
+    return false;
+  for (size_t p = 0; p < all->point.count; p++) {
+    for (; range < all->common.precision.count &&
+           all->common.precision.item[range].first_point <=
+               all->point.item[p].number;
+         range++) {
+      struct precision_range own = all->common.precision.item[range];
+      size_t last = scene->precision.count;
+      own.first_point = (uint32_t)p;
+      if (last > 0 && scene->precision.item[last - 1].first_point == p)
+        scene->precision.item[last - 1] = own;
+      else if (!ARRAY_PUSH(&scene->precision, own))
+        return false;
+    }
+    scene->point.item[scene->point.count++] = all->point.item[p].at;
+  }
+  return true;
+}
+
+static recto_status add_elements(struct join_work *work) {
+  struct scene *scene = &work->join->scene;
+  const struct part *all = work->all;
+  uint32_t *corner = mem_alloc(all->corner.count, sizeof *corner);
+  recto_status status = corner != NULL ? RECTO_OK : error_memory(work->error);
+  for (uint32_t f = 0; status == RECTO_OK && f < all->face.count; f++) {
+    const struct part_element *face = &all->face.item[f];
+    size_t before = scene->corner.count;
+    scene->current_group = face->group;
+    if (!local_corners(work, face, corner))
+      status = misfit(work);
+    else
+      status = scene_add_face(scene, corner, face->count, 0, NULL, work->error);
+    if (status == RECTO_OK && (scene_face_count(scene) != f + 1 ||
+                               scene->corner.count - before != face->count))
+      status = misfit(work);
+    if (status == RECTO_OK && !poll_at(f))
+      status = error_cancelled(work->error);
+  }
+  for (uint32_t w = 0; status == RECTO_OK && w < all->wire.count; w++) {
+    const struct part_element *wire = &all->wire.item[w];
+    scene->current_group = wire->group;
+    if (!local_corners(work, wire, corner))
+      status = misfit(work);
+    else
+      status = scene_add_wire(scene, corner, wire->count, 0, NULL, work->error);
+    if (status == RECTO_OK && scene_wire_count(scene) != w + 1)
+      status = misfit(work);
+  }
+  mem_free(corner);
+  return status;
+}
+
+static recto_status make_scene(struct join_work *work) {
+  scene_init(&work->join->scene);
+  recto_status status = add_groups(work);
+  if (status == RECTO_OK && !add_points(work))
+    status = error_memory(work->error);
+  return status == RECTO_OK ? add_elements(work) : status;
+}
+
+/* ---- The sheet ----------------------------------------------------------- */
+
+/* Lists the sheet's edges by what they are, and its triangles by face. */
+static bool index_sheet(struct join_work *work) {
+  const struct sheet *sheet = &work->join->sheet;
+  size_t edges = work->join->topology.edge.count;
+  size_t faces = work->all->face.count;
+  work->sheet_edge = mem_alloc(edges, sizeof *work->sheet_edge);
+  work->first_triangle = mem_alloc(faces + 1, sizeof *work->first_triangle);
+  if (work->sheet_edge == NULL || work->first_triangle == NULL)
+    return false;
+  for (size_t e = 0; e < edges; e++)
+    work->sheet_edge[e] = SHEET_NONE;
+  for (uint32_t e = 0; e < sheet->edge.count; e++) {
+    const struct sheet_edge *edge = &sheet->edge.item[e];
+    bool ok = true;
+    if (edge->edge_class == RECTO_EDGE_WIRE)
+      ok = ARRAY_PUSH(&work->wire, e);
+    else if (edge->source == SHEET_NONE)
+      ok = ARRAY_PUSH(&work->fold, e);
+    else
+      work->sheet_edge[edge->source] = e;
+    if (!ok)
+      return false;
+  }
+  for (size_t t = 0, f = 0; f <= faces; f++) {
+    while (t < sheet->triangle.count && sheet->triangle.item[t].face < f)
+      t++;
+    work->first_triangle[f] = (uint32_t)t;
+  }
+  return true;
+}
+
+/* Number `place` of those edges in a list that are of one element. */
+static uint32_t nth_edge(const struct join_work *work, const uint32_t *list,
+                         size_t count, bool folds, uint32_t element,
+                         uint32_t place) {
+  const struct sheet *sheet = &work->join->sheet;
+#define ELEMENT_OF(e)                                                          \
+  (folds ? sheet_edge_face(sheet, &sheet->edge.item[e])                        \
+         : sheet->edge.item[e].source)
+  size_t i = 0;
+  LOWER_BOUND(i, 0, count, ELEMENT_OF(list[i]) < element);
+  if (place >= count - i || ELEMENT_OF(list[i + place]) != element)
+    return SHEET_NONE;
+#undef ELEMENT_OF
+  return list[i + place];
+}
+
+/* The sheet's edge of a key; SHEET_NONE: there is none. */
+static uint32_t find_sheet_edge(const struct join_work *work,
+                                struct part_edge_key key) {
+  const struct part_join *join = work->join;
+  uint32_t element;
+  if (key.kind == PART_EDGE_OF_WIRE)
+    return find_number(work->all->wire.item, work->all->wire.count, key.element,
+                       &element)
+               ? nth_edge(work, work->wire.item, work->wire.count, false,
+                          element, key.place)
+               : SHEET_NONE;
+  if (!find_face(work, key.element, &element))
+    return SHEET_NONE;
+  if (key.kind == PART_EDGE_FOLD)
+    return nth_edge(work, work->fold.item, work->fold.count, true, element,
+                    key.place);
+  uint32_t start = join->scene.face_start.item[element];
+  if (key.place >= join->scene.face_start.item[element + 1] - start)
+    return SHEET_NONE;
+  return work->sheet_edge[join->topology.corner_edge[start + key.place]];
+}
+
+/* ---- Edges --------------------------------------------------------------- */
+
+static recto_status set_classes(struct join_work *work) {
+  struct sheet *sheet = &work->join->sheet;
+  const struct part *all = work->all;
+  work->visibility = mem_calloc(sheet->edge.count + all->crossing.count,
+                                sizeof *work->visibility);
+  if (work->visibility == NULL)
+    return error_memory(work->error);
+  for (size_t e = 0; e < sheet->edge.count; e++)
+    if (sheet->edge.item[e].edge_class != RECTO_EDGE_WIRE)
+      sheet->edge.item[e].edge_class = 0;
+  for (size_t i = 0; i < all->edge.count; i++) {
+    const struct part_edge *from = &all->edge.item[i];
+    uint32_t e = find_sheet_edge(work, from->key);
+    if (e == SHEET_NONE)
+      return misfit(work);
+    sheet->edge.item[e].edge_class = from->edge_class;
+    work->visibility[e] = from->visibility;
+  }
+  return RECTO_OK;
+}
+
+/* An intersection, and which of the merged parts' it is. */
+struct joined_crossing {
+  struct intersection_segment segment;
+  uint32_t number;
+};
+
+static int compare_joined(const void *a, const void *b, void *user) {
+  const struct intersection_segment *s =
+      &((const struct joined_crossing *)a)->segment;
+  const struct intersection_segment *t =
+      &((const struct joined_crossing *)b)->segment;
+  (void)user;
+  for (int k = 0; k < 2; k++)
+    if (s->triangle[k] != t->triangle[k])
+      return s->triangle[k] < t->triangle[k] ? -1 : 1;
+  int order = geom_compare_points(s->end[0], t->end[0]);
+  return order != 0 ? order : geom_compare_points(s->end[1], t->end[1]);
+}
+
+/* The triangle of the sheet. */
+static bool find_triangle(const struct join_work *work,
+                          struct part_triangle which, uint32_t *triangle) {
+  uint32_t face;
+  if (!find_face(work, which.face, &face) ||
+      which.place >=
+          work->first_triangle[face + 1] - work->first_triangle[face])
+    return false;
+  *triangle = work->first_triangle[face] + which.place;
+  return true;
+}
+
+/* Appends the intersections to the sheet's edges, as a solver does. */
+static recto_status add_crossings(struct join_work *work) {
+  struct sheet *sheet = &work->join->sheet;
+  const struct part *all = work->all;
+  struct intersection_segments segments = {.list = {.item = NULL}};
+  ARRAY(struct joined_crossing) joined = {.item = NULL};
+  size_t first = sheet->edge.count;
+  recto_status status = RECTO_OK;
+  bool ok = true;
+  for (uint32_t i = 0; ok && status == RECTO_OK && i < all->crossing.count;
+       i++) {
+    const struct part_crossing *from = &all->crossing.item[i];
+    struct joined_crossing own = {.number = i};
+    for (int k = 0; k < 2; k++) {
+      own.segment.end[k] = from->end[k];
+      if (!find_triangle(work, from->triangle[k], &own.segment.triangle[k]))
+        status = misfit(work);
+    }
+    ok = status != RECTO_OK ||
+         (ARRAY_PUSH(&joined, own) && ARRAY_PUSH(&segments.list, own.segment));
+  }
+  ok = ok && sort_stable(joined.item, joined.count, sizeof *joined.item,
+                         compare_joined, NULL);
+  if (ok && status == RECTO_OK)
+    ok = intersection_add_edges(sheet, &segments);
+  for (size_t e = first; ok && status == RECTO_OK && e < sheet->edge.count;
+       e++) {
+    const struct sheet_edge *edge = &sheet->edge.item[e];
+    struct joined_crossing sought = {
+        .segment = {{edge->triangle[0], edge->triangle[1]},
+                    {sheet->point.item[edge->point[0]],
+                     sheet->point.item[edge->point[1]]}}};
+    size_t i = 0;
+    LOWER_BOUND(i, 0, joined.count,
+                compare_joined(&joined.item[i], &sought, NULL) < 0);
+    if (i < joined.count && compare_joined(&joined.item[i], &sought, NULL) == 0)
+      work->visibility[e] =
+          all->crossing.item[joined.item[i].number].visibility;
+  }
+  ARRAY_FREE(&joined);
+  ARRAY_FREE(&segments.list);
+  return ok ? status : error_memory(work->error);
+}
+
+static bool set_states(struct join_work *work) {
+  struct map *map = &work->join->map;
+  const struct sheet *sheet = &work->join->sheet;
+  const struct part *all = work->all;
+  if (!edge_intervals_open_map(map, sheet->edge.count))
+    return false;
+  for (uint32_t e = 0; e < sheet->edge.count; e++) {
+    const struct part_visibility *visibility = &work->visibility[e];
+    struct map_mixed mixed = {e, (uint32_t)map->interval.count,
+                              visibility->count};
+    map->edge_state[e] = visibility->state;
+    if (!poll_at(e))
+      return false;
+    if (visibility->state != MAP_MIXED)
+      continue;
+    for (uint32_t i = 0; i < visibility->count; i++)
+      if (!ARRAY_PUSH(&map->interval,
+                      all->interval.item[visibility->interval + i]))
+        return false;
+    if (!ARRAY_PUSH(&map->mixed, mixed))
+      return false;
+  }
+  return true;
+}
+
+/* ---- Fragments ----------------------------------------------------------- */
+
+static recto_status add_corner(struct join_work *work,
+                               const struct part_corner *from) {
+  struct map *map = &work->join->map;
+  struct map_corner corner = {(double)from->x / MAP_CORNER_SCALE,
+                              (double)from->y / MAP_CORNER_SCALE, from->side,
+                              SHEET_NONE};
+  bool ok = true;
+  if (from->side == MAP_SIDE_EDGE || from->side == MAP_SIDE_OCCLUDER) {
+    corner.id = find_sheet_edge(work, from->edge);
+    ok = corner.id != SHEET_NONE;
+  } else if (from->side == MAP_SIDE_INTERSECTION) {
+    ok = find_face(work, from->face, &corner.id);
+  }
+  if (!ok)
+    return misfit(work);
+  return ARRAY_PUSH(&map->corner, corner) &&
+                 ARRAY_PUSH(&map->side_line, from->line)
+             ? RECTO_OK
+             : error_memory(work->error);
+}
+
+static recto_status add_fragments(struct join_work *work) {
+  struct map *map = &work->join->map;
+  const struct part *all = work->all;
+  recto_status status = RECTO_OK;
+  for (size_t f = 0, corner = 0; status == RECTO_OK && f < all->fragment.count;
+       f++) {
+    const struct part_fragment *from = &all->fragment.item[f];
+    struct map_fragment own = {SHEET_NONE, (uint32_t)map->loop.count,
+                               from->loops};
+    if (!poll_at(f))
+      return error_cancelled(work->error);
+    if (!find_face(work, from->face, &own.face))
+      return misfit(work);
+    bool ok = ARRAY_PUSH(&map->fragment, own);
+    for (uint32_t l = 0; ok && status == RECTO_OK && l < from->loops; l++) {
+      struct map_loop loop = {(uint32_t)map->corner.count,
+                              all->loop.item[from->loop + l], 0};
+      ok = ARRAY_PUSH(&map->loop, loop);
+      for (uint32_t k = 0; ok && status == RECTO_OK && k < loop.count; k++)
+        status = add_corner(work, &all->fragment_corner.item[corner++]);
+    }
+    if (!ok)
+      return error_memory(work->error);
+  }
+  if (status != RECTO_OK || all->fragment.count == 0)
+    return status;
+  side_lines lines = {.item = map->side_line.item,
+                      .count = map->side_line.count,
+                      .capacity = map->side_line.capacity};
+  return planar_subdivision_store(&lines, &work->join->sheet, map)
+             ? RECTO_OK
+             : error_memory(work->error);
+}
+
+/* ---- All ----------------------------------------------------------------- */
+
+static recto_status make_join(struct join_work *work,
+                              const recto_options *options) {
+  struct part_join *join = work->join;
+  recto_status status = make_scene(work);
+  if (status == RECTO_OK)
+    status = topology_init_welded(&join->topology, &join->scene, work->error);
+  if (status == RECTO_OK)
+    status = layout_sheet(&join->sheet, &join->scene, &join->topology,
+                          &join->all.common.camera, options, true, work->error);
+  if (status == RECTO_OK && !index_sheet(work))
+    status = error_memory(work->error);
+  if (status == RECTO_OK)
+    status = set_classes(work);
+  if (status == RECTO_OK)
+    status = add_crossings(work);
+  if (status == RECTO_OK && join->all.common.edges != RECTO_EDGES_NONE &&
+      !set_states(work))
+    status = error_memory(work->error);
+  return status == RECTO_OK ? add_fragments(work) : status;
+}
+
+recto_status part_join_make(struct part_join *join,
+                            const recto_options *options, recto_error *error) {
+  struct join_work work = {.join = join, .all = &join->all, .error = error};
+  recto_status status = make_join(&work, options);
+  mem_free(work.sheet_edge);
+  mem_free(work.first_triangle);
+  mem_free(work.visibility);
+  ARRAY_FREE(&work.fold);
+  ARRAY_FREE(&work.wire);
+  return status;
+}
+
+void part_join_fini(struct part_join *join) {
+  map_fini(&join->map);
+  sheet_fini(&join->sheet);
+  topology_fini(&join->topology);
+  scene_fini(&join->scene);
+  part_fini(&join->all);
+}

@@ -1,0 +1,46 @@
+/* part_scene.h - what one part draws of a model: the faces that meet its
+ * window, and those that decide what these are.
+ *
+ * Kept faces   Their boxes meet the window, or if fragments are wanted the box
+ *              of the window and of all faces that it owns (those whose box
+ *              has its lower left corner in it).
+ * Their ring   All faces with a corner at the place of a corner of a kept one:
+ *              so it is known of all kept corners and edges which faces meet
+ *              there, which of them are borders, and which points are welded.
+ * Order        is that of the model, on which ties depend.
+ */
+#ifndef PARTS_PART_SCENE_H
+#define PARTS_PART_SCENE_H
+
+#include "parts/page_windows.h"
+#include "scene/topology.h"
+
+struct part_scene {
+  struct scene scene; /* the groups are borrowed, not owned */
+  uint32_t *point_number, *face_number, *wire_number; /* in the model */
+  uint8_t *is_kept; /* one a face: 0: it is only of the ring */
+};
+
+struct part_scene_request {
+  struct part_window window;
+  int64_t margin; /* grid units: what lies so close to the window meets it */
+  bool fragments;
+};
+
+/* Errors  RECTO_ERROR_MEMORY, _CANCELLED; end with part_scene_fini either
+ *         way. */
+USE_RESULT recto_status
+part_scene_make(struct part_scene *part, const struct scene *whole,
+                const struct page_place *place,
+                const struct part_scene_request *request, recto_error *error);
+void part_scene_fini(struct part_scene *part);
+
+/* Finds whether two points of borders at different places lie so close that
+ * welding might join them, one of which is a corner of a kept face.
+ * length  scene units
+ * Returns false when memory ran out. */
+USE_RESULT bool part_scene_may_weld(const struct part_scene *part,
+                                    const struct topology *topology,
+                                    double length, bool *may_weld);
+
+#endif
