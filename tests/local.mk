@@ -257,6 +257,10 @@ unit_tests += %D%/test_text
 %C%_test_text_SOURCES = %D%/test_text.c
 unit_tests += %D%/test_multiview
 %C%_test_multiview_SOURCES = %D%/test_multiview.c
+unit_tests += %D%/test_parts
+%C%_test_parts_SOURCES = %D%/test_parts.c %D%/temporary.c %D%/temporary.h
+%C%_test_parts_LDADD = %D%/scenes/libscenes.la $(LDADD)
+
 unit_tests += %D%/test_api_prepare
 %C%_test_api_prepare_SOURCES = %D%/test_api_prepare.c
 unit_tests += %D%/test_api_memory_faults

@@ -110,6 +110,8 @@ done <<'END_OF_ROWS'
 --device drum|a.hpgl|a.svg|hpgl and --stats; svg
 --device drum|a.svg --stats|a.svg|hpgl and --stats; svg
 --velocity 3|a.hpgl|a.svg|hpgl and --stats; svg
+--frames 0-1|a%d.svg --turntable 3|a.svg|--turntable; a run without --turntable
+--resume|a.recto --part 1/2|a.svg|--part; a run without --part
 --velocity-up 3|a.svg --stats|a.hpgl|the time in --stats; a run without --stats
 --tight|a.svg|a.hpgl|svg, pdf, eps, ps and png; hpgl
 --dpi 30|a.png|a.pdf|png; pdf
@@ -167,7 +169,8 @@ claim "the drawing is the same, a line an option" draws_the_same
 # Those that always do something, or that refuse what they do not go with.
 always='--output --format --from --method --view --sheet --views --view-names --turntable --azimuth --elevation --camera
 --up --ortho --fit --no-fit --near --cut --section --page --landscape --portrait --margin --edges
---weld --fill --stats --verify --check --tolerance --threads --progress --quiet --completion --version --help'
+--weld --fill --stats --verify --check --tolerance --threads --progress --quiet --completion --version --help
+--part --join'
 every_option_has_its_row() {
   grep -oE -- '^ +(-.,)? *--[a-z-]+' help.txt | grep -oE -- '--[a-z-]+' |
     LC_ALL=C sort -u >offered

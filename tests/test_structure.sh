@@ -25,7 +25,7 @@ check_sources() {
   # shellcheck disable=SC2016 # of awk
   (cd "$1" && sources . | xargs awk '
       BEGIN {
-        split("base geom scene view cut visibility drawing ink backends judge api " \
+        split("base geom scene view cut visibility parts drawing ink backends judge api " \
               "cli import", name, " ")
         for (i in name)
           layer[name[i]] = i - 1

@@ -33,8 +33,8 @@ struct join {
 
 /* ---- Reading ------------------------------------------------------------- */
 
-static recto_status read_part(struct join *join, const char *path,
-                              recto_error *error) {
+static recto_status read_part_file(struct join *join, const char *path,
+                                   recto_error *error) {
   struct input input = {.bytes = NULL};
   struct part *part = &join->part[join->parts];
   recto_status status = input_load(&input, path, error);
@@ -50,14 +50,15 @@ static recto_status read_part(struct join *join, const char *path,
   return status;
 }
 
-static recto_status read_parts(struct join *join, size_t count,
-                               recto_error *error) {
+static recto_status read_part_files(struct join *join, size_t count,
+                                    recto_error *error) {
   join->part = mem_calloc(count, sizeof *join->part);
   if (join->part == NULL)
     return error_memory(error);
   for (size_t i = 0; i < count; i++) {
-    recto_status status = poll_now() ? read_part(join, join->path[i], error)
-                                     : error_cancelled(error);
+    recto_status status = poll_now()
+                              ? read_part_file(join, join->path[i], error)
+                              : error_cancelled(error);
     if (status != RECTO_OK)
       return status;
   }
@@ -131,7 +132,7 @@ static recto_status join_and_ink(struct join *join, size_t count,
                                  recto_error *error) {
   struct part_join *joined = &join->join;
   double cpu = clock_cpu();
-  recto_status status = read_parts(join, count, error);
+  recto_status status = read_part_files(join, count, error);
   if (status == RECTO_OK)
     status = part_check_ink(&join->options, &join->part[0].common, error);
   stats_add_seconds(join->made->report, "read_cpu_s", clock_cpu() - cpu);

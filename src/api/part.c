@@ -154,8 +154,9 @@ static recto_status aim_part(struct part_work *work, uint32_t count,
     work->place = page_places(&work->camera, scene, work->used);
   if (work->place == NULL)
     return error_memory(error);
-  const struct weld_request weld = {work->options->mesh.weld,
-                                    work->camera.unstated};
+  const recto_mesh_options *mesh = &work->options->mesh;
+  const struct weld_request weld = {mesh->weld,
+                                    precision_of_bits(mesh->coordinate_bits)};
   work->weld = weld_near_length_most(scene, &weld);
   return make_common(work, count, error);
 }
@@ -202,7 +203,7 @@ static recto_status keep_part(struct part_work *work, recto_error *error) {
   return status;
 }
 
-static recto_status solve_part(struct part_work *work, recto_error *error) {
+static recto_status solve_part_scene(struct part_work *work, recto_error *error) {
   const recto_options *o = work->options;
   struct solver_request request = solver_request_of(o);
   const char *why;
@@ -300,7 +301,7 @@ recto_status recto_scene_write_part(const recto_scene *scene,
   if (status == RECTO_OK && scene_face_count(&work.scene.scene) +
                                     scene_wire_count(&work.scene.scene) >
                                 0) {
-    status = solve_part(&work, error);
+    status = solve_part_scene(&work, error);
     if (status == RECTO_OK)
       status = collect_part(&work, error);
   }

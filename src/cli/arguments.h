@@ -36,7 +36,7 @@ struct arguments {
   int first_frame, past_frame; /* of a turntable's; both 0: all */
 
   /* Drawings in parts. */
-  int part, parts;    /* the part to draw, from 1, and how many; 0: none */
+  int part, parts;     /* the part to draw, from 1, and how many; 0: none */
   bool resumes, joins; /* the models are parts */
 
   struct view_hidden {

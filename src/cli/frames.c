@@ -10,10 +10,13 @@ int frames_count(const struct arguments *a) {
   return a->view_count > 1 ? a->view_count : 1;
 }
 
-int frames_first(const struct arguments *a) { return a->first_frame; }
+int frames_first(const struct arguments *a) {
+  return a->turntable > 0 ? a->first_frame : 0;
+}
 
 int frames_past(const struct arguments *a) {
-  return a->past_frame > 0 ? a->past_frame : frames_count(a);
+  bool some = a->turntable > 0 && a->past_frame > 0;
+  return some ? a->past_frame : frames_count(a);
 }
 
 void frame_options(const struct arguments *a, int frame,

@@ -17,7 +17,7 @@ struct border_points {
   size_t mask;
 };
 
-static double cell_along(const struct border_points *points, double at) {
+static double weld_cell(const struct border_points *points, double at) {
   return floor(at / points->length);
 }
 
@@ -49,8 +49,8 @@ static bool list_border_points(struct border_points *points,
   points->mask = slots - 1;
   for (size_t i = 0; points->slot != NULL && i < points->list.count; i++) {
     const struct scene_point *p = &points->point[points->list.item[i]];
-    size_t k = slot_of_cell(points, cell_along(points, p->x),
-                            cell_along(points, p->y), cell_along(points, p->z));
+    size_t k = slot_of_cell(points, weld_cell(points, p->x),
+                            weld_cell(points, p->y), weld_cell(points, p->z));
     while (points->slot[k] != 0)
       k = (k + 1) & points->mask;
     points->slot[k] = (uint32_t)i + 1;
@@ -76,8 +76,8 @@ static bool is_close_in_cell(const struct border_points *points,
 
 static bool is_close_to_any(const struct border_points *points,
                             const struct scene_point *p) {
-  double at[3] = {cell_along(points, p->x), cell_along(points, p->y),
-                  cell_along(points, p->z)};
+  double at[3] = {weld_cell(points, p->x), weld_cell(points, p->y),
+                  weld_cell(points, p->z)};
   for (int i = 0; i < 27; i++)
     if (is_close_in_cell(points, p, at[0] + i % 3 - 1, at[1] + i / 3 % 3 - 1,
                          at[2] + (double)(i / 9) - 1))

@@ -4,7 +4,7 @@
 #include "base/parallel.h"
 #include "view/project.h"
 
-enum { RASTER = 1024 }; /* cells a side */
+enum { RASTER = 512 }; /* cells a side */
 
 /* ---- Places -------------------------------------------------------------- */
 
@@ -51,7 +51,8 @@ struct cell_block {
 };
 
 struct window_work {
-  uint32_t *weight;  /* of each cell, row by row */
+  uint32_t *weight;  /* of the cells below and left of a corner of the raster,
+                        row by row: a summed-area table */
   int64_t half[2];   /* the raster is from -half to half */
   double inverse[2]; /* cells of a grid unit */
   struct cell_block stack[PAGE_WINDOWS_MAX + 1];
@@ -71,19 +72,27 @@ static int32_t border_of(const struct window_work *work, int cell, int axis) {
   return (int32_t)(2 * work->half[axis] * cell / RASTER - work->half[axis]);
 }
 
-static uint64_t weight_of_line(const struct window_work *work,
-                               const struct cell_block *block, int axis,
-                               int line) {
-  uint64_t sum = 0;
-  for (int i = block->low[!axis]; i < block->high[!axis]; i++)
-    sum += axis ? work->weight[line * RASTER + i]
-                : work->weight[i * RASTER + line];
-  return sum;
+/* The index of the corner where a cell begins. */
+static size_t corner_of(int x, int y) {
+  return (size_t)y * (RASTER + 1) + (size_t)x;
+}
+
+/* The points in a block's cells below a line. */
+static uint64_t weight_below(const struct window_work *work,
+                             const struct cell_block *block, int axis,
+                             int line) {
+  int high[2] = {block->high[0], block->high[1]};
+  high[axis] = line;
+  const uint32_t *sum = work->weight;
+  return (uint64_t)sum[corner_of(high[0], high[1])] +
+         sum[corner_of(block->low[0], block->low[1])] -
+         sum[corner_of(block->low[0], high[1])] -
+         sum[corner_of(high[0], block->low[1])];
 }
 
 /* Divides a block into two, with about as many points for each window.  Where
  * it is a single cell the second one is empty. */
-static void divide_block(const struct window_work *work,
+static void divide_cells(const struct window_work *work,
                          struct cell_block *block, struct cell_block *rest) {
   double size[2];
   for (int k = 0; k < 2; k++)
@@ -92,14 +101,12 @@ static void divide_block(const struct window_work *work,
   if (block->high[axis] - block->low[axis] < 2)
     axis = !axis;
   uint32_t own = block->count / 2;
-  uint64_t all = 0, sum = 0;
-  for (int i = block->low[axis]; i < block->high[axis]; i++)
-    all += weight_of_line(work, block, axis, i);
-  int cut = block->low[axis];
-  do
-    sum += weight_of_line(work, block, axis, cut++);
+  uint64_t all = weight_below(work, block, axis, block->high[axis]);
+  int cut = block->low[axis] + (block->low[axis] < block->high[axis]);
   while (cut + 1 < block->high[axis] &&
-         (double)sum * block->count < (double)all * own);
+         (double)weight_below(work, block, axis, cut) * block->count <
+             (double)all * own)
+    cut++;
   *rest = *block;
   rest->first += own;
   rest->count -= own;
@@ -108,8 +115,8 @@ static void divide_block(const struct window_work *work,
   block->high[axis] = cut;
 }
 
-static struct part_window window_of(const struct window_work *work,
-                                    const struct cell_block *block) {
+static struct part_window window_of_cells(const struct window_work *work,
+                                          const struct cell_block *block) {
   struct part_window window;
   for (int k = 0; k < 2; k++) {
     bool empty = block->low[k] >= block->high[k];
@@ -127,11 +134,11 @@ static void divide_all(struct window_work *work, uint32_t count,
   while (depth > 0) {
     struct cell_block block = work->stack[--depth];
     if (block.count == 1) {
-      window[block.first] = window_of(work, &block);
+      window[block.first] = window_of_cells(work, &block);
       continue;
     }
     struct cell_block rest;
-    divide_block(work, &block, &rest);
+    divide_cells(work, &block, &rest);
     work->stack[depth++] = rest;
     work->stack[depth++] = block;
   }
@@ -149,17 +156,22 @@ bool page_windows_make(const struct camera *camera,
     work->half[k] = (int64_t)projection.half[k];
     work->inverse[k] = RASTER / (2 * projection.half[k]);
   }
-  work->weight = mem_calloc((size_t)RASTER * RASTER, sizeof *work->weight);
-  bool ok = work->weight != NULL;
-  for (size_t p = 0; ok && p < points; p++)
+  size_t corners = corner_of(RASTER, RASTER) + 1;
+  uint32_t *sum = mem_calloc(corners, sizeof *sum);
+  work->weight = sum;
+  for (size_t p = 0; sum != NULL && p < points; p++)
     if (used[p])
-      work->weight[cell_of(work, place[p].at[1], 1) * RASTER +
-                   cell_of(work, place[p].at[0], 0)]++;
-  if (ok)
+      sum[corner_of(cell_of(work, place[p].at[0], 0) + 1,
+                    cell_of(work, place[p].at[1], 1) + 1)]++;
+  for (size_t c = RASTER + 2; sum != NULL && c < corners; c++)
+    sum[c] += c % (RASTER + 1) != 0
+                  ? sum[c - 1] + sum[c - RASTER - 1] - sum[c - RASTER - 2]
+                  : 0;
+  if (sum != NULL)
     divide_all(work, count, window);
   mem_free(work->weight);
   mem_free(work);
-  return ok;
+  return sum != NULL;
 }
 
 bool page_window_owns(const struct part_window *window, const int32_t at[2]) {

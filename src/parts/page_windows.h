@@ -22,6 +22,7 @@ struct page_place *page_places(const struct camera *camera,
  * Cuts lie on a raster of the page, so where very many points share a cell some
  * windows are empty (low above high).  Windows touch along their borders; those
  * at the page's border extend beyond it.
+ * Source  [Crow1984] for the sums
  * window  room for `count`
  * Returns false when memory ran out. */
 USE_RESULT bool page_windows_make(const struct camera *camera,

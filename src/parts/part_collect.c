@@ -57,7 +57,7 @@ static void number_places(struct collection *c) {
 }
 
 /* The side of its first face that is a topology edge. */
-static uint32_t first_side(const struct collection *c, uint32_t edge) {
+static uint32_t first_side_of_edge(const struct collection *c, uint32_t edge) {
   const struct scene *scene = &c->from->scene->scene;
   uint32_t face = c->from->topology->edge.item[edge].first;
   uint32_t start = scene->face_start.item[face], side = start;
@@ -78,7 +78,7 @@ static struct part_edge_key key_of(const struct collection *c, uint32_t e) {
         scene->face_number[sheet_edge_face(c->from->sheet, edge)], c->place[e]};
   uint32_t face = c->from->topology->edge.item[edge->source].first;
   return (struct part_edge_key){PART_EDGE_OF_FACE, scene->face_number[face],
-                                first_side(c, edge->source)};
+                                first_side_of_edge(c, edge->source)};
 }
 
 /* Notes that the join needs the edge, and so the faces that meet there. */
@@ -123,8 +123,8 @@ static bool store_visibility(struct collection *c, uint32_t e,
   return true;
 }
 
-static struct part_triangle triangle_of(const struct collection *c,
-                                        uint32_t triangle) {
+static struct part_triangle part_triangle_of(const struct collection *c,
+                                             uint32_t triangle) {
   uint32_t face = c->from->sheet->triangle.item[triangle].face;
   return (struct part_triangle){c->from->scene->face_number[face],
                                 triangle - c->first_triangle[face]};
@@ -136,7 +136,7 @@ static bool store_crossing(struct collection *c, uint32_t e,
   const struct sheet_edge *edge = &sheet->edge.item[e];
   struct part_crossing crossing = {.triangle = {{0, 0}, {0, 0}}};
   for (int k = 0; k < 2; k++) {
-    crossing.triangle[k] = triangle_of(c, edge->triangle[k]);
+    crossing.triangle[k] = part_triangle_of(c, edge->triangle[k]);
     crossing.end[k] = sheet->point.item[edge->point[k]];
     c->face_needed[sheet->triangle.item[edge->triangle[k]].face] = 1;
   }

@@ -12,10 +12,7 @@
 #include "base/poll.h"
 #include "base/sort.h"
 #include "view/layout.h"
-#include "visibility/fragments/planar_subdivision.h"
-#include "visibility/intersection/intersection_segment.h"
-#include "visibility/intersection/intersection.h"
-#include "visibility/predicate/edge_intervals.h"
+#include "visibility/map_assembly.h"
 
 struct join_work {
   struct part_join *join;
@@ -64,7 +61,7 @@ static bool local_corners(const struct join_work *work,
   return true;
 }
 
-static recto_status add_groups(struct join_work *work) {
+static recto_status add_joined_groups(struct join_work *work) {
   struct scene *scene = &work->join->scene;
   for (size_t g = 0; g < work->all->common.group.count; g++) {
     const struct scene_group *from = &work->all->common.group.item[g];
@@ -82,7 +79,7 @@ static recto_status add_groups(struct join_work *work) {
   return RECTO_OK;
 }
 
-static bool add_points(struct join_work *work) {
+static bool add_joined_points(struct join_work *work) {
   struct scene *scene = &work->join->scene;
   const struct part *all = work->all;
   size_t range = 0;
@@ -106,7 +103,7 @@ static bool add_points(struct join_work *work) {
   return true;
 }
 
-static recto_status add_elements(struct join_work *work) {
+static recto_status add_joined_elements(struct join_work *work) {
   struct scene *scene = &work->join->scene;
   const struct part *all = work->all;
   uint32_t *corner = mem_alloc(all->corner.count, sizeof *corner);
@@ -139,12 +136,12 @@ static recto_status add_elements(struct join_work *work) {
   return status;
 }
 
-static recto_status make_scene(struct join_work *work) {
+static recto_status make_joined_scene(struct join_work *work) {
   scene_init(&work->join->scene);
-  recto_status status = add_groups(work);
-  if (status == RECTO_OK && !add_points(work))
+  recto_status status = add_joined_groups(work);
+  if (status == RECTO_OK && !add_joined_points(work))
     status = error_memory(work->error);
-  return status == RECTO_OK ? add_elements(work) : status;
+  return status == RECTO_OK ? add_joined_elements(work) : status;
 }
 
 /* ---- The sheet ----------------------------------------------------------- */
@@ -243,21 +240,14 @@ static recto_status set_classes(struct join_work *work) {
 
 /* An intersection, and which of the merged parts' it is. */
 struct joined_crossing {
-  struct intersection_segment segment;
+  struct map_crossing crossing;
   uint32_t number;
 };
 
 static int compare_joined(const void *a, const void *b, void *user) {
-  const struct intersection_segment *s =
-      &((const struct joined_crossing *)a)->segment;
-  const struct intersection_segment *t =
-      &((const struct joined_crossing *)b)->segment;
   (void)user;
-  for (int k = 0; k < 2; k++)
-    if (s->triangle[k] != t->triangle[k])
-      return s->triangle[k] < t->triangle[k] ? -1 : 1;
-  int order = geom_compare_points(s->end[0], t->end[0]);
-  return order != 0 ? order : geom_compare_points(s->end[1], t->end[1]);
+  return map_crossing_compare(&((const struct joined_crossing *)a)->crossing,
+                              &((const struct joined_crossing *)b)->crossing);
 }
 
 /* The triangle of the sheet. */
@@ -272,55 +262,71 @@ static bool find_triangle(const struct join_work *work,
   return true;
 }
 
-/* Appends the intersections to the sheet's edges, as a solver does. */
-static recto_status add_crossings(struct join_work *work) {
-  struct sheet *sheet = &work->join->sheet;
+/* Finds the triangles of all intersections, and sorts these. */
+static recto_status list_crossings(struct join_work *work,
+                                   struct joined_crossing *joined) {
   const struct part *all = work->all;
-  struct intersection_segments segments = {.list = {.item = NULL}};
-  ARRAY(struct joined_crossing) joined = {.item = NULL};
-  size_t first = sheet->edge.count;
-  recto_status status = RECTO_OK;
-  bool ok = true;
-  for (uint32_t i = 0; ok && status == RECTO_OK && i < all->crossing.count;
-       i++) {
+  for (uint32_t i = 0; i < all->crossing.count; i++) {
     const struct part_crossing *from = &all->crossing.item[i];
-    struct joined_crossing own = {.number = i};
+    joined[i].number = i;
     for (int k = 0; k < 2; k++) {
-      own.segment.end[k] = from->end[k];
-      if (!find_triangle(work, from->triangle[k], &own.segment.triangle[k]))
-        status = misfit(work);
+      joined[i].crossing.end[k] = from->end[k];
+      if (!find_triangle(work, from->triangle[k],
+                         &joined[i].crossing.triangle[k]))
+        return misfit(work);
     }
-    ok = status != RECTO_OK ||
-         (ARRAY_PUSH(&joined, own) && ARRAY_PUSH(&segments.list, own.segment));
   }
-  ok = ok && sort_stable(joined.item, joined.count, sizeof *joined.item,
-                         compare_joined, NULL);
-  if (ok && status == RECTO_OK)
-    ok = intersection_add_edges(sheet, &segments);
-  for (size_t e = first; ok && status == RECTO_OK && e < sheet->edge.count;
-       e++) {
+  return sort_stable(joined, all->crossing.count, sizeof *joined,
+                     compare_joined, NULL)
+             ? RECTO_OK
+             : error_memory(work->error);
+}
+
+/* Notes where the appended edges are visible. */
+static void note_crossings(struct join_work *work, size_t first,
+                           const struct joined_crossing *joined) {
+  const struct sheet *sheet = &work->join->sheet;
+  size_t count = work->all->crossing.count;
+  for (size_t e = first; e < sheet->edge.count; e++) {
     const struct sheet_edge *edge = &sheet->edge.item[e];
-    struct joined_crossing sought = {
-        .segment = {{edge->triangle[0], edge->triangle[1]},
-                    {sheet->point.item[edge->point[0]],
-                     sheet->point.item[edge->point[1]]}}};
+    const struct joined_crossing sought = {
+        {{edge->triangle[0], edge->triangle[1]},
+         {sheet->point.item[edge->point[0]],
+          sheet->point.item[edge->point[1]]}},
+        0};
     size_t i = 0;
-    LOWER_BOUND(i, 0, joined.count,
-                compare_joined(&joined.item[i], &sought, NULL) < 0);
-    if (i < joined.count && compare_joined(&joined.item[i], &sought, NULL) == 0)
+    LOWER_BOUND(i, 0, count, compare_joined(&joined[i], &sought, NULL) < 0);
+    if (i < count && compare_joined(&joined[i], &sought, NULL) == 0)
       work->visibility[e] =
-          all->crossing.item[joined.item[i].number].visibility;
+          work->all->crossing.item[joined[i].number].visibility;
   }
-  ARRAY_FREE(&joined);
-  ARRAY_FREE(&segments.list);
-  return ok ? status : error_memory(work->error);
+}
+
+/* Appends the intersections to the sheet's edges, as a solver does. */
+static recto_status add_joined_crossings(struct join_work *work) {
+  struct sheet *sheet = &work->join->sheet;
+  size_t count = work->all->crossing.count, first = sheet->edge.count;
+  struct joined_crossing *joined = mem_alloc(count, sizeof *joined);
+  struct map_crossing *crossing = mem_alloc(count, sizeof *crossing);
+  recto_status status = joined != NULL && crossing != NULL
+                            ? list_crossings(work, joined)
+                            : error_memory(work->error);
+  for (size_t i = 0; status == RECTO_OK && i < count; i++)
+    crossing[i] = joined[i].crossing;
+  if (status == RECTO_OK && !map_assembly_add_crossings(sheet, crossing, count))
+    status = error_memory(work->error);
+  if (status == RECTO_OK)
+    note_crossings(work, first, joined);
+  mem_free(joined);
+  mem_free(crossing);
+  return status;
 }
 
 static bool set_states(struct join_work *work) {
   struct map *map = &work->join->map;
   const struct sheet *sheet = &work->join->sheet;
   const struct part *all = work->all;
-  if (!edge_intervals_open_map(map, sheet->edge.count))
+  if (!map_assembly_open_edges(map, sheet->edge.count))
     return false;
   for (uint32_t e = 0; e < sheet->edge.count; e++) {
     const struct part_visibility *visibility = &work->visibility[e];
@@ -343,8 +349,8 @@ static bool set_states(struct join_work *work) {
 
 /* ---- Fragments ----------------------------------------------------------- */
 
-static recto_status add_corner(struct join_work *work,
-                               const struct part_corner *from) {
+static recto_status add_fragment_corner(struct join_work *work,
+                                        const struct part_corner *from) {
   struct map *map = &work->join->map;
   struct map_corner corner = {(double)from->x / MAP_CORNER_SCALE,
                               (double)from->y / MAP_CORNER_SCALE, from->side,
@@ -364,7 +370,7 @@ static recto_status add_corner(struct join_work *work,
              : error_memory(work->error);
 }
 
-static recto_status add_fragments(struct join_work *work) {
+static recto_status add_joined_fragments(struct join_work *work) {
   struct map *map = &work->join->map;
   const struct part *all = work->all;
   recto_status status = RECTO_OK;
@@ -383,17 +389,15 @@ static recto_status add_fragments(struct join_work *work) {
                               all->loop.item[from->loop + l], 0};
       ok = ARRAY_PUSH(&map->loop, loop);
       for (uint32_t k = 0; ok && status == RECTO_OK && k < loop.count; k++)
-        status = add_corner(work, &all->fragment_corner.item[corner++]);
+        status =
+            add_fragment_corner(work, &all->fragment_corner.item[corner++]);
     }
     if (!ok)
       return error_memory(work->error);
   }
   if (status != RECTO_OK || all->fragment.count == 0)
     return status;
-  side_lines lines = {.item = map->side_line.item,
-                      .count = map->side_line.count,
-                      .capacity = map->side_line.capacity};
-  return planar_subdivision_store(&lines, &work->join->sheet, map)
+  return map_assembly_link_sides(map, &work->join->sheet)
              ? RECTO_OK
              : error_memory(work->error);
 }
@@ -403,7 +407,7 @@ static recto_status add_fragments(struct join_work *work) {
 static recto_status make_join(struct join_work *work,
                               const recto_options *options) {
   struct part_join *join = work->join;
-  recto_status status = make_scene(work);
+  recto_status status = make_joined_scene(work);
   if (status == RECTO_OK)
     status = topology_init_welded(&join->topology, &join->scene, work->error);
   if (status == RECTO_OK)
@@ -414,11 +418,11 @@ static recto_status make_join(struct join_work *work,
   if (status == RECTO_OK)
     status = set_classes(work);
   if (status == RECTO_OK)
-    status = add_crossings(work);
+    status = add_joined_crossings(work);
   if (status == RECTO_OK && join->all.common.edges != RECTO_EDGES_NONE &&
       !set_states(work))
     status = error_memory(work->error);
-  return status == RECTO_OK ? add_fragments(work) : status;
+  return status == RECTO_OK ? add_joined_fragments(work) : status;
 }
 
 recto_status part_join_make(struct part_join *join,

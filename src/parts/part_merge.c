@@ -90,36 +90,41 @@ static recto_status contradiction(const struct merge_work *work,
                    "the part contradicts another part of the drawing");
 }
 
-static const struct part_point *point_at(const struct merge_work *work,
-                                         struct origin at) {
+static const struct part_point *part_point_at(const struct merge_work *work,
+                                              struct origin at) {
   return &work->part[at.part].point.item[at.index];
 }
 
-static const struct part_edge *edge_at(const struct merge_work *work,
-                                       struct origin at) {
+static const struct part_edge *part_edge_at(const struct merge_work *work,
+                                            struct origin at) {
   return &work->part[at.part].edge.item[at.index];
 }
 
-static const struct part_crossing *crossing_at(const struct merge_work *work,
-                                               struct origin at) {
+static const struct part_crossing *
+part_crossing_at(const struct merge_work *work, struct origin at) {
   return &work->part[at.part].crossing.item[at.index];
 }
 
-static int compare_numbers(uint32_t a, uint32_t b) { return (a > b) - (a < b); }
+static int compare_part_numbers(uint32_t a, uint32_t b) {
+  return (a > b) - (a < b);
+}
 
 static int compare_point_origins(const void *a, const void *b, void *user) {
-  return compare_numbers(point_at(user, *(const struct origin *)a)->number,
-                         point_at(user, *(const struct origin *)b)->number);
+  return compare_part_numbers(
+      part_point_at(user, *(const struct origin *)a)->number,
+      part_point_at(user, *(const struct origin *)b)->number);
 }
 
 static int compare_edge_origins(const void *a, const void *b, void *user) {
-  return part_edge_key_compare(edge_at(user, *(const struct origin *)a)->key,
-                               edge_at(user, *(const struct origin *)b)->key);
+  return part_edge_key_compare(
+      part_edge_at(user, *(const struct origin *)a)->key,
+      part_edge_at(user, *(const struct origin *)b)->key);
 }
 
 static int compare_crossing_origins(const void *a, const void *b, void *user) {
-  return part_crossing_compare(crossing_at(user, *(const struct origin *)a),
-                               crossing_at(user, *(const struct origin *)b));
+  return part_crossing_compare(
+      part_crossing_at(user, *(const struct origin *)a),
+      part_crossing_at(user, *(const struct origin *)b));
 }
 
 /* Lists the items of all parts, in order.
@@ -148,21 +153,21 @@ static void list_counts(const struct merge_work *work, size_t *count,
 
 /* ---- Points and faces ---------------------------------------------------- */
 
-static bool same_place(const struct scene_point *a,
-                       const struct scene_point *b) {
+static bool same_position_in_parts(const struct scene_point *a,
+                                   const struct scene_point *b) {
   return a->x == b->x && a->y == b->y && a->z == b->z;
 }
 
 static recto_status merge_points(struct merge_work *work) {
   struct part *all = work->all;
   for (size_t i = 0; i < work->order.count; i++) {
-    const struct part_point *point = point_at(work, work->order.item[i]);
+    const struct part_point *point = part_point_at(work, work->order.item[i]);
     const struct part_point *last =
         all->point.count > 0 ? &all->point.item[all->point.count - 1] : NULL;
     if (last == NULL || last->number != point->number) {
       if (!ARRAY_PUSH(&all->point, *point))
         return error_memory(work->error);
-    } else if (!same_place(&last->at, &point->at)) {
+    } else if (!same_position_in_parts(&last->at, &point->at)) {
       return contradiction(work, work->order.item[i]);
     }
   }
@@ -194,18 +199,19 @@ struct element_order {
   bool wires;
 };
 
-static const struct part_element *element_at(const struct element_order *order,
-                                             struct origin at) {
+static const struct part_element *
+part_element_at(const struct element_order *order, struct origin at) {
   return &elements_of(&order->work->part[at.part], order->wires).item[at.index];
 }
 
 static int compare_element_origins(const void *a, const void *b, void *user) {
-  return compare_numbers(element_at(user, *(const struct origin *)a)->number,
-                         element_at(user, *(const struct origin *)b)->number);
+  return compare_part_numbers(
+      part_element_at(user, *(const struct origin *)a)->number,
+      part_element_at(user, *(const struct origin *)b)->number);
 }
 
-static bool add_element(struct part *all, const struct part *from,
-                        const struct part_element *element, bool wires) {
+static bool add_merged_element(struct part *all, const struct part *from,
+                               const struct part_element *element, bool wires) {
   struct part_element own = *element;
   own.corner = (uint32_t)all->corner.count;
   for (uint32_t i = 0; i < own.count; i++)
@@ -227,7 +233,7 @@ static recto_status merge_elements(struct merge_work *work, bool wires) {
     return error_memory(work->error);
   for (size_t i = 0; i < work->order.count; i++) {
     struct origin at = work->order.item[i];
-    const struct part_element *element = element_at(&order, at);
+    const struct part_element *element = part_element_at(&order, at);
     struct elements before = elements_of(all, wires);
     const struct part_element *last =
         before.count > 0 ? &before.item[before.count - 1] : NULL;
@@ -237,7 +243,7 @@ static recto_status merge_elements(struct merge_work *work, bool wires) {
     } else if (all->corner.count + element->count >= SCENE_LIMIT) {
       return error_set(work->error, RECTO_ERROR_LIMIT, NULL, 0,
                        "the parts have more than 2^31 corners");
-    } else if (!add_element(all, &work->part[at.part], element, wires)) {
+    } else if (!add_merged_element(all, &work->part[at.part], element, wires)) {
       return error_memory(work->error);
     }
   }
@@ -314,11 +320,11 @@ static bool finish_visibility(struct merge_work *work,
 static recto_status merge_edges(struct merge_work *work) {
   struct part *all = work->all;
   for (size_t i = 0, next; i < work->order.count; i = next) {
-    struct part_edge edge = *edge_at(work, work->order.item[i]);
+    struct part_edge edge = *part_edge_at(work, work->order.item[i]);
     bool ok = start_visibility(work);
     for (next = i; ok && next < work->order.count; next++) {
       struct origin at = work->order.item[next];
-      const struct part_edge *other = edge_at(work, at);
+      const struct part_edge *other = part_edge_at(work, at);
       if (part_edge_key_compare(edge.key, other->key) != 0)
         break;
       if (other->edge_class != edge.edge_class)
@@ -375,12 +381,12 @@ static recto_status merge_crossings(struct merge_work *work) {
   recto_status status = RECTO_OK;
   uint8_t *lists = mem_alloc(work->parts, 1);
   for (size_t i = 0, next; lists != NULL && i < work->order.count; i = next) {
-    struct part_crossing own = *crossing_at(work, work->order.item[i]);
+    struct part_crossing own = *part_crossing_at(work, work->order.item[i]);
     bool ok = start_visibility(work);
     memset(lists, 0, work->parts);
     for (next = i; ok && next < work->order.count; next++) {
       struct origin at = work->order.item[next];
-      const struct part_crossing *other = crossing_at(work, at);
+      const struct part_crossing *other = part_crossing_at(work, at);
       if (part_crossing_compare(&own, other) != 0)
         break;
       lists[at.part] = 1;
@@ -432,8 +438,8 @@ struct face_origin {
 
 static int compare_face_origins(const void *a, const void *b, void *user) {
   (void)user;
-  return compare_numbers(((const struct face_origin *)a)->face,
-                         ((const struct face_origin *)b)->face);
+  return compare_part_numbers(((const struct face_origin *)a)->face,
+                              ((const struct face_origin *)b)->face);
 }
 
 /* The fragments of a face come from one part, in its order. */

@@ -70,7 +70,7 @@ static int32_t limit_to_sheet(int64_t at) {
                              : (int32_t)at;
 }
 
-static void grow_box(struct part_scene_work *work) {
+static void grow_kept_box(struct part_scene_work *work) {
   const struct part_window *window = &work->request->window;
   work->box = *window;
   for (uint32_t f = 0; work->request->fragments && poll_at(f) &&
@@ -118,16 +118,16 @@ static void keep_wires(struct part_scene_work *work) {
 
 /* ---- Their ring ---------------------------------------------------------- */
 
-static uint64_t hash_of_place(const struct scene_point *p) {
+static uint64_t hash_of_position(const struct scene_point *p) {
   uint64_t hash = hash_add_double(0, p->x + 0.0); /* -0 becomes 0 */
   hash = hash_add_double(hash_add_double(hash, p->y + 0.0), p->z + 0.0);
   return hash * HASH_GOLDEN >> 20;
 }
 
 /* The slot of a place, or the free one where it belongs. */
-static size_t find_place(const struct place_set *set,
-                         const struct scene_point *p) {
-  size_t k = (size_t)hash_of_place(p) & set->mask;
+static size_t find_position(const struct place_set *set,
+                            const struct scene_point *p) {
+  size_t k = (size_t)hash_of_position(p) & set->mask;
   for (; set->slot[k] != 0; k = (k + 1) & set->mask) {
     const struct scene_point *q = &set->point[set->slot[k] - 1];
     if (p->x == q->x && p->y == q->y && p->z == q->z)
@@ -147,7 +147,7 @@ static bool make_place_set(struct place_set *set,
                             mem_calloc(slots, sizeof *set->slot), slots - 1};
   for (size_t p = 0; set->slot != NULL && p < work->whole->point.count; p++)
     if (work->corner_kept[p]) {
-      size_t k = find_place(set, &set->point[p]);
+      size_t k = find_position(set, &set->point[p]);
       if (set->slot[k] == 0)
         set->slot[k] = (uint32_t)p + 1;
     }
@@ -162,7 +162,7 @@ static bool is_at_kept(const struct part_scene_work *work,
   if (work->corner_kept[point])
     return true;
   if (known[point] == 0) {
-    size_t k = find_place(set, &set->point[point]);
+    size_t k = find_position(set, &set->point[point]);
     known[point] = set->slot[k] != 0 ? 2 : 1;
   }
   return known[point] == 2;
@@ -193,7 +193,7 @@ static void mark_used(uint8_t *used, const uint32_t *corner, uint32_t start,
 }
 
 /* Numbers the points of the part, and copies them and their precision. */
-static bool copy_points(struct part_scene_work *work) {
+static bool copy_kept_points(struct part_scene_work *work) {
   const struct scene *whole = work->whole;
   struct scene *scene = &work->part->scene;
   size_t count = 0, range = 0;
@@ -232,7 +232,7 @@ static bool copy_points(struct part_scene_work *work) {
   return true;
 }
 
-static bool copy_faces(struct part_scene_work *work) {
+static bool copy_kept_faces(struct part_scene_work *work) {
   const struct scene *whole = work->whole;
   struct part_scene *part = work->part;
   struct scene *scene = &part->scene;
@@ -271,7 +271,7 @@ static bool copy_faces(struct part_scene_work *work) {
   return true;
 }
 
-static bool copy_wires(struct part_scene_work *work) {
+static bool copy_kept_wires(struct part_scene_work *work) {
   const struct scene *whole = work->whole;
   struct part_scene *part = work->part;
   struct scene *scene = &part->scene;
@@ -313,11 +313,11 @@ static bool make_all(struct part_scene_work *work) {
   if (work->face_state == NULL || work->wire_state == NULL ||
       work->corner_kept == NULL || work->used == NULL || work->local == NULL)
     return false;
-  grow_box(work);
+  grow_kept_box(work);
   keep_faces(work);
   keep_wires(work);
-  return add_ring(work) && copy_points(work) && copy_faces(work) &&
-         copy_wires(work) && !poll_is_cancelled();
+  return add_ring(work) && copy_kept_points(work) && copy_kept_faces(work) &&
+         copy_kept_wires(work) && !poll_is_cancelled();
 }
 
 recto_status part_scene_make(struct part_scene *part, const struct scene *whole,

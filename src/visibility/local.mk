@@ -2,6 +2,7 @@
 librecto_core_la_SOURCES += \
   %D%/auto.c \
   %D%/map.c %D%/map.h \
+  %D%/map_assembly.c %D%/map_assembly.h \
   %D%/progress.c %D%/progress.h \
   %D%/quantitative_invisibility.c %D%/quantitative_invisibility.h \
   %D%/smooth_contours.c %D%/smooth_contours.h \

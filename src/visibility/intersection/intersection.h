@@ -21,7 +21,6 @@
 
 #include "base/report.h"
 #include "visibility/index/triangle_grid.h"
-#include "visibility/intersection/intersection_segment.h"
 #include "visibility/solver.h"
 
 /* Finds the piercing pairs that share a cell of the grid with a list, and
@@ -39,6 +38,8 @@ USE_RESULT recto_status intersection_find_all(
 USE_RESULT recto_status intersection_find_everywhere(
     struct sheet *sheet, const struct solver_request *request,
     struct report *report, recto_error *error);
+
+struct intersection_segments; /* intersection_segment.h */
 
 /* Adds segments to the sheet as drawable edges, each of them once, sorted by
  * their triangles; sorts them.  Returns false when memory ran out. */

@@ -1,0 +1,346 @@
+/* test_parts.c - the parts of a drawing, joined, are the drawing to the byte;
+ * and files that are not its parts are refused. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "api/handle.h"
+#include "parts/byte_codec.h"
+#include "tests/scenes/scenes.h"
+#include "tests/temporary.h"
+
+enum { PARTS_MOST = 16 };
+
+/* ---- A drawing as text --------------------------------------------------- */
+
+struct text {
+  char *bytes;
+  size_t count;
+};
+
+static bool append_text(void *user, const void *bytes, size_t count) {
+  struct text *text = user;
+  char *more = realloc(text->bytes, text->count + count + 1);
+  if (more == NULL)
+    return false;
+  text->bytes = more;
+  memcpy(more + text->count, bytes, count);
+  text->count += count;
+  return true;
+}
+
+static struct text text_of(const recto_drawing *drawing,
+                           const recto_options *options) {
+  struct text text = {NULL, 0};
+  assert_int_equal(
+      recto_drawing_write_to(drawing, "svg", options, append_text, &text, NULL),
+      RECTO_OK);
+  return text;
+}
+
+/* ---- Parts --------------------------------------------------------------- */
+
+static const char *part_path(void *const *state, unsigned number,
+                             unsigned count) {
+  char name[40];
+  snprintf(name, sizeof name, "part-%u-%u.recto", number, count);
+  return temporary_path(state, name);
+}
+
+/* Writes all parts; returns the first error. */
+static recto_status write_parts(void *const *state, const recto_scene *scene,
+                                const recto_options *options, unsigned count,
+                                recto_error *error) {
+  recto_status status = RECTO_OK;
+  for (unsigned i = 1; i <= count && status == RECTO_OK; i++)
+    status = recto_scene_write_part(scene, options, i, count,
+                                    part_path(state, i, count), error);
+  return status;
+}
+
+static recto_status join_all(void *const *state, const recto_options *options,
+                             unsigned count, recto_drawing **drawing,
+                             recto_error *error) {
+  char *path[PARTS_MOST];
+  for (unsigned i = 0; i < count; i++) /* backwards: any order will do */
+    path[i] = mem_copy_text(part_path(state, count - i, count));
+  recto_status status = recto_join_parts((const char *const *)path, count,
+                                         options, drawing, error);
+  for (unsigned i = 0; i < count; i++)
+    mem_free(path[i]);
+  return status;
+}
+
+/* Draws a scene at once and in parts.  Returns false where it cannot be drawn
+ * in parts, or not at all. */
+static bool compare_parts(void *const *state, const recto_scene *scene,
+                          const recto_options *options, unsigned count,
+                          const char *name) {
+  recto_drawing *whole = NULL, *joined = NULL;
+  recto_error error = {0};
+  recto_status status = write_parts(state, scene, options, count, &error);
+  if (status == RECTO_ERROR_UNSUPPORTED || status == RECTO_ERROR_EMPTY)
+    return false;
+  if (status == RECTO_OK)
+    status = join_all(state, options, count, &joined, &error);
+  if (status != RECTO_OK)
+    fail_msg("%s in %u parts: %s", name, count, error.text);
+  assert_int_equal(recto_scene_render(scene, options, &whole, NULL), RECTO_OK);
+  struct text a = text_of(whole, options), b = text_of(joined, options);
+  if (a.count != b.count || memcmp(a.bytes, b.bytes, a.count) != 0)
+    fail_msg("%s differs in %u parts, edges %x, hidden %d, fill %d", name,
+             count, options->ink.edges, (int)options->ink.hidden,
+             (int)options->ink.fill);
+  free(a.bytes);
+  free(b.bytes);
+  recto_drawing_destroy(whole);
+  recto_drawing_destroy(joined);
+  return true;
+}
+
+/* Lines, hidden lines dashed, fills, hatching. */
+static void set_mode(recto_options *options, int mode) {
+  static const recto_fill fill[] = {RECTO_FILL_NONE, RECTO_FILL_NONE,
+                                    RECTO_FILL_SHADE, RECTO_FILL_HATCH};
+  options->ink.fill = fill[mode];
+  options->ink.hidden = mode == 1 ? RECTO_HIDDEN_DASHED : RECTO_HIDDEN_NONE;
+  options->ink.light[0] = options->ink.light[1] = options->ink.light[2] = 0;
+}
+
+/* Scenes of more faces are drawn in one number of parts alone. */
+enum { FACES_OF_ALL_COUNTS = 2000 };
+
+static void joined_parts_are_the_drawing(void **state) {
+  static const unsigned count[] = {7, 1, 2, 16};
+  size_t compared = 0;
+  for (const struct scenes_entry *entry = scene_list; entry->name != NULL;
+       entry++) {
+    recto_scene *scene;
+    recto_options options;
+    bool in_parts = true;
+    size_t counts = sizeof count / sizeof count[0];
+    assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+    recto_options_init(&options);
+    entry->fill(&scene->scene, &options);
+    options.camera.fit = RECTO_FIT_PAGE;
+    options.camera.has_section = false;
+    options.camera.section = 0;
+    if (scene_face_count(&scene->scene) > FACES_OF_ALL_COUNTS)
+      counts = 1;
+    for (int mode = 0; mode < 4 && in_parts; mode++)
+      for (size_t i = 0; i < counts && in_parts; i++) {
+        set_mode(&options, mode);
+        in_parts = compare_parts(state, scene, &options, count[i], entry->name);
+      }
+    if (!in_parts)
+      print_message("not in parts: %s\n", entry->name);
+    compared += in_parts && counts > 1;
+    recto_scene_destroy(scene);
+  }
+  print_message("%zu scenes in all numbers of parts\n", compared);
+  assert_true(compared >= 20);
+}
+
+/* ---- Files that are refused ---------------------------------------------- */
+
+/* A scene of crossed boxes in two parts. */
+static recto_scene *make_parts(void *const *state, recto_options *options) {
+  recto_scene *scene;
+  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+  recto_options_init(options);
+  scenes_crossed_boxes(&scene->scene, options);
+  options->camera.fit = RECTO_FIT_PAGE;
+  assert_int_equal(write_parts(state, scene, options, 2, NULL), RECTO_OK);
+  return scene;
+}
+
+static recto_error join_two(const char *a, const char *b) {
+  const char *path[2] = {a, b};
+  recto_drawing *drawing = NULL;
+  recto_error error = {0};
+  assert_int_not_equal(
+      recto_join_parts(path, b != NULL ? 2 : 1, NULL, &drawing, &error),
+      RECTO_OK);
+  assert_null(drawing);
+  return error;
+}
+
+static char *copy_path(const char *path) { return mem_copy_text(path); }
+
+static void missing_and_double_parts_are_named(void **state) {
+  recto_options options;
+  recto_scene *scene = make_parts(state, &options);
+  char *first = copy_path(part_path(state, 1, 2));
+  recto_error error = join_two(first, NULL);
+  assert_int_equal(error.code, RECTO_ERROR_ARGUMENT);
+  assert_string_equal(error.text, "part 2 of the 2 parts is missing");
+  error = join_two(first, first);
+  assert_int_equal(error.code, RECTO_ERROR_ARGUMENT);
+  assert_non_null(strstr(error.text, "part 1 of 2 is there twice"));
+  assert_non_null(strstr(error.file, "part-1-2.recto"));
+  mem_free(first);
+  recto_scene_destroy(scene);
+}
+
+static void foreign_parts_are_named(void **state) {
+  recto_options options;
+  recto_scene *scene = make_parts(state, &options);
+  char *first = copy_path(part_path(state, 1, 2));
+  char *foreign = copy_path(temporary_path(state, "foreign.recto"));
+  /* Of another view, of other edges, of a moved model. */
+  for (int i = 0; i < 3; i++) {
+    recto_options other = options;
+    other.camera.azimuth_deg += i == 0;
+    other.ink.edges = i == 1 ? RECTO_EDGE_BORDER : other.ink.edges;
+    scene->scene.point.item[0].x += i == 2 ? 1e-3 : 0;
+    assert_int_equal(recto_scene_write_part(scene, &other, 2, 2, foreign, NULL),
+                     RECTO_OK);
+    recto_error error = join_two(first, foreign);
+    assert_int_equal(error.code, RECTO_ERROR_ARGUMENT);
+    assert_non_null(strstr(error.text, "belongs to another drawing"));
+    assert_non_null(strstr(error.file, "foreign.recto"));
+  }
+  mem_free(first);
+  mem_free(foreign);
+  recto_scene_destroy(scene);
+}
+
+static void damaged_parts_are_named(void **state) {
+  recto_options options;
+  recto_scene *scene = make_parts(state, &options);
+  size_t count;
+  char *first = copy_path(part_path(state, 1, 2));
+  char *bytes = temporary_read(part_path(state, 2, 2), &count);
+  assert_non_null(bytes);
+  /* Each byte flipped, then each length cut. */
+  for (size_t i = 0; i < count; i += 1 + i / 64) {
+    bytes[i] ^= (char)(1 << i % 8);
+    recto_error error =
+        join_two(first, temporary_file(state, "bad.recto", bytes, count));
+    bytes[i] ^= (char)(1 << i % 8);
+    assert_true(error.code == RECTO_ERROR_FORMAT ||
+                error.code == RECTO_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(error.file, "bad.recto"));
+  }
+  for (size_t i = 0; i < count; i += 1 + i / 16) {
+    recto_error error =
+        join_two(first, temporary_file(state, "bad.recto", bytes, i));
+    assert_int_equal(error.code, RECTO_ERROR_FORMAT);
+    assert_string_equal(error.text, "the part is cut short");
+    assert_non_null(strstr(error.file, "bad.recto"));
+  }
+  free(bytes);
+  mem_free(first);
+  recto_scene_destroy(scene);
+}
+
+/* Whoever makes a file can make its checksum. */
+static void damage_with_a_right_checksum_does_no_harm(void **state) {
+  recto_options options;
+  recto_scene *scene = make_parts(state, &options);
+  size_t count;
+  char *first = copy_path(part_path(state, 1, 2));
+  char *bytes = temporary_read(part_path(state, 2, 2), &count);
+  assert_non_null(bytes);
+  for (size_t i = 12; i + 8 < count; i += 1 + i / 512) {
+    char before = bytes[i];
+    bytes[i] = (char)(before ^ (i % 3 == 0 ? 0xff : 1 << i % 8));
+    uint64_t sum = byte_codec_checksum(bytes, count - 8);
+    for (int k = 0; k < 8; k++)
+      bytes[count - 8 + (size_t)k] = (char)(sum >> 8 * k & 0xff);
+    const char *path[2] = {first,
+                           temporary_file(state, "bad.recto", bytes, count)};
+    recto_drawing *drawing = NULL;
+    recto_status status = recto_join_parts(path, 2, NULL, &drawing, NULL);
+    assert_int_equal(status == RECTO_OK, drawing != NULL);
+    recto_drawing_destroy(drawing);
+    bytes[i] = before;
+  }
+  free(bytes);
+  mem_free(first);
+  recto_scene_destroy(scene);
+}
+
+static void a_whole_part_of_the_drawing_is_there(void **state) {
+  recto_options options;
+  recto_scene *scene = make_parts(state, &options);
+  char *path = copy_path(part_path(state, 1, 2));
+  bool is_there = false;
+  assert_int_equal(
+      recto_scene_has_part(scene, &options, 1, 2, path, &is_there, NULL),
+      RECTO_OK);
+  assert_true(is_there);
+  assert_int_equal(
+      recto_scene_has_part(scene, &options, 2, 2, path, &is_there, NULL),
+      RECTO_OK);
+  assert_false(is_there);
+  options.camera.azimuth_deg += 1;
+  assert_int_equal(
+      recto_scene_has_part(scene, &options, 1, 2, path, &is_there, NULL),
+      RECTO_OK);
+  assert_false(is_there);
+  assert_int_equal(recto_scene_has_part(scene, &options, 1, 2,
+                                        temporary_path(state, "none"),
+                                        &is_there, NULL),
+                   RECTO_OK);
+  assert_false(is_there);
+  mem_free(path);
+  recto_scene_destroy(scene);
+}
+
+static void what_parts_do_not_have_is_refused(void **state) {
+  recto_options options, other;
+  recto_scene *scene = make_parts(state, &options);
+  recto_drawing *drawing = NULL;
+  recto_error error;
+  other = options;
+  other.ink.fill = RECTO_FILL_SHADE;
+  assert_int_equal(join_all(state, &other, 2, &drawing, &error),
+                   RECTO_ERROR_UNSUPPORTED);
+  other = options;
+  other.ink.hidden = RECTO_HIDDEN_LAYER;
+  assert_int_equal(join_all(state, &other, 2, &drawing, &error),
+                   RECTO_ERROR_UNSUPPORTED);
+  other = options;
+  other.ink.ids = true;
+  assert_int_equal(join_all(state, &other, 2, &drawing, &error),
+                   RECTO_ERROR_UNSUPPORTED);
+  other = options;
+  other.ink.contours = RECTO_CONTOURS_SMOOTH;
+  assert_int_equal(write_parts(state, scene, &other, 2, &error),
+                   RECTO_ERROR_UNSUPPORTED);
+  other = options;
+  other.solver.method = RECTO_METHOD_ZBUFFER;
+  assert_int_equal(write_parts(state, scene, &other, 2, &error),
+                   RECTO_ERROR_UNSUPPORTED);
+  other = options;
+  other.camera.fit = RECTO_FIT_SCALE;
+  assert_int_equal(write_parts(state, scene, &other, 2, &error),
+                   RECTO_ERROR_UNSUPPORTED);
+  assert_int_equal(recto_scene_write_part(scene, &options, 3, 2, "x", &error),
+                   RECTO_ERROR_ARGUMENT);
+  assert_int_equal(recto_scene_write_part(scene, &options, 1,
+                                          RECTO_PARTS_MAX + 1, "x", &error),
+                   RECTO_ERROR_ARGUMENT);
+  recto_scene_destroy(scene);
+}
+
+#define IN_FOLDER(test)                                                        \
+  cmocka_unit_test_setup_teardown(test, temporary_set_up, temporary_tear_down)
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      IN_FOLDER(joined_parts_are_the_drawing),
+      IN_FOLDER(missing_and_double_parts_are_named),
+      IN_FOLDER(foreign_parts_are_named),
+      IN_FOLDER(damaged_parts_are_named),
+      IN_FOLDER(damage_with_a_right_checksum_does_no_harm),
+      IN_FOLDER(a_whole_part_of_the_drawing_is_there),
+      IN_FOLDER(what_parts_do_not_have_is_refused)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
