@@ -724,7 +724,7 @@ RECTO_USE_RESULT recto_status recto_scene_render(const recto_scene *scene,
  * path    written whole or not at all, as by recto_drawing_write
  * Errors  those of recto_scene_render; RECTO_ERROR_UNSUPPORTED also where the
  *         parts could not be joined to the same drawing: with approximate
- *         methods, smooth contours, cuts, creases with a second angle, lines
+ *         methods, smooth contours, cuts, sheets, creases with a second angle, lines
  *         behind a number of faces, results or verification, in a view that the
  *         page or the near plane clips, of a scene of extreme size, and where
  *         welding might join corners; RECTO_ERROR_IO */

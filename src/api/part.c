@@ -203,7 +203,8 @@ static recto_status keep_part(struct part_work *work, recto_error *error) {
   return status;
 }
 
-static recto_status solve_part_scene(struct part_work *work, recto_error *error) {
+static recto_status solve_part_scene(struct part_work *work,
+                                     recto_error *error) {
   const recto_options *o = work->options;
   struct solver_request request = solver_request_of(o);
   const char *why;

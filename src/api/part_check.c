@@ -31,6 +31,8 @@ static const char *name_unsupported(const recto_options *o) {
     return "verification";
   if (o->ink.contours == RECTO_CONTOURS_SMOOTH)
     return "smooth contours";
+  if (o->sheet.arrangement != RECTO_ARRANGEMENT_NONE)
+    return "sheets of several views";
   if (o->ink.hidden != RECTO_HIDDEN_NONE && o->ink.hidden_by_max > 0)
     return "lines behind a number of faces";
   return NULL;
