@@ -726,8 +726,8 @@ RECTO_USE_RESULT recto_status recto_scene_render(const recto_scene *scene,
  *         parts could not be joined to the same drawing: with approximate
  *         methods, smooth contours, cuts, sheets, creases with a second angle,
  *         lines behind a number of faces, results or verification, in a view
- *         that the page or the near plane clips, of a scene of extreme size, and
- *         where welding might join corners; RECTO_ERROR_IO */
+ *         that the page or the near plane clips, of a scene of extreme size,
+ *         and where welding might join corners; RECTO_ERROR_IO */
 RECTO_USE_RESULT recto_status recto_scene_write_part(
     const recto_scene *scene, const recto_options *options, unsigned number,
     unsigned count, const char *path, recto_error *error);
