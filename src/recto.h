@@ -396,9 +396,10 @@ typedef struct recto_camera_options {
   double near_distance; /* scene units; 0: as near as anything drawn, but at
                            least a 16384th of the way to the target */
   bool has_section;
-  double section; /* scene units in front of the eye, or
-                     behind the scene's nearest point for
-                     a direction: what is nearer is cut */
+  double section; /* scene units in front of the eye, or behind the scene's
+                     nearest point for a direction: what is nearer is cut off,
+                     as by a plane of mesh.cut parallel to the page; excludes
+                     these */
   double unit_mm; /* with RECTO_FIT_SCALE and RECTO_FIT_PREFERRED: a scene unit
                      is so many mm, of which the scale's number of mm is drawn
                      for one; 0: what the files say (glTF: 1000; 3MF: its unit),

@@ -506,26 +506,40 @@ static void a_near_distance_counts_from_the_eye(void **state) {
   scene_fini(&scene);
 }
 
+/* Checks that the plane of the section is at a z, and what is above goes. */
+static void assert_section_at(const struct scene *scene,
+                              const recto_options *options, double z) {
+  struct camera_section section;
+  assert_int_equal(camera_find_section(&section, scene, options, NULL),
+                   RECTO_OK);
+  assert_true(section.is_within);
+  assert_near(section.normal[2], 1, 1e-15);
+  assert_near(section.offset, z, 1e-12);
+}
+
 static void a_section_counts_from_the_eye_or_the_nearest_point(void **state) {
   (void)state;
   struct scene scene;
+  struct camera_section section;
   fill_box(&scene);
   recto_options options = plain_options();
   options.camera.has_section = true;
-  options.camera.section = 2.5;
   options.camera.azimuth_deg = options.camera.elevation_deg = 0;
   for (int perspective = 0; perspective < 2; perspective++) {
     options.camera.fov_deg = perspective ? 30 : 0;
-    struct camera camera = aim(&scene, &options);
-    assert_near(camera.near_d, see(&camera, 0, 0, 1).d, 1e-12);
+    options.camera.section = 2.5;
+    assert_section_at(&scene, &options, 1);
+    options.camera.section = 0;
+    assert_int_equal(camera_find_section(&section, &scene, &options, NULL),
+                     RECTO_OK);
+    assert_false(section.is_within);
   }
   options.camera.section = 21;
   for (int perspective = 0; perspective < 2; perspective++) {
     options.camera.fov_deg = perspective ? 30 : 0;
     eye_at(&options, 0, 0, 20);
     target_at(&options, 0, 0, 0);
-    struct camera camera = aim(&scene, &options);
-    assert_near(camera.near_d, see(&camera, 0, 0, -1).d, 1e-12);
+    assert_section_at(&scene, &options, -1);
   }
   scene_fini(&scene);
 }
@@ -592,10 +606,9 @@ static void an_empty_view_is_reported(void **state) {
   assert_refused(&scene, &options, RECTO_ERROR_EMPTY);
   scene_fini(&scene);
   fill_box(&scene);
-  options.camera.has_section = true;
-  options.camera.section = 100;
+  options.camera.near_distance = 100;
   assert_refused(&scene, &options, RECTO_ERROR_EMPTY);
-  options.camera.has_section = false;
+  options.camera.near_distance = 0;
   options.camera.fov_deg = 30;
   eye_at(&options, 0, 0, 20);
   target_at(&options, 0, 0, 40);
@@ -666,11 +679,9 @@ static void a_far_eye_keeps_scale_and_distances(void **state) {
   options.camera.fit = RECTO_FIT_SCALE;
   options.camera.scale = 7;
   assert_near(aim(&scene, &options).s, 7, 1e-9);
-  options.camera.has_section = true;
-  options.camera.section = far + 1;
+  options.camera.near_distance = far + 1;
   camera = aim(&scene, &options);
   assert_near(camera.near_d - see(&camera, 0, 0, 0).d, 1, 1e-3);
-  options.camera.has_section = false;
   options.camera.kind = RECTO_CAMERA_DIRECTION;
   options.camera.near_distance = 1; /* from an eye as far, so nothing is cut */
   camera = aim(&scene, &options);

@@ -463,6 +463,92 @@ static void sizes_do_not_matter(void **state) {
   free(first.item);
 }
 
+/* A section is a cut by a plane parallel to the page; one that has nothing
+ * before it cuts nothing.  The cube is from 0 to 1, and y is up. */
+static void a_section_is_a_cut_parallel_to_the_page(void **state) {
+  (void)state;
+  static const double depth[] = {0.25, 0, -3};
+  const recto_mesh mesh = box_mesh(box_cube[0], 8);
+  recto_scene *scene = box_scene(&mesh);
+  for (int perspective = 0; perspective < 2; perspective++)
+    for (size_t i = 0; i < sizeof depth / sizeof depth[0]; i++) {
+      struct bytes bytes[2];
+      for (int shorthand = 0; shorthand < 2; shorthand++) {
+        const recto_plane plane = plane_of(0, 0, 3, 3 * (1 - depth[i]));
+        recto_drawing *drawing;
+        recto_options options;
+        recto_options_init(&options);
+        options.camera.azimuth_deg = options.camera.elevation_deg = 0;
+        options.camera.fov_deg = perspective ? 30 : 0;
+        options.camera.has_target = true;
+        for (int k = 0; k < 3; k++)
+          options.camera.target[k] = 0.5;
+        options.camera.has_section = shorthand;
+        options.camera.section = depth[i];
+        options.mesh.cut = &plane;
+        options.mesh.cut_count = !shorthand && depth[i] > 0;
+        options.verify = 1000;
+        assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
+                         RECTO_OK);
+        bytes[shorthand] = svg_of(drawing, &options);
+        assert_true((strstr(bytes[shorthand].item, "hatch") != NULL) ==
+                    (depth[i] > 0));
+        recto_drawing_destroy(drawing);
+      }
+      assert_string_equal(bytes[0].item, bytes[1].item);
+      free(bytes[0].item);
+      free(bytes[1].item);
+    }
+  recto_scene_destroy(scene);
+}
+
+/* A prepared scene serves for other views; a section of one view is cut anew. */
+static void a_prepared_scene_is_cut_for_each_section(void **state) {
+  (void)state;
+  const recto_mesh mesh = box_mesh(box_cube[0], 8);
+  struct bytes bytes[2];
+  for (int prepared = 0; prepared < 2; prepared++) {
+    recto_scene *scene = box_scene(&mesh);
+    recto_drawing *drawing;
+    recto_options options;
+    recto_options_init(&options);
+    options.camera.has_section = true;
+    options.camera.section = 0.4;
+    if (prepared)
+      assert_int_equal(recto_scene_prepare(scene, &options, NULL), RECTO_OK);
+    assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
+                     RECTO_OK);
+    bytes[prepared] = svg_of(drawing, &options);
+    recto_drawing_destroy(drawing);
+    recto_scene_destroy(scene);
+  }
+  assert_string_equal(bytes[0].item, bytes[1].item);
+  free(bytes[0].item);
+  free(bytes[1].item);
+}
+
+static void a_section_excludes_other_planes_and_views(void **state) {
+  (void)state;
+  const recto_mesh mesh = box_mesh(box_cube[0], 8);
+  recto_scene *scene = box_scene(&mesh);
+  const recto_plane plane = plane_of(1, 0, 0, 0.5);
+  for (int fault = 0; fault < 3; fault++) {
+    recto_drawing *drawing = NULL;
+    recto_options options;
+    recto_options_init(&options);
+    options.camera.has_section = true;
+    options.camera.section = fault == 2 ? 9 : 0.4;
+    options.mesh.cut = &plane;
+    options.mesh.cut_count = fault == 0;
+    if (fault == 1)
+      options.sheet.arrangement = RECTO_ARRANGEMENT_FIRST;
+    assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
+                     fault == 2 ? RECTO_ERROR_EMPTY : RECTO_ERROR_ARGUMENT);
+    assert_null(drawing);
+  }
+  recto_scene_destroy(scene);
+}
+
 static void count_warnings(void *user, const char *file, unsigned long line,
                            const char *text) {
   (void)file;
@@ -503,6 +589,9 @@ int main(void) {
       cmocka_unit_test(cut_faces_are_hatched_solid_or_not),
       cmocka_unit_test(bad_planes_are_refused),
       cmocka_unit_test(sizes_do_not_matter),
+      cmocka_unit_test(a_section_is_a_cut_parallel_to_the_page),
+      cmocka_unit_test(a_prepared_scene_is_cut_for_each_section),
+      cmocka_unit_test(a_section_excludes_other_planes_and_views),
       cmocka_unit_test(lines_that_are_not_closed_are_warned_about),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

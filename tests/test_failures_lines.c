@@ -190,11 +190,11 @@ static void exact_methods_see_the_thinnest(void **state) {
   scene_fini(&scene);
 }
 
-/* ---- Sections ------------------------------------------------------------ */
+/* ---- The near plane ------------------------------------------------------ */
 
 /* A plate that rises from z = 0 to 10 across the page, before one at -1; what
  * is above z = 4 is cut away: 40 of its 100 mm stay. */
-static void a_section_cuts_away_what_is_nearer(void **state) {
+static void a_near_plane_cuts_away_what_is_nearer(void **state) {
   static const char *const name[] = {"zbuffer", "scanline-zbuffer", "warnock",
                                      "watkins", "tiles"};
   struct scene scene;
@@ -207,8 +207,7 @@ static void a_section_cuts_away_what_is_nearer(void **state) {
   build_parallelogram(&scene, vector_of(0, 0, -1), vector_of(100, 0, 0),
                       vector_of(0, 100, 0));
   scenes_view_page(&options, 100, 100);
-  options.camera.has_section = true;
-  options.camera.section = 1000 - 4; /* from the eye */
+  options.camera.near_distance = 1000 - 4; /* from the eye */
   for (size_t m = 0; m < sizeof name / sizeof *name; m++) {
     const struct solver *solver = solver_by_name(name[m]);
     struct trial trial;
@@ -231,7 +230,7 @@ int main(void) {
       cmocka_unit_test(few_depth_bits_cause_z_fighting),
       cmocka_unit_test(what_is_thinner_than_the_pitch_is_missed_and_only_that),
       cmocka_unit_test(exact_methods_see_the_thinnest),
-      cmocka_unit_test(a_section_cuts_away_what_is_nearer),
+      cmocka_unit_test(a_near_plane_cuts_away_what_is_nearer),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

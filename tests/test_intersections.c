@@ -180,8 +180,7 @@ static void a_clipped_face_has_its_whole_line(void **state) {
     fixture.options.camera.fit = RECTO_FIT_SCALE;
     fixture.options.camera.scale = 1;
     /* So far the upper end of the diagonal is behind the nearest corner. */
-    fixture.options.camera.has_section = true;
-    fixture.options.camera.section =
+    fixture.options.camera.near_distance =
         40 * cos(rise) * cos(0.1 * degree) - 30 * sin(rise) + off;
     solve(&fixture, &lines);
     assert_int_equal(lines.count, 2);

@@ -98,7 +98,7 @@ static void clipped_scenes_keep_every_invariant(void **state) {
   assert_true(near > 1000 && page > 1000); /* they were clipped indeed */
 }
 
-/* The section plane cuts off so little of a pyramid's apex that its edges end
+/* The near plane cuts off so little of a pyramid's apex that its edges end
  * in one place of the grid: that is one point, as the apex was. */
 static void edges_of_a_point_that_are_cut_in_one_place_share_it(void **state) {
   static const double base[] = {-20, -20, 0, 20, -20, 0, 20, 20, 0, -20, 20, 0};
@@ -113,8 +113,7 @@ static void edges_of_a_point_that_are_cut_in_one_place_share_it(void **state) {
       build_triangle(&fixture.scene, apex, corner[k], corner[(k + 1) % 4]);
     fixture.options.camera.azimuth_deg = 0;
     fixture.options.camera.elevation_deg = 0;
-    fixture.options.camera.has_section = cut > 0;
-    fixture.options.camera.section = 1e-9;
+    fixture.options.camera.near_distance = cut * 1e-9;
     sheet_fixture_out(&fixture, true);
     assert_int_equal(fixture.sheet.point.count, 5);
     assert_int_equal(fixture.sheet.triangle.count, 4);
@@ -464,7 +463,7 @@ static void a_cut_edge_is_cut_once_for_all_who_use_it(void **state) {
   sheet_fixture_fini(&fixture);
 }
 
-static void a_section_cuts_and_leaves_no_line(void **state) {
+static void a_near_plane_cuts_and_leaves_no_line(void **state) {
   (void)state;
   for (int perspective = 0; perspective < 2; perspective++) {
     struct sheet_fixture fixture;
@@ -472,8 +471,12 @@ static void a_section_cuts_and_leaves_no_line(void **state) {
     fixture.options.camera.azimuth_deg = 20;
     fixture.options.camera.elevation_deg = 0;
     fixture.options.camera.fov_deg = perspective ? 30 : 0;
-    fixture.options.camera.has_section = true;
-    fixture.options.camera.section = 6;
+    struct camera camera;
+    fixture.options.camera.fit =
+        perspective ? RECTO_FIT_SPHERE : RECTO_FIT_PAGE;
+    assert_int_equal(
+        camera_aim(&camera, &fixture.scene, &fixture.options, NULL), RECTO_OK);
+    fixture.options.camera.near_distance = perspective ? camera.d_min + 6 : 6;
     fixture.options.ink.edges = RECTO_EDGES_ALL;
     sheet_fixture_out(&fixture, true);
     sheet_fixture_check(&fixture);
@@ -492,16 +495,15 @@ static void a_section_cuts_and_leaves_no_line(void **state) {
   }
 }
 
-/* The side of a box that lies in the section itself stays whole. */
-static void a_face_in_the_section_plane_stays(void **state) {
+/* The side of a box that lies in the near plane itself stays whole. */
+static void a_face_in_the_near_plane_stays(void **state) {
   (void)state;
   struct sheet_fixture fixture;
   sheet_fixture_start(&fixture);
   build_box(&fixture.scene, vector_of(0, 0, 0), vector_of(1, 1, 1));
   build_box(&fixture.scene, vector_of(2, 0, 0), vector_of(3, 1, 2));
   fixture.options.camera.azimuth_deg = fixture.options.camera.elevation_deg = 0;
-  fixture.options.camera.has_section = true;
-  fixture.options.camera.section = 1; /* the nearest point is at z = 2 */
+  fixture.options.camera.near_distance = 1; /* the nearest point is at z = 2 */
   sheet_fixture_out(&fixture, true);
   sheet_fixture_check(&fixture);
   size_t front = 0;
@@ -902,8 +904,8 @@ int main(void) {
       cmocka_unit_test(a_floor_to_the_horizon_is_cut_by_both),
       cmocka_unit_test(a_drawing_that_fits_the_page_is_never_cut),
       cmocka_unit_test(a_cut_edge_is_cut_once_for_all_who_use_it),
-      cmocka_unit_test(a_section_cuts_and_leaves_no_line),
-      cmocka_unit_test(a_face_in_the_section_plane_stays),
+      cmocka_unit_test(a_near_plane_cuts_and_leaves_no_line),
+      cmocka_unit_test(a_face_in_the_near_plane_stays),
       cmocka_unit_test(the_order_of_corners_changes_no_point),
       cmocka_unit_test(wires_are_edges_segment_by_segment),
       cmocka_unit_test(wires_are_cut_at_the_page),

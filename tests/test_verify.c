@@ -18,6 +18,7 @@
 #include "tests/scenes/catmull_clark.h"
 #include "tests/scenes/pipeline.h"
 #include "tests/temporary.h"
+#include "view/camera_aim.h"
 
 /* ---- Helpers ------------------------------------------------------------- */
 
@@ -183,7 +184,7 @@ static void cuts_and_far_origins_pass(void **state) {
   (void)state;
   static const double place[] = {0, 1e7};
   for (int perspective = 0; perspective < 2; perspective++)
-    for (int section = 0; section < 2; section++)
+    for (int near_plane = 0; near_plane < 2; near_plane++)
       for (size_t i = 0; i < 2; i++) {
         struct judged_run run;
         start(&run);
@@ -193,9 +194,12 @@ static void cuts_and_far_origins_pass(void **state) {
         build_box(&run.scene, vector_of(x + 1, x + 1, 1 - x),
                   vector_of(x + 9, x + 2, 2 - x));
         run.options.camera.fov_deg = perspective * 40;
-        run.options.camera.has_section = section;
-        run.options.camera.section = 5;
         run.options.mesh.coordinate_bits = 53;
+        struct camera camera;
+        assert_int_equal(camera_aim(&camera, &run.scene, &run.options, NULL),
+                         RECTO_OK);
+        if (near_plane)
+          run.options.camera.near_distance = perspective ? camera.d_min + 5 : 5;
         draw(&run);
         assert_right(&run, "boxes");
         assert_true(count_of(&run, "not_drawn_hidden") > 300);
@@ -434,8 +438,8 @@ static void every_allocation_may_fail(void **state) {
   end(&run);
 }
 
-/* The plane of the cut passes an edge nearer than doubles resolve. */
-static void an_edge_along_the_cut_may_be_missing(void **state) {
+/* The near plane passes an edge nearer than doubles resolve. */
+static void an_edge_along_the_near_plane_may_be_missing(void **state) {
   struct judged_run run;
   (void)state;
   start(&run);
@@ -443,10 +447,9 @@ static void an_edge_along_the_cut_may_be_missing(void **state) {
   run.options.camera.up[1] = 1;
   run.options.camera.azimuth_deg = 89.9999999;
   run.options.camera.elevation_deg = 1e-7;
-  run.options.camera.has_section = true;
-  run.options.camera.section = 2;
+  run.options.camera.near_distance = 2;
   draw(&run);
-  assert_right(&run, "an edge along the cut");
+  assert_right(&run, "an edge along the near plane");
   end(&run);
 }
 
@@ -545,7 +548,7 @@ int main(void) {
       cmocka_unit_test(what_shares_a_corner_with_a_face_passes),
       cmocka_unit_test(a_wire_alone_passes),
       cmocka_unit_test(an_empty_drawing_of_no_classes_passes),
-      cmocka_unit_test(an_edge_along_the_cut_may_be_missing),
+      cmocka_unit_test(an_edge_along_the_near_plane_may_be_missing),
       cmocka_unit_test(a_hidden_line_that_is_drawn_is_found),
       cmocka_unit_test(a_visible_line_that_is_missing_is_found),
       cmocka_unit_test(a_line_where_no_edge_is_is_found),

@@ -120,7 +120,7 @@ static recto_status check_view_alone(const struct preparation *prepared,
   static const double shift_mm[2] = {0, 0};
   struct camera camera;
   recto_options o = *options;
-  recto_status status = rescale_options(&prepared->rescaled, &o, error);
+  recto_status status = preparation_rescale(prepared, &o, error);
   if (status == RECTO_OK && o.output.tight) {
     status = camera_aim(&camera, prepared->scene, &o, error);
     if (status == RECTO_OK)
@@ -208,7 +208,7 @@ static recto_status check_sheet(const struct preparation *prepared,
     double shift_mm[2];
     struct judge_verdict found;
     multiview_options(&views, i, o, &of_view, shift_mm);
-    status = rescale_options(&prepared->rescaled, &of_view, error);
+    status = preparation_rescale(prepared, &of_view, error);
     if (status == RECTO_OK &&
         !collect_strokes_of_view(&part, drawing, &views, i))
       status = error_memory(error);

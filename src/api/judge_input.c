@@ -55,8 +55,7 @@ struct judge_camera judge_input_camera(const struct judge_input *input,
                     camera->page_mm);
   made.margin_mm = camera->margin_mm;
   /* A default near plane of an orthographic view clips nothing. */
-  if (camera->perspective || options->camera.has_section ||
-      options->camera.near_distance > 0)
+  if (camera->perspective || options->camera.near_distance > 0)
     made.near_d = camera->near_d;
   return made;
 }

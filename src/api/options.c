@@ -163,6 +163,13 @@ static recto_status check_cut(const recto_options *o, recto_error *error) {
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
                      "%zu planes cut the model, and %d are the most",
                      o->mesh.cut_count, RECTO_CUT_MAX);
+  if (o->camera.has_section && o->mesh.cut_count > 0)
+    return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                     "a section and the planes of a cut exclude each other");
+  if (o->camera.has_section && o->sheet.arrangement != RECTO_ARRANGEMENT_NONE)
+    return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                     "a section is of one view alone: the planes of a cut are "
+                     "of all");
   for (size_t i = 0; i < o->mesh.cut_count; i++) {
     const recto_plane *plane = &o->mesh.cut[i];
     const double *n = plane->normal;

@@ -1,10 +1,12 @@
 /* preparation.c - computes once what several views of a scene share. */
 #include "api/preparation.h"
 
-#include "scene/edge_classes.h"
-
 #include <float.h>
 #include <math.h>
+#include <string.h>
+
+#include "scene/edge_classes.h"
+#include "view/camera_aim.h"
 
 void preparation_planes(const struct preparation *preparation,
                         struct cut_plane plane[RECTO_CUT_MAX]) {
@@ -15,6 +17,28 @@ void preparation_planes(const struct preparation *preparation,
         (struct cut_plane){{from->normal[0], from->normal[1], from->normal[2]},
                            fmin(fmax(offset, -DBL_MAX), DBL_MAX)};
   }
+}
+
+/* Makes the section of a view the only plane of the cut, if anything is before
+ * it. */
+static recto_status add_section(struct preparation *preparation,
+                                const recto_options *options,
+                                recto_error *error) {
+  recto_options scaled = *options;
+  struct camera_section section;
+  recto_status status = rescale_options(&preparation->rescaled, &scaled, error);
+  if (status == RECTO_OK)
+    status = camera_find_section(&section, &preparation->welded.scene, &scaled,
+                                 error);
+  if (status != RECTO_OK)
+    return status;
+  preparation->has_section = true;
+  preparation->planes = section.is_within ? 1 : 0;
+  recto_plane *plane = &preparation->plane[0];
+  memcpy(plane->normal, section.normal, sizeof plane->normal);
+  plane->offset = ldexp(section.offset, preparation->rescaled.exponent);
+  memcpy(preparation->target, section.target, sizeof section.target);
+  return RECTO_OK;
 }
 
 /* Cuts the welded scene, and finds the edges anew. */
@@ -60,10 +84,12 @@ recto_status preparation_init(struct preparation *preparation,
   status = weld_near(&preparation->welded, &preparation->topology,
                      &preparation->rescaled.scene, &request, error);
   preparation->scene = &preparation->welded.scene;
-  if (status == RECTO_OK && preparation->planes > 0 &&
-      scene_face_count(preparation->scene) +
-              scene_wire_count(preparation->scene) >
-          0)
+  bool anything = scene_face_count(preparation->scene) +
+                      scene_wire_count(preparation->scene) >
+                  0;
+  if (status == RECTO_OK && anything && options->camera.has_section)
+    status = add_section(preparation, options, error);
+  if (status == RECTO_OK && anything && preparation->planes > 0)
     status = cut_prepared(preparation, error);
   if (status == RECTO_OK && classes &&
       !topology_store_class_masks(&preparation->topology, preparation->scene,
@@ -79,9 +105,22 @@ void preparation_fini(struct preparation *preparation) {
   rescale_fini(&preparation->rescaled);
 }
 
+recto_status preparation_rescale(const struct preparation *preparation,
+                                 recto_options *options, recto_error *error) {
+  recto_status status = rescale_options(&preparation->rescaled, options, error);
+  if (status == RECTO_OK && preparation->has_section) {
+    options->camera.has_section = false;
+    options->camera.has_target = true;
+    memcpy(options->camera.target, preparation->target,
+           sizeof preparation->target);
+  }
+  return status;
+}
+
 bool preparation_is_valid_for(const struct preparation *preparation,
                               const recto_options *options) {
-  bool valid = preparation->weld == options->mesh.weld &&
+  bool valid = !preparation->has_section && !options->camera.has_section &&
+               preparation->weld == options->mesh.weld &&
                preparation->coordinate_bits == options->mesh.coordinate_bits &&
                preparation->planes == options->mesh.cut_count;
   for (size_t i = 0; valid && i < preparation->planes; i++) {

@@ -17,6 +17,8 @@ struct preparation {
   struct cut cut;            /* empty where no plane cuts */
   const struct scene *scene; /* what is drawn: one of the two */
   struct topology topology;  /* of that scene */
+  bool has_section; /* its only plane is that of a section of one view */
+  double target[3]; /* then: what that view looks at, in rescaled units */
   /* The options that it depends on. */
   recto_plane plane[RECTO_CUT_MAX];
   size_t planes;
@@ -35,6 +37,13 @@ USE_RESULT recto_status preparation_init(struct preparation *preparation,
 void preparation_planes(const struct preparation *preparation,
                         struct cut_plane plane[RECTO_CUT_MAX]);
 void preparation_fini(struct preparation *preparation);
+
+/* Sets lengths and points of a view's options in the units of the prepared
+ * scene; of a section, which is cut, the point that the view looks at is left.
+ * Errors  RECTO_ERROR_ARGUMENT, as of rescale_options */
+USE_RESULT recto_status
+preparation_rescale(const struct preparation *preparation,
+                    recto_options *options, recto_error *error);
 
 /* Whether a preparation serves for these options. */
 bool preparation_is_valid_for(const struct preparation *preparation,

@@ -166,8 +166,7 @@ static recto_status find_topology(struct render *render, recto_error *error) {
   }
   render->scaled = *o;
   if (status == RECTO_OK)
-    status =
-        rescale_options(&render->prepared->rescaled, &render->scaled, error);
+    status = preparation_rescale(render->prepared, &render->scaled, error);
   if (status != RECTO_OK)
     return status;
   report_double(render->report, "scene", "weld",

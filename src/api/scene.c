@@ -54,6 +54,7 @@ recto_status recto_scene_prepare(recto_scene *scene,
     return error_memory(error);
   struct poll poll;
   shares_open_poll(&poll, &own, SHARE_TOPOLOGY, "topology");
+  own.camera.has_section = false; /* each view has its own */
   status = preparation_init(scene->prepared, &scene->scene, &own, true, error);
   poll_close(&poll);
   if (status != RECTO_OK)

@@ -82,9 +82,10 @@ static uint64_t find_requests(const struct arguments *a) {
     bits |= BIT(WARNOCK_PIXELS);
   if (o->ink.contours == RECTO_CONTOURS_SMOOTH)
     bits |= BIT(SMOOTH_CONTOURS);
-  if (o->mesh.cut_count > 0)
+  bool cuts = o->mesh.cut_count > 0 || o->camera.has_section;
+  if (cuts)
     bits |= BIT(CUT);
-  if (o->mesh.cut_count > 0 && o->mesh.cut_fill == RECTO_CUT_FILL_HATCH)
+  if (cuts && o->mesh.cut_fill == RECTO_CUT_FILL_HATCH)
     bits |= BIT(CUT_HATCHED);
   if (o->sheet.arrangement != RECTO_ARRANGEMENT_NONE)
     bits |= BIT(SHEET);
@@ -142,7 +143,7 @@ static const struct {
                             BIT(BY_CHECK)},
     [USED_BY_SEAM] = {"--fill paint and --fill shade",
                       FILL(PAINT) | FILL(SHADE)},
-    [USED_BY_CUT] = {"--cut", BIT(CUT)},
+    [USED_BY_CUT] = {"--cut and --section", BIT(CUT)},
     [USED_BY_HATCH] = {"--fill hatch", FILL(HATCH) | BIT(CUT_HATCHED)},
     [USED_BY_ONE_PITCH] = {"hatching of one pitch",
                            BIT(NO_LIGHT) | BIT(CUT_HATCHED)},

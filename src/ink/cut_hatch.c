@@ -8,7 +8,7 @@
 #include "base/sort.h"
 
 bool cut_hatch_is_drawn(const recto_options *options) {
-  return options->mesh.cut_count > 0 &&
+  return (options->mesh.cut_count > 0 || options->camera.has_section) &&
          options->mesh.cut_fill != RECTO_CUT_FILL_NONE;
 }
 

@@ -284,14 +284,10 @@ static recto_status set_depth_range(struct aim *aim) {
   const recto_options *o = aim->options;
   struct camera *camera = aim->camera;
   measure_depth(aim);
-  camera->near_chosen =
-      !(o->camera.near_distance > 0) && !o->camera.has_section;
+  camera->near_chosen = !(o->camera.near_distance > 0);
   camera->near_d = o->camera.near_distance > 0
                        ? depth_origin(aim, false) + o->camera.near_distance
                        : choose_near(aim);
-  if (o->camera.has_section)
-    camera->near_d =
-        fmax(camera->near_d, depth_origin(aim, true) + o->camera.section);
   if (!(aim->d_high >= camera->near_d))
     return error_set(aim->error, RECTO_ERROR_EMPTY, NULL, 0,
                      "all of the scene is behind the viewer or cut away");
@@ -324,8 +320,7 @@ static double scale_to_fit(const struct aim *aim, const struct extent *e,
 
 static struct extent extent_of_scene(const struct aim *aim) {
   return extent_of_drawing(aim->camera, aim->scene, aim->used,
-                           aim->options->camera.has_section ||
-                               !aim->camera->perspective);
+                           !aim->camera->perspective);
 }
 
 /* Turns the page by a quarter, if that is allowed, where the drawing fits it at
@@ -432,7 +427,8 @@ static bool is_usable(const struct camera *camera) {
 
 /* -------------------------------------------------------------------------- */
 
-static recto_status aim_and_fit(struct aim *aim) {
+/* Sets the axes and the eye. */
+static recto_status look_at_target(struct aim *aim) {
   const recto_options *o = aim->options;
   struct camera *camera = aim->camera;
   recto_status status = measure_scene(aim);
@@ -447,7 +443,12 @@ static recto_status aim_and_fit(struct aim *aim) {
   status = set_axes(aim);
   if (status != RECTO_OK)
     return status;
-  status = set_eye(aim);
+  return set_eye(aim);
+}
+
+static recto_status aim_and_fit(struct aim *aim) {
+  struct camera *camera = aim->camera;
+  recto_status status = look_at_target(aim);
   if (status == RECTO_OK)
     status = set_depth_range(aim);
   if (status != RECTO_OK)
@@ -467,20 +468,48 @@ static recto_status aim_and_fit(struct aim *aim) {
   return RECTO_OK;
 }
 
+/* Checks the options, and sets what is used of the scene; that is to be freed
+ * in any case. */
+static recto_status begin_aim(struct aim *aim) {
+  memset(aim->camera, 0, sizeof *aim->camera);
+  recto_status status = check_page(aim);
+  if (status == RECTO_OK)
+    status = check_view(aim);
+  if (status != RECTO_OK)
+    return status;
+  aim->used = used_points(aim->scene, NULL);
+  return aim->used != NULL ? RECTO_OK : error_memory(aim->error);
+}
+
 recto_status camera_aim(struct camera *camera, const struct scene *scene,
                         const recto_options *options, recto_error *error) {
   struct aim aim = {
       .camera = camera, .scene = scene, .options = options, .error = error};
-  memset(camera, 0, sizeof *camera);
-  recto_status status = check_page(&aim);
+  recto_status status = begin_aim(&aim);
   if (status == RECTO_OK)
-    status = check_view(&aim);
-  if (status != RECTO_OK)
-    return status;
-  aim.used = used_points(scene, NULL);
-  if (aim.used == NULL)
-    return error_memory(error);
-  status = aim_and_fit(&aim);
+    status = aim_and_fit(&aim);
+  mem_free(aim.used);
+  return status;
+}
+
+recto_status camera_find_section(struct camera_section *section,
+                                 const struct scene *scene,
+                                 const recto_options *options,
+                                 recto_error *error) {
+  struct camera camera;
+  struct aim aim = {
+      .camera = &camera, .scene = scene, .options = options, .error = error};
+  recto_status status = begin_aim(&aim);
+  if (status == RECTO_OK)
+    status = look_at_target(&aim);
+  if (status == RECTO_OK) {
+    measure_depth(&aim);
+    double depth = depth_origin(&aim, true) + options->camera.section;
+    section->is_within = depth > aim.d_low;
+    memcpy(section->normal, camera.back, sizeof camera.back);
+    section->offset = vector_dot(camera.back, camera.eye) - depth;
+    memcpy(section->target, aim.target, sizeof aim.target);
+  }
   mem_free(aim.used);
   return status;
 }

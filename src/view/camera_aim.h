@@ -4,8 +4,22 @@
 
 #include "view/camera.h"
 
-/* Aims the camera at the scene by the options' view, fit, near distance and
- * section.
+/* The plane of a section: it is parallel to the page, at the options' depth. */
+struct camera_section {
+  bool is_within;           /* something of the scene is before it */
+  double normal[3], offset; /* beyond it is where normal . p > offset; unit */
+  double target[3]; /* what the camera looks at before the scene is cut */
+};
+
+/* Finds the plane of options->camera.section.
+ * Errors  as of camera_aim */
+USE_RESULT recto_status camera_find_section(struct camera_section *section,
+                                            const struct scene *scene,
+                                            const recto_options *options,
+                                            recto_error *error);
+
+/* Aims the camera at the scene by the options' view, fit and near distance; a
+ * section has been cut before.
  * Errors  RECTO_ERROR_ARGUMENT: the eye equals the target, up is parallel to
  *         the view, margins that leave no room, a page above 2 m, a field of
  *         view out of range;
