@@ -42,7 +42,7 @@ recto_status part_check_solve(const recto_options *o, recto_error *error) {
   const char *what = name_unsupported(o);
   if (what == NULL && !is_method_exact(o))
     what = "approximate methods";
-  if (what == NULL && o->mesh.cut_count > 0)
+  if (what == NULL && (o->mesh.cut_count > 0 || o->camera.has_section))
     what = "cuts";
   if (what == NULL && o->mesh.crease_start_deg > o->mesh.crease_deg)
     what = "second angle of creases";
