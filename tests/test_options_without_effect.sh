@@ -66,8 +66,8 @@ done <<'END_OF_ROWS'
 --lookat 0,0,1|a.svg --fov 20|a.svg|--camera, --fov, --no-fit and --scale; --fit
 --fov 20|a.svg --view top|a.svg -c 5,4,3|named views and for --no-fit; --fit
 --fov 20|a.svg -c 5,4,3 --no-fit|a.svg -c 5,4,3 --scale 1:2|named views and for --no-fit; --scale
---cut-fill solid|a.svg --cut z=1|a.svg|--cut and --section; a run without --cut and --section
---cut-hatch default=30|a.svg --section 1|a.svg|--cut and --section; a run without --cut and --section
+--cut-fill solid|a.svg --cut z=1|a.svg|--cut and --section; a run without --cut
+--cut-hatch default=30|a.svg --section 1|a.svg|--cut and --section; a run without --cut
 --unit m|a.svg --scale 1:2|a.svg|true scale; --fit
 --scale 1:2|a.svg|a.svg --no-fit|true scale; --no-fit
 --crease 20|a.svg|a.svg -e silhouette|edges of the classes crease and smooth, fills and smooth contours; this --edges
