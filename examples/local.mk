@@ -25,3 +25,6 @@ models: examples/generate$(EXEEXT)
 # Compiled by tests/test_examples.sh as a user would.
 EXTRA_DIST += %D%/surface.c %D%/turntable.c %D%/dxf.c %D%/gcode.c \
   %D%/faces.c %D%/hides.c
+
+# Drawings in parts, by engines that others wrote.
+EXTRA_DIST += %D%/parallel.sh %D%/slurm.sbatch %D%/make/Makefile

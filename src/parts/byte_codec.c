@@ -15,8 +15,10 @@ static void code_number(struct byte_codec *codec, uint64_t *value,
       fail_for_memory(codec);
       return;
     }
+    char *to = codec->bytes.item + codec->bytes.count;
     for (size_t i = 0; i < size; i++)
-      codec->bytes.item[codec->bytes.count++] = (char)(*value >> 8 * i & 0xff);
+      to[i] = (char)(*value >> 8 * i & 0xff);
+    codec->bytes.count += size;
     return;
   }
   *value = 0;
@@ -138,16 +140,35 @@ void byte_codec_text(struct byte_codec *codec, char **text) {
 
 #define POLYNOMIAL UINT64_C(0x42f0e1eba9ea3693) /* ECMA-182, x^64 left out */
 
-uint64_t byte_codec_checksum(const void *bytes, size_t count) {
-  uint64_t table[256], sum = 0;
-  const unsigned char *at = bytes;
+/* Table k: what the bits of a byte leave that k more bytes follow, so that eight
+ * bytes are taken at once. */
+enum { TABLES = 8 };
+
+static void fill_tables(uint64_t table[TABLES][256]) {
   for (unsigned i = 0; i < 256; i++) {
     uint64_t rest = (uint64_t)i << 56;
     for (int bit = 0; bit < 8; bit++)
       rest = rest << 1 ^ (rest >> 63 ? POLYNOMIAL : 0);
-    table[i] = rest;
+    table[0][i] = rest;
+  }
+  for (int k = 1; k < TABLES; k++)
+    for (unsigned i = 0; i < 256; i++) {
+      uint64_t before = table[k - 1][i];
+      table[k][i] = before << 8 ^ table[0][before >> 56];
+    }
+}
+
+uint64_t byte_codec_checksum(const void *bytes, size_t count) {
+  uint64_t table[TABLES][256], sum = 0;
+  const unsigned char *at = bytes;
+  fill_tables(table);
+  for (; count >= TABLES; count -= TABLES, at += TABLES) {
+    uint64_t next = 0;
+    for (int k = 0; k < TABLES; k++)
+      next ^= table[TABLES - 1 - k][(sum >> (56 - 8 * k) & 0xff) ^ at[k]];
+    sum = next;
   }
   for (size_t i = 0; i < count; i++)
-    sum = sum << 8 ^ table[(sum >> 56 ^ at[i]) & 0xff];
+    sum = sum << 8 ^ table[0][(sum >> 56 ^ at[i]) & 0xff];
   return sum;
 }

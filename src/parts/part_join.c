@@ -14,6 +14,13 @@
 #include "view/layout.h"
 #include "visibility/map_assembly.h"
 
+/* Finds numbers among ascending ones: by a table where they are dense, else by
+ * binary search. */
+struct number_index {
+  uint32_t *at; /* of each number: its place + 1; 0: none; NULL: no table */
+  size_t past;  /* of the table */
+};
+
 struct join_work {
   struct part_join *join;
   const struct part *all;
@@ -22,6 +29,7 @@ struct join_work {
   ARRAY(uint32_t) fold;     /* the sheet's folds, by face */
   ARRAY(uint32_t) wire;     /* the edges of polylines, by polyline */
   struct part_visibility *visibility; /* of each sheet edge */
+  struct number_index points, faces;
   recto_error *error;
 };
 
@@ -40,24 +48,68 @@ static bool find_number(const struct part_element *item, size_t count,
   return i < count && item[i].number == number;
 }
 
+/* Numbers are dense if a table takes no more than so many bytes for each. */
+enum { BYTES_A_NUMBER = 64 };
+
+/* Makes a table where that is worth while; false when memory ran out. */
+static bool open_index(struct number_index *index, size_t count,
+                       uint32_t greatest) {
+  *index = (struct number_index){NULL, 0};
+  if (count == 0 || greatest / (BYTES_A_NUMBER / sizeof(uint32_t)) >= count)
+    return true;
+  index->past = (size_t)greatest + 1;
+  index->at = mem_calloc(index->past, sizeof *index->at);
+  return index->at != NULL;
+}
+
+static bool index_numbers(struct join_work *work) {
+  const struct part *all = work->all;
+  size_t points = all->point.count, faces = all->face.count;
+  if (!open_index(&work->points, points,
+                  points > 0 ? all->point.item[points - 1].number : 0) ||
+      !open_index(&work->faces, faces,
+                  faces > 0 ? all->face.item[faces - 1].number : 0))
+    return false;
+  for (uint32_t p = 0; work->points.at != NULL && p < points; p++)
+    work->points.at[all->point.item[p].number] = p + 1;
+  for (uint32_t f = 0; work->faces.at != NULL && f < faces; f++)
+    work->faces.at[all->face.item[f].number] = f + 1;
+  return true;
+}
+
+static bool look_up_number(const struct number_index *index, uint32_t number,
+                           uint32_t *at) {
+  *at = number < index->past ? index->at[number] - 1 : UINT32_MAX;
+  return *at != UINT32_MAX;
+}
+
 static bool find_face(const struct join_work *work, uint32_t number,
                       uint32_t *face) {
-  return find_number(work->all->face.item, work->all->face.count, number, face);
+  return work->faces.at != NULL
+             ? look_up_number(&work->faces, number, face)
+             : find_number(work->all->face.item, work->all->face.count, number,
+                           face);
+}
+
+static bool find_point(const struct join_work *work, uint32_t number,
+                       uint32_t *point) {
+  const struct part *all = work->all;
+  size_t at = 0;
+  if (work->points.at != NULL)
+    return look_up_number(&work->points, number, point);
+  LOWER_BOUND(at, 0, all->point.count, all->point.item[at].number < number);
+  *point = (uint32_t)at;
+  return at < all->point.count && all->point.item[at].number == number;
 }
 
 /* Replaces the points' numbers by those in the scene. */
 static bool local_corners(const struct join_work *work,
                           const struct part_element *element,
                           uint32_t *corner) {
-  const struct part *all = work->all;
-  for (uint32_t i = 0; i < element->count; i++) {
-    uint32_t number = all->corner.item[element->corner + i];
-    size_t at = 0;
-    LOWER_BOUND(at, 0, all->point.count, all->point.item[at].number < number);
-    if (at == all->point.count || all->point.item[at].number != number)
+  for (uint32_t i = 0; i < element->count; i++)
+    if (!find_point(work, work->all->corner.item[element->corner + i],
+                    &corner[i]))
       return false;
-    corner[i] = (uint32_t)at;
-  }
   return true;
 }
 
@@ -138,6 +190,8 @@ static recto_status add_joined_elements(struct join_work *work) {
 
 static recto_status make_joined_scene(struct join_work *work) {
   scene_init(&work->join->scene);
+  if (!index_numbers(work))
+    return error_memory(work->error);
   recto_status status = add_joined_groups(work);
   if (status == RECTO_OK && !add_joined_points(work))
     status = error_memory(work->error);
@@ -429,6 +483,8 @@ recto_status part_join_make(struct part_join *join,
                             const recto_options *options, recto_error *error) {
   struct join_work work = {.join = join, .all = &join->all, .error = error};
   recto_status status = make_join(&work, options);
+  mem_free(work.points.at);
+  mem_free(work.faces.at);
   mem_free(work.sheet_edge);
   mem_free(work.first_triangle);
   mem_free(work.visibility);

@@ -90,17 +90,41 @@ static void grow_kept_box(struct part_scene_work *work) {
 
 /* ---- Faces that are kept ------------------------------------------------- */
 
-static void keep_faces(struct part_scene_work *work) {
+/* On which sides of the box a place lies, a bit each: a Cohen-Sutherland
+ * outcode. */
+static uint8_t outcode_of(const struct part_window *box,
+                          const struct page_place *place) {
+  unsigned code = 0;
+  for (int k = 0; k < 2; k++)
+    code |= (unsigned)(place->at[k] < box->low[k]) << 2 * k |
+            (unsigned)(place->at[k] > box->high[k]) << (2 * k + 1);
+  return (uint8_t)code;
+}
+
+/* The bounding box of a face meets the box unless all corners lie beyond one of
+ * its sides. */
+static bool keep_faces(struct part_scene_work *work) {
   const struct scene *whole = work->whole;
-  for (uint32_t f = 0; f < scene_face_count(whole) && poll_at(f); f++) {
-    struct element_box box = box_of_face(work, f);
-    if (!part_window_meets(&work->box, box.low, box.high))
+  const uint32_t *corner = whole->corner.item;
+  size_t points = whole->point.count;
+  uint8_t *outcode = mem_alloc(points, sizeof *outcode);
+  for (size_t p = 0; outcode != NULL && p < points; p++)
+    outcode[p] = outcode_of(&work->box, &work->place[p]);
+  for (uint32_t f = 0;
+       outcode != NULL && f < scene_face_count(whole) && poll_at(f); f++) {
+    uint32_t start = whole->face_start.item[f];
+    uint32_t end = whole->face_start.item[f + 1];
+    unsigned all = 0xf;
+    for (uint32_t c = start; c < end; c++)
+      all &= outcode[corner[c]];
+    if (all != 0)
       continue;
     work->face_state[f] = KEPT;
-    for (uint32_t c = whole->face_start.item[f];
-         c < whole->face_start.item[f + 1]; c++)
-      work->corner_kept[whole->corner.item[c]] = 1;
+    for (uint32_t c = start; c < end; c++)
+      work->corner_kept[corner[c]] = 1;
   }
+  mem_free(outcode);
+  return outcode != NULL;
 }
 
 /* A polyline is kept as a whole where one of its segments meets the box. */
@@ -314,7 +338,8 @@ static bool make_all(struct part_scene_work *work) {
       work->corner_kept == NULL || work->used == NULL || work->local == NULL)
     return false;
   grow_kept_box(work);
-  keep_faces(work);
+  if (!keep_faces(work))
+    return false;
   keep_wires(work);
   return add_ring(work) && copy_kept_points(work) && copy_kept_faces(work) &&
          copy_kept_wires(work) && !poll_is_cancelled();

@@ -1,0 +1,144 @@
+#!/bin/bash
+# test_parts.sh - drawings in parts on the command line, and the engines that
+# distribute them: GNU parallel and make; test_slurm.sh has Slurm.
+. "$(dirname "$0")/tap.sh"
+cd "$scratch" || exit 1
+models=$srcdir/examples/models
+"$recto" "$models/gears.obj" --hidden dashed -o whole.svg || exit 1
+
+make_parts() { # NAME OPTION...
+  local name=$1 i
+  shift
+  for i in 1 2 3; do
+    "$recto" "$models/gears.obj" --part $i/3 -o "$name-$i.recto" "$@" || return 1
+  done
+}
+
+# ---- Parts and joins --------------------------------------------------------
+
+joins() {
+  make_parts p --hidden dashed &&
+    "$recto" --join p-3.recto p-1.recto p-2.recto --hidden dashed -o p.svg &&
+    cmp whole.svg p.svg
+}
+claim "parts in any order make the drawing" joins
+
+takes_ink() {
+  local ink='--pen 0.5 --pen-for hidden=2 --dash hidden=4:2 --order near'
+  # shellcheck disable=SC2086 # words of options
+  "$recto" "$models/gears.obj" --hidden layer $ink -o ink.hpgl -q --margin 20 &&
+    make_parts ink --hidden layer --format hpgl --margin 20 &&
+    "$recto" --join ink-?.recto --hidden layer $ink -o joined.hpgl &&
+    cmp ink.hpgl joined.hpgl
+}
+claim "other pens and another format are those of the join" takes_ink
+
+says() { # MESSAGE ARGUMENT...
+  local message=$1
+  shift
+  rm -f no.svg
+  "$recto" "$@" -o no.svg 2>err && return 1
+  grep -qF -- "$message" err && ! test -e no.svg && return 0
+  say "not so: $(cat err)" && false
+}
+claim "a missing part is named" says "part 2 of the 3 parts is missing" \
+  --join p-1.recto p-3.recto
+claim "two missing parts are counted" \
+  says "2 of the 3 parts are missing, the first is part 1" --join p-2.recto
+claim "a double part is named" says "p-1.recto: part 1 of 3 is there twice" \
+  --join p-1.recto p-2.recto p-3.recto ./p-1.recto
+head -c 1000 p-2.recto >short.recto
+claim "a part that is cut short is named" says "short.recto: the part is cut short" \
+  --join p-1.recto short.recto p-3.recto
+{ head -c 2000 p-2.recto && printf '\377' && tail -c +2002 p-2.recto; } >flip.recto
+claim "a damaged part is named" says "flip.recto: the part is damaged" \
+  --join p-1.recto flip.recto p-3.recto
+make_parts far --hidden dashed --azimuth 46
+claim "a foreign part is named" \
+  says "far-2.recto: the part belongs to another drawing than p-1.recto" \
+  --join p-1.recto far-2.recto p-3.recto
+claim "a model is no part" says "this is no part of a drawing" \
+  --join p-1.recto "$models/gears.obj"
+claim "a part is no output of a join" says "leave out --turntable" \
+  "$models/gears.obj" --part 1/2 --turntable 3
+claim "there is no part 3 of 2" says "--part: expected a part such as 2/16" \
+  "$models/gears.obj" --part 3/2
+
+warns_of_view() {
+  "$recto" --join p-?.recto --hidden dashed --azimuth 9 -o p.svg 2>err &&
+    cmp whole.svg p.svg &&
+    grep -qxF "recto: --azimuth is for parts; --join does not use it" err
+}
+claim "the view is that of the parts" warns_of_view
+
+# ---- Parts that are there ---------------------------------------------------
+
+keeps_whole_parts() {
+  local before
+  before=$(stat -c '%i' p-1.recto p-2.recto p-3.recto)
+  make_parts p --hidden dashed --resume &&
+    test "$(stat -c '%i' p-1.recto p-2.recto p-3.recto)" = "$before"
+}
+claim "--resume keeps parts that are whole" keeps_whole_parts
+
+makes_others_again() {
+  cp short.recto p-2.recto && make_parts p --hidden dashed --resume &&
+    "$recto" --join p-?.recto --hidden dashed -o p.svg && cmp whole.svg p.svg &&
+    make_parts p --hidden layer --resume &&
+    "$recto" --join p-?.recto --hidden layer -o p.svg &&
+    "$recto" "$models/gears.obj" --hidden layer -o layer.svg &&
+    cmp layer.svg p.svg
+}
+claim "and makes damaged ones, and those of other options, again" \
+  makes_others_again
+
+# ---- Frames -----------------------------------------------------------------
+
+makes_frames() {
+  "$recto" "$models/star.obj" --turntable 6 -o 'all%d.svg' &&
+    "$recto" "$models/star.obj" --turntable 6 --frames 0-1 -o 'some%d.svg' &&
+    "$recto" "$models/star.obj" --turntable 6 --frames 4 -o 'some%d.svg' &&
+    test "$(echo some*)" = "some0.svg some1.svg some4.svg" &&
+    for i in 0 1 4; do cmp all$i.svg some$i.svg || return 1; done
+}
+claim "--frames draws some of a turntable's drawings, as they are" makes_frames
+claim "--frames ends with the turntable" says "--frames goes beyond" \
+  "$models/star.obj" --turntable 3 --frames 1-3
+
+# ---- Engines ----------------------------------------------------------------
+
+# Part 2 is killed once; GNU parallel runs it again.
+cat >killed-once <<SCRIPT
+#!/bin/bash
+if test "\$3" = 2/4 && ! test -e "$PWD/was-killed"; then
+  : >"$PWD/was-killed"
+  kill -KILL \$\$
+fi
+exec "$recto" "\$@"
+SCRIPT
+chmod +x killed-once
+
+draws_by_parallel() {
+  RECTO=$PWD/killed-once JOBS=4 HOME=$PWD bash "$srcdir/examples/parallel.sh" \
+    "$models/gears.obj" 4 parallel.svg --hidden dashed 2>err &&
+    test -e was-killed && cmp whole.svg parallel.svg &&
+    test "$(grep -c -- '--part' parallel.svg.parts/jobs.log)" -eq 4 && return 0
+  say "$(cat err)" && false
+}
+text="GNU parallel draws 4 parts at once, one of which is killed and retried"
+if parallel --version 2>/dev/null | grep -q '^GNU parallel'; then
+  claim "$text" draws_by_parallel
+else
+  skip "$text" "GNU parallel is not installed"
+fi
+
+draws_by_make() {
+  unset MAKEFLAGS MFLAGS MAKELEVEL
+  make -s -j4 -f "$srcdir/examples/make/Makefile" RECTO="$recto" N=5 \
+    MODEL="$models/gears.obj" OUTPUT=made.svg OPTIONS='--hidden dashed' &&
+    cmp whole.svg made.svg &&
+    make -q -f "$srcdir/examples/make/Makefile" RECTO="$recto" N=5 \
+      MODEL="$models/gears.obj" OUTPUT=made.svg
+}
+claim "make draws 5 parts, and has nothing to do then" draws_by_make
+finish
