@@ -140,8 +140,8 @@ void byte_codec_text(struct byte_codec *codec, char **text) {
 
 #define POLYNOMIAL UINT64_C(0x42f0e1eba9ea3693) /* ECMA-182, x^64 left out */
 
-/* Table k: what the bits of a byte leave that k more bytes follow, so that eight
- * bytes are taken at once. */
+/* Table k: what the bits of a byte leave that k more bytes follow, so that
+ * eight bytes are taken at once. */
 enum { TABLES = 8 };
 
 static void fill_tables(uint64_t table[TABLES][256]) {

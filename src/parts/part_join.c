@@ -91,8 +91,8 @@ static bool find_face(const struct join_work *work, uint32_t number,
                            face);
 }
 
-static bool find_point(const struct join_work *work, uint32_t number,
-                       uint32_t *point) {
+static bool find_joined_point(const struct join_work *work, uint32_t number,
+                              uint32_t *point) {
   const struct part *all = work->all;
   size_t at = 0;
   if (work->points.at != NULL)
@@ -107,8 +107,8 @@ static bool local_corners(const struct join_work *work,
                           const struct part_element *element,
                           uint32_t *corner) {
   for (uint32_t i = 0; i < element->count; i++)
-    if (!find_point(work, work->all->corner.item[element->corner + i],
-                    &corner[i]))
+    if (!find_joined_point(work, work->all->corner.item[element->corner + i],
+                           &corner[i]))
       return false;
   return true;
 }
