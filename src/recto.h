@@ -537,6 +537,17 @@ typedef struct recto_sheet_view {
   uint64_t reserved[2];
 } recto_sheet_view;
 
+/* The most details of a sheet. */
+#define RECTO_DETAIL_MAX 8
+
+/* A circle of a sheet that is drawn again, larger, where there is room beside
+ * the views. */
+typedef struct recto_detail {
+  double x_mm, y_mm, radius_mm; /* of the page */
+  double scale;                 /* above 0: how many times as large */
+  uint64_t reserved[2];
+} recto_detail;
+
 /* Several views of a scene on one page: a sheet.  All are parallel projections
  * at one scale, by `camera.fit`: the largest that fits, a preferred or a given
  * one.  Front, back, left, right, top and bottom are aligned; other views stand
@@ -548,7 +559,9 @@ typedef struct recto_sheet_options {
   const recto_sheet_view *view; /* view_count of them, each once; 0: front, top
                                    and left, in third-angle projection right */
   size_t view_count;
-  uint64_t reserved[8];
+  const recto_detail *detail; /* detail_count of them */
+  size_t detail_count;
+  uint64_t reserved[6];
 } recto_sheet_options;
 
 typedef struct recto_options {

@@ -67,6 +67,7 @@ fov 0 -1 180 x
 scale 0 1: :1 1:0 -1:2 1:2:3 x Auto
 sheet second none 1 First
 views x front, ,front front,,top front:2:x iso:0 iso: iso:-1 front;top
+detail 1 1,2,3 1,2,3,4,5 1,2,0,2 1,2,3,0 1,2,-3,2 1,2,3,x x,2,3,4 1,,3,4 nan,2,3,4
 hidden-in x iso= =none iso=x camera=none iso=dashed,2
 near 0 -1 x
 section x
@@ -117,7 +118,7 @@ offered_or_refused() {
 }
 for option in output format from method pitch resolution depth-bits subpixels \
   remove-backs contact view azimuth \
-  elevation camera lookat up fov ortho fit no-fit scale sheet views view-names hidden-in near cut cut-fill cut-hatch section page \
+  elevation camera lookat up fov ortho fit no-fit scale sheet views view-names hidden-in detail near cut cut-fill cut-hatch section page \
   landscape margin edges crease contours hidden dash fill hatch-pitch hatch-angle hatch-inset light ambient fill-light pen \
   pens pen-for pen-width pen-colour pen-color unit portrait weights path order simplify curves min-stroke exact precision ids id-prefix title desc background stats verify check threads progress quiet \
   completion version help; do

@@ -123,6 +123,23 @@ is_as_judged() {
 }
 claim "text is no false ink" is_as_judged
 
+has_detail() { # MODEL OPTION...
+  run 0 "$@" --verify -o sheet.svg && says 'verified: ' &&
+    grep -q '<g id="detail-A-layer1"' sheet.svg && is_right "$@"
+}
+claim "a sheet has a detail, and is right" has_detail "$models/castle.obj" \
+  --sheet first --scale auto --page A4 --detail 97,146.5,6,4
+claim "so has a single view" has_detail "$models/gears.obj" --view dimetric \
+  --scale 9:10 --portrait --detail 105,148,8,3
+claim "a detail that is not on the page is refused" \
+  refuses 'A, of 5 mm about 3,30, is not on the page' cube.obj -o no.svg \
+  --sheet first --detail 3,30,5,2
+claim "one that has no room is refused" \
+  refuses 'A, of 90 mm, has no room' cube.obj -o no.svg \
+  --sheet first --detail 50,200,30,3
+claim "one that shows nothing is refused" refuses 'shows nothing of any view' \
+  cube.obj -o no.svg --sheet first --detail 190,30,5,2
+
 refuses_sheet() {
   local pattern=$1
   shift
@@ -154,7 +171,7 @@ claim "perspective is refused" refuses_sheet 'parallel projections' \
   --sheet first --fov 20
 claim "--no-fit is refused" refuses_sheet 'leave out --no-fit' \
   --sheet first --no-fit
-claim "a turntable is refused" refuses_sheet 'drawings of one view' \
+claim "a turntable is refused" refuses_sheet 'without --sheet, --views and --detail' \
   --sheet first --turntable 4
 claim "margins without room are refused" refuses_sheet 'margins leave no room' \
   --sheet first --margin 200

@@ -507,6 +507,129 @@ static void stats_have_a_part_for_each_view(void **state) {
   recto_drawing_destroy(drawing);
 }
 
+/* ---- Details ------------------------------------------------------------- */
+
+static double distance_to_segment(const double p[2], const double *a) {
+  double ux = a[2] - a[0], uy = a[3] - a[1];
+  double t = ((p[0] - a[0]) * ux + (p[1] - a[1]) * uy) / (ux * ux + uy * uy);
+  t = fmin(fmax(t, 0), 1);
+  return hypot(a[0] + t * ux - p[0], a[1] + t * uy - p[1]);
+}
+
+/* How far a point is from the lines of a view. */
+static double distance_to_view(const recto_drawing *drawing, const char *view,
+                               const double p[2]) {
+  recto_stroke stroke;
+  double least = INFINITY;
+  for (size_t i = 0; recto_drawing_stroke(drawing, i, &stroke); i++)
+    for (size_t k = 0; is_of_view(drawing, &stroke, view) && k < stroke.count;
+         k++) {
+      const double *a = stroke.points + 2 * k, *b = a + 2;
+      if (k + 1 == stroke.count)
+        b = stroke.closed ? stroke.points : a;
+      const double side[4] = {a[0], a[1], b[0], b[1]};
+      if (a != b)
+        least = fmin(least, distance_to_segment(p, side));
+    }
+  return least;
+}
+
+/* Strokes of text: the mark, and the larger circle. */
+static struct box box_of_circle(const recto_drawing *drawing, int number) {
+  recto_stroke stroke;
+  for (size_t i = 0; recto_drawing_stroke(drawing, i, &stroke); i++)
+    if (stroke.is_text && stroke.closed && number-- == 0) {
+      struct box box = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+      for (size_t k = 0; k < 2 * stroke.count; k++) {
+        box.low[k % 2] = fmin(box.low[k % 2], stroke.points[k]);
+        box.high[k % 2] = fmax(box.high[k % 2], stroke.points[k]);
+      }
+      return box;
+    }
+  fail();
+  return (struct box){{0, 0}, {0, 0}};
+}
+
+static void a_detail_is_the_circle_enlarged(void **state) {
+  (void)state;
+  recto_options options;
+  init_sheet(&options, RECTO_ARRANGEMENT_FIRST, NULL, 0);
+  options.camera.fit = RECTO_FIT_SCALE;
+  options.camera.scale = 8;
+  recto_drawing *plain = draw(&options);
+  struct box top = box_of(plain, "top");
+  recto_drawing_destroy(plain);
+  const recto_detail detail = {.x_mm = top.low[0],
+                               .y_mm = middle_of(top, 1),
+                               .radius_mm = 11,
+                               .scale = 3};
+  options.sheet.detail = &detail;
+  options.sheet.detail_count = 1;
+  recto_drawing *drawing = draw(&options);
+  struct box same = box_of(drawing, "top");
+  assert_true(is_close(same.low[0], top.low[0]));
+  struct box mark = box_of_circle(drawing, 0),
+             large = box_of_circle(drawing, 1);
+  assert_true(fabs(middle_of(mark, 0) - detail.x_mm) < 0.01);
+  assert_true(fabs(middle_of(mark, 1) - detail.y_mm) < 0.01);
+  assert_true(fabs(mark.high[0] - mark.low[0] - 22) < 0.02);
+  assert_true(fabs(large.high[0] - large.low[0] - 66) < 0.02);
+  double centre[2] = {large.high[0] - 33, middle_of(large, 1)};
+  recto_stroke stroke;
+  size_t found = 0;
+  double pen_mm = 0.3;
+  for (size_t i = 0; recto_drawing_stroke(drawing, i, &stroke); i++)
+    for (size_t k = 0;
+         is_of_view(drawing, &stroke, "detail-A") && k < stroke.count; k++) {
+      const double *p = stroke.points + 2 * k;
+      assert_true(hypot(p[0] - centre[0], p[1] - centre[1]) +
+                      stroke.width_mm / 2 <
+                  33 + pen_mm / 2 + 0.01);
+      const double shown[2] = {detail.x_mm + (p[0] - centre[0]) / 3,
+                               detail.y_mm + (p[1] - centre[1]) / 3};
+      assert_true(distance_to_view(drawing, "top", shown) < 0.005);
+      found++;
+    }
+  assert_in_range(found, 2, 100);
+  recto_drawing_destroy(drawing);
+}
+
+static void assert_refused(const recto_options *options, const char *words);
+
+static void assert_detail_refused(recto_detail detail, const char *words) {
+  recto_options options;
+  init_sheet(&options, RECTO_ARRANGEMENT_FIRST, NULL, 0);
+  options.sheet.detail = &detail;
+  options.sheet.detail_count = 1;
+  assert_refused(&options, words);
+}
+
+static void details_that_make_no_sense_are_refused(void **state) {
+  (void)state;
+  assert_detail_refused((recto_detail){50, 200, 10, 0, {0, 0}}, "out of range");
+  assert_detail_refused((recto_detail){50, 200, 10, -1, {0, 0}},
+                        "out of range");
+  assert_detail_refused((recto_detail){50, 200, 0, 2, {0, 0}}, "out of range");
+  assert_detail_refused((recto_detail){NAN, 200, 1, 2, {0, 0}}, "out of range");
+  assert_detail_refused((recto_detail){3, 200, 10, 2, {0, 0}},
+                        "A, of 10 mm about 3,200, is not on the page");
+  assert_detail_refused((recto_detail){50, 290, 10, 2, {0, 0}},
+                        "is not on the page");
+  assert_detail_refused((recto_detail){190, 20, 5, 2, {0, 0}},
+                        "shows nothing of any view");
+  assert_detail_refused((recto_detail){50, 200, 10, 50, {0, 0}},
+                        "A, of 500 mm, has no room");
+  const recto_detail nine[9] = {{50, 200, 1, 2, {0, 0}}};
+  recto_options options;
+  init_sheet(&options, RECTO_ARRANGEMENT_FIRST, NULL, 0);
+  options.sheet.detail = nine;
+  options.sheet.detail_count = 9;
+  assert_refused(&options, "9 details");
+  options.sheet.detail_count = 1;
+  options.sheet.arrangement = RECTO_ARRANGEMENT_NONE;
+  assert_refused(&options, "arranged");
+}
+
 /* ---- Text ---------------------------------------------------------------- */
 
 static struct box box_of_text(const recto_drawing *drawing, size_t from,
@@ -672,6 +795,10 @@ static void where_memory_runs_out_there_is_no_drawing(void **state) {
   options.ink.ids = true;
   options.sheet.names = true;
   options.output.title = "LL";
+  const recto_detail detail = {60, 200, 8, 2, {0, 0}};
+  options.sheet.detail = &detail;
+  options.sheet.detail_count = 1;
+  options.camera.fit = RECTO_FIT_PREFERRED;
   options.verify = 100;
   options.solver.threads = 1;
   unsigned long failed = 0;
@@ -712,6 +839,8 @@ int main(void) {
       cmocka_unit_test(stats_have_a_part_for_each_view),
       cmocka_unit_test(views_that_make_no_sense_are_refused),
       cmocka_unit_test(what_contradicts_a_sheet_is_refused),
+      cmocka_unit_test(a_detail_is_the_circle_enlarged),
+      cmocka_unit_test(details_that_make_no_sense_are_refused),
       cmocka_unit_test(text_is_below_what_it_names),
       cmocka_unit_test(only_sheets_have_text),
       cmocka_unit_test(titles_that_cannot_be_drawn_are_refused),

@@ -167,7 +167,7 @@ draws_the_same() {
 claim "the drawing is the same, a line an option" draws_the_same
 
 # Those that always do something, or that refuse what they do not go with.
-always='--output --format --from --method --view --sheet --views --view-names --turntable --azimuth --elevation --camera
+always='--output --format --from --method --view --sheet --views --view-names --detail --turntable --azimuth --elevation --camera
 --up --ortho --fit --no-fit --near --cut --section --page --landscape --portrait --margin --edges
 --weld --fill --stats --verify --check --tolerance --threads --progress --quiet --completion --version --help
 --part --join'

@@ -42,6 +42,8 @@ class Options(TypedDict, total=False):
     views: Union[str, Sequence[Union[str, tuple[str, float]]]]
     # "front,top,iso:2", or ["front", "top", ("iso", 2)]
     view_names: bool  # drawn on the sheet
+    detail: Union[Vector, Sequence[Vector]]
+    # (x, y, radius, scale), or several: circles of the page drawn larger
     hidden_in: Mapping[str, str]  # {"iso": "none"}: of single views
     near: float
     section: float
@@ -314,6 +316,21 @@ class _Setter:
         sheet.view = self.array("recto_sheet_view", items)
         sheet.view_count = len(items)
 
+    def detail(self, value: Any) -> None:
+        one = isinstance(value[0], (int, float))
+        items = []
+        for numbers in [value] if one else value:
+            if len(numbers) != 4:
+                raise ValueError(f"not {numbers!r}, but (x, y, radius, scale)")
+            items.append([*map(float, numbers), [0, 0]])
+        sheet = self.options.sheet
+        if sheet.arrangement == lib.RECTO_ARRANGEMENT_NONE:
+            sheet.arrangement = lib.RECTO_ARRANGEMENT_FIRST
+            sheet.view = self.array("recto_sheet_view", [{}])
+            sheet.view_count = 1
+        sheet.detail = self.array("recto_detail", items)
+        sheet.detail_count = len(items)
+
     def hidden_in(self, value: Mapping[str, str]) -> None:
         sheet = self.options.sheet
         if sheet.view_count == 0:
@@ -582,7 +599,7 @@ class Filled:
         # A view sets both angles, which may be given too; a page is turned
         # once its size is known, and views have hidden lines once they are.
         first = ("view", "page", "scale", "sheet", "views")
-        last = ("landscape", "portrait", "hidden_in")
+        last = ("landscape", "portrait", "hidden_in", "detail")
         names = [n for n in first if n in given]
         names += [n for n in given if n not in first + last]
         names += [n for n in last if n in given]

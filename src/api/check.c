@@ -139,12 +139,28 @@ static double distance_to_view(const struct multiview_view *view,
   return dx * dx + dy * dy;
 }
 
-/* The view that a stroke is of: the nearest one. */
+/* Whether all of a stroke is in the larger circle of a detail. */
+static bool is_in_detail(const struct multiview_detail *detail,
+                         const struct judge_drawing *drawing,
+                         const struct judge_stroke *stroke) {
+  for (uint32_t i = 0; i < stroke->count; i++) {
+    struct judge_point2 p = drawing->point.item[stroke->point + i];
+    if (hypot(p.x - detail->centre_mm[0], p.y - detail->centre_mm[1]) >
+        detail->radius_mm + RECTO_FINEST_MM)
+      return false;
+  }
+  return true;
+}
+
+/* The view that a stroke is of: the nearest one.  Details are not judged. */
 static size_t view_of_stroke(const struct multiview *views,
                              const struct judge_drawing *drawing,
                              const struct judge_stroke *stroke) {
   size_t nearest = 0;
   struct judge_point2 at = drawing->point.item[stroke->point];
+  for (size_t i = 0; i < views->details; i++)
+    if (is_in_detail(&views->detail[i], drawing, stroke))
+      return views->count;
   for (size_t i = 1; i < views->count; i++)
     if (distance_to_view(&views->view[i], at) <
         distance_to_view(&views->view[nearest], at))

@@ -98,6 +98,27 @@ static bool has_title(const recto_options *options) {
   return options->output.title != NULL && *options->output.title != '\0';
 }
 
+static recto_status check_details(const recto_sheet_options *sheet,
+                                  recto_error *error) {
+  if (sheet->detail_count > RECTO_DETAIL_MAX)
+    return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                     "%zu details are on the sheet, and %d are the most",
+                     sheet->detail_count, RECTO_DETAIL_MAX);
+  for (size_t i = 0; i < sheet->detail_count; i++) {
+    const recto_detail *detail = &sheet->detail[i];
+    if (detail->reserved[0] != 0 || detail->reserved[1] != 0)
+      return sized_reject(error);
+    if (!(fabs(detail->x_mm) <= DBL_MAX && fabs(detail->y_mm) <= DBL_MAX &&
+          detail->radius_mm >= RECTO_FINEST_MM &&
+          detail->radius_mm <= DBL_MAX && detail->scale > 0 &&
+          detail->scale <= DBL_MAX))
+      return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                       "the detail %c has a field that is out of range",
+                       (char)('A' + (int)i));
+  }
+  return RECTO_OK;
+}
+
 static recto_status check_sheet_views(const recto_sheet_options *sheet,
                                       recto_error *error) {
   recto_status status = RECTO_OK;
@@ -123,11 +144,12 @@ recto_status multiview_check(const recto_options *options, recto_error *error) {
   if ((unsigned)sheet->arrangement > RECTO_ARRANGEMENT_THIRD)
     return refuse_sheet(error, "the arrangement of views is out of range");
   if (!multiview_is_requested(options))
-    return sheet->view_count == 0
+    return sheet->view_count == 0 && sheet->detail_count == 0
                ? RECTO_OK
                : refuse_sheet(error, "the views of a sheet are to be arranged "
                                      "in first- or third-angle projection");
-  if (sheet->view_count > 0 && sheet->view == NULL)
+  if ((sheet->view_count > 0 && sheet->view == NULL) ||
+      (sheet->detail_count > 0 && sheet->detail == NULL))
     return error_null(error, "a list of the options");
   if (camera->kind == RECTO_CAMERA_EYE || camera->fov_deg > 0)
     return refuse_sheet(error, "the views of a sheet are parallel projections, "
@@ -140,6 +162,8 @@ recto_status multiview_check(const recto_options *options, recto_error *error) {
     return refuse_sheet(error, "edges and faces are results of one view, not "
                                "of a sheet");
   recto_status status = check_sheet_views(sheet, error);
+  if (status == RECTO_OK)
+    status = check_details(sheet, error);
   return status == RECTO_OK && has_title(options)
              ? text_check(options->output.title, "the title", error)
              : status;
@@ -374,6 +398,151 @@ static void place_views(struct multiview *views, struct grid *grid,
   }
 }
 
+/* ---- Details ------------------------------------------------------------- */
+
+/* A rectangle of the page. */
+struct page_box {
+  double low[2], high[2];
+};
+
+static bool boxes_overlap(const struct page_box *a, const struct page_box *b) {
+  return a->low[0] < b->high[0] && b->low[0] < a->high[0] &&
+         a->low[1] < b->high[1] && b->low[1] < a->high[1];
+}
+
+/* A circle with the letters below it. */
+static struct page_box box_of_detail(const struct multiview *views, double x,
+                                     double y, double radius) {
+  return (struct page_box){
+      {x - radius, y - radius - NAME_BAND * views->letter_mm},
+      {x + radius, y + radius}};
+}
+
+/* A view with its name. */
+static struct page_box box_of_view(const struct multiview *views, size_t i) {
+  const struct multiview_view *view = &views->view[i];
+  double name = NAME_BAND * views->name_mm;
+  return (struct page_box){{view->low_mm[0], view->low_mm[1] - name},
+                           {view->high_mm[0], view->high_mm[1]}};
+}
+
+/* Whether a detail at this place lies on the page, beside all views, all marks
+ * and the details before it. */
+static bool has_room(const struct multiview *views, size_t detail, double x,
+                     double y) {
+  const struct page_box own =
+      box_of_detail(views, x, y, views->detail[detail].radius_mm);
+  double foot = views->margin_mm + TITLE_BAND * views->title_mm;
+  if (own.low[0] < views->margin_mm || own.low[1] < foot ||
+      own.high[0] > views->page_mm[0] - views->margin_mm ||
+      own.high[1] > views->page_mm[1] - views->margin_mm)
+    return false;
+  double clear = views->letter_mm;
+  const struct page_box wide = {{own.low[0] - clear, own.low[1] - clear},
+                                {own.high[0] + clear, own.high[1] + clear}};
+  for (size_t i = 0; i < views->count; i++) {
+    const struct page_box other = box_of_view(views, i);
+    if (boxes_overlap(&wide, &other))
+      return false;
+  }
+  for (size_t i = 0; i < views->details; i++) {
+    const struct multiview_detail *other = &views->detail[i];
+    const struct page_box mark = box_of_detail(
+        views, other->asked->x_mm, other->asked->y_mm, other->asked->radius_mm);
+    const struct page_box large = box_of_detail(
+        views, other->centre_mm[0], other->centre_mm[1], other->radius_mm);
+    if (boxes_overlap(&wide, &mark) ||
+        (i < detail && boxes_overlap(&wide, &large)))
+      return false;
+  }
+  return true;
+}
+
+/* Finds the nearest place that has room, of a lattice on the page. */
+static bool find_room(struct multiview *views, size_t index) {
+  enum { STEPS = 200 }; /* across the page's shorter side */
+  struct multiview_detail *detail = &views->detail[index];
+  double step = fmin(views->page_mm[0], views->page_mm[1]) / STEPS;
+  double nearest = INFINITY;
+  for (double y = 0; y <= views->page_mm[1]; y += step)
+    for (double x = 0; x <= views->page_mm[0]; x += step) {
+      double far = hypot(x - detail->asked->x_mm, y - detail->asked->y_mm);
+      if (far >= nearest || !has_room(views, index, x, y))
+        continue;
+      nearest = far;
+      detail->centre_mm[0] = x;
+      detail->centre_mm[1] = y;
+    }
+  return nearest < INFINITY;
+}
+
+/* The view whose box the circle meets; `count`: none. */
+static size_t find_view_of_detail(const struct multiview *views,
+                                  const recto_detail *detail) {
+  double x = detail->x_mm, y = detail->y_mm, r = detail->radius_mm;
+  size_t found = views->count;
+  double least = r;
+  for (size_t i = 0; i < views->count; i++) {
+    const struct multiview_view *view = &views->view[i];
+    double dx = fmax(fmax(view->low_mm[0] - x, x - view->high_mm[0]), 0);
+    double dy = fmax(fmax(view->low_mm[1] - y, y - view->high_mm[1]), 0);
+    if (hypot(dx, dy) < least) {
+      least = hypot(dx, dy);
+      found = i;
+    }
+  }
+  return found;
+}
+
+static recto_status place_detail(struct multiview *views, size_t index,
+                                 recto_error *error) {
+  struct multiview_detail *detail = &views->detail[index];
+  const recto_detail *asked = detail->asked;
+  const char *letter = detail->name + strlen("detail-");
+  bool on_page = true;
+  const double at[2] = {asked->x_mm, asked->y_mm};
+  for (int axis = 0; axis < 2; axis++)
+    on_page = on_page && at[axis] - asked->radius_mm >= 0 &&
+              at[axis] + asked->radius_mm <= views->page_mm[axis];
+  if (!on_page)
+    return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                     "the detail %s, of %.4g mm about %.6g,%.6g, is not on the "
+                     "page of %.4g x %.4g mm",
+                     letter, asked->radius_mm, asked->x_mm, asked->y_mm,
+                     views->page_mm[0], views->page_mm[1]);
+  detail->view = find_view_of_detail(views, asked);
+  if (detail->view == views->count)
+    return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                     "the detail %s, of %.4g mm about %.6g,%.6g, shows nothing "
+                     "of any view",
+                     letter, asked->radius_mm, asked->x_mm, asked->y_mm);
+  detail->radius_mm = asked->radius_mm * asked->scale;
+  detail->scale = limit_scale(views->view[detail->view].scale * asked->scale);
+  if (!find_room(views, index))
+    return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                     "the detail %s, of %.4g mm, has no room beside the views: "
+                     "a larger page or a smaller scale of the views makes some",
+                     letter, detail->radius_mm);
+  return RECTO_OK;
+}
+
+static recto_status place_details(struct multiview *views,
+                                  const recto_options *options,
+                                  recto_error *error) {
+  static const char *const name[RECTO_DETAIL_MAX] = {
+      "detail-A", "detail-B", "detail-C", "detail-D",
+      "detail-E", "detail-F", "detail-G", "detail-H"};
+  recto_status status = RECTO_OK;
+  views->details = options->sheet.detail_count;
+  for (size_t i = 0; i < views->details; i++) {
+    views->detail[i].asked = &options->sheet.detail[i];
+    views->detail[i].name = name[i];
+  }
+  for (size_t i = 0; i < views->details && status == RECTO_OK; i++)
+    status = place_detail(views, i, error);
+  return status;
+}
+
 /* ---- The whole ----------------------------------------------------------- */
 
 static void collect_views(struct multiview *views,
@@ -438,32 +607,49 @@ recto_status multiview_arrange(struct multiview *views,
     views->title = options->output.title;
     views->title_mm = choose_text_height(views->page_mm, 0);
   }
+  views->letter_mm = choose_text_height(views->page_mm, 1);
   if (options->sheet.names)
-    views->name_mm = choose_text_height(views->page_mm, 1);
+    views->name_mm = views->letter_mm;
   place_in_grid(views, options->sheet.arrangement);
   measure_grid(&grid, views);
   status =
       choose_sheet_scale(views, &grid, &scaled, camera.size, &scale, error);
   if (status == RECTO_OK)
     place_views(views, &grid, scale, prepared->rescaled.exponent);
-  return status == RECTO_OK ? check_title_width(views, error) : status;
+  if (status == RECTO_OK)
+    status = check_title_width(views, error);
+  return status == RECTO_OK ? place_details(views, options, error) : status;
+}
+
+const char *multiview_name(const struct multiview *views, size_t index) {
+  return index < views->count ? views->view[index].name
+                              : views->detail[index - views->count].name;
 }
 
 void multiview_options(const struct multiview *views, size_t index,
                        const recto_options *options, recto_options *of_view,
                        double shift_mm[2]) {
-  const struct multiview_view *view = &views->view[index];
+  const struct multiview_detail *detail =
+      index < views->count ? NULL : &views->detail[index - views->count];
+  const struct multiview_view *view =
+      &views->view[detail != NULL ? detail->view : index];
   *of_view = *options;
   of_view->sheet = (recto_sheet_options){.arrangement = 0};
   turn_camera(of_view, view);
   of_view->camera.fit = RECTO_FIT_SCALE;
-  of_view->camera.scale = view->scale;
+  of_view->camera.scale = detail != NULL ? detail->scale : view->scale;
   of_view->page.width_mm = views->page_mm[0];
   of_view->page.height_mm = views->page_mm[1];
   of_view->page.margin_mm = views->margin_mm;
   of_view->page.may_turn = false;
   if (view->asked->has_hidden)
     of_view->ink.hidden = view->asked->hidden;
-  for (int axis = 0; axis < 2; axis++)
-    shift_mm[axis] = view->centre_mm[axis] - views->page_mm[axis] / 2;
+  for (int axis = 0; axis < 2; axis++) {
+    double at = view->centre_mm[axis];
+    if (detail != NULL) {
+      double shown = axis == 0 ? detail->asked->x_mm : detail->asked->y_mm;
+      at = detail->centre_mm[axis] + (at - shown) * detail->asked->scale;
+    }
+    shift_mm[axis] = at - views->page_mm[axis] / 2;
+  }
 }

@@ -22,14 +22,27 @@ struct multiview_view {
   double low_mm[2], high_mm[2]; /* the box on the page */
 };
 
+/* A circle of a view, drawn again beside the views. */
+struct multiview_detail {
+  const recto_detail *asked;
+  const char *name;    /* a literal: "detail-A" */
+  size_t view;         /* that it is of */
+  double scale;        /* page mm for a unit of the user's scene */
+  double centre_mm[2]; /* of the larger circle */
+  double radius_mm;
+};
+
 struct multiview {
   struct multiview_view view[MULTIVIEW_MAX];
   size_t count;
+  struct multiview_detail detail[RECTO_DETAIL_MAX];
+  size_t details;
   double page_mm[2], margin_mm;
   double scale;  /* page mm for a unit of the user's scene */
   double gap_mm; /* between views */
   /* Text, its capitals so high; 0: there is none. */
   double title_mm, name_mm;
+  double letter_mm; /* of details */
   const char *title;
 };
 
@@ -50,17 +63,21 @@ USE_RESULT recto_status multiview_check(const recto_options *options,
  *         its cell.  As many mm are between columns as between rows: a
  *         SHARE_OF_GAP of the page's room at least, and where more is left an
  *         even part of it.
- * Errors  RECTO_ERROR_ARGUMENT: the page has no room for the views; as of
- *         camera_aim */
+ *         Details stand where they are nearest to what they show.
+ * Errors  RECTO_ERROR_ARGUMENT: the page has no room for the views or for a
+ *         detail; as of camera_aim */
 USE_RESULT recto_status multiview_arrange(struct multiview *views,
                                           const struct preparation *prepared,
                                           const recto_options *options,
                                           recto_error *error);
 
-/* The options that draw one of the views by itself, once it is moved by
- * shift_mm from the middle of the page. */
+/* The options that draw one of the views, or past these of the details, by
+ * itself, once it is moved by shift_mm from the middle of the page. */
 void multiview_options(const struct multiview *views, size_t index,
                        const recto_options *options, recto_options *of_view,
                        double shift_mm[2]);
+
+/* The name of a view, or past these of a detail. */
+const char *multiview_name(const struct multiview *views, size_t index);
 
 #endif

@@ -18,6 +18,7 @@
 #include "api/stats.h"
 #include "base/clock.h"
 #include "drawing/append.h"
+#include "drawing/circle_clip.h"
 
 struct sheet_work {
   const recto_scene *scene;
@@ -25,9 +26,14 @@ struct sheet_work {
   struct preparation own;             /* empty where the scene has one */
   const struct preparation *prepared; /* that one, or its own */
   struct multiview views;
-  recto_drawing *view[MULTIVIEW_MAX];
+  recto_drawing *view[MULTIVIEW_MAX + RECTO_DETAIL_MAX]; /* then details */
   recto_drawing *made;
 };
+
+/* How many drawings make the sheet. */
+static size_t count_parts(const struct sheet_work *work) {
+  return work->views.count + work->views.details;
+}
 
 /* ---- Progress ------------------------------------------------------------ */
 
@@ -51,7 +57,7 @@ static void divide_work(struct view_progress *progress,
   double begin[SHARE_STAGES + 1];
   shares_plan(begin, work->options);
   double first = begin[SHARE_TOPOLOGY], last = begin[SHARE_WRITE];
-  double each = (last - first) / (double)work->views.count;
+  double each = (last - first) / (double)count_parts(work);
   *progress = (struct view_progress){.options = work->options,
                                      .from = first + (double)index * each,
                                      .to = first + (double)(index + 1) * each,
@@ -84,20 +90,45 @@ static recto_status prepare(struct sheet_work *work, recto_error *error) {
 }
 
 /* Says which view an error of verification is in. */
-static void name_view_of_error(const struct multiview_view *view,
-                               recto_error *error) {
+static void name_view_of_error(const char *view, recto_error *error) {
   char text[sizeof error->text];
   if (error == NULL || error->code != RECTO_ERROR_VERIFY)
     return;
   memcpy(text, error->text, sizeof text);
-  (void)snprintf(error->text, sizeof error->text, "the view %s: %.220s",
-                 view->name, text);
+  (void)snprintf(error->text, sizeof error->text, "the view %s: %.220s", view,
+                 text);
+}
+
+/* Removes what is outside of a detail's circle. */
+static recto_status clip_detail(struct sheet_work *work, size_t index,
+                                recto_error *error) {
+  const struct multiview_detail *detail =
+      &work->views.detail[index - work->views.count];
+  const struct drawing_circle circle = {
+      detail->centre_mm[0], detail->centre_mm[1], detail->radius_mm};
+  struct poll poll;
+  shares_open_poll(&poll, work->options, SHARE_WRITE, "sheet");
+  recto_status status =
+      drawing_clip_circle(&work->view[index]->drawing, &circle,
+                          sheet_text_pen_mm(work->options))
+          ? RECTO_OK
+          : error_memory(error);
+  poll_close(&poll);
+  const struct drawing *drawing = &work->view[index]->drawing;
+  if (status == RECTO_OK && drawing->stroke.count == 0 &&
+      drawing->fill.count == 0 && work->options->warning != NULL) {
+    char text[64];
+    (void)snprintf(text, sizeof text, "the detail %c is empty",
+                   detail->name[strlen(detail->name) - 1]);
+    work->options->warning(work->options->user, "", 0, text);
+  }
+  return status;
 }
 
 /* Warnings that several views have in common are those of the first. */
 static recto_status draw_views(struct sheet_work *work, recto_error *error) {
   recto_status status = RECTO_OK;
-  for (size_t i = 0; i < work->views.count && status == RECTO_OK; i++) {
+  for (size_t i = 0; i < count_parts(work) && status == RECTO_OK; i++) {
     recto_options of_view;
     struct view_progress progress;
     struct render_request request = {
@@ -108,8 +139,10 @@ static recto_status draw_views(struct sheet_work *work, recto_error *error) {
     if (i > 0)
       of_view.warning = NULL;
     status = render_view(&work->view[i], &request, error);
+    if (status == RECTO_OK && i >= work->views.count)
+      status = clip_detail(work, i, error);
     if (status != RECTO_OK)
-      name_view_of_error(&work->views.view[i], error);
+      name_view_of_error(multiview_name(&work->views, i), error);
   }
   return status;
 }
@@ -119,9 +152,9 @@ static recto_status put_together(struct sheet_work *work, recto_error *error) {
   struct drawing *drawing = &work->made->drawing;
   recto_status status = RECTO_OK;
   shares_open_poll(&poll, work->options, SHARE_WRITE, "sheet");
-  for (size_t i = 0; i < work->views.count && status == RECTO_OK; i++) {
+  for (size_t i = 0; i < count_parts(work) && status == RECTO_OK; i++) {
     status = drawing_append(drawing, &work->view[i]->drawing,
-                            work->views.view[i].name, error);
+                            multiview_name(&work->views, i), error);
     drawing_fini(&work->view[i]->drawing);
     drawing_init(&work->view[i]->drawing);
   }
@@ -138,7 +171,7 @@ static recto_status put_together(struct sheet_work *work, recto_error *error) {
 
 static void sum_verdicts(struct sheet_work *work) {
   struct verify_counts sum = {0, 0, 0};
-  for (size_t i = 0; i < work->views.count; i++) {
+  for (size_t i = 0; i < count_parts(work); i++) {
     const struct verify_counts *counts = &work->view[i]->verified;
     sum.visible += counts->visible;
     sum.hidden += counts->hidden;
@@ -160,8 +193,9 @@ static void report_sheet(struct sheet_work *work) {
                   : "third-angle");
   report_double(report, "sheet", "scale", views->scale / unit_mm);
   report_double(report, "sheet", "gap_mm", views->gap_mm);
-  for (size_t i = 0; i < views->count; i++) {
-    report_adopt(report, "views", views->view[i].name, work->view[i]->report);
+  for (size_t i = 0; i < count_parts(work); i++) {
+    report_adopt(report, "views", multiview_name(views, i),
+                 work->view[i]->report);
     work->view[i]->report = NULL;
   }
   stats_add_drawing(report, &work->made->drawing, work->options);
@@ -211,7 +245,7 @@ recto_status render_sheet(recto_drawing **drawing, const recto_scene *scene,
                           const recto_options *options, recto_error *error) {
   struct sheet_work work = {.scene = scene, .options = options};
   recto_status status = run(&work, error);
-  for (size_t i = 0; i < work.views.count; i++)
+  for (size_t i = 0; i < count_parts(&work); i++)
     recto_drawing_destroy(work.view[i]);
   preparation_fini(&work.own);
   *drawing = status == RECTO_OK ? work.made : NULL;

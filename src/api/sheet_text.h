@@ -1,12 +1,17 @@
-/* sheet_text.h - the title of a sheet, and the names of its views. */
+/* sheet_text.h - the title of a sheet, and the names of its views and
+ * details. */
 #ifndef API_SHEET_TEXT_H
 #define API_SHEET_TEXT_H
 
 #include "api/multiview.h"
 #include "drawing/drawing.h"
 
+/* The width of the pen that draws text, and the circles about details. */
+double sheet_text_pen_mm(const recto_options *options);
+
 /* Draws the title at the foot of the page, and below each view its name, with
- * its scale if that is a true one and not the sheet's: strokes of pen 1, on a
+ * its scale if that is a true one and not the sheet's; for each detail a circle
+ * about what it shows and one about it, with its letter: strokes of pen 1, on a
  * layer of their own.
  * unit_mm  of a unit of the user's scene
  * Returns false when memory ran out. */

@@ -52,6 +52,7 @@ struct arguments {
 
   /* What the options' arrays refer to. */
   recto_sheet_view sheet_view[SHEET_VIEWS_MAX];
+  recto_detail detail[RECTO_DETAIL_MAX];
   recto_plane plane[RECTO_CUT_MAX];
   recto_cut_hatch *cut_hatch;
   recto_pen_use *pen_use;

@@ -293,6 +293,11 @@ const struct option_entry option_table[] = {
      "views and none, dashed or layer, such as iso=none",
      "front=dashed,iso=none: --hidden of single views",
      .parse_item = sheet_set_hidden, .use = {USED_BY_DRAWING, USED_BY_LINES}},
+    {OPTION_PARSED, "detail", 0, "X,Y,R,SCALE",
+     "three lengths of the page, the third a radius of at least 0.01 mm, and a "
+     "scale above 0",
+     "circle of the page drawn again beside it, larger",
+     .parse = sheet_parse_detail},
     {OPTION_INT, "turntable", 0, "N", "a number from 1 to 100000",
      "N drawings all around, to files such as a%03d.svg",
      .offset = AT(turntable), .least = 1, .most = 100000,

@@ -58,6 +58,35 @@ bool sheet_parse_views(struct arguments *arguments, const char *text) {
   return true;
 }
 
+/* The item of a list at *text, up to a comma; then *text is behind that. */
+static bool next_item(const char **text, char item[64]) {
+  size_t length = strcspn(*text, ",");
+  if (length >= 64)
+    return false;
+  memcpy(item, *text, length);
+  item[length] = '\0';
+  *text += length + ((*text)[length] == ',');
+  return true;
+}
+
+bool sheet_parse_detail(struct arguments *arguments, const char *text) {
+  recto_sheet_options *sheet = &arguments->options.sheet;
+  recto_detail detail = {.x_mm = 0};
+  double *const length[] = {&detail.x_mm, &detail.y_mm, &detail.radius_mm};
+  char item[64];
+  if (sheet->detail_count == RECTO_DETAIL_MAX)
+    return false;
+  for (int i = 0; i < 3; i++)
+    if (!next_item(&text, item) || !value_length(item, length[i]))
+      return false;
+  if (!value_scale(text, &detail.scale) ||
+      !(detail.radius_mm >= RECTO_FINEST_MM))
+    return false;
+  arguments->detail[sheet->detail_count++] = detail;
+  sheet->detail = arguments->detail;
+  return true;
+}
+
 recto_status sheet_set_hidden(struct arguments *arguments, const char *name,
                               const char *value) {
   struct view_hidden hidden = {.view = find_view(name, strlen(name))};
@@ -89,7 +118,8 @@ static bool settle_hidden(struct arguments *a, char message[MESSAGE_SIZE]) {
     const struct view_hidden *hidden = &a->view_hidden[i];
     bool found = false;
     for (size_t k = 0; k < a->options.sheet.view_count; k++)
-      if (strcmp(a->sheet_view[k].name, hidden->view) == 0) {
+      if (a->sheet_view[k].name != NULL &&
+          strcmp(a->sheet_view[k].name, hidden->view) == 0) {
         a->sheet_view[k].has_hidden = found = true;
         a->sheet_view[k].hidden = hidden->hidden;
       }
@@ -102,26 +132,39 @@ static bool settle_hidden(struct arguments *a, char message[MESSAGE_SIZE]) {
   return true;
 }
 
+/* The view of a drawing with details, which is a sheet of one. */
+static void take_one_view(struct arguments *a) {
+  recto_sheet_options *sheet = &a->options.sheet;
+  a->sheet_view[0] = (recto_sheet_view){.name = NULL};
+  sheet->view = a->sheet_view;
+  sheet->view_count = 1;
+}
+
 bool sheet_settle(struct arguments *a, char message[MESSAGE_SIZE]) {
   recto_sheet_options *sheet = &a->options.sheet;
   const char *wrong = NULL;
+  bool is_one = sheet->detail_count > 0 && !sheet_is_requested(a);
+  if (is_one)
+    take_one_view(a);
   if (!sheet_is_requested(a)) {
     if (a->view_hidden_count > 0)
       wrong = "--hidden-in is for --sheet and --views";
     else if (a->options.sheet.names)
       wrong = "--view-names is for --sheet and --views";
-  } else if (a->view_given || a->direction_given || a->eye_given) {
+  } else if (is_one && (a->eye_given || a->view_count > 1)) {
+    wrong = "--detail takes one --view, without --camera";
+  } else if (!is_one && (a->view_given || a->direction_given || a->eye_given)) {
     wrong = "--sheet and --views say what is seen from where: leave out "
             "--view, --azimuth, --elevation and --camera";
   } else if (a->turntable > 0) {
-    wrong = "--turntable is for drawings of one view, not for --sheet and "
-            "--views";
+    wrong = "--turntable is for drawings without --sheet, --views and "
+            "--detail";
   } else if (a->fov_given) {
-    wrong = "the views of --sheet and --views are parallel projections: leave "
-            "out --fov";
+    wrong = "the views of --sheet, --views and --detail are parallel "
+            "projections: leave out --fov";
   } else if (a->options.camera.fit == RECTO_FIT_NONE) {
-    wrong = "the views of --sheet and --views fit the page or have a --scale: "
-            "leave out --no-fit";
+    wrong = "the views of --sheet, --views and --detail fit the page or have "
+            "a --scale: leave out --no-fit";
   }
   if (wrong != NULL) {
     snprintf(message, MESSAGE_SIZE, "%s", wrong);

@@ -14,6 +14,9 @@ static inline bool sheet_is_requested(const struct arguments *arguments) {
 bool sheet_parse(struct arguments *arguments, const char *text);
 bool sheet_parse_views(struct arguments *arguments, const char *text);
 
+/* Takes X,Y,R,SCALE, lengths of the page and how many times as large. */
+bool sheet_parse_detail(struct arguments *arguments, const char *text);
+
 /* Takes an item of --hidden-in, a view and how its hidden lines are drawn. */
 recto_status sheet_set_hidden(struct arguments *arguments, const char *name,
                               const char *value);

@@ -1,6 +1,7 @@
 # src/drawing/local.mk - what backends write: strokes and fills in mm.
 librecto_core_la_SOURCES += \
   %D%/append.c %D%/append.h \
+  %D%/circle_clip.c %D%/circle_clip.h \
   %D%/curve.c \
   %D%/drawing.c %D%/drawing.h \
   %D%/simplex.c %D%/simplex.h \

@@ -1,0 +1,29 @@
+/* circle_clip.h - what of a drawing lies in a circle of its page. */
+#ifndef DRAWING_CIRCLE_CLIP_H
+#define DRAWING_CIRCLE_CLIP_H
+
+#include "drawing/drawing.h"
+
+struct drawing_circle {
+  double x, y, radius; /* page mm */
+};
+
+/* The most by which a polygon is off the arc that it stands for, mm. */
+#define CIRCLE_CHORD_MM 0.005
+
+/* Removes what is outside of a circle.  Nothing sticks out of a line of
+ * `width_mm` along the circle: wider lines end before it, and fills with their
+ * seams too.  Curves that leave the circle become polylines.
+ * Returns false when memory ran out. */
+USE_RESULT bool drawing_clip_circle(struct drawing *drawing,
+                                    const struct drawing_circle *circle,
+                                    double width_mm);
+
+/* Appends the points of an arc, both ends included, counter-clockwise.
+ * from, to  radians, to >= from
+ * Returns false when memory ran out. */
+USE_RESULT bool drawing_add_arc(struct drawing *drawing,
+                                const struct drawing_circle *circle,
+                                double from, double to);
+
+#endif
