@@ -105,6 +105,38 @@ static void a_spur_is_dropped_and_a_bridge_is_not(void **state) {
   }
 }
 
+/* Three lines of some length between three points, and at two of these lines of
+ * 30 mm, the far ends of which are joined or free.  Returns how many of its
+ * lines are dropped. */
+static size_t draw_triangle(double side, bool joined, bool exact) {
+  struct ink_fixture k;
+  start(&k);
+  k.options.ink.exact = exact;
+  const uint32_t at[3] = {
+      ink_fixture_point(&k, 50, 50), ink_fixture_point(&k, 50 + side, 50),
+      ink_fixture_point(&k, 50 + side / 2, 50 + side * sqrt(0.75))};
+  const uint32_t far[2] = {ink_fixture_point(&k, 50, 20),
+                           ink_fixture_point(&k, 50 + side, 20)};
+  for (int i = 0; i < 3; i++)
+    ink_fixture_edge(&k, at[i], at[(i + 1) % 3], CREASE);
+  for (int i = 0; i < 2; i++)
+    ink_fixture_edge(&k, at[i], far[i], CREASE);
+  if (joined)
+    ink_fixture_edge(&k, far[0], far[1], CREASE);
+  ink_fixture_draw(&k);
+  size_t dropped = k.drawing.dropped.count;
+  ink_fixture_end(&k);
+  return dropped;
+}
+
+static void of_a_short_cycle_a_line_remains(void **state) {
+  (void)state;
+  assert_int_equal(draw_triangle(2.9, false, false), 1);
+  assert_int_equal(draw_triangle(3.1, false, false), 0);
+  assert_int_equal(draw_triangle(2.9, true, false), 0);
+  assert_int_equal(draw_triangle(2.9, false, true), 0);
+}
+
 static void a_small_closed_line_is_drawn(void **state) {
   struct ink_fixture k;
   (void)state;
@@ -398,6 +430,7 @@ int main(void) {
       cmocka_unit_test(exact_drawings_drop_none),
       cmocka_unit_test(other_lines_are_drawn),
       cmocka_unit_test(a_spur_is_dropped_and_a_bridge_is_not),
+      cmocka_unit_test(of_a_short_cycle_a_line_remains),
       cmocka_unit_test(a_small_closed_line_is_drawn),
       cmocka_unit_test(a_long_line_of_short_edges_is_drawn),
       cmocka_unit_test(a_line_that_goes_on_in_the_model_is_drawn),

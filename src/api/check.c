@@ -55,7 +55,7 @@ static recto_status find_shortest(struct judge_options *options,
   recto_status status = pens_init(&pens, scene, o, error);
   for (uint32_t pen = 0; status == RECTO_OK && pen <= o->ink.pen_count; pen++) {
     double line = pens_shortest_line_mm(&pens, pen);
-    double crease = pens_shortest_crease_mm(&pens, pen);
+    double crease = pens_short_cycle_mm(&pens, pen);
     options->shortest_mm = fmax(options->shortest_mm, line);
     options->shortest_crease_mm =
         fmax(options->shortest_crease_mm, fmax(line, crease));
@@ -101,7 +101,7 @@ judge_file_drawing(const struct preparation *prepared, const recto_options *o,
   if (!o->ink.exact) /* half a pen, as of lines that others cover */
     options.ink_distance_mm += o->ink.pen_mm / 4;
   if (options.crease_start_deg == 0)
-    options.crease_start_deg = pens_crease_start_deg(o);
+    options.crease_start_deg = pens_zigzag_start_deg(o);
   status = find_shortest(&options, scene, o, error);
   if (status == RECTO_OK &&
       !judge_drawing(verdict, drawing, &input.scene, &seen, &options))

@@ -21,6 +21,7 @@ struct ink {
   const struct map *map;
   const recto_options *options;
   const struct pens *pens;
+  uint8_t *dropped; /* one a sheet edge: it closes a short cycle; NULL: none */
 };
 
 /* ---- Paths --------------------------------------------------------------- */
@@ -66,10 +67,12 @@ static recto_status make_paths(const struct ink *ink, struct ink_paths *paths,
   double step = ink->options->output.unit_mm * SHEET_UNITS_PER_MM;
   recto_status status = paths_chain(paths, path_of_segment, graph, error);
   bool tidy = is_tidied(ink->options);
+  const struct crease_angles angles = {ink->options->mesh.crease_deg,
+                                       pens_crease_start_deg(ink->options),
+                                       pens_zigzag_start_deg(ink->options)};
   if (status == RECTO_OK && tidy &&
-      !(paths_find_free_ends(paths, graph, ink->sheet, step) &&
-        paths_find_weak(paths, graph, ink->sheet, ink->options->mesh.crease_deg,
-                        pens_crease_start_deg(ink->options))))
+      !(paths_find_free_ends(paths, graph, ink->sheet, ink->dropped, step) &&
+        paths_find_weak(paths, graph, ink->sheet, &angles)))
     status = error_memory(error);
   if (status != RECTO_OK)
     return status;
@@ -227,6 +230,43 @@ static recto_status drop_short_lines(struct ink *ink,
   return status;
 }
 
+/* Keeps a segment that was dropped with the drawing. */
+static bool drop_segment(struct ink *ink, const struct segment_graph *graph,
+                         const struct graph_segment *segment) {
+  const struct ink_path path = {.edge = segment->edge};
+  struct drawing_stroke stroke = stroke_like(ink, &path);
+  const struct drawing_point end[2] = {
+      point_mm(ink, graph->node.item[segment->node[0]]),
+      point_mm(ink, graph->node.item[segment->node[1]])};
+  ++ink->drawing->counts.too_short;
+  ink->dropped[segment->edge] = 1;
+  return stroke_add_dropped(ink->drawing, &stroke, end, 2, false);
+}
+
+/* Drops the creases that close short cycles. */
+static recto_status drop_short_cycles(struct ink *ink,
+                                      struct segment_graph *graph,
+                                      recto_error *error) {
+  size_t count = graph->segment.count, drops = 0;
+  uint8_t *drop = mem_calloc(count, 1);
+  bool ok = drop != NULL && segment_graph_find_short_cycles(
+                                graph, ink->sheet, ink->pens,
+                                ink->options->mesh.crease_deg, drop);
+  for (size_t i = 0; ok && i < count; i++)
+    drops += drop[i];
+  if (ok && drops > 0) {
+    ink->dropped = mem_calloc(ink->sheet->edge.count, 1);
+    ok = ink->dropped != NULL;
+  }
+  for (size_t i = 0; ok && drops > 0 && i < count; i++)
+    ok = !drop[i] || drop_segment(ink, graph, &graph->segment.item[i]);
+  recto_status status = ok ? RECTO_OK : error_memory(error);
+  if (ok && drops > 0)
+    status = segment_graph_drop_segments(graph, drop, error);
+  mem_free(drop);
+  return status;
+}
+
 static bool keep_gap_ends(struct ink *ink, const struct segment_graph *graph) {
   for (size_t i = 0; i < graph->gap_end.count; i++)
     if (!ARRAY_PUSH(&ink->drawing->gap_end,
@@ -243,6 +283,8 @@ static recto_status draw_lines(struct ink *ink, recto_error *error) {
   recto_status status = make_graph(ink, &graph, error);
   if (status == RECTO_OK && !keep_gap_ends(ink, &graph))
     status = error_memory(error);
+  if (status == RECTO_OK && is_tidied(ink->options))
+    status = drop_short_cycles(ink, &graph, error);
   if (status == RECTO_OK && ids && ink->options->ink.min_stroke_mm != 0)
     status = drop_short_lines(ink, &graph, error);
   if (status == RECTO_OK && ids)
@@ -340,5 +382,6 @@ recto_status ink_draw(struct drawing *drawing, const struct sheet *sheet,
                               add_cut_hatching(&ink) && finish_drawing(&ink)))
     status = error_memory(error);
   pens_fini(&pens);
+  mem_free(ink.dropped);
   return status;
 }

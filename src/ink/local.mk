@@ -25,6 +25,7 @@ librecto_core_la_SOURCES += \
   %D%/hatch/tone_hatch.c \
   %D%/lines/chain.c \
   %D%/lines/covered.c \
+  %D%/lines/crease_lines.c %D%/lines/crease_lines.h \
   %D%/lines/dash.c \
   %D%/lines/free_ends.c \
   %D%/lines/gaps.c \
@@ -39,6 +40,7 @@ librecto_core_la_SOURCES += \
   %D%/lines/paths.h \
   %D%/lines/segment_graph.h \
   %D%/lines/segments.c \
+  %D%/lines/short_cycles.c \
   %D%/lines/simplify.c \
   %D%/lines/straighten.c \
   %D%/lines/stroke.c %D%/lines/stroke.h \

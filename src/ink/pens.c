@@ -18,6 +18,13 @@
  * of chamfers do not end free. */
 #define CREASE_START 1.5
 
+/* The same where they run to and fro: twice, as each of two bends by the crease
+ * angle there. */
+#define ZIGZAG_START 2.0
+
+/* In shortest creases: a triangle of these. */
+#define CYCLE_CREASES 3
+
 /* The index of the bit of a class. */
 static unsigned class_index(unsigned edge_class) {
   unsigned index = 0;
@@ -153,11 +160,25 @@ double pens_shortest_line_mm(const struct pens *pens, uint32_t pen) {
   return fmin(pens_shortest_hatch_mm(pens, pen), pens_width_mm(pens, pen) / 2);
 }
 
-double pens_crease_start_deg(const recto_options *options) {
+/* So many crease angles; 0 where all creases are drawn, or the caller said
+ * where they start. */
+static double start_deg(const recto_options *options, double angles) {
   bool exact = options->ink.exact || options->ink.min_stroke_mm == 0;
   return exact || options->mesh.crease_start_deg > 0
              ? 0
-             : fmin(CREASE_START * options->mesh.crease_deg, 180);
+             : fmin(angles * options->mesh.crease_deg, 180);
+}
+
+double pens_crease_start_deg(const recto_options *options) {
+  return start_deg(options, CREASE_START);
+}
+
+double pens_zigzag_start_deg(const recto_options *options) {
+  return start_deg(options, ZIGZAG_START);
+}
+
+double pens_short_cycle_mm(const struct pens *pens, uint32_t pen) {
+  return CYCLE_CREASES * pens_shortest_crease_mm(pens, pen);
 }
 
 double pens_shortest_crease_mm(const struct pens *pens, uint32_t pen) {

@@ -72,6 +72,12 @@ double pens_shortest_hatch_mm(const struct pens *pens, uint32_t pen);
  * them to be drawn; 0: none. */
 double pens_crease_start_deg(const recto_options *options);
 
+/* The same where they are a zigzag. */
+double pens_zigzag_start_deg(const recto_options *options);
+
+/* A cycle of creases is short if it is no longer. */
+double pens_short_cycle_mm(const struct pens *pens, uint32_t pen);
+
 /* The width of visible lines of a class, in pen widths. */
 double pens_weight(const struct pens *pens, unsigned edge_class);
 

@@ -18,14 +18,17 @@
 /* Classes of lines of which a chain may be a speckle. */
 static const unsigned inner_classes = RECTO_EDGE_CREASE | RECTO_EDGE_GROUP;
 
-/* The number of drawable edges at each vertex, up to 2; NULL when memory ran
- * out. */
-static uint8_t *count_edges_at_vertices(const struct sheet *sheet) {
+/* The number of drawable edges at each vertex that were not dropped, up to 2;
+ * NULL when memory ran out. */
+static uint8_t *count_edges_at_vertices(const struct sheet *sheet,
+                                        const uint8_t *dropped) {
   uint8_t *count = mem_calloc(sheet->point.count, sizeof *count);
   for (size_t e = 0; count != NULL && e < sheet->edge.count; e++) {
     const struct sheet_edge *edge = &sheet->edge.item[e];
     (void)poll_at(e);
-    for (int k = 0; k < 2 && edge->edge_class != 0; k++)
+    for (int k = 0;
+         k < 2 && edge->edge_class != 0 && (dropped == NULL || !dropped[e]);
+         k++)
       count[edge->point[k]] =
           (uint8_t)(count[edge->point[k]] + (count[edge->point[k]] < 2));
   }
@@ -66,7 +69,8 @@ static bool is_free_end(const struct segment_graph *graph,
 
 bool paths_find_free_ends(struct ink_paths *paths,
                           const struct segment_graph *graph,
-                          const struct sheet *sheet, double output_step) {
+                          const struct sheet *sheet, const uint8_t *dropped,
+                          double output_step) {
   double near = output_step + 2 * TOLERANCE_COINCIDENT_UNITS;
   uint8_t *count = NULL;
   bool ok = true;
@@ -75,7 +79,7 @@ bool paths_find_free_ends(struct ink_paths *paths,
     if (!may_end_free(graph, path))
       continue;
     if (count == NULL)
-      count = count_edges_at_vertices(sheet);
+      count = count_edges_at_vertices(sheet, dropped);
     ok = count != NULL;
     path->is_free =
         ok && (is_free_end(graph, sheet, path->end[0], near, count) ||

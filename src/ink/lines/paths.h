@@ -53,22 +53,31 @@ USE_RESULT recto_status paths_chain(struct ink_paths *paths,
  * no other edge is to be drawn, visible or not, and on the page no other line
  * ends there.
  * graph        the one that was chained
+ * dropped      one a sheet edge: it is not to be drawn; NULL: all are
  * output_step  see segment_graph_drop_output_overlaps
  * Returns false when memory ran out.  Cost: linear in the edges and paths. */
 USE_RESULT bool paths_find_free_ends(struct ink_paths *paths,
                                      const struct segment_graph *graph,
                                      const struct sheet *sheet,
+                                     const uint8_t *dropped,
                                      double output_step);
+
+/* Of creases: the angle; that by which one that ends free bends somewhere, 0:
+ * none need; and one that is a zigzag. */
+struct crease_angles {
+  double crease_deg, start_deg, zigzag_deg;
+};
 
 /* Sets is_weak of the paths of creases that are free, where no edge that is
  * joined to them at points of the mesh by creases, drawn as such or as
- * silhouettes, bends by more than an angle.
- * crease_deg, start_deg  the angle of creases; that angle, 0: none is weak
+ * silhouettes, bends by more than the angle; another angle where these edges
+ * are a zigzag: more than one in eight of them turns back, by more than 120
+ * degrees, at a point where just two meet.
  * Returns false when memory ran out.  Cost: linear in the edges and paths. */
 USE_RESULT bool paths_find_weak(struct ink_paths *paths,
                                 const struct segment_graph *graph,
-                                const struct sheet *sheet, double crease_deg,
-                                double start_deg);
+                                const struct sheet *sheet,
+                                const struct crease_angles *angles);
 
 /* Removes points within TOLERANCE_COLLINEAR_UNITS of the straight line that
  * remains without them, if they are in order along it.  For approximate points

@@ -201,4 +201,16 @@ graph_segment_is_hidden(const struct graph_segment *segment) {
   return segment->pen_key & 1;
 }
 
+/* Sets drop[i] of the visible segments i of creases that close a cycle of
+ * visible segments on the page which is no longer than three of the shortest
+ * creases that may end free (pens_shortest_crease_mm), and are themselves
+ * shorter than one; those of cycles' least sharp sides.  Creases whose line ends
+ * nowhere free on the mesh stay.
+ * drop  one a segment, 0
+ * Returns false when memory ran out.
+ * Cost  n log n; the search for a cycle ends after 32 nodes */
+USE_RESULT bool segment_graph_find_short_cycles(
+    const struct segment_graph *graph, const struct sheet *sheet,
+    const struct pens *pens, double crease_deg, uint8_t *drop);
+
 #endif

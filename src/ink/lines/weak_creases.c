@@ -1,48 +1,103 @@
-/* weak_creases.c - finds the creases that end free and are nowhere sharp.
+/* weak_creases.c - finds the creases that end free and are nowhere sharp, or
+ * turn back.
  *
  * A rounded part of a mesh bends by about the crease angle at many edges, some
  * of which exceed it: lines that start and end anywhere.  What joins edges is
  * the mesh: it does not matter what of them is seen, nor that some of them are
- * silhouettes in this view. */
+ * silhouettes in this view.  Where such a line follows the diagonals of warped
+ * quadrilaterals it runs to and fro: it must be sharper to count. */
 #include "ink/lines/paths.h"
 
 #include <math.h>
 
 #include "base/poll.h"
 #include "base/union_find.h"
+#include "ink/lines/crease_lines.h"
 #include "scene/angle.h"
-#include "scene/newell_normal.h"
 
-/* The cosine of the angle between the two faces of an edge that is drawn as a
- * crease or a silhouette; 1 where it has other faces than two.  Faces that run
- * the same way along it count as bent sharply. */
-static double cosine_of_bend(const struct sheet *sheet,
-                             const struct sheet_edge *edge) {
-  double n[2][3], dot = 0, square[2] = {0, 0};
-  if ((edge->edge_class & (RECTO_EDGE_CREASE | RECTO_EDGE_SILHOUETTE)) == 0)
-    return 1;
-  for (int k = 0; k < 2; k++) {
-    uint32_t face = edge->triangle[k];
-    if (face == SHEET_NONE)
-      return 1;
-    if (!sheet->triangles_dropped)
-      face = sheet->triangle.item[face].face;
-    newell_normal_of_face(sheet->scene, face, n[k]);
-  }
+/* A line turns back where it turns by more than 120 degrees. */
+#define TURNED_BACK_COSINE (-0.5)
+
+/* A line that turns back more often than once in so many edges is a zigzag. */
+enum { TURN_EDGES = 8 };
+
+/* What is known of a line of joined creases. */
+struct crease_line {
+  uint32_t edges, turns; /* so many turn back where just two edges meet */
+  bool is_sharp;         /* an edge bends by more than what is asked */
+  bool is_very_sharp;    /* by more than what zigzags are asked */
+};
+
+/* The first two points that edges of a line join to a point. */
+struct line_neighbours {
+  uint32_t point[2], count;
+};
+
+static void add_neighbour(struct line_neighbours *of, uint32_t point) {
+  if (of->count < 2)
+    of->point[of->count] = point;
+  of->count += of->count < 3;
+}
+
+/* Whether a line that passes three points turns back at the middle one. */
+static bool turns_back(const struct scene_point *a, const struct scene_point *b,
+                       const struct scene_point *c) {
+  const double p[3] = {b->x - a->x, b->y - a->y, b->z - a->z};
+  const double q[3] = {c->x - b->x, c->y - b->y, c->z - b->z};
+  double dot = 0, square[2] = {0, 0};
   for (int i = 0; i < 3; i++) {
-    dot += n[0][i] * n[1][i];
-    square[0] += n[0][i] * n[0][i];
-    square[1] += n[1][i] * n[1][i];
+    dot += p[i] * q[i];
+    square[0] += p[i] * p[i];
+    square[1] += q[i] * q[i];
   }
-  double lengths = sqrt(square[0] * square[1]);
-  return lengths > 0 ? dot / lengths : -1;
+  return dot < TURNED_BACK_COSINE * sqrt(square[0] * square[1]);
+}
+
+/* Finds out how the edges of the lines bend, and lists the neighbours of their
+ * points on the mesh. */
+static void look_at_edges(const struct sheet *sheet,
+                          const struct crease_angles *angles, uint32_t *line,
+                          struct crease_line *lines,
+                          struct line_neighbours *next) {
+  double crease = angle_of_degrees(angles->crease_deg).cosine;
+  double start = angle_of_degrees(angles->start_deg).cosine;
+  double very = angle_of_degrees(angles->zigzag_deg).cosine;
+  for (size_t e = 0; e < sheet->edge.count; e++) {
+    const struct sheet_edge *edge = &sheet->edge.item[e];
+    const uint32_t *point = edge->point;
+    double cosine = crease_cosine(sheet, edge);
+    (void)poll_at(e);
+    struct crease_line *of = &lines[union_find_root(line, point[0])];
+    of->is_sharp = of->is_sharp || cosine < start;
+    of->is_very_sharp = of->is_very_sharp || cosine < very;
+    if (crease_is_joined(edge, cosine, crease) && ++of->edges > 0 &&
+        point[0] < sheet->vertex_count && point[1] < sheet->vertex_count) {
+      add_neighbour(&next[point[0]], point[1]);
+      add_neighbour(&next[point[1]], point[0]);
+    }
+  }
+}
+
+static void look_at_points(const struct sheet *sheet, uint32_t *line,
+                           struct crease_line *lines,
+                           const struct line_neighbours *next) {
+  const struct scene_point *at = sheet->scene->point.item;
+  for (uint32_t p = 0; p < sheet->vertex_count; p++)
+    if (next[p].count == 2 &&
+        turns_back(&at[next[p].point[0]], &at[p], &at[next[p].point[1]]))
+      lines[union_find_root(line, p)].turns++;
+}
+
+static bool is_weak_line(const struct crease_line *line) {
+  bool is_zigzag = (uint64_t)TURN_EDGES * line->turns > line->edges;
+  return !line->is_sharp || (!line->is_very_sharp && is_zigzag);
 }
 
 bool paths_find_weak(struct ink_paths *paths, const struct segment_graph *graph,
-                     const struct sheet *sheet, double crease_deg,
-                     double start_deg) {
+                     const struct sheet *sheet,
+                     const struct crease_angles *angles) {
   size_t candidates = 0;
-  if (start_deg == 0 || sheet->scene == NULL)
+  if (angles->start_deg == 0 || sheet->scene == NULL)
     return true;
   for (size_t i = 0; i < paths->path.count; i++) {
     struct ink_path *path = &paths->path.item[i];
@@ -51,32 +106,24 @@ bool paths_find_weak(struct ink_paths *paths, const struct segment_graph *graph,
   }
   if (candidates == 0)
     return true;
-  double crease = angle_of_degrees(crease_deg).cosine;
-  double start = angle_of_degrees(start_deg).cosine;
-  uint32_t *line = union_find_create(sheet->point.count);
-  uint8_t *is_sharp = mem_calloc(sheet->point.count, 1);
-  bool ok = line != NULL && is_sharp != NULL;
-  for (size_t e = 0; ok && e < sheet->edge.count; e++) {
-    const struct sheet_edge *edge = &sheet->edge.item[e];
-    double cosine = cosine_of_bend(sheet, edge);
-    (void)poll_at(e);
-    if (cosine < crease || edge->edge_class == RECTO_EDGE_CREASE)
-      union_find_join(line, edge->point[0], edge->point[1]);
-    if (cosine < start)
-      is_sharp[edge->point[0]] = 1;
+  uint32_t *line = crease_lines_create(sheet, angles->crease_deg);
+  struct crease_line *lines = mem_calloc(sheet->point.count, sizeof *lines);
+  struct line_neighbours *next = mem_calloc(sheet->vertex_count, sizeof *next);
+  bool ok = line != NULL && lines != NULL && next != NULL;
+  if (ok) {
+    look_at_edges(sheet, angles, line, lines, next);
+    look_at_points(sheet, line, lines, next);
   }
-  for (uint32_t p = 0; ok && p < sheet->point.count; p++)
-    if (is_sharp[p])
-      is_sharp[union_find_root(line, p)] = 1;
   for (size_t i = 0; ok && i < paths->path.count; i++) {
     struct ink_path *path = &paths->path.item[i];
     for (int k = 0; k < 2 && path->is_weak; k++) {
       uint32_t edge = graph->segment.item[path->end[k] >> 1].edge;
       uint32_t point = sheet->edge.item[edge].point[0];
-      path->is_weak = !is_sharp[union_find_root(line, point)];
+      path->is_weak = is_weak_line(&lines[union_find_root(line, point)]);
     }
   }
   mem_free(line);
-  mem_free(is_sharp);
+  mem_free(lines);
+  mem_free(next);
   return ok;
 }

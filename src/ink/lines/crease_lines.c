@@ -1,0 +1,42 @@
+/* crease_lines.c - joins creases to lines, and finds how sharp they are. */
+#include "ink/lines/crease_lines.h"
+
+#include <math.h>
+
+#include "base/poll.h"
+#include "base/union_find.h"
+#include "scene/angle.h"
+#include "scene/newell_normal.h"
+
+double crease_cosine(const struct sheet *sheet, const struct sheet_edge *edge) {
+  double n[2][3], dot = 0, square[2] = {0, 0};
+  if ((edge->edge_class & (RECTO_EDGE_CREASE | RECTO_EDGE_SILHOUETTE)) == 0)
+    return 1;
+  for (int k = 0; k < 2; k++) {
+    uint32_t face = edge->triangle[k];
+    if (face == SHEET_NONE)
+      return 1;
+    if (!sheet->triangles_dropped)
+      face = sheet->triangle.item[face].face;
+    newell_normal_of_face(sheet->scene, face, n[k]);
+  }
+  for (int i = 0; i < 3; i++) {
+    dot += n[0][i] * n[1][i];
+    square[0] += n[0][i] * n[0][i];
+    square[1] += n[1][i] * n[1][i];
+  }
+  double lengths = sqrt(square[0] * square[1]);
+  return lengths > 0 ? dot / lengths : -1;
+}
+
+uint32_t *crease_lines_create(const struct sheet *sheet, double crease_deg) {
+  double crease = angle_of_degrees(crease_deg).cosine;
+  uint32_t *line = union_find_create(sheet->point.count);
+  for (size_t e = 0; line != NULL && e < sheet->edge.count; e++) {
+    const struct sheet_edge *edge = &sheet->edge.item[e];
+    (void)poll_at(e);
+    if (crease_is_joined(edge, crease_cosine(sheet, edge), crease))
+      union_find_join(line, edge->point[0], edge->point[1]);
+  }
+  return line;
+}

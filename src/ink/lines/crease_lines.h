@@ -1,0 +1,26 @@
+/* crease_lines.h - the lines that creases form on the mesh, whatever is seen of
+ * them: edges that are joined at points. */
+#ifndef INK_LINES_CREASE_LINES_H
+#define INK_LINES_CREASE_LINES_H
+
+#include "base/memory.h"
+#include "view/sheet.h"
+
+/* The cosine of the angle between the two faces of an edge that is drawn as a
+ * crease or a silhouette; 1 where it has other faces than two.  Faces that run
+ * the same way along it count as bent sharply. */
+double crease_cosine(const struct sheet *sheet, const struct sheet_edge *edge);
+
+/* Whether an edge is of the line of a crease: one, or a silhouette that bends as
+ * sharply.
+ * cosine  the edge's
+ * crease  that of the crease angle */
+static inline bool crease_is_joined(const struct sheet_edge *edge,
+                                    double cosine, double crease) {
+  return cosine < crease || edge->edge_class == RECTO_EDGE_CREASE;
+}
+
+/* The lines as a union-find of the sheet's points; NULL when memory ran out. */
+uint32_t *crease_lines_create(const struct sheet *sheet, double crease_deg);
+
+#endif

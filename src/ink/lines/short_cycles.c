@@ -1,0 +1,185 @@
+/* short_cycles.c - finds the creases that close short cycles in networks that
+ * end free.
+ *
+ * Where a scan folds, rows of its triangles bend sharply to and fro, and all of
+ * their sides are creases: a ladder along the fold.  What a draughtsman draws is
+ * one line.  So creases are taken in the order of their sharpness, as by
+ * Kruskal's algorithm, and one that closes a short cycle is left out. */
+#include "ink/lines/segment_graph.h"
+
+#include <math.h>
+
+#include "base/poll.h"
+#include "base/sort.h"
+#include "base/union_find.h"
+#include "ink/lines/crease_lines.h"
+#include "ink/pens.h"
+
+/* The nodes that a search for a cycle reaches, at most, and the segments at one
+ * that it tries. */
+enum { PLACES_MAX = 32, ENDS_MAX = 32 };
+
+struct cycle_candidate {
+  uint32_t segment;
+  double cosine, length, longest; /* grid units; of the cycle */
+};
+
+struct cycle_search {
+  const struct segment_graph *graph;
+  uint8_t *is_absent; /* one a segment: dropped, or not yet taken */
+  ARRAY(struct cycle_candidate) candidate;
+};
+
+/* ---- Candidates ---------------------------------------------------------- */
+
+/* Sets of the roots of lines whether a crease ends free there: at a vertex where
+ * no other edge is drawable. */
+static uint8_t *find_free_lines(const struct sheet *sheet, uint32_t *line) {
+  uint8_t *count = mem_calloc(sheet->point.count, 1);
+  uint8_t *is_free = mem_calloc(sheet->point.count, 1);
+  if (count == NULL || is_free == NULL) {
+    mem_free(count);
+    mem_free(is_free);
+    return NULL;
+  }
+  for (size_t e = 0; e < sheet->edge.count; e++) {
+    const struct sheet_edge *edge = &sheet->edge.item[e];
+    for (int k = 0; k < 2 && edge->edge_class != 0; k++)
+      count[edge->point[k]] =
+          (uint8_t)(count[edge->point[k]] + (count[edge->point[k]] < 2));
+  }
+  for (size_t e = 0; e < sheet->edge.count; e++) {
+    const struct sheet_edge *edge = &sheet->edge.item[e];
+    (void)poll_at(e);
+    for (int k = 0; k < 2 && edge->edge_class == RECTO_EDGE_CREASE; k++)
+      if (edge->point[k] < sheet->vertex_count && count[edge->point[k]] == 1)
+        is_free[union_find_root(line, edge->point[k])] = 1;
+  }
+  mem_free(count);
+  return is_free;
+}
+
+static double length_of_segment(const struct segment_graph *graph,
+                                uint32_t segment) {
+  const struct graph_segment *s = &graph->segment.item[segment];
+  struct ink_point p = graph->node.item[s->node[0]];
+  struct ink_point q = graph->node.item[s->node[1]];
+  return hypot((double)q.x - p.x, (double)q.y - p.y);
+}
+
+static bool list_candidates(struct cycle_search *c, const struct sheet *sheet,
+                            const struct pens *pens, double crease_deg) {
+  const struct segment_graph *graph = c->graph;
+  uint32_t *line = crease_lines_create(sheet, crease_deg);
+  uint8_t *is_free = line != NULL ? find_free_lines(sheet, line) : NULL;
+  bool ok = is_free != NULL;
+  for (uint32_t i = 0; ok && i < graph->segment.count; i++) {
+    const struct graph_segment *s = &graph->segment.item[i];
+    const struct sheet_edge *edge = &sheet->edge.item[s->edge];
+    if ((s->pen_key & 1) || edge->edge_class != RECTO_EDGE_CREASE ||
+        !is_free[union_find_root(line, edge->point[0])])
+      continue;
+    uint32_t pen = pens_of_line(pens, edge->edge_class, edge->group);
+    double shortest = pens_shortest_crease_mm(pens, pen) * SHEET_UNITS_PER_MM;
+    struct cycle_candidate made = {
+        i, crease_cosine(sheet, edge), length_of_segment(graph, i),
+        pens_short_cycle_mm(pens, pen) * SHEET_UNITS_PER_MM};
+    if (made.length >= shortest)
+      continue;
+    c->is_absent[i] = 1;
+    ok = ARRAY_PUSH(&c->candidate, made);
+  }
+  mem_free(line);
+  mem_free(is_free);
+  return ok;
+}
+
+/* ---- Cycles -------------------------------------------------------------- */
+
+/* A node that a search reached, and how far it is by way of segments. */
+struct cycle_place {
+  uint32_t node;
+  double distance;
+  bool done;
+};
+
+struct cycle_places {
+  struct cycle_place item[PLACES_MAX];
+  int count;
+};
+
+static double distance_of_nodes(const struct segment_graph *graph, uint32_t a,
+                                uint32_t b) {
+  struct ink_point p = graph->node.item[a], q = graph->node.item[b];
+  return hypot((double)q.x - p.x, (double)q.y - p.y);
+}
+
+static void reach_node(struct cycle_places *places, uint32_t node,
+                       double distance) {
+  int i = 0;
+  while (i < places->count && places->item[i].node != node)
+    i++;
+  if (i == PLACES_MAX)
+    return;
+  if (i == places->count)
+    places->item[places->count++] = (struct cycle_place){node, distance, false};
+  else
+    places->item[i].distance = fmin(places->item[i].distance, distance);
+}
+
+/* Whether segments that are present lead from one end of a candidate to the
+ * other, so that the cycle is short: Dijkstra's algorithm among few nodes. */
+static bool closes_cycle(const struct cycle_search *c,
+                         const struct cycle_candidate *candidate) {
+  const struct segment_graph *graph = c->graph;
+  const uint32_t *ends = graph->segment.item[candidate->segment].node;
+  double most = candidate->longest - candidate->length;
+  struct cycle_places places = {.count = 0};
+  reach_node(&places, ends[0], 0);
+  for (;;) {
+    struct cycle_place *at = NULL;
+    for (int i = 0; i < places.count; i++)
+      if (!places.item[i].done &&
+          (at == NULL || places.item[i].distance < at->distance))
+        at = &places.item[i];
+    if (at == NULL)
+      return false;
+    if (at->node == ends[1])
+      return true;
+    at->done = true;
+    uint32_t first = graph->end_start[at->node];
+    uint32_t count = graph->end_start[at->node + 1] - first;
+    for (uint32_t i = first; i < first + count && i < first + ENDS_MAX; i++) {
+      uint32_t segment = graph->end[i] >> 1;
+      const struct graph_segment *s = &graph->segment.item[segment];
+      if (c->is_absent[segment] || (s->pen_key & 1))
+        continue;
+      uint32_t node = s->node[(graph->end[i] & 1) ^ 1];
+      double distance = at->distance + length_of_segment(graph, segment);
+      if (distance + distance_of_nodes(graph, node, ends[1]) <= most)
+        reach_node(&places, node, distance);
+    }
+  }
+}
+
+static int compare_sharpness(const void *a, const void *b, void *user) {
+  const struct cycle_candidate *p = a, *q = b;
+  (void)user;
+  return (p->cosine > q->cosine) - (p->cosine < q->cosine);
+}
+
+bool segment_graph_find_short_cycles(const struct segment_graph *graph,
+                                     const struct sheet *sheet,
+                                     const struct pens *pens, double crease_deg,
+                                     uint8_t *drop) {
+  struct cycle_search c = {.graph = graph, .is_absent = drop};
+  bool ok = list_candidates(&c, sheet, pens, crease_deg) &&
+            sort_stable(c.candidate.item, c.candidate.count,
+                        sizeof *c.candidate.item, compare_sharpness, NULL);
+  for (size_t i = 0; ok && i < c.candidate.count; i++) {
+    (void)poll_at(i);
+    drop[c.candidate.item[i].segment] = closes_cycle(&c, &c.candidate.item[i]);
+  }
+  ARRAY_FREE(&c.candidate);
+  return ok;
+}
