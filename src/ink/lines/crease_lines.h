@@ -11,8 +11,8 @@
  * the same way along it count as bent sharply. */
 double crease_cosine(const struct sheet *sheet, const struct sheet_edge *edge);
 
-/* Whether an edge is of the line of a crease: one, or a silhouette that bends as
- * sharply.
+/* Whether an edge is of the line of a crease: one, or a silhouette that bends
+ * as sharply.
  * cosine  the edge's
  * crease  that of the crease angle */
 static inline bool crease_is_joined(const struct sheet_edge *edge,

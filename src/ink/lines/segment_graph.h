@@ -204,8 +204,8 @@ graph_segment_is_hidden(const struct graph_segment *segment) {
 /* Sets drop[i] of the visible segments i of creases that close a cycle of
  * visible segments on the page which is no longer than three of the shortest
  * creases that may end free (pens_shortest_crease_mm), and are themselves
- * shorter than one; those of cycles' least sharp sides.  Creases whose line ends
- * nowhere free on the mesh stay.
+ * shorter than one; those of cycles' least sharp sides.  Creases whose line
+ * ends nowhere free on the mesh stay.
  * drop  one a segment, 0
  * Returns false when memory ran out.
  * Cost  n log n; the search for a cycle ends after 32 nodes */

@@ -2,8 +2,8 @@
  * end free.
  *
  * Where a scan folds, rows of its triangles bend sharply to and fro, and all of
- * their sides are creases: a ladder along the fold.  What a draughtsman draws is
- * one line.  So creases are taken in the order of their sharpness, as by
+ * their sides are creases: a ladder along the fold.  What a draughtsman draws
+ * is one line.  So creases are taken in the order of their sharpness, as by
  * Kruskal's algorithm, and one that closes a short cycle is left out. */
 #include "ink/lines/segment_graph.h"
 
@@ -32,8 +32,8 @@ struct cycle_search {
 
 /* ---- Candidates ---------------------------------------------------------- */
 
-/* Sets of the roots of lines whether a crease ends free there: at a vertex where
- * no other edge is drawable. */
+/* Sets of the roots of lines whether a crease ends free there: at a vertex
+ * where no other edge is drawable. */
 static uint8_t *find_free_lines(const struct sheet *sheet, uint32_t *line) {
   uint8_t *count = mem_calloc(sheet->point.count, 1);
   uint8_t *is_free = mem_calloc(sheet->point.count, 1);
@@ -67,8 +67,9 @@ static double length_of_segment(const struct segment_graph *graph,
   return hypot((double)q.x - p.x, (double)q.y - p.y);
 }
 
-static bool list_candidates(struct cycle_search *c, const struct sheet *sheet,
-                            const struct pens *pens, double crease_deg) {
+static bool list_cycle_candidates(struct cycle_search *c,
+                                  const struct sheet *sheet,
+                                  const struct pens *pens, double crease_deg) {
   const struct segment_graph *graph = c->graph;
   uint32_t *line = crease_lines_create(sheet, crease_deg);
   uint8_t *is_free = line != NULL ? find_free_lines(sheet, line) : NULL;
@@ -173,7 +174,7 @@ bool segment_graph_find_short_cycles(const struct segment_graph *graph,
                                      const struct pens *pens, double crease_deg,
                                      uint8_t *drop) {
   struct cycle_search c = {.graph = graph, .is_absent = drop};
-  bool ok = list_candidates(&c, sheet, pens, crease_deg) &&
+  bool ok = list_cycle_candidates(&c, sheet, pens, crease_deg) &&
             sort_stable(c.candidate.item, c.candidate.count,
                         sizeof *c.candidate.item, compare_sharpness, NULL);
   for (size_t i = 0; ok && i < c.candidate.count; i++) {
