@@ -576,7 +576,8 @@ typedef struct recto_options {
   int verify; /* number of samples that an independent ray caster checks, of the
                  drawn lines, and of the requested edges; 0: none */
   /* What the drawing keeps as data beside its strokes: a mask of
-   * RECTO_RESULT_EDGES, RECTO_RESULT_INVISIBILITY and RECTO_RESULT_FACES. */
+   * RECTO_RESULT_EDGES, RECTO_RESULT_INVISIBILITY and RECTO_RESULT_FACES; of
+   * one view, not of a sheet. */
   unsigned results;
 
   /* Callbacks, called from the thread that called the library. */

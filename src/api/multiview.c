@@ -460,9 +460,10 @@ static bool has_room(const struct multiview *views, size_t detail, double x,
 
 /* Finds the nearest place that has room, of a lattice on the page. */
 static bool find_room(struct multiview *views, size_t index) {
-  enum { STEPS = 200 }; /* across the page's shorter side */
+  enum { STEPS = 200, STEPS_MAX = 2000 }; /* of the shorter, the longer side */
   struct multiview_detail *detail = &views->detail[index];
-  double step = fmin(views->page_mm[0], views->page_mm[1]) / STEPS;
+  double step = fmax(fmin(views->page_mm[0], views->page_mm[1]) / STEPS,
+                     fmax(views->page_mm[0], views->page_mm[1]) / STEPS_MAX);
   double nearest = INFINITY;
   for (double y = 0; y <= views->page_mm[1]; y += step)
     for (double x = 0; x <= views->page_mm[0]; x += step) {
