@@ -33,19 +33,19 @@ static void code_number(struct byte_codec *codec, uint64_t *value,
 }
 
 void byte_codec_u8(struct byte_codec *codec, uint8_t *value) {
-  uint64_t number = *value;
+  uint64_t number = codec->writes ? *value : 0;
   code_number(codec, &number, 1);
   *value = (uint8_t)number;
 }
 
 void byte_codec_u16(struct byte_codec *codec, uint16_t *value) {
-  uint64_t number = *value;
+  uint64_t number = codec->writes ? *value : 0;
   code_number(codec, &number, 2);
   *value = (uint16_t)number;
 }
 
 void byte_codec_u32(struct byte_codec *codec, uint32_t *value) {
-  uint64_t number = *value;
+  uint64_t number = codec->writes ? *value : 0;
   code_number(codec, &number, 4);
   *value = (uint32_t)number;
 }
@@ -55,29 +55,33 @@ void byte_codec_u64(struct byte_codec *codec, uint64_t *value) {
 }
 
 void byte_codec_i64(struct byte_codec *codec, int64_t *value) {
-  uint64_t number = (uint64_t)*value;
+  uint64_t number = codec->writes ? (uint64_t)*value : 0;
   code_number(codec, &number, 8);
   memcpy(value, &number, sizeof *value);
 }
 
 void byte_codec_double(struct byte_codec *codec, double *value) {
-  uint64_t bits;
-  memcpy(&bits, value, sizeof bits);
+  uint64_t bits = 0;
+  if (codec->writes)
+    memcpy(&bits, value, sizeof bits);
   code_number(codec, &bits, 8);
   memcpy(value, &bits, sizeof bits);
 }
 
 void byte_codec_bool(struct byte_codec *codec, bool *value) {
-  uint8_t byte = *value;
+  uint8_t byte = codec->writes && *value;
   byte_codec_u8(codec, &byte);
   codec->failed |= byte > 1;
   *value = byte == 1;
 }
 
 static void code_int128(struct byte_codec *codec, int128 *value) {
-  uint64_t low = (uint64_t)*value, high = (uint64_t)(*value >> 64);
+  uint64_t low = codec->writes ? (uint64_t)*value : 0;
+  uint64_t high = codec->writes ? (uint64_t)(*value >> 64) : 0;
   code_number(codec, &low, 8);
   code_number(codec, &high, 8);
+  if (!codec->writes)
+    *value = 0;
   if (high >> 62 != 0) /* negative, or 2^126 or more */
     codec->failed = true;
   else

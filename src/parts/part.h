@@ -95,7 +95,7 @@ struct part_corner {
   uint8_t side;              /* enum map_side */
   struct part_edge_key edge; /* MAP_SIDE_EDGE, _OCCLUDER */
   uint32_t face;             /* MAP_SIDE_INTERSECTION: the other one */
-  uint64_t line;             /* planar_subdivision.h */
+  uint64_t line;             /* planar_subdivision.h; 0 for that of an edge */
 };
 
 struct part_fragment {

@@ -278,12 +278,14 @@ static void code_corner(struct byte_codec *codec, struct part_corner *corner) {
     *corner = (struct part_corner){.x = 0};
   byte_codec_i64(codec, &corner->x);
   byte_codec_i64(codec, &corner->y);
-  byte_codec_u64(codec, &corner->line);
   byte_codec_u8(codec, &corner->side);
-  if (corner->side == MAP_SIDE_EDGE || corner->side == MAP_SIDE_OCCLUDER)
+  if (corner->side == MAP_SIDE_EDGE || corner->side == MAP_SIDE_OCCLUDER) {
     code_key(codec, &corner->edge);
-  else if (corner->side == MAP_SIDE_INTERSECTION)
-    byte_codec_u32(codec, &corner->face);
+  } else {
+    byte_codec_u64(codec, &corner->line);
+    if (corner->side == MAP_SIDE_INTERSECTION)
+      byte_codec_u32(codec, &corner->face);
+  }
   require(codec, corner->side <= MAP_SIDE_CLIP &&
                      corner->edge.kind <= PART_EDGE_FOLD &&
                      corner->x >= -most && corner->x <= most &&

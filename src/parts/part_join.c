@@ -403,6 +403,13 @@ static bool set_states(struct join_work *work) {
 
 /* ---- Fragments ----------------------------------------------------------- */
 
+/* Whether a line runs through the two ends of an edge. */
+static bool has_length(const struct join_work *work, uint32_t edge) {
+  const struct sheet *sheet = &work->join->sheet;
+  struct geom_segment s = sheet_ends(sheet, sheet->edge.item[edge].point);
+  return s.p.x != s.q.x || s.p.y != s.q.y;
+}
+
 static recto_status add_fragment_corner(struct join_work *work,
                                         const struct part_corner *from) {
   struct map *map = &work->join->map;
@@ -412,7 +419,7 @@ static recto_status add_fragment_corner(struct join_work *work,
   bool ok = true;
   if (from->side == MAP_SIDE_EDGE || from->side == MAP_SIDE_OCCLUDER) {
     corner.id = find_sheet_edge(work, from->edge);
-    ok = corner.id != SHEET_NONE;
+    ok = corner.id != SHEET_NONE && has_length(work, corner.id);
   } else if (from->side == MAP_SIDE_INTERSECTION) {
     ok = find_face(work, from->face, &corner.id);
   }

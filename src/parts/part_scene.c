@@ -31,6 +31,7 @@ struct part_scene_work {
   struct part_window box; /* what meets it is kept */
   uint8_t *face_state;    /* one a face of the model */
   uint8_t *wire_state;
+  uint8_t *outcode;     /* one a point: against the current box */
   uint8_t *corner_kept; /* one a point: a corner of a kept face */
   uint8_t *used;        /* one a point of the model */
   uint32_t *local;      /* point of the model -> of the part */
@@ -70,24 +71,6 @@ static int32_t limit_to_sheet(int64_t at) {
                              : (int32_t)at;
 }
 
-static void grow_kept_box(struct part_scene_work *work) {
-  const struct part_window *window = &work->request->window;
-  work->box = *window;
-  for (uint32_t f = 0; work->request->fragments && poll_at(f) &&
-                       f < scene_face_count(work->whole);
-       f++) {
-    struct element_box box = box_of_face(work, f);
-    for (int k = 0; k < 2 && page_window_owns(window, box.low); k++)
-      if (work->box.high[k] < box.high[k])
-        work->box.high[k] = box.high[k];
-  }
-  for (int k = 0; k < 2 && window->low[0] <= window->high[0]; k++) {
-    work->box.low[k] = limit_to_sheet(work->box.low[k] - work->request->margin);
-    work->box.high[k] =
-        limit_to_sheet(work->box.high[k] + work->request->margin);
-  }
-}
-
 /* ---- Faces that are kept ------------------------------------------------- */
 
 /* On which sides of the box a place lies, a bit each: a Cohen-Sutherland
@@ -101,30 +84,59 @@ static uint8_t outcode_of(const struct part_window *box,
   return (uint8_t)code;
 }
 
-/* The bounding box of a face meets the box unless all corners lie beyond one of
- * its sides. */
-static bool keep_faces(struct part_scene_work *work) {
+static void set_outcodes(const struct part_scene_work *work,
+                         const struct part_window *box) {
+  for (size_t p = 0; p < work->whole->point.count; p++)
+    work->outcode[p] = outcode_of(box, &work->place[p]);
+}
+
+/* Whether the bounding box of a face meets the box of the outcodes: unless all
+ * corners lie beyond one of its sides. */
+static inline bool face_meets_box(const struct part_scene_work *work,
+                                  uint32_t face) {
   const struct scene *whole = work->whole;
-  const uint32_t *corner = whole->corner.item;
-  size_t points = whole->point.count;
-  uint8_t *outcode = mem_alloc(points, sizeof *outcode);
-  for (size_t p = 0; outcode != NULL && p < points; p++)
-    outcode[p] = outcode_of(&work->box, &work->place[p]);
-  for (uint32_t f = 0;
-       outcode != NULL && f < scene_face_count(whole) && poll_at(f); f++) {
-    uint32_t start = whole->face_start.item[f];
-    uint32_t end = whole->face_start.item[f + 1];
-    unsigned all = 0xf;
-    for (uint32_t c = start; c < end; c++)
-      all &= outcode[corner[c]];
-    if (all != 0)
+  unsigned all = 0xf;
+  for (uint32_t c = whole->face_start.item[face];
+       c < whole->face_start.item[face + 1]; c++)
+    all &= work->outcode[whole->corner.item[c]];
+  return all == 0;
+}
+
+/* Sets the box: that of the window, and where fragments are wanted of the faces
+ * that it owns, with the margin. */
+static void set_kept_box(struct part_scene_work *work) {
+  const struct part_window *window = &work->request->window;
+  work->box = *window;
+  if (work->request->fragments)
+    set_outcodes(work, window);
+  for (uint32_t f = 0; work->request->fragments &&
+                       f < scene_face_count(work->whole) && poll_at(f);
+       f++) {
+    if (!face_meets_box(work, f))
+      continue;
+    struct element_box box = box_of_face(work, f);
+    for (int k = 0; k < 2 && page_window_owns(window, box.low); k++)
+      if (work->box.high[k] < box.high[k])
+        work->box.high[k] = box.high[k];
+  }
+  for (int k = 0; k < 2 && window->low[0] <= window->high[0]; k++) {
+    work->box.low[k] = limit_to_sheet(work->box.low[k] - work->request->margin);
+    work->box.high[k] =
+        limit_to_sheet(work->box.high[k] + work->request->margin);
+  }
+}
+
+static void keep_faces(struct part_scene_work *work) {
+  const struct scene *whole = work->whole;
+  set_outcodes(work, &work->box);
+  for (uint32_t f = 0; f < scene_face_count(whole) && poll_at(f); f++) {
+    if (!face_meets_box(work, f))
       continue;
     work->face_state[f] = KEPT;
-    for (uint32_t c = start; c < end; c++)
-      work->corner_kept[corner[c]] = 1;
+    for (uint32_t c = whole->face_start.item[f];
+         c < whole->face_start.item[f + 1]; c++)
+      work->corner_kept[whole->corner.item[c]] = 1;
   }
-  mem_free(outcode);
-  return outcode != NULL;
 }
 
 /* A polyline is kept as a whole where one of its segments meets the box. */
@@ -331,15 +343,16 @@ static bool make_all(struct part_scene_work *work) {
   scene->group.count = whole->group.count;
   work->face_state = mem_calloc(scene_face_count(whole), 1);
   work->wire_state = mem_calloc(scene_wire_count(whole), 1);
+  work->outcode = mem_alloc(whole->point.count, 1);
   work->corner_kept = mem_calloc(whole->point.count, 1);
   work->used = mem_calloc(whole->point.count, 1);
   work->local = mem_alloc(whole->point.count, sizeof *work->local);
   if (work->face_state == NULL || work->wire_state == NULL ||
-      work->corner_kept == NULL || work->used == NULL || work->local == NULL)
+      work->outcode == NULL || work->corner_kept == NULL ||
+      work->used == NULL || work->local == NULL)
     return false;
-  grow_kept_box(work);
-  if (!keep_faces(work))
-    return false;
+  set_kept_box(work);
+  keep_faces(work);
   keep_wires(work);
   return add_ring(work) && copy_kept_points(work) && copy_kept_faces(work) &&
          copy_kept_wires(work) && !poll_is_cancelled();
@@ -355,6 +368,7 @@ recto_status part_scene_make(struct part_scene *part, const struct scene *whole,
   bool ok = make_all(&work);
   mem_free(work.face_state);
   mem_free(work.wire_state);
+  mem_free(work.outcode);
   mem_free(work.corner_kept);
   mem_free(work.used);
   mem_free(work.local);
