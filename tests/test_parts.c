@@ -330,6 +330,56 @@ static void what_parts_do_not_have_is_refused(void **state) {
   recto_scene_destroy(scene);
 }
 
+/* Runs with each allocation failing in turn: a run without the reports that
+ * memory did not suffice for may succeed, ten in a row met no failure. */
+static void fail_allocations(recto_status (*run)(void *user), void *user) {
+  unsigned long failed = 0;
+  for (unsigned long n = 1, in_a_row = 0; in_a_row < 10; n++) {
+    mem_fail_after(n);
+    recto_status status = run(user);
+    mem_fail_after(0);
+    assert_true(status == RECTO_OK || status == RECTO_ERROR_MEMORY);
+    in_a_row = status == RECTO_OK ? in_a_row + 1 : 0;
+    failed += status != RECTO_OK;
+  }
+  assert_true(failed > 100);
+}
+
+struct memory_run {
+  const recto_scene *scene;
+  recto_options options;
+  const char *path;
+};
+
+static recto_status write_one(void *user) {
+  const struct memory_run *run = user;
+  return recto_scene_write_part(run->scene, &run->options, 1, 1, run->path,
+                                NULL);
+}
+
+static recto_status join_one(void *user) {
+  const struct memory_run *run = user;
+  recto_drawing *drawing = NULL;
+  recto_status status =
+      recto_join_parts(&run->path, 1, &run->options, &drawing, NULL);
+  recto_drawing_destroy(drawing);
+  return status;
+}
+
+static void what_runs_out_of_memory_says_so(void **state) {
+  struct memory_run run;
+  recto_scene *scene = make_parts(state, &run.options);
+  char *path = copy_path(part_path(state, 1, 1));
+  run.scene = scene;
+  run.path = path;
+  run.options.solver.threads = 1;
+  run.options.ink.fill = RECTO_FILL_SHADE;
+  fail_allocations(write_one, &run);
+  fail_allocations(join_one, &run);
+  mem_free(path);
+  recto_scene_destroy(scene);
+}
+
 #define IN_FOLDER(test)                                                        \
   cmocka_unit_test_setup_teardown(test, temporary_set_up, temporary_tear_down)
 
@@ -341,6 +391,7 @@ int main(void) {
       IN_FOLDER(damaged_parts_are_named),
       IN_FOLDER(damage_with_a_right_checksum_does_no_harm),
       IN_FOLDER(a_whole_part_of_the_drawing_is_there),
-      IN_FOLDER(what_parts_do_not_have_is_refused)};
+      IN_FOLDER(what_parts_do_not_have_is_refused),
+      IN_FOLDER(what_runs_out_of_memory_says_so)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
