@@ -33,6 +33,7 @@ struct answer {
   double seconds;
   struct measure measure;
   bool ok;
+  enum run_end end; /* of its process */
 };
 
 /* ---- One setting --------------------------------------------------------- */
@@ -68,14 +69,14 @@ static void run_setting(struct answer *answer,
   answer->seconds = median_of(seconds, n);
 }
 
-/* The same in a process of its own; not ok where its time was up. */
+/* The same in a process of its own. */
 static void measure_setting(struct answer *answer,
                             const struct accuracy_setting *setting,
                             const struct scene *scene,
                             const recto_options *options, enum trial_part part,
                             const struct trial *truth) {
   int ends[2];
-  answer->ok = false;
+  *answer = (struct answer){.ok = false, .end = RUN_FAILED};
   fflush(NULL);
   if (pipe(ends) != 0)
     return;
@@ -85,8 +86,12 @@ static void measure_setting(struct answer *answer,
     _exit(write(ends[1], answer, sizeof *answer) != (ssize_t)sizeof *answer);
   }
   close(ends[1]);
-  if (child > 0 && !run_answer(child, ends[0], LIMIT_S, answer, sizeof *answer))
-    answer->ok = false;
+  if (child < 0)
+    return;
+  enum run_end end =
+      run_answer(child, ends[0], LIMIT_S, answer, sizeof *answer);
+  answer->ok = answer->ok && end == RUN_ANSWERED;
+  answer->end = end;
 }
 
 /* ---- A scene ------------------------------------------------------------- */
@@ -97,7 +102,8 @@ static double clean(double share) { return share < SHARE_MIN ? 0 : share; }
 static const char *const part_name[] = {
     [TRIAL_EDGES] = "lines", [TRIAL_FRAGMENTS] = "faces"};
 
-/* One row; false where an exact method has an error. */
+/* One row; false where an exact method has an error, or any fails but for its
+ * time. */
 static bool print_row(FILE *file, const char *scene, enum trial_part part,
                       const struct accuracy_setting *setting,
                       const struct answer *answer) {
@@ -107,7 +113,10 @@ static bool print_row(FILE *file, const char *scene, enum trial_part part,
           setting->knob, setting->value);
   if (!answer->ok) {
     fprintf(file, ",,,,,\n");
-    return true;
+    if (answer->end != RUN_OUT_OF_TIME)
+      fprintf(stderr, "accuracy: %s, %s: %s %s %s failed\n", scene,
+              part_name[part], setting->method, setting->knob, setting->value);
+    return answer->end == RUN_OUT_OF_TIME;
   }
   double part_share[3] = {m->missing_ink, m->false_ink, 0};
   if (part == TRIAL_FRAGMENTS) {
@@ -117,7 +126,9 @@ static bool print_row(FILE *file, const char *scene, enum trial_part part,
   }
   double sum = 0;
   for (int k = 0; k < 3; k++)
-    sum += part_share[k] = clean(part_share[k] / truth);
+    sum += part_share[k] = part == TRIAL_FRAGMENTS
+                               ? clean(part_share[k] / truth)
+                               : part_share[k] / truth;
   fprintf(file, "%.6f,%.4g,%.4g,%.4g,%.4g,%.6g\n", answer->seconds, sum,
           part_share[0], part_share[1], part_share[2], truth);
   if (setting->exact && sum > 0)
@@ -147,20 +158,25 @@ static bool measure_part(FILE *file, const char *name,
 
 static bool measure_scene(int index, const char *examples, const char *folder,
                           int argc, char **argv) {
-  char name[ACCURACY_NAME], id[ACCURACY_NAME], path[4096];
+  char name[ACCURACY_NAME], id[ACCURACY_NAME], path[4096], made[4096 + 4];
   struct scene scene;
   recto_options options;
   bool wanted = argc == 0, ok = false;
   double start = clock_wall();
-  if (!accuracy_scene(index, examples, &scene, &options, name, id)) {
+  bool is_there = accuracy_scene(index, examples, &scene, &options, name, id);
+  for (int i = 0; i < argc; i++)
+    if (strcmp(argv[i], id) == 0) {
+      wanted = true;
+      *argv[i] = '\0';
+    }
+  if (!is_there) {
     fprintf(stderr, "accuracy: no model for %s\n", id);
     scene_fini(&scene);
-    return true;
+    return !wanted;
   }
-  for (int i = 0; i < argc; i++)
-    wanted |= strcmp(argv[i], id) == 0;
   snprintf(path, sizeof path, "%s/%s.csv", folder, id);
-  FILE *file = wanted ? fopen(path, "w") : NULL;
+  snprintf(made, sizeof made, "%s.new", path);
+  FILE *file = wanted ? fopen(made, "w") : NULL;
   if (file != NULL) {
     fputs("scene,part,method,knob,value,cpu_s,wrong,missing,false,"
           "wrong_face,truth\n",
@@ -168,6 +184,7 @@ static bool measure_scene(int index, const char *examples, const char *folder,
     ok = measure_part(file, name, &scene, &options, TRIAL_EDGES);
     ok = measure_part(file, name, &scene, &options, TRIAL_FRAGMENTS) && ok;
     ok = fclose(file) == 0 && ok;
+    ok = rename(made, path) == 0 && ok;
     fprintf(stderr, "%s: %s, %.0f s\n", id, name, clock_wall() - start);
   } else if (wanted) {
     fprintf(stderr, "accuracy: cannot write %s\n", path);
@@ -184,5 +201,10 @@ int main(int argc, char **argv) {
   }
   for (int i = 0; i < ACCURACY_SCENES; i++)
     ok = measure_scene(i, argv[1], argv[2], argc - 3, argv + 3) && ok;
+  for (int i = 3; i < argc; i++)
+    if (argv[i][0] != '\0') {
+      fprintf(stderr, "accuracy: there is no scene %s\n", argv[i]);
+      ok = false;
+    }
   return !ok;
 }

@@ -194,7 +194,8 @@ static struct cost measure(const struct hard_scene *what, bool painted,
   }
   close(ends[1]);
   struct cost answer;
-  if (child > 0 && run_answer(child, ends[0], LIMIT_S, &answer, sizeof answer))
+  if (child > 0 && run_answer(child, ends[0], LIMIT_S, &answer,
+                              sizeof answer) == RUN_ANSWERED)
     cost = answer;
   return cost;
 }

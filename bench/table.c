@@ -53,19 +53,22 @@ void run_program(struct run *run, const char *const argv[], unsigned limit_s) {
 
 /* A limit of the child's own would make its clock as coarse as the
  * system's. */
-bool run_answer(pid_t child, int end, unsigned limit_s, void *answer,
-                size_t size) {
+enum run_end run_answer(pid_t child, int end, unsigned limit_s, void *answer,
+                        size_t size) {
+  bool in_time = true;
   struct pollfd ready = {.fd = end, .events = POLLIN};
   struct timespec used = {0, 0};
   clockid_t clock;
   if (clock_getcpuclockid(child, &clock) == 0)
     while (poll(&ready, 1, 100) == 0 && clock_gettime(clock, &used) == 0)
-      if (used.tv_sec >= (time_t)limit_s)
+      if (used.tv_sec >= (time_t)limit_s) {
+        in_time = false;
         kill(child, SIGKILL);
+      }
   bool ok = read(end, answer, size) == (ssize_t)size;
   close(end);
   waitpid(child, NULL, 0);
-  return ok;
+  return ok ? RUN_ANSWERED : in_time ? RUN_FAILED : RUN_OUT_OF_TIME;
 }
 
 double report_number(const char *text, const char *name) {

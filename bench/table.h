@@ -18,11 +18,13 @@ struct run {
 /* Runs argv[0], its standard output thrown away, for `limit_s` at most. */
 void run_program(struct run *run, const char *const argv[], unsigned limit_s);
 
+enum run_end { RUN_ANSWERED, RUN_OUT_OF_TIME, RUN_FAILED };
+
 /* Reads the answer of `size` bytes that a child process writes into a pipe,
  * closes the pipe's end and waits for the child; ends it once it has used
- * `limit_s` of CPU time.  False where there is no answer. */
-bool run_answer(pid_t child, int end, unsigned limit_s, void *answer,
-                size_t size);
+ * `limit_s` of CPU time. */
+enum run_end run_answer(pid_t child, int end, unsigned limit_s, void *answer,
+                        size_t size);
 
 /* A report that recto wrote: the number called `name` in it, 0 where there is
  * none.  `text` is the JSON. */

@@ -4,8 +4,7 @@
  *                            covered area that is of the wrong face, or of none
  *   failures_matrix FOLDER   the pictures of doc/failures.md, as SVG
  *
- * The truth is brute force's map of the lines, and that of tiles of the faces,
- * as brute force finds no faces. */
+ * The truth is brute force's map. */
 #include <stdio.h>
 
 #include "base/memory.h"
@@ -19,11 +18,13 @@ enum { LINES = 200 }; /* over the page: pixels, or scan lines */
 
 struct column {
   const char *heading;
-  const struct solver *solver;
-  int lines, depth_bits; /* 0: exact; double precision */
+  const struct solver *solver; /* NULL: the one that auto takes */
+  int lines, depth_bits;       /* 0: exact; double precision */
 };
 
 static const struct column columns[] = {
+    {"auto", NULL, 0, 0},
+    {"brute", &solver_brute, 0, 0},
     {"newell", &solver_newell, 0, 0},
     {"warnock", &solver_warnock, 0, 0},
     {"watkins", &solver_watkins, 0, 0},
@@ -48,9 +49,10 @@ static void print_head(void) {
   printf("\n");
 }
 
-/* Two digits of a per cent. */
-static void print_share(double share) {
-  if (share < share_min)
+/* Two digits of a per cent.
+ * least  what is less is rounding */
+static void print_share(double share, double least) {
+  if (share <= least)
     printf(" right |");
   else if (share < 1e-5)
     printf(" < 0.001 %% |");
@@ -62,11 +64,12 @@ static void print_share(double share) {
 
 static void print_measure(const struct measure *measure, enum trial_part part) {
   bool edges = part == TRIAL_EDGES;
-  if ((edges ? measure->true_ink : measure->true_area) > 0)
-    print_share(edges ? measure_ink_share(measure)
-                      : measure_area_share(measure));
-  else
+  if ((edges ? measure->true_ink : measure->true_area) == 0)
     printf(" none |");
+  else if (edges)
+    print_share(measure_ink_share(measure), 0);
+  else
+    print_share(measure_area_share(measure), share_min);
 }
 
 static void print_cell(const struct scene *scene, const recto_options *given,
@@ -94,8 +97,7 @@ static void print_row(const struct scenes_entry *entry, enum trial_part part) {
   scene_init(&scene);
   recto_options_init(&options);
   entry->fill(&scene, &options);
-  trial_run(&truth, &scene, &options,
-            part == TRIAL_EDGES ? &solver_brute : &solver_tiles, 0, part);
+  trial_run(&truth, &scene, &options, &solver_brute, 0, part);
   printf("| %s |", entry->name);
   for (int i = 0; i < COLUMNS; i++)
     print_cell(&scene, &options, &columns[i], part, &truth);
