@@ -15,7 +15,7 @@ static const recto_method exact[] = {
 static void verify(const recto_scene *scene, recto_options *options,
                    struct fuzz_finding *finding) {
   struct rendered verified;
-  if (options->mesh.cut_count > 0)
+  if (options->mesh.cut_count > 0 || options->camera.has_section)
     return;
   options->solver.method = RECTO_METHOD_AUTO;
   options->verify = VERIFIED_POINTS;
