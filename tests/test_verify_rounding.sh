@@ -12,6 +12,14 @@ passes() {
   return 1
 }
 
+# refused MESSAGE OPTION ...: the model is refused with that message.
+refused() {
+  cat >model.obj
+  rm -f out.svg
+  "$recto" "${@:2}" --verify=300 -q -o out.svg model.obj 2>err && return 1
+  grep -qF "$1" err && test ! -e out.svg
+}
+
 claim "faces that pierce each other in a diagonal of both, cut by a section" \
   passes --view=iso --section=1 <<'END_OF_MODEL'
 v 0 1 0
@@ -25,8 +33,17 @@ f 5 3 6 1
 END_OF_MODEL
 
 grazing='--azimuth=89.9999999 --elevation=1e-7'
-claim "a warped face within a billionth of the section plane" \
-  passes --section=2 $grazing <<'END_OF_MODEL'
+claim "a warped face within a billionth of the near plane" \
+  passes --near=2 $grazing <<'END_OF_MODEL'
+v 0 0 0
+v 0 0 1
+v -1 1 0
+v 1 1 1
+f 4 3 2 1
+END_OF_MODEL
+
+claim "what a cut leaves of it is too little to be drawn" \
+  refused "the cut leaves so little" --section=2 $grazing <<'END_OF_MODEL'
 v 0 0 0
 v 0 0 1
 v -1 1 0

@@ -20,6 +20,7 @@
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "base/poll.h"
+#include "base/tolerance.h"
 #include "ink/cut_hatch.h"
 #include "ink/ink.h"
 #include "ink/pens.h"
@@ -198,9 +199,25 @@ static recto_status find_topology(struct render *render, recto_error *error) {
   return status;
 }
 
+/* What a cut leaves may be so little that the page shows the grid of its
+ * points. */
+static recto_status check_cut_scale(const struct render *render,
+                                    recto_error *error) {
+  const struct camera *camera = &render->camera;
+  double mm = camera->s / (camera->perspective ? camera->d_min : 1);
+  if (!(render->prepared->cut.unit * mm > TOLERANCE_CUT_MM))
+    return RECTO_OK;
+  return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
+                   "the cut leaves so little that it would be enlarged beyond "
+                   "the precision of a cut: a smaller --scale shows where it "
+                   "is");
+}
+
 static recto_status aim(struct render *render, recto_error *error) {
   recto_status status = camera_aim(&render->camera, render->prepared->scene,
                                    &render->scaled, error);
+  if (status == RECTO_OK)
+    status = check_cut_scale(render, error);
   if (status != RECTO_OK)
     return status;
   for (int k = 0; k < 2; k++)

@@ -99,6 +99,15 @@
  * Ten times   lines are drawn where they are not, by half a pen. */
 #define TOLERANCE_SCALE_MM 0.01
 
+/* A drawing of what a cut leaves is refused where one unit of the grid on which
+ * the points of the cut lie is more than this on the page.
+ * Unit        mm
+ * Derivation  as of TOLERANCE_SCALE_MM; what is left is then a 2^-24 of the
+ *             model that fills a page of 200 mm.
+ * Users       api/render.c
+ * Ten times   cut faces end where they do not, by half a pen. */
+#define TOLERANCE_CUT_MM 0.01
+
 /* Nearest that a perspective view comes to the eye where no near distance is
  * given and something is drawn still nearer.
  * Unit        share of the distance from the eye to its target

@@ -25,6 +25,7 @@ struct cut {
   size_t open;           /* lines of surfaces that are not closed where they are
                             cut: no cut face closes them */
   struct scene_point open_at; /* an end of the first of them */
+  double unit; /* of the grid on which the points of the cut lie */
 };
 
 /* Cuts a scene.

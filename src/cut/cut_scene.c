@@ -54,6 +54,7 @@ recto_status cut_scene(struct cut *cut, const struct scene *scene,
   borrow(&cut->scene, scene);
   recto_status status =
       cut_points_init(&cutter.points, scene, plane, planes, error);
+  cut->unit = cutter.points.unit;
   if (status == RECTO_OK)
     status = cut_faces(&cutter, error);
   if (status == RECTO_OK)
