@@ -883,6 +883,107 @@ static void polygons_that_run_over_themselves_are_cut(void **state) {
   scene_fini(&c.scene);
 }
 
+/* ---- Points that are as good as one -------------------------------------- */
+
+/* One face has an edge in two pieces that the face beside it has in one: a plane
+ * meets them in two points. */
+static void faces_that_share_an_edge_in_pieces_are_closed(void **state) {
+  (void)state;
+  static const double point[9][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0},
+                                     {1, 1, 0}, {0, 0, 1}, {1, 0, 1},
+                                     {0, 1, 1}, {1, 1, 1}, {0.7, 0, 0}};
+  static const uint32_t side[5][4] = {
+      {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  const struct cut_plane plane[] = {plane_of(1, 0, 0, 0.3),
+                                    plane_of(3, 1, 0.5, 0.7),
+                                    plane_of(1, 0.37, 0.11, 0.23)};
+  for (size_t k = 0; k < sizeof plane / sizeof plane[0]; k++) {
+    struct cutting c;
+    scene_init(&c.scene);
+    for (int i = 0; i < 9; i++)
+      (void)add_point(&c.scene, point[i][0] / 1.3, point[i][1] / 1.3,
+                      point[i][2] / 1.3);
+    for (int i = 0; i < 5; i++)
+      add_face(&c.scene, side[i], 4);
+    add_face(&c.scene, (uint32_t[]){0, 2, 3, 1, 8}, 5);
+    assert_int_equal(run_cut(&c, &plane[k], 1), RECTO_OK);
+    assert_int_equal(c.cut.open, 0);
+    double exact = exact_area(&c.scene, &plane[k]);
+    assert_true(exact > 0.1);
+    if (fabs(cut_area(&c, &plane[k]) - exact) > 1e-9)
+      fail_msg("plane %zu: area %.12g for %.12g", k, cut_area(&c, &plane[k]),
+               exact);
+    end_cut(&c);
+    scene_fini(&c.scene);
+  }
+}
+
+static double area_of_face(const struct scene *scene, uint32_t face) {
+  double n[3];
+  newell_normal_of_face(scene, face, n);
+  return sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) / 2;
+}
+
+/* Where two planes meet, the points of the shells are not quite on one line: no
+ * sliver is left between them, within the hollow. */
+static void no_sliver_is_left_where_planes_meet(void **state) {
+  (void)state;
+  uint64_t random = 7;
+  for (int i = 0; i < 400; i++) {
+    struct cutting c;
+    struct cut_plane plane[2];
+    double part[8];
+    for (int k = 0; k < 8; k++) {
+      random = random * 6364136223846793005u + 1442695040888963407u;
+      part[k] = (double)(random >> 33) / 0x1p31;
+    }
+    for (int k = 0; k < 2; k++)
+      plane[k] =
+          plane_of(floor(9 * part[4 * k]) - 4, floor(9 * part[4 * k + 1]) - 4,
+                   floor(8 * part[4 * k + 2]) + 0.5, 2 * part[4 * k + 3] - 1);
+    scene_init(&c.scene);
+    make_nested_boxes(&c.scene);
+    if (run_cut(&c, plane, 2) == RECTO_OK) {
+      assert_true(is_closed(&c.cut.scene));
+      for (uint32_t f = c.cut.made.first_face;
+           f < scene_face_count(&c.cut.scene); f++)
+        if (area_of_face(&c.cut.scene, f) < 1e-7)
+          fail_msg("%d: face %u has an area of %g", i, f,
+                   area_of_face(&c.cut.scene, f));
+    }
+    end_cut(&c);
+    scene_fini(&c.scene);
+  }
+}
+
+static size_t count_section_lines(const struct cut_plane *plane,
+                                  size_t planes) {
+  struct cutting c;
+  size_t count = 0;
+  scene_init(&c.scene);
+  add_box(&c.scene, (double[]){0, 0, 0}, (double[]){1, 1, 1}, false);
+  add_box(&c.scene, (double[]){1, 0, 0}, (double[]){2, 1, 1}, false);
+  add_box(&c.scene, (double[]){0, 1, 0}, (double[]){2, 2, 1}, false);
+  assert_int_equal(run_cut(&c, plane, planes), RECTO_OK);
+  for (uint32_t e = 0; e < c.after.edge.count; e++)
+    count += (topology_class_mask(&c.after, &c.cut.scene, e, 30) &
+              RECTO_EDGE_SECTION) != 0;
+  end_cut(&c);
+  scene_fini(&c.scene);
+  return count;
+}
+
+/* Planes that are one, but for their length or rounding, and one that leaves
+ * more of the scene to go, change nothing. */
+static void planes_that_are_one_cut_as_one(void **state) {
+  (void)state;
+  const struct cut_plane plane[3] = {
+      plane_of(1, 0, 0, 1), plane_of(2, 1e-13, 0, 2), plane_of(3, 0, 0, -6)};
+  assert_int_equal(count_section_lines(plane, 1), 6);
+  assert_int_equal(count_section_lines(plane, 2), 6);
+  assert_int_equal(count_section_lines(plane, 3), 6);
+}
+
 /* ---- Edges and polylines ------------------------------------------------- */
 
 /* Of a cut cube: four sides of the cut face, and none of the bridges. */
@@ -1004,6 +1105,9 @@ int main(void) {
       cmocka_unit_test(corners_that_stay_are_shared),
       cmocka_unit_test(a_line_that_ends_where_planes_meet_is_open),
       cmocka_unit_test(polygons_that_run_over_themselves_are_cut),
+      cmocka_unit_test(faces_that_share_an_edge_in_pieces_are_closed),
+      cmocka_unit_test(no_sliver_is_left_where_planes_meet),
+      cmocka_unit_test(planes_that_are_one_cut_as_one),
       cmocka_unit_test(the_sides_of_cut_faces_are_sections),
       cmocka_unit_test(faces_are_divided_only_where_something_goes),
       cmocka_unit_test(polylines_lose_what_is_beyond),

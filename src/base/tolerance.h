@@ -99,6 +99,13 @@
  * Ten times   lines are drawn where they are not, by half a pen. */
 #define TOLERANCE_SCALE_MM 0.01
 
+/* Planes of a cut are one where their unit normals differ by no more.
+ * Unit        of a coordinate of a unit normal
+ * Derivation  half the grid on which points of a cut lie, 2^-38 of the scene.
+ * Users       cut/cut_points.c
+ * Ten times   planes that cross in the scene are taken for one. */
+#define TOLERANCE_PARALLEL_PLANES 0x1p-39
+
 /* A drawing of what a cut leaves is refused where one unit of the grid on which
  * the points of the cut lie is more than this on the page.
  * Unit        mm

@@ -10,10 +10,10 @@
 struct assembly {
   struct cutter *cutter;
   struct scene *scene;
-  uint8_t *needed;        /* of each made point: a line ends there, or a part */
-  ARRAY(uint32_t) corner; /* of the current face */
-  ARRAY(uint32_t) face;   /* of each face that stays: the one it is of */
-  ARRAY(uint32_t) wire;   /* of each polyline: likewise */
+  uint8_t *needed;             /* of each place: a line ends there, or a part */
+  ARRAY(uint32_t) corner;      /* of the current face */
+  ARRAY(uint32_t) face;        /* of each face that stays: the one it is of */
+  ARRAY(uint32_t) wire;        /* of each polyline: likewise */
   ARRAY(struct sort_key) edge; /* the sides of cut faces, and open lines */
 };
 
@@ -54,25 +54,27 @@ static bool find_needed(struct assembly *a) {
   a->needed = mem_calloc(cutter->points.point.count, sizeof *a->needed);
   if (a->needed == NULL)
     return false;
-  for (size_t i = 0; i < cutter->points.point.count; i++)
-    a->needed[i] = cutter->points.point.item[i].is_corner;
+  for (uint32_t i = 0; i < cutter->points.point.count; i++)
+    if (cutter->points.point.item[i].is_corner)
+      a->needed[cut_place(cutter, first + i) - first] = 1;
   for (size_t i = 0; i < cutter->lines.line.count; i++) {
     const struct cut_line *line = &cutter->lines.line.item[i];
-    a->needed[line->from - first] = a->needed[line->to - first] = 1;
+    a->needed[cut_place(cutter, line->from) - first] = 1;
+    a->needed[cut_place(cutter, line->to) - first] = 1;
   }
   for (size_t p = 0; p < cutter->part.count; p++) {
     const struct cut_part *part = &cutter->part.item[p];
     const struct cut_corner *corner = cutter->corner.item + part->corner;
     for (uint32_t i = 0; i < part->count && !part->united; i++)
       if (corner[i].point >= first)
-        a->needed[corner[i].point - first] = 1;
+        a->needed[cut_place(cutter, corner[i].point) - first] = 1;
   }
   return true;
 }
 
 static bool is_needless(const struct assembly *a, uint32_t point) {
   uint32_t first = a->cutter->points.first;
-  return point >= first && !a->needed[point - first];
+  return point >= first && !a->needed[cut_place(a->cutter, point) - first];
 }
 
 static bool add_face_part(struct assembly *a, const struct cut_part *part) {

@@ -6,6 +6,7 @@
 
 #include "base/hash.h"
 #include "base/poll.h"
+#include "base/tolerance.h"
 #include "cut/section.h"
 
 /* Of an edge and a plane. */
@@ -65,22 +66,42 @@ static void set_cut_grid(struct cut_points *points) {
   points->tolerance = 0x1p-51 * most;
 }
 
+/* Adds a plane; of two that are parallel and face the same way only the one
+ * farther on, as what goes is beyond both. */
+static void add_cut_plane(struct cut_points *points,
+                          const struct cut_plane *plane) {
+  for (unsigned k = 0; k < points->planes; k++) {
+    struct cut_plane *own = &points->plane[k];
+    double most = 0;
+    for (int i = 0; i < 3; i++)
+      most = fmax(most, fabs(own->normal[i] - plane->normal[i]));
+    if (most <= TOLERANCE_PARALLEL_PLANES) {
+      *own = height(plane, points->origin) < height(own, points->origin)
+                 ? *plane
+                 : *own;
+      return;
+    }
+  }
+  points->plane[points->planes++] = *plane;
+}
+
 recto_status cut_points_init(struct cut_points *points,
                              const struct scene *scene,
                              const struct cut_plane *plane, size_t planes,
                              recto_error *error) {
   size_t count = scene->point.count;
   *points = (struct cut_points){
-      .scene = scene, .planes = (unsigned)planes, .first = (uint32_t)count};
+      .scene = scene, .planes = 0, .first = (uint32_t)count};
   points->beyond = mem_calloc(count, sizeof *points->beyond);
   if (points->beyond == NULL)
     return error_memory(error);
   set_cut_grid(points);
-  for (unsigned k = 0; k < planes; k++) {
-    points->plane[k] = unit_plane(&plane[k]);
-    points->tolerance =
-        fmax(points->tolerance, 0x1p-51 * fabs(points->plane[k].offset));
+  for (size_t k = 0; k < planes; k++) {
+    const struct cut_plane unit = unit_plane(&plane[k]);
+    points->tolerance = fmax(points->tolerance, 0x1p-51 * fabs(unit.offset));
+    add_cut_plane(points, &unit);
   }
+  planes = points->planes;
   for (unsigned k = 0; k < planes; k++)
     for (size_t p = 0; p < count; p++) {
       const struct scene_point *from = &scene->point.item[p];

@@ -6,7 +6,9 @@
  * where nothing is, says how many.  Three planes have a point in common, the
  * tip, where that way turns. */
 #include <math.h>
+#include <stdlib.h>
 
+#include "base/union_find.h"
 #include "cut/cut_phases.h"
 
 /* The axes of a plane's section: u, v, and the one along which it is seen, in
@@ -64,6 +66,100 @@ static bool find_places(struct cutter *cutter) {
   for (size_t i = 0; ok && i < count; i++)
     point[i].on = point[cutter->place[i] - cutter->points.first].on;
   mem_free(order);
+  return ok;
+}
+
+/* ---- Loose ends ---------------------------------------------------------- */
+
+/* An edge that faces beside each other have in different pieces meets a plane in
+ * points so close as this, in units of the grid. */
+enum { LOOSE_UNITS = 4 };
+
+static bool are_close(const struct cut_point *p, const struct cut_point *q) {
+  for (int k = 0; k < 3; k++)
+    if (llabs(p->at[k] - q->at[k]) > LOOSE_UNITS)
+      return false;
+  return true;
+}
+
+/* Lists the made points at which not as many lines end as begin, by their
+ * places. */
+static bool list_loose_ends(const struct cutter *cutter, const int32_t *balance,
+                            uint32_t **loose, size_t *count) {
+  size_t points = cutter->points.point.count;
+  *loose = mem_alloc(points, sizeof **loose);
+  *count = 0;
+  for (uint32_t i = 0; *loose != NULL && i < points; i++)
+    if (balance[i] != 0)
+      (*loose)[(*count)++] = i;
+  return *loose != NULL && sort_stable(*loose, *count, sizeof **loose,
+                                       compare_made_places, (void *)cutter);
+}
+
+/* Makes places one, as sets of union_find.h say. */
+static void join_places(struct cutter *cutter, uint32_t *set) {
+  struct cut_point *point = cutter->points.point.item;
+  size_t points = cutter->points.point.count;
+  uint32_t first = cutter->points.first;
+  for (size_t i = 0; i < points; i++) {
+    uint32_t root = union_find_root(set, cutter->place[i] - first);
+    cutter->place[i] = first + root;
+    point[root].on |= point[i].on;
+  }
+  for (size_t i = 0; i < points; i++)
+    point[i].on = point[cutter->place[i] - first].on;
+}
+
+/* Makes ends of lines that are as good as in one place one: `end` of each made
+ * point is set. */
+static bool match_loose_ends(const struct cutter *cutter, int32_t *balance,
+                             uint32_t *end, uint32_t *set) {
+  const struct cut_point *point = cutter->points.point.item;
+  uint32_t first = cutter->points.first, *loose = NULL;
+  size_t count = 0;
+  bool ok = list_loose_ends(cutter, balance, &loose, &count);
+  for (size_t i = 0; ok && i < count; i++)
+    for (size_t k = i + 1;
+         k < count && balance[loose[i]] != 0 &&
+         point[loose[k]].at[0] - point[loose[i]].at[0] <= LOOSE_UNITS;
+         k++) {
+      uint32_t p = loose[i], q = loose[k];
+      if (balance[q] == 0 || (balance[p] > 0) == (balance[q] > 0) ||
+          !are_close(&point[p], &point[q]))
+        continue;
+      balance[p] += balance[q];
+      balance[q] = 0;
+      end[q] = p;
+      union_find_join(set, cutter->place[p] - first, cutter->place[q] - first);
+    }
+  mem_free(loose);
+  return ok;
+}
+
+static bool join_loose_ends(struct cutter *cutter) {
+  size_t points = cutter->points.point.count;
+  uint32_t first = cutter->points.first;
+  struct cut_line *line = cutter->lines.line.item;
+  int32_t *balance = mem_calloc(points, sizeof *balance);
+  uint32_t *end = mem_alloc(points, sizeof *end);
+  uint32_t *set = union_find_create(points);
+  bool ok = balance != NULL && end != NULL && set != NULL;
+  for (size_t i = 0; ok && i < cutter->lines.line.count; i++) {
+    balance[line[i].from - first]--;
+    balance[line[i].to - first]++;
+  }
+  for (uint32_t i = 0; ok && i < points; i++)
+    end[i] = i;
+  ok = ok && match_loose_ends(cutter, balance, end, set);
+  for (size_t i = 0; ok && i < cutter->lines.line.count; i++) {
+    line[i].from = first + end[line[i].from - first];
+    line[i].to = first + end[line[i].to - first];
+  }
+  if (ok)
+    join_places(cutter, set);
+  mem_free(balance);
+  mem_free(end);
+  mem_free(set);
   return ok;
 }
 
@@ -127,8 +223,6 @@ struct meetings {
 static int compare_meetings(const void *a, const void *b, void *user) {
   const struct meeting *p = a, *q = b;
   (void)user;
-  if (p->label != q->label)
-    return p->label < q->label ? -1 : 1;
   if (p->leg != q->leg)
     return p->leg < q->leg ? -1 : 1;
   return p->along != q->along ? (p->along < q->along ? -1 : 1) : 0;
@@ -227,26 +321,51 @@ static bool add_section_nodes(struct cutter *cutter, unsigned plane) {
   return ok && section_sort_nodes(&cutter->section[plane]);
 }
 
-/* Adds the segments along the lines where planes meet. */
+/* How many lines of a label run along the line where planes meet. */
+struct carry {
+  uint32_t label;
+  int32_t lines;
+};
+
+struct carries {
+  ARRAY(struct carry) list; /* none of them 0 */
+};
+
+static bool add_to_carry(struct carries *carries, uint32_t label,
+                         int32_t flow) {
+  size_t i = 0;
+  while (i < carries->list.count && carries->list.item[i].label != label)
+    i++;
+  if (i == carries->list.count)
+    return ARRAY_PUSH(&carries->list, ((struct carry){label, flow}));
+  carries->list.item[i].lines += flow;
+  if (carries->list.item[i].lines == 0)
+    carries->list.item[i] = carries->list.item[--carries->list.count];
+  return true;
+}
+
+/* Adds the segments along the lines where planes meet: all labels have the same
+ * ones, as points on such a line that are rounded are not quite on one. */
 static bool close_section(struct cutter *cutter, unsigned plane) {
   struct meetings meetings = {{0}};
+  struct carries carries = {{0}};
   bool ok = collect_meetings(cutter, plane, &meetings);
-  int64_t carry = 0;
-  for (size_t i = 0; ok && i < meetings.list.count; i++) {
+  for (size_t i = 0; ok && i + 1 < meetings.list.count; i++) {
     const struct meeting *at = &meetings.list.item[i], *next = at + 1;
-    carry += at->flow;
-    if (i + 1 == meetings.list.count || next->label != at->label)
-      carry = 0;
-    else if (carry != 0 && at->leg != next->leg && cutter->tip != SCENE_NONE)
-      ok = add_section_segment(cutter, plane, at->point, cutter->tip, at->label,
-                               (int32_t)carry) &&
-           add_section_segment(cutter, plane, cutter->tip, next->point,
-                               at->label, (int32_t)carry);
-    else if (carry != 0)
-      ok = add_section_segment(cutter, plane, at->point, next->point, at->label,
-                               (int32_t)carry);
+    bool turns = at->leg != next->leg && cutter->tip != SCENE_NONE;
+    ok = add_to_carry(&carries, at->label, at->flow);
+    for (size_t c = 0; ok && c < carries.list.count; c++) {
+      const struct carry *carry = &carries.list.item[c];
+      ok = add_section_segment(cutter, plane, at->point,
+                               turns ? cutter->tip : next->point, carry->label,
+                               carry->lines) &&
+           (!turns ||
+            add_section_segment(cutter, plane, cutter->tip, next->point,
+                                carry->label, carry->lines));
+    }
   }
   ARRAY_FREE(&meetings.list);
+  ARRAY_FREE(&carries.list);
   return ok;
 }
 
@@ -291,7 +410,7 @@ static bool add_crossing_points(struct cutter *cutter, unsigned plane) {
 
 recto_status cut_sections(struct cutter *cutter, recto_error *error) {
   uint32_t open_at = SCENE_NONE;
-  if (!find_tip(cutter) || !find_places(cutter))
+  if (!find_tip(cutter) || !find_places(cutter) || !join_loose_ends(cutter))
     return error_memory(error);
   cutter->tip =
       cutter->tip != SCENE_NONE ? cut_place(cutter, cutter->tip) : SCENE_NONE;
