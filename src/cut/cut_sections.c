@@ -71,8 +71,8 @@ static bool find_places(struct cutter *cutter) {
 
 /* ---- Loose ends ---------------------------------------------------------- */
 
-/* An edge that faces beside each other have in different pieces meets a plane in
- * points so close as this, in units of the grid. */
+/* An edge that faces beside each other have in different pieces meets a plane
+ * in points so close as this, in units of the grid. */
 enum { LOOSE_UNITS = 4 };
 
 static bool are_close(const struct cut_point *p, const struct cut_point *q) {
