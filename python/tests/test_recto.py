@@ -300,7 +300,7 @@ def test_every_option():
     words = re.findall(r"^ +(?:-\w, |    )--([a-z-]+)", text, re.M)
     names = {word.replace("-", "_") for word in words}
     others = "output from turntable no_fit stats check tolerance quiet version help "
-    others += "completion"
+    others += "completion frames part join resume"
     known = set(recto.Options.__annotations__)
     assert names - known == set(others.split()), names ^ known
     options = recto._options

@@ -364,6 +364,8 @@ bool hatch_add_cuts(struct drawing *drawing, const struct sheet *sheet,
   struct cut_hatch *hatch = cut_hatch_of_groups(scene, pens, options);
   bool ok = hatch != NULL &&
             hatch_regions_init(&h.regions, sheet, scene, map, pens, options);
+  /* Nothing pierces a cut face: surfaces end on it, and no line is drawn. */
+  h.regions.intersections = false;
   for (size_t g = 0; ok && g < scene->group.count; g++) {
     if (hatch[g].pitch_mm == 0 || is_hatched_before(hatch, g))
       continue;
