@@ -359,6 +359,59 @@ static size_t count_hatching(const recto_scene *scene,
   return count;
 }
 
+static double distance_to_segment(const double p[2], const double *a,
+                                  const double *b) {
+  double x = b[0] - a[0], y = b[1] - a[1], square = x * x + y * y;
+  double t = square > 0 ? ((p[0] - a[0]) * x + (p[1] - a[1]) * y) / square : 0;
+  t = fmin(fmax(t, 0), 1);
+  return hypot(p[0] - a[0] - t * x, p[1] - a[1] - t * y);
+}
+
+static double distance_to_lines(const recto_drawing *drawing,
+                                const double p[2]) {
+  recto_stroke stroke;
+  double least = INFINITY;
+  for (size_t s = 0; recto_drawing_stroke(drawing, s, &stroke); s++)
+    for (size_t i = 1; i < stroke.count + stroke.closed; i++)
+      if (stroke.edge_class != 0)
+        least = fmin(
+            least, distance_to_segment(p, stroke.points + 2 * (i - 1),
+                                       stroke.points + 2 * (i % stroke.count)));
+  return least;
+}
+
+/* Moves from a hatch line to the next run along lines that are drawn, not along
+ * bridges or where surfaces end on a cut face. */
+static void moves_of_hatching_run_along_lines(void **state) {
+  (void)state;
+  recto_scene *scene = read_model("gears");
+  const recto_plane plane = plane_of(1, 0, 0, 0);
+  recto_drawing *drawing;
+  recto_stroke stroke;
+  recto_options options;
+  size_t moves = 0;
+  recto_options_init(&options);
+  options.camera.azimuth_deg = 90;
+  options.camera.elevation_deg = 0;
+  options.mesh.cut = &plane;
+  options.mesh.cut_count = 1;
+  assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
+                   RECTO_OK);
+  for (size_t s = 0; recto_drawing_stroke(drawing, s, &stroke); s++)
+    for (size_t i = 1; stroke.edge_class == 0 && i + 2 < stroke.count; i += 2) {
+      const double *a = stroke.points + 2 * i, *b = a + 2;
+      const double middle[2] = {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2};
+      double away = distance_to_lines(drawing, middle);
+      moves++;
+      if (!(away < options.ink.pen_mm))
+        fail_msg("the move at %g,%g mm is %g mm from any line", middle[0],
+                 middle[1], away);
+    }
+  assert_true(moves > 100);
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(scene);
+}
+
 static void cut_faces_are_hatched_solid_or_not(void **state) {
   (void)state;
   recto_scene *scene = slabs();
@@ -586,6 +639,7 @@ int main(void) {
       cmocka_unit_test(outlines_have_no_gaps),
       cmocka_unit_test(results_name_what_the_caller_knows),
       cmocka_unit_test(neighbours_are_hatched_differently),
+      cmocka_unit_test(moves_of_hatching_run_along_lines),
       cmocka_unit_test(cut_faces_are_hatched_solid_or_not),
       cmocka_unit_test(bad_planes_are_refused),
       cmocka_unit_test(sizes_do_not_matter),

@@ -21,13 +21,20 @@ bool hatch_regions_side_is_inked(const struct hatch_regions *regions,
 }
 
 /* Whether two twins divide a cut face.  Surfaces that end on it from behind may
- * do so within contact, by lines that are not drawn. */
-static bool is_within_cut_face(const struct scene *scene, const struct map *map,
+ * do so within contact, by lines that are not drawn; and so do bridges, which
+ * may be part of a side along which a line is drawn elsewhere. */
+static bool is_within_cut_face(const struct hatch_regions *regions,
+                               const struct scene *scene, const struct map *map,
                                const struct map_half_edge *a,
                                const struct map_half_edge *b) {
   uint32_t face = map->fragment.item[a->fragment].face;
-  return face == map->fragment.item[b->fragment].face &&
-         scene_is_cut_face(scene, face);
+  uint32_t other = map->fragment.item[b->fragment].face;
+  if (!scene_is_cut_face(scene, face) || !scene_is_cut_face(scene, other))
+    return false;
+  return face == other ||
+         (scene->face_group.item[face] == scene->face_group.item[other] &&
+          !(hatch_regions_side_is_inked(regions, &map->corner.item[a->side]) &&
+            hatch_regions_side_is_inked(regions, &map->corner.item[b->side])));
 }
 
 /* Whether the fragments of two twins belong to one region: they are beside one
@@ -42,8 +49,9 @@ static bool is_within_region(const struct hatch_regions *regions,
   const struct map_corner *q = &map->corner.item[b->side];
   uint32_t face = map->fragment.item[a->fragment].face;
   uint32_t other = map->fragment.item[b->fragment].face;
-  if (is_within_cut_face(scene, map, a, b) ||
-      (p->side == MAP_SIDE_CLIP && q->side == MAP_SIDE_CLIP))
+  if (is_within_cut_face(regions, scene, map, a, b))
+    return true;
+  if (p->side == MAP_SIDE_CLIP && q->side == MAP_SIDE_CLIP)
     return face == other;
   return p->side == MAP_SIDE_EDGE && q->side == MAP_SIDE_EDGE &&
          p->id == q->id && !hatch_regions_side_is_inked(regions, p) &&
@@ -77,7 +85,7 @@ static void find_crossable(const struct hatch_regions *regions,
     regions->crossable[h] =
         twin != NULL &&
         regions->root[half[h].fragment] == regions->root[twin->fragment] &&
-        (is_within_cut_face(scene, map, &half[h], twin) ||
+        (is_within_cut_face(regions, scene, map, &half[h], twin) ||
          (!hatch_regions_side_is_inked(regions,
                                        &map->corner.item[half[h].side]) &&
           !hatch_regions_side_is_inked(regions,
