@@ -90,11 +90,13 @@ static bool drop_duplicate_lines(struct curve_finder *c) {
     }
   }
   bool ok = sort_keys_alone(key.item, key.count);
-  for (size_t i = 1; ok && i < key.count; i++) {
+  unsigned planes = 0; /* of the lines before between the same points */
+  for (size_t i = 0; ok && i < key.count; i++) {
     struct cut_line *line = &c->line[key.item[i].value];
-    for (size_t k = i; k-- > 0 && key.item[k].key == key.item[i].key;)
-      line->open =
-          line->open || c->line[key.item[k].value].plane == line->plane;
+    if (i > 0 && key.item[i].key != key.item[i - 1].key)
+      planes = 0;
+    line->open = (planes >> line->plane & 1) != 0;
+    planes |= 1u << line->plane;
   }
   ARRAY_FREE(&key);
   return ok;

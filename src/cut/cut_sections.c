@@ -82,18 +82,37 @@ static bool are_close(const struct cut_point *p, const struct cut_point *q) {
   return true;
 }
 
-/* Lists the made points at which not as many lines end as begin, by their
- * places. */
+/* A made point at which not as many lines end as begin. */
+struct loose_end {
+  double along; /* a direction in which no plane of a model is likely to lie */
+  uint32_t point;
+};
+
+struct loose_ends {
+  ARRAY(struct loose_end) list;
+};
+
+static const double loose_direction[3] = {0.8191725, 0.6710436, 0.5497005};
+
+static int compare_loose_ends(const void *a, const void *b, void *user) {
+  const struct loose_end *p = a, *q = b;
+  (void)user;
+  return (p->along > q->along) - (p->along < q->along);
+}
+
 static bool list_loose_ends(const struct cutter *cutter, const int32_t *balance,
-                            uint32_t **loose, size_t *count) {
-  size_t points = cutter->points.point.count;
-  *loose = mem_alloc(points, sizeof **loose);
-  *count = 0;
-  for (uint32_t i = 0; *loose != NULL && i < points; i++)
-    if (balance[i] != 0)
-      (*loose)[(*count)++] = i;
-  return *loose != NULL && sort_stable(*loose, *count, sizeof **loose,
-                                       compare_made_places, (void *)cutter);
+                            struct loose_ends *loose) {
+  for (uint32_t i = 0; i < cutter->points.point.count; i++) {
+    const int64_t *at = cutter->points.point.item[i].at;
+    double along = 0;
+    for (int k = 0; k < 3; k++)
+      along += loose_direction[k] * (double)at[k];
+    if (balance[i] != 0 &&
+        !ARRAY_PUSH(&loose->list, ((struct loose_end){along, i})))
+      return false;
+  }
+  return sort_stable(loose->list.item, loose->list.count,
+                     sizeof *loose->list.item, compare_loose_ends, NULL);
 }
 
 /* Makes places one, as sets of union_find.h say. */
@@ -115,15 +134,16 @@ static void join_places(struct cutter *cutter, uint32_t *set) {
 static bool match_loose_ends(const struct cutter *cutter, int32_t *balance,
                              uint32_t *end, uint32_t *set) {
   const struct cut_point *point = cutter->points.point.item;
-  uint32_t first = cutter->points.first, *loose = NULL;
-  size_t count = 0;
-  bool ok = list_loose_ends(cutter, balance, &loose, &count);
-  for (size_t i = 0; ok && i < count; i++)
+  uint32_t first = cutter->points.first;
+  struct loose_ends loose = {{0}};
+  bool ok = list_loose_ends(cutter, balance, &loose);
+  const struct loose_end *item = loose.list.item;
+  for (size_t i = 0; ok && i < loose.list.count; i++)
     for (size_t k = i + 1;
-         k < count && balance[loose[i]] != 0 &&
-         point[loose[k]].at[0] - point[loose[i]].at[0] <= LOOSE_UNITS;
+         k < loose.list.count && balance[item[i].point] != 0 &&
+         item[k].along - item[i].along <= 3 * LOOSE_UNITS;
          k++) {
-      uint32_t p = loose[i], q = loose[k];
+      uint32_t p = item[i].point, q = item[k].point;
       if (balance[q] == 0 || (balance[p] > 0) == (balance[q] > 0) ||
           !are_close(&point[p], &point[q]))
         continue;
@@ -132,7 +152,7 @@ static bool match_loose_ends(const struct cutter *cutter, int32_t *balance,
       end[q] = p;
       union_find_join(set, cutter->place[p] - first, cutter->place[q] - first);
     }
-  mem_free(loose);
+  ARRAY_FREE(&loose.list);
   return ok;
 }
 

@@ -14,8 +14,8 @@ struct extent {
  * camera  its axes, eye and near plane are set
  * used    one a point: see used.h
  * cuts    whether the points in which sides cross the near plane are included.
- *         That is so for a section, which is to be seen whole; at a default
- *         near plane close to the eye they would make all else tiny. */
+ *         At a near plane close to the eye of a perspective view they would
+ *         make all else tiny. */
 struct extent extent_of_drawing(const struct camera *camera,
                                 const struct scene *scene, const uint8_t *used,
                                 bool cuts);
