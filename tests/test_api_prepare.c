@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "recto.h"
+#include "svg_text.h"
 
 enum { RINGS = 12, SIDES = 20, VIEWS = 8 };
 
@@ -45,23 +46,6 @@ static recto_scene *make_torus(void) {
 
 /* ---- A drawing as text --------------------------------------------------- */
 
-struct text {
-  char *bytes;
-  size_t count;
-};
-
-static bool append(void *user, const void *bytes, size_t count) {
-  struct text *text = user;
-  char *more = realloc(text->bytes, text->count + count + 1);
-  if (more == NULL)
-    return false;
-  text->bytes = more;
-  memcpy(more + text->count, bytes, count);
-  text->count += count;
-  more[text->count] = '\0';
-  return true;
-}
-
 static void init_view(recto_options *options, int view) {
   recto_options_init(options);
   options->camera.azimuth_deg = 45 * view;
@@ -75,17 +59,12 @@ static void init_view(recto_options *options, int view) {
 static char *draw_view(const recto_scene *scene, int view) {
   recto_options options;
   recto_drawing *drawing;
-  struct text text = {NULL, 0};
   init_view(&options, view);
   if (recto_scene_render(scene, &options, &drawing, NULL) != RECTO_OK)
     return NULL;
-  if (recto_drawing_write_to(drawing, "svg", NULL, append, &text, NULL) !=
-      RECTO_OK) {
-    free(text.bytes);
-    text.bytes = NULL;
-  }
+  char *text = svg_text_of(drawing, NULL);
   recto_drawing_destroy(drawing);
-  return text.bytes;
+  return text;
 }
 
 static void prepare(recto_scene *scene) {
@@ -183,14 +162,12 @@ static void several_threads_draw_a_scene_at_once(void **state) {
 
 struct write_task {
   const recto_drawing *drawing;
-  struct text text;
+  char *text;
 };
 
 static void *write_drawing(void *user) {
   struct write_task *task = user;
-  if (recto_drawing_write_to(task->drawing, "svg", NULL, append, &task->text,
-                             NULL) != RECTO_OK)
-    free(task->text.bytes);
+  task->text = svg_text_of(task->drawing, NULL);
   return NULL;
 }
 
@@ -200,7 +177,7 @@ static void several_threads_write_a_drawing_at_once(void **state) {
   (void)state;
   recto_scene *scene = make_torus();
   for (int time = 0; time < TIMES; time++) {
-    struct write_task task[VIEWS] = {{NULL, {NULL, 0}}};
+    struct write_task task[VIEWS] = {{NULL, NULL}};
     pthread_t thread[VIEWS];
     recto_drawing *drawing;
     assert_int_equal(recto_scene_render(scene, NULL, &drawing, NULL), RECTO_OK);
@@ -212,10 +189,10 @@ static void several_threads_write_a_drawing_at_once(void **state) {
     for (int i = 0; i < VIEWS; i++)
       assert_int_equal(pthread_join(thread[i], NULL), 0);
     for (int i = 1; i < VIEWS; i++) {
-      assert_string_equal(task[i].text.bytes, task[0].text.bytes);
-      free(task[i].text.bytes);
+      assert_string_equal(task[i].text, task[0].text);
+      free(task[i].text);
     }
-    free(task[0].text.bytes);
+    free(task[0].text);
     const char *once = strstr(recto_drawing_stats(drawing), "\"write_cpu_s\"");
     assert_non_null(once);
     assert_null(strstr(once + 1, "\"write_cpu_s\""));

@@ -956,34 +956,6 @@ static void no_sliver_is_left_where_planes_meet(void **state) {
   }
 }
 
-static size_t count_section_lines(const struct cut_plane *plane,
-                                  size_t planes) {
-  struct cutting c;
-  size_t count = 0;
-  scene_init(&c.scene);
-  add_box(&c.scene, (double[]){0, 0, 0}, (double[]){1, 1, 1}, false);
-  add_box(&c.scene, (double[]){1, 0, 0}, (double[]){2, 1, 1}, false);
-  add_box(&c.scene, (double[]){0, 1, 0}, (double[]){2, 2, 1}, false);
-  assert_int_equal(run_cut(&c, plane, planes), RECTO_OK);
-  for (uint32_t e = 0; e < c.after.edge.count; e++)
-    count += (topology_class_mask(&c.after, &c.cut.scene, e, 30) &
-              RECTO_EDGE_SECTION) != 0;
-  end_cut(&c);
-  scene_fini(&c.scene);
-  return count;
-}
-
-/* Planes that are one, but for their length or rounding, and one that leaves
- * more of the scene to go, change nothing. */
-static void planes_that_are_one_cut_as_one(void **state) {
-  (void)state;
-  const struct cut_plane plane[3] = {
-      plane_of(1, 0, 0, 1), plane_of(2, 1e-13, 0, 2), plane_of(3, 0, 0, -6)};
-  assert_int_equal(count_section_lines(plane, 1), 6);
-  assert_int_equal(count_section_lines(plane, 2), 6);
-  assert_int_equal(count_section_lines(plane, 3), 6);
-}
-
 /* ---- Edges and polylines ------------------------------------------------- */
 
 /* Of a cut cube: four sides of the cut face, and none of the bridges. */
@@ -1107,7 +1079,6 @@ int main(void) {
       cmocka_unit_test(polygons_that_run_over_themselves_are_cut),
       cmocka_unit_test(faces_that_share_an_edge_in_pieces_are_closed),
       cmocka_unit_test(no_sliver_is_left_where_planes_meet),
-      cmocka_unit_test(planes_that_are_one_cut_as_one),
       cmocka_unit_test(the_sides_of_cut_faces_are_sections),
       cmocka_unit_test(faces_are_divided_only_where_something_goes),
       cmocka_unit_test(polylines_lose_what_is_beyond),

@@ -14,29 +14,7 @@
 
 #include "box_mesh.h"
 #include "recto.h"
-
-struct bytes {
-  char *item;
-  size_t count;
-};
-
-static bool keep_bytes(void *user, const void *bytes, size_t count) {
-  struct bytes *to = user;
-  to->item = realloc(to->item, to->count + count + 1);
-  memcpy(to->item + to->count, bytes, count);
-  to->count += count;
-  to->item[to->count] = '\0';
-  return true;
-}
-
-static struct bytes svg_of(const recto_drawing *drawing,
-                           const recto_options *options) {
-  struct bytes bytes = {NULL, 0};
-  assert_int_equal(
-      recto_drawing_write_to(drawing, "svg", options, keep_bytes, &bytes, NULL),
-      RECTO_OK);
-  return bytes;
-}
+#include "svg_text.h"
 
 static recto_scene *read_model(const char *name) {
   char path[512];
@@ -95,7 +73,7 @@ static void exact_methods_agree_and_the_judge_finds_no_fault(void **state) {
   for (int i = 0; i < VIEWS; i++) {
     recto_scene *scene = read_model(views[i].model);
     recto_error error;
-    struct bytes first = {NULL, 0};
+    char *first = NULL;
     for (int fill = 0; fill < 2; fill++) {
       for (size_t m = 0; m < sizeof method / sizeof method[0]; m++) {
         recto_drawing *drawing;
@@ -107,20 +85,20 @@ static void exact_methods_agree_and_the_judge_finds_no_fault(void **state) {
         options.verify = m == 0 ? 3000 : 0;
         if (recto_scene_render(scene, &options, &drawing, &error) != RECTO_OK)
           fail_msg("%s, view %d: %s", views[i].model, i, error.text);
-        struct bytes bytes = svg_of(drawing, &options);
-        if (m > 0 && strcmp(first.item, bytes.item) != 0)
+        char *bytes = svg_text_of(drawing, &options);
+        if (m > 0 && strcmp(first, bytes) != 0)
           fail_msg("%s: %s differs", views[i].model,
                    recto_method_name(method[m]));
         recto_drawing_destroy(drawing);
         if (m == 0) {
-          free(first.item);
+          free(first);
           first = bytes;
         } else {
-          free(bytes.item);
+          free(bytes);
         }
       }
     }
-    free(first.item);
+    free(first);
     recto_scene_destroy(scene);
   }
 }
@@ -450,6 +428,48 @@ static void cut_faces_are_hatched_solid_or_not(void **state) {
   recto_scene_destroy(scene);
 }
 
+/* A plane given twice leaves what it leaves alone, also where it lies in sides
+ * that several boxes share. */
+static void planes_that_are_one_cut_as_one(void **state) {
+  (void)state;
+  const recto_plane plane[2] = {plane_of(1, 0, 0, 1), plane_of(2, 0, 0, 2)};
+  static const double box[4][2][3] = {{{0, 0, 0}, {1, 1, 1}},
+                                      {{1, 0, 0}, {2, 1, 1}},
+                                      {{0, 1, 0}, {2, 2, 1}},
+                                      {{0, 0, 1}, {2, 2, 2}}};
+  char *bytes[2];
+  recto_scene *scene = box_scene(NULL);
+  for (int i = 0; i < 4; i++) {
+    const char *const name[] = {"abcd" + i};
+    double point[24];
+    for (int k = 0; k < 24; k++)
+      point[k] = box[i][(int)box_cube[k / 3][k % 3]][k % 3];
+    recto_mesh mesh = box_mesh(point, 8);
+    mesh.face_groups = NULL;
+    mesh.group_names = name;
+    mesh.group_count = 1;
+    assert_int_equal(recto_scene_add_mesh(scene, &mesh, NULL), RECTO_OK);
+  }
+  for (int twice = 0; twice < 2; twice++) {
+    recto_drawing *drawing;
+    recto_options options;
+    recto_options_init(&options);
+    options.camera.azimuth_deg = 255;
+    options.camera.elevation_deg = -25;
+    options.ink.edges = RECTO_EDGES_ALL;
+    options.mesh.cut = plane;
+    options.mesh.cut_count = twice ? 2 : 1;
+    assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
+                     RECTO_OK);
+    bytes[twice] = svg_text_of(drawing, &options);
+    recto_drawing_destroy(drawing);
+  }
+  assert_string_equal(bytes[0], bytes[1]);
+  free(bytes[0]);
+  free(bytes[1]);
+  recto_scene_destroy(scene);
+}
+
 static void bad_planes_are_refused(void **state) {
   (void)state;
   const recto_mesh mesh = box_mesh(box_cube[0], 8);
@@ -487,7 +507,7 @@ static void bad_planes_are_refused(void **state) {
 static void sizes_do_not_matter(void **state) {
   (void)state;
   static const double size[] = {1, 0x1p900, 0x1p-900};
-  struct bytes first = {NULL, 0};
+  char *first = NULL;
   for (size_t i = 0; i < sizeof size / sizeof size[0]; i++) {
     double point[24];
     for (int k = 0; k < 24; k++)
@@ -503,17 +523,17 @@ static void sizes_do_not_matter(void **state) {
     options.verify = 1000;
     assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
                      RECTO_OK);
-    struct bytes bytes = svg_of(drawing, &options);
+    char *bytes = svg_text_of(drawing, &options);
     if (i == 0)
       first = bytes;
     else {
-      assert_string_equal(bytes.item, first.item);
-      free(bytes.item);
+      assert_string_equal(bytes, first);
+      free(bytes);
     }
     recto_drawing_destroy(drawing);
     recto_scene_destroy(scene);
   }
-  free(first.item);
+  free(first);
 }
 
 /* A section is a cut by a plane parallel to the page; one that has nothing
@@ -525,7 +545,7 @@ static void a_section_is_a_cut_parallel_to_the_page(void **state) {
   recto_scene *scene = box_scene(&mesh);
   for (int perspective = 0; perspective < 2; perspective++)
     for (size_t i = 0; i < sizeof depth / sizeof depth[0]; i++) {
-      struct bytes bytes[2];
+      char *bytes[2];
       for (int shorthand = 0; shorthand < 2; shorthand++) {
         const recto_plane plane = plane_of(0, 0, 3, 3 * (1 - depth[i]));
         recto_drawing *drawing;
@@ -543,14 +563,14 @@ static void a_section_is_a_cut_parallel_to_the_page(void **state) {
         options.verify = 1000;
         assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
                          RECTO_OK);
-        bytes[shorthand] = svg_of(drawing, &options);
-        assert_true((strstr(bytes[shorthand].item, "hatch") != NULL) ==
+        bytes[shorthand] = svg_text_of(drawing, &options);
+        assert_true((strstr(bytes[shorthand], "hatch") != NULL) ==
                     (depth[i] > 0));
         recto_drawing_destroy(drawing);
       }
-      assert_string_equal(bytes[0].item, bytes[1].item);
-      free(bytes[0].item);
-      free(bytes[1].item);
+      assert_string_equal(bytes[0], bytes[1]);
+      free(bytes[0]);
+      free(bytes[1]);
     }
   recto_scene_destroy(scene);
 }
@@ -559,7 +579,7 @@ static void a_section_is_a_cut_parallel_to_the_page(void **state) {
 static void a_prepared_scene_is_cut_for_each_section(void **state) {
   (void)state;
   const recto_mesh mesh = box_mesh(box_cube[0], 8);
-  struct bytes bytes[2];
+  char *bytes[2];
   for (int prepared = 0; prepared < 2; prepared++) {
     recto_scene *scene = box_scene(&mesh);
     recto_drawing *drawing;
@@ -571,13 +591,13 @@ static void a_prepared_scene_is_cut_for_each_section(void **state) {
       assert_int_equal(recto_scene_prepare(scene, &options, NULL), RECTO_OK);
     assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
                      RECTO_OK);
-    bytes[prepared] = svg_of(drawing, &options);
+    bytes[prepared] = svg_text_of(drawing, &options);
     recto_drawing_destroy(drawing);
     recto_scene_destroy(scene);
   }
-  assert_string_equal(bytes[0].item, bytes[1].item);
-  free(bytes[0].item);
-  free(bytes[1].item);
+  assert_string_equal(bytes[0], bytes[1]);
+  free(bytes[0]);
+  free(bytes[1]);
 }
 
 static void a_section_excludes_other_planes_and_views(void **state) {
@@ -641,6 +661,7 @@ int main(void) {
       cmocka_unit_test(neighbours_are_hatched_differently),
       cmocka_unit_test(moves_of_hatching_run_along_lines),
       cmocka_unit_test(cut_faces_are_hatched_solid_or_not),
+      cmocka_unit_test(planes_that_are_one_cut_as_one),
       cmocka_unit_test(bad_planes_are_refused),
       cmocka_unit_test(sizes_do_not_matter),
       cmocka_unit_test(a_section_is_a_cut_parallel_to_the_page),

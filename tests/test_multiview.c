@@ -13,6 +13,7 @@
 
 #include "base/memory.h"
 #include "recto.h"
+#include "tests/svg_text.h"
 #include "view/preferred_scale.h"
 
 /* A crooked tetrahedron, so that no two corners share a coordinate. */
@@ -446,31 +447,14 @@ static void progress_grows_and_cancels(void **state) {
   recto_scene_destroy(scene);
 }
 
-struct text {
-  char *bytes;
-  size_t count;
-};
-
-static bool keep_bytes(void *user, const void *bytes, size_t count) {
-  struct text *text = user;
-  text->bytes = realloc(text->bytes, text->count + count + 1);
-  assert_non_null(text->bytes);
-  memcpy(text->bytes + text->count, bytes, count);
-  text->count += count;
-  text->bytes[text->count] = '\0';
-  return true;
-}
-
 static char *draw_text(const recto_scene *scene, const recto_options *options) {
-  struct text text = {NULL, 0};
   recto_drawing *drawing;
   assert_int_equal(recto_scene_render(scene, options, &drawing, NULL),
                    RECTO_OK);
-  assert_int_equal(
-      recto_drawing_write_to(drawing, "svg", options, keep_bytes, &text, NULL),
-      RECTO_OK);
+  char *text = svg_text_of(drawing, options);
+  assert_non_null(text);
   recto_drawing_destroy(drawing);
-  return text.bytes;
+  return text;
 }
 
 static void a_prepared_scene_gives_the_same_bytes(void **state) {

@@ -12,36 +12,10 @@
 #include "api/handle.h"
 #include "parts/byte_codec.h"
 #include "tests/scenes/scenes.h"
+#include "tests/svg_text.h"
 #include "tests/temporary.h"
 
 enum { PARTS_MOST = 16 };
-
-/* ---- A drawing as text --------------------------------------------------- */
-
-struct text {
-  char *bytes;
-  size_t count;
-};
-
-static bool append_text(void *user, const void *bytes, size_t count) {
-  struct text *text = user;
-  char *more = realloc(text->bytes, text->count + count + 1);
-  if (more == NULL)
-    return false;
-  text->bytes = more;
-  memcpy(more + text->count, bytes, count);
-  text->count += count;
-  return true;
-}
-
-static struct text text_of(const recto_drawing *drawing,
-                           const recto_options *options) {
-  struct text text = {NULL, 0};
-  assert_int_equal(
-      recto_drawing_write_to(drawing, "svg", options, append_text, &text, NULL),
-      RECTO_OK);
-  return text;
-}
 
 /* ---- Parts --------------------------------------------------------------- */
 
@@ -91,13 +65,13 @@ static bool compare_parts(void *const *state, const recto_scene *scene,
   if (status != RECTO_OK)
     fail_msg("%s in %u parts: %s", name, count, error.text);
   assert_int_equal(recto_scene_render(scene, options, &whole, NULL), RECTO_OK);
-  struct text a = text_of(whole, options), b = text_of(joined, options);
-  if (a.count != b.count || memcmp(a.bytes, b.bytes, a.count) != 0)
+  char *a = svg_text_of(whole, options), *b = svg_text_of(joined, options);
+  if (a == NULL || b == NULL || strcmp(a, b) != 0)
     fail_msg("%s differs in %u parts, edges %x, hidden %d, fill %d", name,
              count, options->ink.edges, (int)options->ink.hidden,
              (int)options->ink.fill);
-  free(a.bytes);
-  free(b.bytes);
+  free(a);
+  free(b);
   recto_drawing_destroy(whole);
   recto_drawing_destroy(joined);
   return true;
