@@ -11,38 +11,43 @@ struct assembly {
   struct cutter *cutter;
   struct scene *scene;
   uint8_t *needed;             /* of each place: a line ends there, or a part */
-  ARRAY(uint32_t) corner;      /* of the current face */
+  ARRAY(uint32_t) corner;      /* of the current piece of a polyline */
   ARRAY(uint32_t) face;        /* of each face that stays: the one it is of */
   ARRAY(uint32_t) wire;        /* of each polyline: likewise */
   ARRAY(struct sort_key) edge; /* the sides of cut faces, and open lines */
 };
 
-/* ---- Corners ------------------------------------------------------------- */
-
-static bool add_face_corner(struct assembly *a, uint32_t point) {
-  point = cut_place(a->cutter, point);
-  size_t count = a->corner.count;
-  return (count > 0 && a->corner.item[count - 1] == point) ||
-         ARRAY_PUSH(&a->corner, point);
-}
-
 /* ---- Faces --------------------------------------------------------------- */
 
-/* Adds the current face, unless its corners have become fewer than three. */
+/* Where the corners of the current face begin. */
+static uint32_t first_corner(const struct scene *scene) {
+  return scene->face_start.item[scene->face_start.count - 1];
+}
+
+static bool add_face_corner(struct assembly *a, uint32_t point) {
+  struct scene *scene = a->scene;
+  size_t count = scene->corner.count;
+  point = cut_place(a->cutter, point);
+  return (count > first_corner(scene) &&
+          scene->corner.item[count - 1] == point) ||
+         ARRAY_PUSH(&scene->corner, point);
+}
+
+/* Ends the current face, and drops it if its corners have become fewer than
+ * three. */
 static bool end_cut_face(struct assembly *a, uint32_t group) {
   struct scene *scene = a->scene;
-  size_t count = a->corner.count;
-  while (count > 1 && a->corner.item[count - 1] == a->corner.item[0])
+  const uint32_t *corner = scene->corner.item;
+  size_t first = first_corner(scene), count = scene->corner.count;
+  while (count > first + 1 && corner[count - 1] == corner[first])
     count--;
-  if (count < 3)
+  if (count < first + 3) {
+    scene->corner.count = first;
     return true;
-  if (!ARRAY_RESERVE(&scene->corner, count))
-    return false;
-  memcpy(scene->corner.item + scene->corner.count, a->corner.item,
-         count * sizeof *scene->corner.item);
-  scene->corner.count += count;
+  }
+  scene->corner.count = count;
   return ARRAY_PUSH(&scene->face_group, group) &&
-         ARRAY_PUSH(&scene->face_start, (uint32_t)scene->corner.count);
+         ARRAY_PUSH(&scene->face_start, (uint32_t)count);
 }
 
 /* Finds the made points that are corners of what is left.  The others lie on
@@ -80,7 +85,6 @@ static bool is_needless(const struct assembly *a, uint32_t point) {
 static bool add_face_part(struct assembly *a, const struct cut_part *part) {
   const struct cut_corner *corner = a->cutter->corner.item + part->corner;
   size_t faces = a->scene->face_group.count;
-  a->corner.count = 0;
   for (uint32_t i = 0; i < part->count; i++)
     if (!(part->united && is_needless(a, corner[i].point)) &&
         !add_face_corner(a, corner[i].point))
@@ -92,13 +96,16 @@ static bool add_face_part(struct assembly *a, const struct cut_part *part) {
 
 static bool add_whole_cut_face(struct assembly *a, uint32_t face) {
   const struct scene *from = a->cutter->scene;
-  a->corner.count = 0;
-  for (uint32_t c = from->face_start.item[face];
-       c < from->face_start.item[face + 1]; c++)
-    if (!ARRAY_PUSH(&a->corner, cut_weld(a->cutter, from->corner.item[c])))
-      return false;
+  struct scene *scene = a->scene;
+  uint32_t past = from->face_start.item[face + 1];
+  size_t faces = scene->face_group.count;
+  if (!ARRAY_RESERVE(&scene->corner, past - from->face_start.item[face]))
+    return false;
+  for (uint32_t c = from->face_start.item[face]; c < past; c++)
+    scene->corner.item[scene->corner.count++] =
+        cut_weld(a->cutter, from->corner.item[c]);
   return end_cut_face(a, from->face_group.item[face]) &&
-         ARRAY_PUSH(&a->face, face);
+         (scene->face_group.count == faces || ARRAY_PUSH(&a->face, face));
 }
 
 static bool add_cut_scene_faces(struct assembly *a) {
@@ -109,7 +116,7 @@ static bool add_cut_scene_faces(struct assembly *a) {
   for (uint32_t face = 0; face < scene_face_count(cutter->scene); face++) {
     if (!poll_at(face))
       return false;
-    if (cut_fate_of(cutter, face) == CUT_STAYS && !add_whole_cut_face(a, face))
+    if (cutter->fate[face] == CUT_STAYS && !add_whole_cut_face(a, face))
       return false;
     for (; next < cutter->part.count && cutter->part.item[next].face == face;
          next++)
@@ -132,7 +139,6 @@ static bool add_section_faces(struct assembly *a, unsigned plane) {
   const struct section *section = &cutter->section[plane];
   for (size_t l = 0; l < section->loop.count; l++) {
     const struct section_loop *loop = &section->loop.item[l];
-    a->corner.count = 0;
     for (uint32_t i = 0; i < loop->count; i++)
       if (!add_face_corner(
               a, cut_node_point(cutter, plane,
@@ -187,6 +193,13 @@ static bool find_gap(const struct cut_points *points, uint32_t from,
   return t[0] < t[1];
 }
 
+static bool add_wire_corner(struct assembly *a, uint32_t point) {
+  size_t count = a->corner.count;
+  point = cut_place(a->cutter, point);
+  return (count > 0 && a->corner.item[count - 1] == point) ||
+         ARRAY_PUSH(&a->corner, point);
+}
+
 /* Adds the current piece of a polyline, if it is one. */
 static bool end_cut_wire(struct assembly *a, uint32_t wire) {
   struct scene *scene = a->scene;
@@ -211,7 +224,7 @@ static bool add_wire_pieces(struct assembly *a, uint32_t wire) {
   for (uint32_t c = from->wire_start.item[wire]; c < past; c++) {
     uint32_t p = cut_weld(cutter, from->wire_corner.item[c]);
     unsigned all = (1u << points->planes) - 1;
-    if (cut_beyond(points, p) != all && !add_face_corner(a, p))
+    if (cut_beyond(points, p) != all && !add_wire_corner(a, p))
       return false;
     if (c + 1 == past)
       break;
@@ -221,7 +234,7 @@ static bool add_wire_pieces(struct assembly *a, uint32_t wire) {
     uint8_t plane[2];
     if (!find_gap(points, p, q, plane)) {
       /* An end that is on the plane belongs to the piece before or after. */
-      if (from_kept != to_kept && !add_face_corner(a, from_kept ? q : p))
+      if (from_kept != to_kept && !add_wire_corner(a, from_kept ? q : p))
         return false;
       continue;
     }
@@ -230,7 +243,7 @@ static bool add_wire_pieces(struct assembly *a, uint32_t wire) {
                           ? cut_points_meet(points, p, q, plane[k])
                           : 0;
       if (meet == SCENE_NONE ||
-          (plane[k] != CUT_NO_PLANE && !add_face_corner(a, meet)) ||
+          (plane[k] != CUT_NO_PLANE && !add_wire_corner(a, meet)) ||
           (k == 0 && !end_cut_wire(a, wire)))
         return false;
     }

@@ -313,13 +313,30 @@ static bool unite_parts(struct cutter *cutter, size_t first,
   return ok;
 }
 
+/* ---- Faces --------------------------------------------------------------- */
+
+static enum cut_fate fate_of_face(const struct cutter *cutter, uint32_t face) {
+  const struct scene *scene = cutter->scene;
+  unsigned whole = (1u << cutter->points.planes) - 1, any = 0, all = whole;
+  for (uint32_t c = scene->face_start.item[face];
+       c < scene->face_start.item[face + 1]; c++) {
+    unsigned beyond =
+        cutter->points.beyond[cut_weld(cutter, scene->corner.item[c])];
+    any |= beyond;
+    all &= beyond;
+  }
+  return any != whole ? CUT_STAYS : all == whole ? CUT_GOES : CUT_IS_SPLIT;
+}
+
 recto_status cut_faces(struct cutter *cutter, recto_error *error) {
   const struct scene *scene = cutter->scene;
   struct cut_loop loop = {.face = 0};
   struct part_sides sides = {{0}, {0}};
-  bool ok = true;
+  cutter->fate = mem_alloc(scene_face_count(scene), sizeof *cutter->fate);
+  bool ok = cutter->fate != NULL;
   for (uint32_t face = 0; ok && face < scene_face_count(scene); face++) {
-    enum cut_fate fate = cut_fate_of(cutter, face);
+    enum cut_fate fate = fate_of_face(cutter, face);
+    cutter->fate[face] = (uint8_t)fate;
     cutter->anything_goes = cutter->anything_goes || fate == CUT_GOES;
     ok = poll_at(face);
     if (!ok || fate != CUT_IS_SPLIT)

@@ -28,11 +28,15 @@ struct cut_part {
   bool united; /* of several: it has corners that only these needed */
 };
 
+/* What planes do to a face, from which of its corners are beyond them. */
+enum cut_fate { CUT_STAYS, CUT_GOES, CUT_IS_SPLIT };
+
 struct cutter {
   struct cut *cut;
   const struct scene *scene;
   const uint32_t *weld; /* of its points; NULL: to themselves */
   struct cut_points points;
+  uint8_t *fate; /* of each face: enum cut_fate */
   ARRAY(struct cut_corner) corner;
   ARRAY(struct cut_part) part; /* in the order of their faces */
   struct triangulation triangulation;
@@ -64,22 +68,6 @@ static inline uint32_t cut_place(const struct cutter *cutter, uint32_t point) {
 static inline uint32_t cut_node_point(const struct cutter *cutter,
                                       unsigned plane, uint32_t node) {
   return cutter->section[plane].node.item[node].point;
-}
-
-/* What planes do to a face, from which of its corners are beyond them. */
-enum cut_fate { CUT_STAYS, CUT_GOES, CUT_IS_SPLIT };
-static inline enum cut_fate cut_fate_of(const struct cutter *cutter,
-                                        uint32_t face) {
-  const struct scene *scene = cutter->scene;
-  unsigned whole = (1u << cutter->points.planes) - 1, any = 0, all = whole;
-  for (uint32_t c = scene->face_start.item[face];
-       c < scene->face_start.item[face + 1]; c++) {
-    unsigned beyond =
-        cutter->points.beyond[cut_weld(cutter, scene->corner.item[c])];
-    any |= beyond;
-    all &= beyond;
-  }
-  return any != whole ? CUT_STAYS : all == whole ? CUT_GOES : CUT_IS_SPLIT;
 }
 
 USE_RESULT recto_status cut_faces(struct cutter *cutter, recto_error *error);

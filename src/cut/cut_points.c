@@ -8,6 +8,8 @@
 #include "base/poll.h"
 #include "base/tolerance.h"
 #include "cut/section.h"
+#include "view/used.h"
+#include "view/vector.h"
 
 /* Of an edge and a plane. */
 struct cut_point_slot {
@@ -34,21 +36,18 @@ static struct cut_plane unit_plane(const struct cut_plane *plane) {
 }
 
 /* The box of the corners sets the grid: its unit divides what all coordinates
- * can show. */
-static void set_cut_grid(struct cut_points *points) {
+ * can show.  Returns false when memory ran out. */
+static bool set_cut_grid(struct cut_points *points) {
   const struct scene *scene = points->scene;
   double low[3] = {DBL_MAX, DBL_MAX, DBL_MAX};
   double high[3] = {-DBL_MAX, -DBL_MAX, -DBL_MAX}, extent = 0, most = 0;
-  for (size_t c = 0; c < scene->corner.count + scene->wire_corner.count; c++) {
-    size_t wire = c - scene->corner.count;
-    const struct scene_point *p =
-        &scene->point
-             .item[c < scene->corner.count ? scene->corner.item[c]
-                                           : scene->wire_corner.item[wire]];
-    const double at[3] = {p->x, p->y, p->z};
-    for (int k = 0; k < 3; k++) {
-      low[k] = fmin(low[k], at[k]);
-      high[k] = fmax(high[k], at[k]);
+  uint8_t *used = used_points(scene, NULL);
+  for (size_t p = 0; used != NULL && p < scene->point.count; p++) {
+    const struct scene_point *point = &scene->point.item[p];
+    const double at[3] = {point->x, point->y, point->z};
+    for (int k = 0; used[p] && k < 3; k++) {
+      low[k] = min_number(low[k], at[k]);
+      high[k] = max_number(high[k], at[k]);
     }
   }
   for (int k = 0; k < 3; k++) {
@@ -64,6 +63,8 @@ static void set_cut_grid(struct cut_points *points) {
   for (int k = 0; k < 3; k++)
     points->origin[k] = (floor(low[k] / points->unit) - 1) * points->unit;
   points->tolerance = 0x1p-51 * most;
+  mem_free(used);
+  return used != NULL;
 }
 
 /* Adds a plane; of two that are parallel and face the same way only the one
@@ -93,9 +94,8 @@ recto_status cut_points_init(struct cut_points *points,
   *points = (struct cut_points){
       .scene = scene, .planes = 0, .first = (uint32_t)count};
   points->beyond = mem_calloc(count, sizeof *points->beyond);
-  if (points->beyond == NULL)
+  if (points->beyond == NULL || !set_cut_grid(points))
     return error_memory(error);
-  set_cut_grid(points);
   for (size_t k = 0; k < planes; k++) {
     const struct cut_plane unit = unit_plane(&plane[k]);
     points->tolerance = fmax(points->tolerance, 0x1p-51 * fabs(unit.offset));

@@ -8,6 +8,7 @@
 static void cutter_fini(struct cutter *cutter) {
   cut_points_fini(&cutter->points);
   triangulation_fini(&cutter->triangulation);
+  mem_free(cutter->fate);
   ARRAY_FREE(&cutter->corner);
   ARRAY_FREE(&cutter->part);
   mem_free(cutter->place);

@@ -209,24 +209,39 @@ static enum map_state state_of_face(const struct tiles_work *work, uint32_t t) {
       high, false);
 }
 
-/* Marks the tiles of a triangle's bounding box as wanted. */
+/* Marks the tiles of a triangle's bounding box as wanted, but for those in
+ * which it is visible: nothing there occludes it or is in contact with it. */
 static void want_face_tiles(struct tiles_work *work, uint32_t t) {
+  const struct sheet *sheet = work->sheet;
   const struct triangle_grid *grid = &work->tiles.grid;
-  struct cell_range r =
-      triangle_grid_cells(grid, box2_of_triangle(work->sheet, t));
+  struct cell_range r = triangle_grid_cells(grid, box2_of_triangle(sheet, t));
+  int64_t low, high;
+  geom_depth_range(sheet_corners(sheet, t).p, &low, &high);
   for (int y = r.y0; y <= r.y1; y++)
-    memset(work->wanted + (size_t)y * (size_t)grid->columns + r.x0, 1,
-           (size_t)(r.x1 - r.x0) + 1);
+    for (int x = r.x0; x <= r.x1; x++) {
+      size_t i = triangle_grid_index(grid, x, y);
+      if (state_in_tile(&work->tiles.tile[i], tile_bucket(low),
+                        tile_bucket(high), false) != MAP_VISIBLE)
+        work->wanted[i] = 1;
+    }
+}
+
+/* Whether fragments of a triangle are requested. */
+static bool is_filled(const struct sheet *sheet, size_t t) {
+  return sheet->triangle.item[t].face >= sheet->first_filled;
 }
 
 static bool classify_face_range(void *user, struct parallel_range range) {
   struct tiles_work *work = user;
   for (size_t t = range.begin; t < range.end; t++) {
-    bool edge_on = sheet_is_edge_on(work->sheet, t);
     if (!poll_at(t))
       return false;
-    work->face_state[t] =
-        edge_on ? MAP_HIDDEN : (uint8_t)state_of_face(work, (uint32_t)t);
+    enum map_state state = MAP_MIXED;
+    if (sheet_is_edge_on(work->sheet, t))
+      state = MAP_HIDDEN;
+    else if (is_filled(work->sheet, t))
+      state = state_of_face(work, (uint32_t)t);
+    work->face_state[t] = (uint8_t)state;
   }
   return true;
 }
@@ -241,8 +256,7 @@ static bool classify_faces(struct tiles_work *work) {
                        classify_face_range, work))
     return false;
   for (size_t t = 0; t < n; t++) {
-    if (work->face_state[t] != MAP_MIXED ||
-        work->sheet->triangle.item[t].face < work->sheet->first_filled)
+    if (work->face_state[t] != MAP_MIXED || !is_filled(work->sheet, t))
       continue;
     if (!ARRAY_PUSH(&work->face, (uint32_t)t))
       return false;
