@@ -407,9 +407,11 @@ static bool add_common(struct intersection_finder *finder,
 
 /* ---- Nearly in one plane ------------------------------------------------- */
 
-/* A triangle clipped by a slab and by three sides has eight corners at most. */
+/* A triangle clipped to what is drawn, by a slab and by three sides has 13
+ * corners at most. */
+enum { NEAR_CORNERS = 13 };
 struct near_polygon {
-  struct judge_point3 p[8];
+  struct judge_point3 p[NEAR_CORNERS];
   unsigned count;
 };
 
@@ -422,19 +424,21 @@ static void clip_near(struct near_polygon *polygon, struct judge_point3 normal,
                         b = polygon->p[(i + 1) % polygon->count];
     double da = point3_dot(normal, point3_sub(a, at)) - most,
            db = point3_dot(normal, point3_sub(b, at)) - most;
-    if (da <= 0 && kept.count < 8)
+    if (da <= 0 && kept.count < NEAR_CORNERS)
       kept.p[kept.count++] = a;
-    if ((da <= 0) != (db <= 0) && kept.count < 8)
+    if ((da <= 0) != (db <= 0) && kept.count < NEAR_CORNERS)
       kept.p[kept.count++] = point3_along(a, da / (da - db), point3_sub(b, a));
   }
   *polygon = kept;
 }
 
-/* The part of s beside t and nearer to its plane than `by`. */
-static struct near_polygon near_part(const struct judge_triangle *s,
+/* The part of s beside t and nearer to its plane than `by`.
+ * drawn  of s: it may reach behind the eye */
+static struct near_polygon near_part(const struct judge_clipped_triangle *drawn,
                                      const struct judge_triangle *t,
                                      double by) {
-  struct near_polygon part = {{s->p[0], s->p[1], s->p[2]}, 3};
+  struct near_polygon part = {.count = drawn->count};
+  memcpy(part.p, drawn->p, sizeof drawn->p);
   struct judge_point3 n = t->normal, back = {-n.x, -n.y, -n.z};
   clip_near(&part, n, t->p[0], by);
   clip_near(&part, back, t->p[0], by);
@@ -450,13 +454,14 @@ static struct near_polygon near_part(const struct judge_triangle *s,
 static bool add_near(struct intersection_finder *finder, uint32_t other) {
   const struct judge_triangle *s = &finder->all->triangle.item[finder->current],
                               *t = &finder->all->triangle.item[other];
+  struct judge_clipped_triangle drawn = judge_clip_triangle(finder->camera, s);
   double rounding = 0;
-  for (int k = 0; k < 3; k++)
+  for (unsigned k = 0; k < drawn.count; k++)
     rounding =
-        fmax(rounding,
-             judge_rounding_at(finder->camera, finder->ray_offset_mm, s->p[k]));
-  struct near_polygon part = near_part(s, t, 0.2 * rounding);
-  struct judge_point2 at[8] = {{0, 0}};
+        fmax(rounding, judge_rounding_at(finder->camera, finder->ray_offset_mm,
+                                         drawn.p[k]));
+  struct near_polygon part = near_part(&drawn, t, 0.2 * rounding);
+  struct judge_point2 at[NEAR_CORNERS] = {{0, 0}};
   unsigned a = 0, b = 0;
   double longest = 0, moved = 0;
   for (unsigned i = 0; i < part.count; i++) {
