@@ -158,12 +158,15 @@ static bool measure_part(FILE *file, const char *name,
 
 static bool measure_scene(int index, const char *examples, const char *folder,
                           int argc, char **argv) {
-  char name[ACCURACY_NAME], id[ACCURACY_NAME], path[4096], made[4096 + 4];
+  const char *id = accuracy_id[index];
+  struct accuracy_names names;
+  char path[4096];
+  struct whole_file whole;
   struct scene scene;
   recto_options options;
   bool wanted = argc == 0, ok = false;
   double start = clock_wall();
-  bool is_there = accuracy_scene(index, examples, &scene, &options, name, id);
+  bool is_there = accuracy_scene(index, examples, &scene, &options, &names);
   for (int i = 0; i < argc; i++)
     if (strcmp(argv[i], id) == 0) {
       wanted = true;
@@ -175,17 +178,16 @@ static bool measure_scene(int index, const char *examples, const char *folder,
     return !wanted;
   }
   snprintf(path, sizeof path, "%s/%s.csv", folder, id);
-  snprintf(made, sizeof made, "%s.new", path);
-  FILE *file = wanted ? fopen(made, "w") : NULL;
-  if (file != NULL) {
+  if (wanted && whole_open(&whole, path)) {
+    FILE *file = whole.file;
     fputs("scene,part,method,knob,value,cpu_s,wrong,missing,false,"
           "wrong_face,truth\n",
           file);
-    ok = measure_part(file, name, &scene, &options, TRIAL_EDGES);
-    ok = measure_part(file, name, &scene, &options, TRIAL_FRAGMENTS) && ok;
-    ok = fclose(file) == 0 && ok;
-    ok = rename(made, path) == 0 && ok;
-    fprintf(stderr, "%s: %s, %.0f s\n", id, name, clock_wall() - start);
+    ok = measure_part(file, names.name, &scene, &options, TRIAL_EDGES);
+    ok =
+        measure_part(file, names.name, &scene, &options, TRIAL_FRAGMENTS) && ok;
+    ok = whole_close(&whole, true) && ok;
+    fprintf(stderr, "%s: %s, %.0f s\n", id, names.name, clock_wall() - start);
   } else if (wanted) {
     fprintf(stderr, "accuracy: cannot write %s\n", path);
   }

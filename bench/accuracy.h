@@ -10,14 +10,20 @@ enum { ACCURACY_NAME = 64 };
 
 enum { ACCURACY_SCENES = 8 };
 
+/* The names of their files of figures, such as "fandisk". */
+extern const char *const accuracy_id[ACCURACY_SCENES];
+
+struct accuracy_names {
+  char name[ACCURACY_NAME];  /* what it is, for the chart */
+  char label[ACCURACY_NAME]; /* for a table: the id; of a model that stands for
+                                one that is not here: "gears for fandisk" */
+};
+
 /* Reads or makes the scene at `index`, and sets its camera and page.
- * name  gets what it is, for the chart; of a model that stands for another
- *       one, that is not here, the name of what was taken
- * id    gets the name of its file of figures
+ * names  name and label are those of what was taken
  * False where nothing could be taken for it. */
 bool accuracy_scene(int index, const char *examples, struct scene *scene,
-                    recto_options *options, char name[ACCURACY_NAME],
-                    char id[ACCURACY_NAME]);
+                    recto_options *options, struct accuracy_names *names);
 
 /* ---- Methods ------------------------------------------------------------- */
 

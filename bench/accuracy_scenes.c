@@ -63,53 +63,61 @@ static void refine(struct scene *scene) {
 
 /* ---- The eight ----------------------------------------------------------- */
 
+const char *const accuracy_id[ACCURACY_SCENES] = {
+    "cubes", "cycles", "table", "soup", "fandisk", "bunny", "surface", "dense"};
+
+/* The name is that of a model where one was taken. */
+static void complete_names(struct accuracy_names *names, const char *id,
+                           const char *model, const char *wanted,
+                           size_t faces) {
+  size_t used = strlen(names->name);
+  bool other = model != NULL && strcmp(model, wanted) != 0;
+  snprintf(names->label, ACCURACY_NAME, "%s%s%s", other ? model : "",
+           other ? " for " : "", id);
+  snprintf(names->name + used, ACCURACY_NAME - used, "%s, %zu faces",
+           model != NULL ? model : "", faces);
+}
+
 bool accuracy_scene(int index, const char *examples, struct scene *scene,
-                    recto_options *options, char name[ACCURACY_NAME],
-                    char id[ACCURACY_NAME]) {
-  static const char *const ids[ACCURACY_SCENES] = {
-      "cubes",   "cycles", "table",   "soup",
-      "fandisk", "bunny",  "surface", "dense"};
-  const char *model = "";
+                    recto_options *options, struct accuracy_names *names) {
+  const char *model = NULL, *wanted = NULL;
+  memset(names, 0, sizeof *names);
   recto_options_init(options);
   scene_init(scene);
-  snprintf(id, ACCURACY_NAME, "%s", ids[index]);
   switch (index) {
   case 0:
     scenes_cube_stack(scene, options, 30, 0);
-    snprintf(name, ACCURACY_NAME, "a stack of 30 cubes");
+    snprintf(names->name, ACCURACY_NAME, "a stack of 30 cubes");
     break;
   case 1:
     scenes_cycle_field(scene, options, 12);
-    snprintf(name, ACCURACY_NAME, "144 cycles of three bars");
+    snprintf(names->name, ACCURACY_NAME, "144 cycles of three bars");
     break;
   case 2:
     scenes_large_table(scene, options);
-    snprintf(name, ACCURACY_NAME, "a large table with small things");
+    snprintf(names->name, ACCURACY_NAME, "a large table with small things");
     break;
   case 3:
     scenes_soup(scene, options, 1000, 1);
-    snprintf(name, ACCURACY_NAME, "1000 triangles that pierce each other");
-    break;
-  case 4:
-    model = take_model(scene, options, examples, "fandisk", "gears");
-    break;
-  case 5:
-    model = take_model(scene, options, examples, "stanford-bunny", "knot");
+    snprintf(names->name, ACCURACY_NAME,
+             "1000 triangles that pierce each other");
     break;
   case 6:
     scenes_sinc(scene, options, 200);
-    snprintf(name, ACCURACY_NAME, "the surface sin(r)/r");
+    snprintf(names->name, ACCURACY_NAME, "the surface sin(r)/r");
     break;
   default:
-    model = take_model(scene, options, examples, "stanford-bunny", "knot");
-    if (model != NULL)
+    wanted = index == 4 ? "fandisk" : "stanford-bunny";
+    model = take_model(scene, options, examples, wanted,
+                       index == 4 ? "gears" : "knot");
+    if (index == 7 && model != NULL)
       refine(scene);
     break;
   }
+  if (wanted != NULL && model == NULL)
+    return false;
   set_page(options);
-  size_t faces = scene_face_count(scene);
-  size_t used = *model != '\0' ? 0 : strlen(name);
-  snprintf(name + used, ACCURACY_NAME - used, "%s, %zu faces",
-           model != NULL ? model : "", faces);
-  return model != NULL && faces > 0;
+  complete_names(names, accuracy_id[index], model, wanted,
+                 scene_face_count(scene));
+  return scene_face_count(scene) > 0;
 }

@@ -36,18 +36,18 @@ draw() {
   echo '|---|---|---|---|---|---|---|---|'
 } >"$work/faces"
 for id in cubes cycles table soup fandisk bunny surface dense; do
-  "$scene_program" "$id" "$examples" "$work/scene.obj" || continue
-  draw || continue
+  label=$("$scene_program" "$id" "$examples" "$work/scene.obj") || exit 1
+  draw || exit 1
   laid=$(number sheet triangles)
-  echo "| $id | $(share $((laid - $(number tiles triangles_culled))) "$laid") |" \
+  echo "| $label | $(share $((laid - $(number tiles triangles_culled))) "$laid") |" \
     "$(share "$(number work edges_drawn)" "$(number scene edges)") |" \
     "$(share "$(number occlusion pairs)" "$(number work pairs_possible)") |" \
     "$(share "$(number occlusion filter_failures)" "$(number occlusion depth_tests)") |" \
     "$(number work intersections_made) | $(number work intervals_made) |" \
     "$(($(number memory peak_bytes) / laid)) |" >>"$work/lines"
-  draw -e none --fill paint || continue
+  draw -e none --fill paint || exit 1
   pairs=$(number faces pairs)
-  echo "| $id |" \
+  echo "| $label |" \
     "$(share $(($(number fragments triangles_whole) + $(number fragments triangles_cut))) "$laid") |" \
     "$(share "$pairs" "$(awk -v n="$laid" 'BEGIN { print n * n }')") |" \
     "$(share "$(number faces overlapping)" "$pairs") |" \

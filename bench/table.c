@@ -98,6 +98,22 @@ char *read_file(const char *path, size_t *length) {
   return text;
 }
 
+bool whole_open(struct whole_file *whole, const char *path) {
+  snprintf(whole->path, sizeof whole->path, "%s", path);
+  snprintf(whole->made, sizeof whole->made, "%s.new", whole->path);
+  whole->file = fopen(whole->made, "w");
+  return whole->file != NULL;
+}
+
+bool whole_close(struct whole_file *whole, bool ok) {
+  ok = !ferror(whole->file) && ok;
+  ok = fclose(whole->file) == 0 && ok;
+  ok = ok && rename(whole->made, whole->path) == 0;
+  if (!ok)
+    (void)remove(whole->made);
+  return ok;
+}
+
 static int compare_numbers(const void *a, const void *b) {
   const double *x = a, *y = b;
   return *x < *y ? -1 : *x > *y;

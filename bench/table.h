@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <sys/types.h>
 
 enum { RUNS_MAX = 9 };
@@ -33,6 +34,19 @@ double report_number(const char *text, const char *name);
 /* The whole file, NUL-terminated, to be freed; NULL where it cannot be read.
  * Its length goes to *length where that is not NULL. */
 char *read_file(const char *path, size_t *length);
+
+/* A file that gets its name when it is whole. */
+struct whole_file {
+  FILE *file;
+  char path[4096], made[4096 + 4];
+};
+
+/* False where it cannot be opened. */
+bool whole_open(struct whole_file *whole, const char *path);
+
+/* Closes the file; gives it its name where `ok` and nothing failed, else
+ * removes it.  Returns whether it has it. */
+bool whole_close(struct whole_file *whole, bool ok);
 
 /* The median; sorts the numbers. */
 double median_of(double *number, size_t count);

@@ -148,8 +148,8 @@ measure_three() {
 
 echo '| scene | program, what it draws | CPU s | MB | false ink | missing ink |'
 echo '|---|---|---|---|---|---|'
-for scene in "$@"; do
-  "$scene_program" "$scene" "$examples" scene.obj || continue
+for id in "$@"; do
+  scene=$("$scene_program" "$id" "$examples" scene.obj) || exit 1
   "$recto" scene.obj --azimuth 30 --elevation 20 -p 200x200mm --margin 5 -q \
     -o scene.svg --stats=scene.json
   script prepare scene.obj scene.json page.obj

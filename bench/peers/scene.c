@@ -1,5 +1,5 @@
 /* scene.c - one of the scenes of `make chart` as an OBJ file, for other
- * programs:
+ * programs; prints what tables call it:
  *
  *   scene ID EXAMPLES OUT       such as: scene soup examples/models soup.obj */
 #include <stdio.h>
@@ -15,20 +15,22 @@ int main(int argc, char **argv) {
     return 2;
   }
   for (int i = 0; i < ACCURACY_SCENES; i++) {
-    char name[ACCURACY_NAME], id[ACCURACY_NAME];
+    struct accuracy_names names;
     struct scene scene;
     recto_options options;
     struct stream *stream = NULL;
-    bool there = accuracy_scene(i, argv[2], &scene, &options, name, id);
-    bool wanted = there && strcmp(id, argv[1]) == 0;
-    bool ok = wanted && stream_open(&stream, argv[3], NULL) == RECTO_OK;
+    if (strcmp(accuracy_id[i], argv[1]) != 0)
+      continue;
+    bool ok = accuracy_scene(i, argv[2], &scene, &options, &names) &&
+              stream_open(&stream, argv[3], NULL) == RECTO_OK;
     if (ok) {
       scene_write_obj(&scene, stream);
-      ok = stream_finish(stream, NULL) == RECTO_OK;
+      ok = stream_finish(stream, NULL) == RECTO_OK && puts(names.label) >= 0;
     }
     scene_fini(&scene);
-    if (wanted)
-      return !ok;
+    if (!ok)
+      fprintf(stderr, "scene: %s cannot be written to %s\n", argv[1], argv[3]);
+    return !ok;
   }
   fprintf(stderr, "scene: there is no %s\n", argv[1]);
   return 1;
