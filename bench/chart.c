@@ -85,7 +85,7 @@ struct chosen {
 
 #define ROW(method, colour)                                                    \
   {                                                                            \
-    method, "exact", { method, colour, "", true, false }                       \
+    method, "exact", { method, colour, "", true, false, NULL }                 \
   }
 
 static const struct chosen methods[] = {
@@ -98,24 +98,25 @@ static const struct chosen methods[] = {
     {"painter",
      "order",
      {"painter, faces in the order given or of their centroids", "#666666",
-      "2 3", false, true}},
+      "2 3", false, true, NULL}},
     {"newell",
      "tests",
      {"newell, tests A, AB, ABC, ABCD alone, nothing split", "#b07000", "",
-      false, true}},
+      false, true, NULL}},
     {"watkins",
      "lines",
-     {"watkins, 128 to 4096 scan lines", "#007a58", "", false, false}},
+     {"watkins, 128 to 4096 scan lines", "#007a58", "", false, false, NULL}},
     {"warnock",
      "lines",
      {"warnock in pixels, 128 to 4096 lines of them", "#b04a86", "", false,
-      false}},
+      false, NULL}},
     {"zbuffer",
      "lines",
-     {"zbuffer, 128 to 4096 lines", "#0060a0", "", false, false}},
+     {"zbuffer, 128 to 4096 lines", "#0060a0", "", false, false, NULL}},
     {"scanline-zbuffer",
      "lines",
-     {"scanline-zbuffer, 128 to 4096 lines", "#3aa0e0", "", false, false}},
+     {"scanline-zbuffer, 128 to 4096 lines", "#3aa0e0", "", false, false,
+      NULL}},
 };
 
 static const struct chosen zbuffers[] = {
@@ -123,26 +124,27 @@ static const struct chosen zbuffers[] = {
     {"zbuffer",
      "lines",
      {"zbuffer, 128 to 4096 lines, depths in doubles", "#0060a0", "", false,
-      false}},
+      false, NULL}},
     {"zbuffer",
      "depth bits",
-     {"zbuffer, 1024 lines, 8 to 24 bits of depth", "#b07000", "", false,
-      false}},
+     {"zbuffer, 1024 lines, 8 to 24 bits of depth", "#b07000", "", false, false,
+      NULL}},
     {"zbuffer",
      "subpixels",
      {"zbuffer, 256 lines, 1 to 8 sub-pixels a side", "#007a58", "", false,
-      false}},
+      false, NULL}},
     {"scanline-zbuffer",
      "lines",
-     {"scanline-zbuffer, 128 to 4096 lines", "#0060a0", "5 3", false, false}},
+     {"scanline-zbuffer, 128 to 4096 lines", "#0060a0", "5 3", false, false,
+      NULL}},
     {"scanline-zbuffer",
      "depth bits",
      {"scanline-zbuffer, 1024 lines, 8 to 24 bits", "#b07000", "5 3", false,
-      false}},
+      false, NULL}},
     {"scanline-zbuffer",
      "subpixels",
      {"scanline-zbuffer, 256 lines, 1 to 8 sub-pixels a side", "#007a58", "5 3",
-      false, false}},
+      false, false, NULL}},
 };
 
 static bool is_of(const struct row *row, const struct chosen *chosen,
@@ -171,6 +173,12 @@ static const char *tick_share(int exponent) {
   return text;
 }
 
+static const char *write_share(double share) {
+  static char text[32];
+  snprintf(text, sizeof text, "%.3g %%", 100 * share);
+  return text;
+}
+
 /* Smaller errors are drawn at the lower end of the axis. */
 static const double SHARE_LEAST = 1e-6;
 
@@ -193,6 +201,7 @@ static bool chart_scenes(const struct rows *rows, const char *folder,
                        .y_title = wrong_of(part),
                        .x_tick = tick_seconds,
                        .y_tick = tick_share,
+                       .y_value = write_share,
                        .y_least = SHARE_LEAST,
                        .none = "no error here",
                        .series = series,
@@ -266,6 +275,7 @@ static bool chart_summary(const struct rows *rows, const char *folder) {
                     .y_title = "error",
                     .x_tick = tick_times,
                     .y_tick = tick_share,
+                    .y_value = write_share,
                     .y_least = SHARE_LEAST,
                     .none = "no error here",
                     .series = series,

@@ -15,13 +15,13 @@ EXTRA_PROGRAMS += %D%/bench %D%/dense %D%/zraster %D%/accuracy %D%/chart \
 %C%_accuracy_LDADD = tests/measure/libmeasure.la tests/scenes/libscenes.la \
   librecto_core.la -lm
 %C%_chart_SOURCES = %D%/chart.c %D%/plot.c %D%/plot.h %D%/table.c \
-  %D%/table.h
+  %D%/table.h %D%/label_places.c %D%/label_places.h
 %C%_chart_LDADD = -lm
 %C%_peers_scene_SOURCES = %D%/peers/scene.c %D%/accuracy.h \
   %D%/accuracy_scenes.c
 %C%_peers_scene_LDADD = tests/scenes/libscenes.la librecto_core.la -lm
 %C%_turns_SOURCES = %D%/turns.c %D%/plot.c %D%/plot.h %D%/table.c \
-  %D%/table.h
+  %D%/table.h %D%/label_places.c %D%/label_places.h
 %C%_turns_LDADD = tests/measure/libmeasure.la tests/scenes/libscenes.la \
   librecto_core.la -lm
 %C%_order_SOURCES = %D%/order.c

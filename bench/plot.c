@@ -5,12 +5,15 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "bench/label_places.h"
+#include "bench/table.h"
+
 enum {
   panel_w = 560,
   panel_h = 300,
   row_h = 15,
   row_gap = 8, /* between the axis and the rows */
-  gap_x = 130,
+  gap_x = 150,
   gap_y = 92,
   left = 150,
   margin = 30,
@@ -23,20 +26,15 @@ struct axis {
   int low, high;
 };
 
-/* A part of the page that is taken. */
-struct place {
-  double x0, y0, x1, y1;
-};
-
-/* The panel that is being drawn: its lower left corner, and what is taken. */
+/* The panel that is being drawn: its lower left corner, and where labels can
+ * stand. */
 struct panel {
   FILE *file;
   const struct plot *plot;
   struct axis x, y;
   int index;
   double left, bottom;
-  struct place taken[PLOT_POINTS];
-  size_t count;
+  struct label_places places;
 };
 
 void plot_add(struct plot *plot, int panel, int series, double x, double y,
@@ -80,11 +78,27 @@ static double place_of(const struct axis *axis, double value, double length) {
   return (log10(value) - axis->low) / (axis->high - axis->low) * length;
 }
 
+static bool is_beyond(const struct plot *plot, double y) {
+  return y > 1 || (y > 0 && y < plot->y_least);
+}
+
+static bool has_row(const struct plot_series *series) {
+  return series->row || series->none != NULL;
+}
+
+/* Own rows, and one for all series that have none. */
 static int count_rows(const struct plot *plot) {
-  int rows = 1; /* of methods that happen to have no error */
+  int rows = 0;
   for (int s = 0; s < plot->series_count; s++)
-    rows += plot->series[s].row;
-  return rows;
+    rows += has_row(&plot->series[s]);
+  return rows + (rows < plot->series_count);
+}
+
+static int count_curves(const struct plot *plot) {
+  int curves = 0;
+  for (int s = 0; s < plot->series_count; s++)
+    curves += !plot->series[s].row;
+  return curves;
 }
 
 static int rows_height(const struct plot *plot) {
@@ -119,43 +133,44 @@ static void put_mark(FILE *file, double x, double y, const char *colour,
             x, y, colour);
 }
 
-static void take(struct panel *panel, struct place place) {
-  if (panel->count < PLOT_POINTS)
-    panel->taken[panel->count++] = place;
+/* Points up or down. */
+static void put_triangle(FILE *file, double x, double y, const char *colour,
+                         bool up) {
+  double tip = up ? -6 : 6;
+  fprintf(file, "<path d=\"M%.1f %.1fL%.1f %.1fL%.1f %.1fZ\" fill=\"%s\"/>\n",
+          x, y + tip, x - 6, y - tip * 0.7, x + 6, y - tip * 0.7, colour);
 }
 
-static bool is_free(const struct panel *panel, struct place place) {
-  if (place.x0 < panel->left || place.x1 > panel->left + panel_w ||
-      place.y0 < panel->bottom - panel_h ||
-      place.y1 > panel->bottom + rows_height(panel->plot) + 1)
-    return false;
-  for (size_t i = 0; i < panel->count; i++) {
-    const struct place *there = &panel->taken[i];
-    if (place.x0 < there->x1 && there->x0 < place.x1 && place.y0 < there->y1 &&
-        there->y0 < place.y1)
-      return false;
-  }
-  return true;
+/* About as wide as text is in usual fonts. */
+static double width_of(const char *text) {
+  double width = 0;
+  for (; *text != '\0'; text++)
+    width += *text >= 'A' && *text <= 'Z'   ? 0.7
+             : *text == ' ' || *text == '.' ? 0.33
+             : *text == '%'                 ? 0.96
+                                            : 0.63;
+  return width * (size - 1);
 }
 
-/* Puts a label beside a mark where there is room; else there is none. */
+/* Puts a label beside a mark, or farther away with a line to it. */
 static void put_label(struct panel *panel, double x, double y,
                       const char *colour, const char *text) {
-  static const double at[][2] = {{1, 0},  {-1, 0},  {0, -1}, {0, 1},
-                                 {1, -1}, {-1, -1}, {1, 1},  {-1, 1}};
-  double w = 6.6 * (double)strlen(text), h = size - 2;
-  for (size_t i = 0; i < 2 * sizeof at / sizeof *at; i++) {
-    const double *way = at[i % (sizeof at / sizeof *at)];
-    double by = i < sizeof at / sizeof *at ? 7 : 16;
-    double cx = x + way[0] * (w / 2 + by), cy = y + way[1] * (h / 2 + by);
-    struct place place = {cx - w / 2, cy - h / 2, cx + w / 2, cy + h / 2};
-    if (!is_free(panel, place))
-      continue;
-    take(panel, place);
-    put_text(panel->file, cx, cy + 0.36 * size, "middle", colour, size - 1,
-             text);
+  struct label_box at;
+  double distance, h = size - 2;
+  if (!label_place(&panel->places, x, y, width_of(text), h, &at, &distance))
     return;
+  double cx = (at.x0 + at.x1) / 2, cy = (at.y0 + at.y1) / 2;
+  if (distance > LABEL_BESIDE) {
+    char style[64];
+    double to_x = fmin(fmax(x, at.x0), at.x1),
+           to_y = fmin(fmax(y, at.y0), at.y1);
+    snprintf(style, sizeof style, "stroke=\"%s\" stroke-width=\"0.6\"", colour);
+    put_line(panel->file, x, y, to_x, to_y, style);
   }
+  fputs("<g paint-order=\"stroke\" stroke=\"#ffffff\" stroke-width=\"3\">",
+        panel->file);
+  put_text(panel->file, cx, cy + 0.36 * size, "middle", colour, size - 1, text);
+  fputs("</g>\n", panel->file);
 }
 
 /* ---- A panel ------------------------------------------------------------- */
@@ -187,40 +202,46 @@ static void put_grid(const struct panel *panel) {
   fprintf(file,
           "<text transform=\"translate(%.1f %.1f) rotate(-90)\" "
           "font-size=\"%d\" text-anchor=\"middle\">%s</text>\n",
-          panel->left - 62, bottom - panel_h / 2.0, size, panel->plot->y_title);
+          panel->left - 72, bottom - panel_h / 2.0, size, panel->plot->y_title);
 }
 
-/* The row of a series; of those that happen to have no error, the last. */
+/* The row of a series; of those without one of their own, the last. */
 static double row_of(const struct panel *panel, int series) {
   int row = 0;
-  if (!panel->plot->series[series].row)
+  if (!has_row(&panel->plot->series[series]))
     row = count_rows(panel->plot) - 1;
   else
     for (int s = 0; s < series; s++)
-      row += panel->plot->series[s].row;
+      row += has_row(&panel->plot->series[s]);
   return panel->bottom + row_gap + (row + 0.5) * row_h;
 }
 
 static void put_row_names(const struct panel *panel) {
+  bool shared = false;
   for (int s = 0; s < panel->plot->series_count; s++) {
     const struct plot_series *series = &panel->plot->series[s];
     char text[PLOT_TEXT];
-    snprintf(text, sizeof text, "no error: %s", series->name);
-    if (series->row)
+    snprintf(text, sizeof text, "%s%s", series->row ? "no error: " : "",
+             series->row ? series->name : series->none);
+    if (has_row(series))
       put_text(panel->file, panel->left - 6, row_of(panel, s) + 4.5, "end",
                series->colour, size, text);
+    shared = shared || !has_row(series);
   }
-  put_text(panel->file, panel->left - 6,
-           panel->bottom + rows_height(panel->plot) - 0.5 * row_h + 4.5, "end",
-           "#000000", size, panel->plot->none);
+  if (shared)
+    put_text(panel->file, panel->left - 6,
+             panel->bottom + rows_height(panel->plot) - 0.5 * row_h + 4.5,
+             "end", "#000000", size, panel->plot->none);
 }
 
+/* What is beyond the axis is drawn within its end. */
 static void find_position(const struct panel *panel,
                           const struct plot_point *point, double *x,
                           double *y) {
+  double inwards = point->y > 1 ? 8 : is_beyond(panel->plot, point->y) ? -8 : 0;
   *x = panel->left + place_of(&panel->x, point->x, panel_w);
   *y = point->y > 0
-           ? panel->bottom -
+           ? panel->bottom + inwards -
                  place_of(&panel->y, bounded(panel->plot, point->y), panel_h)
            : row_of(panel, point->series);
 }
@@ -229,7 +250,18 @@ static bool is_drawn(const struct panel *panel, const struct plot_point *p) {
   return p->panel == panel->index && isfinite(p->x);
 }
 
-/* Lines, then marks, whose places are taken. */
+static void put_point(struct panel *panel, const struct plot_point *p, double x,
+                      double y) {
+  const struct plot_series *series = &panel->plot->series[p->series];
+  if (is_beyond(panel->plot, p->y))
+    put_triangle(panel->file, x, y, series->colour, p->y > 1);
+  else
+    put_mark(panel->file, x, y, series->colour, series->row);
+  label_take_box(&panel->places,
+                 (struct label_box){x - 5, y - 5, x + 5, y + 5});
+}
+
+/* Lines, then marks, both of which labels avoid. */
 static void put_curves(struct panel *panel) {
   const struct plot *plot = panel->plot;
   for (int s = 0; s < plot->series_count; s++) {
@@ -245,10 +277,11 @@ static void put_curves(struct panel *panel) {
       if (p->series != s || !is_drawn(panel, p))
         continue;
       find_position(panel, p, &x, &y);
-      if (last != NULL && last->y > 0 && p->y > 0)
+      if (last != NULL && last->y > 0 && p->y > 0) {
         put_line(panel->file, x0, y0, x, y, style);
-      put_mark(panel->file, x, y, series->colour, series->row);
-      take(panel, (struct place){x - 5, y - 5, x + 5, y + 5});
+        label_take_curve(&panel->places, (struct label_box){x0, y0, x, y});
+      }
+      put_point(panel, p, x, y);
       last = p;
       x0 = x;
       y0 = y;
@@ -268,17 +301,43 @@ static bool is_end(const struct panel *panel, size_t index) {
   return !before || !after;
 }
 
+/* Whether a point of a series of the same colour that has the same label, and
+ * comes first, is as good as at the same place. */
+static bool is_labelled(const struct panel *panel, size_t index) {
+  const struct plot *plot = panel->plot;
+  const struct plot_point *p = &plot->point[index];
+  double x, y, x0, y0;
+  find_position(panel, p, &x, &y);
+  for (size_t i = 0; i < index; i++) {
+    const struct plot_point *q = &plot->point[i];
+    if (!is_drawn(panel, q) || strcmp(p->label, q->label) != 0 ||
+        strcmp(plot->series[p->series].colour,
+               plot->series[q->series].colour) != 0)
+      continue;
+    find_position(panel, q, &x0, &y0);
+    if (hypot(x - x0, y - y0) < size)
+      return true;
+  }
+  return false;
+}
+
 static void put_labels(struct panel *panel) {
   const struct plot *plot = panel->plot;
   for (size_t i = 0; i < plot->points; i++) {
     const struct plot_point *p = &plot->point[i];
     const struct plot_series *series = &plot->series[p->series];
+    bool beyond = is_beyond(plot, p->y);
     double x, y;
-    if (!is_drawn(panel, p) || series->row ||
-        (!series->label_all && !is_end(panel, i)))
+    char text[48];
+    if (!is_drawn(panel, p) || series->row || is_labelled(panel, i) ||
+        (!series->label_all && !beyond && !is_end(panel, i)))
       continue;
     find_position(panel, p, &x, &y);
-    put_label(panel, x, y, series->colour, p->label);
+    snprintf(text, sizeof text, "%s%s%s", p->label,
+             beyond && *p->label != '\0' ? ": " : "",
+             beyond ? plot->y_value(p->y) : "");
+    if (*text != '\0')
+      put_label(panel, x, y, series->colour, text);
   }
 }
 
@@ -309,6 +368,11 @@ static void put_panel(FILE *file, const struct plot *plot, int index,
       .file = file, .plot = plot, .x = x, .y = y, .index = index};
   panel.left = x0;
   panel.bottom = y0 + panel_h;
+  panel.places.within = (struct label_box){
+      x0 + 2, y0, x0 + panel_w - 2, panel.bottom + rows_height(plot) + 1};
+  label_take_curve(
+      &panel.places,
+      (struct label_box){x0, panel.bottom, x0 + panel_w, panel.bottom});
   put_grid(&panel);
   put_row_names(&panel);
   put_text(file, x0, y0 - 8, "start", "#000000", size + 2, plot->panel[index]);
@@ -319,8 +383,19 @@ static void put_panel(FILE *file, const struct plot *plot, int index,
 
 /* ---- The whole ----------------------------------------------------------- */
 
-/* The names of the curves, two columns of them; returns how high it is. */
-static double put_legend(FILE *file, const struct plot *plot, double y) {
+static bool has_beyond(const struct plot *plot) {
+  for (size_t i = 0; i < plot->points; i++)
+    if (isfinite(plot->point[i].x) && is_beyond(plot, plot->point[i].y))
+      return true;
+  return false;
+}
+
+static int legend_height(const struct plot *plot) {
+  return ((count_curves(plot) + 1) / 2 + has_beyond(plot)) * legend_h;
+}
+
+/* The names of the curves, two columns of them, and what triangles are. */
+static void put_legend(FILE *file, const struct plot *plot, double y) {
   int n = 0;
   for (int s = 0; s < plot->series_count; s++) {
     const struct plot_series *series = &plot->series[s];
@@ -337,16 +412,22 @@ static double put_legend(FILE *file, const struct plot *plot, double y) {
              series->name);
     n++;
   }
-  return (n + 1) / 2 * legend_h;
+  if (has_beyond(plot)) {
+    double at = y + (n + 1) / 2 * legend_h;
+    put_triangle(file, left + 8, at, "#000000", true);
+    put_triangle(file, left + 26, at, "#000000", false);
+    put_text(file, left + 44, at + 5, "start", "#000000", size + 1,
+             "beyond the axis, above or below: the number stands beside it");
+  }
 }
 
 bool plot_write(const struct plot *plot, const char *path) {
-  FILE *file = fopen(path, "w");
+  struct whole_file whole;
   struct axis x, y;
-  if (file == NULL)
+  if (!whole_open(&whole, path))
     return false;
-  int curves = plot->series_count + 1 - count_rows(plot);
-  int head = 58 + (curves + 1) / 2 * legend_h + 28;
+  FILE *file = whole.file;
+  int head = 58 + legend_height(plot) + 28;
   int high = panel_h + rows_height(plot) + gap_y;
   int width = left + plot->columns * (panel_w + gap_x) - gap_x + margin;
   int rows = (plot->panels + plot->columns - 1) / plot->columns;
@@ -358,11 +439,10 @@ bool plot_write(const struct plot *plot, const char *path) {
           "<rect width=\"%d\" height=\"%d\" fill=\"#ffffff\"/>\n",
           width, height, width, height, width, height);
   put_text(file, left, 30, "start", "#000000", size + 5, plot->title);
-  (void)put_legend(file, plot, 58);
+  put_legend(file, plot, 58);
   for (int i = 0; i < plot->panels; i++)
     put_panel(file, plot, i, x, y, left + i % plot->columns * (panel_w + gap_x),
               head + i / plot->columns * high);
   fputs("</svg>\n", file);
-  bool ok = !ferror(file);
-  return fclose(file) == 0 && ok;
+  return whole_close(&whole, true);
 }

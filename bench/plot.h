@@ -18,6 +18,7 @@ struct plot_series {
   const char *dashes; /* of the line, as stroke-dasharray; "": solid */
   bool row;           /* no error: a row of its own */
   bool label_all;     /* all points are labelled, not the first and last one */
+  const char *none;   /* the row of its points without error; NULL: plot.none */
 };
 
 struct plot_point {
@@ -28,11 +29,13 @@ struct plot_point {
 
 struct plot {
   const char *title, *x_title, *y_title;
-  const char *none; /* the row of points that happen to have no error */
+  const char *none; /* the row of points that happen to have no error, of all
+                       series without one of their own */
   const char *(*x_tick)(int exponent); /* the label of a power of ten */
   const char *(*y_tick)(int exponent);
-  double
-      y_least; /* what is less is drawn there, and what is more than 1 at 1 */
+  const char *(*y_value)(double y); /* written beside what is beyond the axis */
+  double y_least; /* what is less, or more than 1, is beyond the axis: drawn at
+                     its end as a triangle */
   const struct plot_series *series;
   int series_count, panels, columns;
   char panel[PLOT_PANELS][PLOT_TEXT];
@@ -44,7 +47,7 @@ struct plot {
 void plot_add(struct plot *plot, int panel, int series, double x, double y,
               const char *label);
 
-/* Writes the plot; false where the file cannot be written. */
+/* Writes the plot, whole or not at all; false where it cannot be written. */
 bool plot_write(const struct plot *plot, const char *path);
 
 #endif

@@ -18,15 +18,25 @@ enum { DECADES = 10, SMALLEST = -12, EACH = 200, ALL = EACH * TURN_KINDS };
 enum { LENGTH_MOST, LENGTH_MEDIAN, AREA_MOST, AREA_MEDIAN, SERIES };
 
 static const struct plot_series series[SERIES] = {
-    {"drawn length, largest of 600 changes", "#0060a0", "", false, false},
-    {"drawn length, median", "#0060a0", "4 3", false, false},
-    {"area of fragments, largest of 600 changes", "#b07000", "", false, false},
-    {"area of fragments, median", "#b07000", "4 3", false, false},
+    {"drawn length, largest of 600 changes", "#0060a0", "", false, false,
+     "none: length, largest"},
+    {"drawn length, median", "#0060a0", "4 3", false, false,
+     "none: length, median"},
+    {"area of fragments, largest of 600 changes", "#b07000", "", false, false,
+     "none: area, largest"},
+    {"area of fragments, median", "#b07000", "4 3", false, false,
+     "none: area, median"},
 };
 
 static const char *tick_power(int exponent) {
   static char text[16];
   snprintf(text, sizeof text, "1e%d", exponent);
+  return text;
+}
+
+static const char *write_share(double share) {
+  static char text[16];
+  snprintf(text, sizeof text, "%.2g", share);
   return text;
 }
 
@@ -88,6 +98,7 @@ static bool take_scene(struct plot *plot, int index, FILE *csv) {
 
 int main(int argc, char **argv) {
   static struct plot plot;
+  struct whole_file csv;
   char path[4096];
   if (argc != 2) {
     fputs("usage: turns FOLDER\n", stderr);
@@ -97,24 +108,24 @@ int main(int argc, char **argv) {
       .title = "What a small move of the camera changes in the drawing",
       .x_title = "turned by (radians), shifted by (of the distance), scaled by",
       .y_title = "share that changes",
-      .none = "none",
       .x_tick = tick_power,
       .y_tick = tick_power,
+      .y_value = write_share,
       .y_least = 1e-14,
       .series = series,
       .series_count = SERIES,
       .panels = TURN_SCENES,
       .columns = 2};
   snprintf(path, sizeof path, "%s/turns.csv", argv[1]);
-  FILE *csv = fopen(path, "w");
-  bool ok = csv != NULL;
-  if (ok)
+  bool ok = whole_open(&csv, path);
+  if (ok) {
     fputs("scene,by,length_most,length_median,area_most,area_median,"
           "with_other_topology\n",
-          csv);
-  for (int i = 0; i < TURN_SCENES && ok; i++)
-    ok = take_scene(&plot, i, csv);
-  ok = csv != NULL && fclose(csv) == 0 && ok;
+          csv.file);
+    for (int i = 0; i < TURN_SCENES && ok; i++)
+      ok = take_scene(&plot, i, csv.file);
+    ok = whole_close(&csv, ok);
+  }
   snprintf(path, sizeof path, "%s/turns.svg", argv[1]);
   ok = ok && plot_write(&plot, path);
   if (!ok)

@@ -12,7 +12,8 @@
 
 #include <cmocka.h>
 
-enum { EACH = 2, SMALLEST = -12, LARGEST = -3 };
+/* Of each kind and decade; `make turns` makes 200. */
+enum { EACH = 50, EACH_SLOW = 2, SMALLEST = -12, LARGEST = -3 };
 
 /* A move by a share changes lengths and areas by so many of it at most; below,
  * the grid's step moves the ends of lines. */
@@ -44,12 +45,12 @@ static int check_scene(int index) {
   struct scene scene;
   recto_options options;
   struct trial before;
-  int jumps = 0;
+  int jumps = 0, each = getenv("RECTO_VALGRIND") ? EACH_SLOW : EACH;
   turn_scene(&scene, &options, index);
   trial_run(&before, &scene, &options, &solver_tiles, 0, TRIAL_BOTH);
   assert_int_equal(before.status, RECTO_OK);
   for (int decade = SMALLEST; decade <= LARGEST; decade++)
-    for (int i = 0; i < EACH * TURN_KINDS; i++) {
+    for (int i = 0; i < each * TURN_KINDS; i++) {
       double by = pow(10, decade), most = RATE * by + GRID_SHARE;
       struct turn_change change;
       take_move(&scene, &options, (enum turn_kind)(i % TURN_KINDS), by,
