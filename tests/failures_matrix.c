@@ -8,6 +8,7 @@
 #include <stdio.h>
 
 #include "base/memory.h"
+#include "base/stream.h"
 #include "tests/measure/trial.h"
 #include "tests/scenes/pipeline.h"
 
@@ -138,6 +139,24 @@ static const struct picture {
     {"boxes", "crossed boxes", {"", &solver_watkins, 0, 0}, false},
     {"table-zbuffer", "large table", {"", &solver_zbuffer, 80, 0}, true},
     {"table", "large table", {"", &solver_tiles, 0, 0}, true},
+    {"room-painter", "room from inside", {"", &solver_painter, 0, 0}, true},
+    {"room", "room from inside", {"", &solver_tiles, 0, 0}, true},
+    {"coplanar-zbuffer", "coplanar faces", {"", &solver_zbuffer, 60, 0}, true},
+    {"coplanar", "coplanar faces", {"", &solver_tiles, 0, 0}, true},
+    {"surface-zbuffer", "sinc", {"", &solver_zbuffer, 100, 0}, false},
+    {"surface", "sinc", {"", &solver_tiles, 0, 0}, false},
+    {"table-painter", "large table", {"", &solver_painter, 0, 0}, true},
+    {"plates-painter", "plates", {"", &solver_painter, 0, 0}, true},
+    {"plates", "plates", {"", &solver_tiles, 0, 0}, true},
+    {"plane-watkins", "eye on a plane", {"", &solver_watkins, 60, 0}, false},
+    {"plane", "eye on a plane", {"", &solver_watkins, 0, 0}, false},
+    {"tube-given",
+     "self-intersecting",
+     {"", &solver_painter_given, 0, 0},
+     true},
+    {"tube", "self-intersecting", {"", &solver_tiles, 0, 0}, true},
+    {"needles-painter", "needles", {"", &solver_painter, 0, 0}, true},
+    {"needles", "needles", {"", &solver_tiles, 0, 0}, true},
 };
 
 /* False where the file cannot be written. */
@@ -157,9 +176,12 @@ static bool draw_picture(const struct picture *picture, const char *folder) {
       picture->column.lines > 0 ? 100.0 / picture->column.lines : 0;
   char *text = pipeline_draw(&scene, &options, picture->column.solver, &length);
   snprintf(path, sizeof path, "%s/%s.svg", folder, picture->name);
-  FILE *file = fopen(path, "w");
-  bool ok = file != NULL && fwrite(text, 1, length, file) == length;
-  ok = file != NULL && fclose(file) == 0 && ok;
+  struct stream *stream;
+  bool ok = stream_open(&stream, path, NULL) == RECTO_OK;
+  if (ok) {
+    stream_write(stream, text, length);
+    ok = stream_finish(stream, NULL) == RECTO_OK;
+  }
   mem_free(text);
   scene_fini(&scene);
   return ok;
