@@ -2,7 +2,7 @@
 # replays their inputs, and the same linked with libFuzzer (make fuzz).
 fuzz_sources = %D%/fuzz.h %D%/targets.c \
   %D%/decode.c %D%/decode.h %D%/render.c %D%/render.h \
-  %D%/agreement.c %D%/agreement.h \
+  %D%/agreement.c %D%/agreement.h %D%/judgeable.c %D%/judgeable.h \
   %D%/target_cli.c %D%/target_mesh.c %D%/target_part.c %D%/target_reader.c \
   %D%/target_scene.c %D%/target_svg.c \
   tests/reading.c tests/reading.h \
@@ -15,6 +15,7 @@ check_PROGRAMS += %D%/replay
 
 check_PROGRAMS += %D%/soak
 %C%_soak_SOURCES = %D%/soak.c %D%/soak_kinds.c %D%/soak_kinds.h \
+  %D%/soak_sample.c %D%/soak_sample.h \
   $(fuzz_sources)
 %C%_soak_LDADD = tests/scenes/libscenes.la librecto_core.la
 

@@ -94,6 +94,73 @@ void render_svg(struct rendered *rendered, const recto_scene *scene,
   render_as(rendered, scene, options, "svg");
 }
 
+/* ---- Parts --------------------------------------------------------------- */
+
+enum { PARTS_MAX = 4, PART_PATH = 60 };
+
+struct part_files {
+  char folder[40], path[PARTS_MAX][PART_PATH];
+  unsigned count;
+};
+
+static void open_parts(struct part_files *files, unsigned count) {
+  snprintf(files->folder, sizeof files->folder, "/tmp/recto-parts-XXXXXX");
+  if (mkdtemp(files->folder) == NULL)
+    abort();
+  files->count = count;
+  for (unsigned i = 0; i < count; i++)
+    snprintf(files->path[i], PART_PATH, "%s/%u.recto", files->folder, i);
+}
+
+static void remove_parts(const struct part_files *files) {
+  for (unsigned i = 0; i < files->count; i++)
+    (void)unlink(files->path[i]);
+  (void)rmdir(files->folder);
+}
+
+static recto_status join_parts(struct rendered *joined,
+                               const recto_scene *scene,
+                               const recto_options *options,
+                               const struct part_files *files) {
+  const char *path[PARTS_MAX];
+  recto_drawing *drawing;
+  recto_status status = RECTO_OK;
+  for (unsigned i = 0; i < files->count && status == RECTO_OK; i++) {
+    path[i] = files->path[i];
+    status = recto_scene_write_part(scene, options, i + 1, files->count,
+                                    path[i], &joined->error);
+  }
+  if (status == RECTO_OK)
+    status =
+        recto_join_parts(path, files->count, options, &drawing, &joined->error);
+  if (status != RECTO_OK)
+    return status;
+  status = write_drawing(joined, drawing, options, writer_by_name("svg"));
+  recto_drawing_destroy(drawing);
+  return status;
+}
+
+bool render_parts(const recto_scene *scene, const recto_options *options,
+                  const struct rendered *first, struct fuzz_finding *finding) {
+  struct part_files files;
+  struct rendered joined;
+  memset(&joined, 0, sizeof joined);
+  open_parts(&files, 2 + (unsigned)(first->length % (PARTS_MAX - 1)));
+  recto_status status = join_parts(&joined, scene, options, &files);
+  if (status != RECTO_OK && status != RECTO_ERROR_UNSUPPORTED &&
+      status != RECTO_ERROR_LIMIT)
+    fuzz_found(finding, "%u parts: %s", files.count, joined.error.text);
+  else if (status == RECTO_OK &&
+           (joined.length != first->length ||
+            memcmp(joined.text, first->text, first->length) != 0))
+    fuzz_found(finding, "%u parts: they differ from the whole", files.count);
+  remove_parts(&files);
+  rendered_fini(&joined);
+  return status == RECTO_OK;
+}
+
+/* ---- Comparing ----------------------------------------------------------- */
+
 void rendered_fini(struct rendered *rendered) {
   free(rendered->text);
   rendered->text = NULL;

@@ -35,6 +35,11 @@ void rendered_fini(struct rendered *rendered);
 void render_compare(const recto_scene *scene, const recto_options *options,
                     const struct rendered *first, struct fuzz_finding *finding);
 
+/* Renders the scene in two to four parts and compares what they join to with
+ * `first`.  False where it cannot be drawn in parts. */
+bool render_parts(const recto_scene *scene, const recto_options *options,
+                  const struct rendered *first, struct fuzz_finding *finding);
+
 /* What recto writes, --check must be able to read. */
 void render_check_svg(const struct rendered *rendered,
                       struct fuzz_finding *finding);

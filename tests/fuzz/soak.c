@@ -1,150 +1,31 @@
 /* soak.c - random scenes of all kinds, for as long as one likes.
  *
  * - `soak SECONDS SEED FOLDER` draws scenes of the seeds from SEED on by all
- *   exact methods, which must give the same bytes, and asks the judge.  What it
- *   finds it reduces to the fewest faces and writes into FOLDER as an OBJ file,
- *   whose first line says what is wrong and whose second is the command line.
- *   Exit 1 where there is a finding.
+ *   exact methods and in parts, which must give the same bytes, and asks the
+ *   judge.  What it finds it reduces to the fewest faces and writes into FOLDER
+ *   as an OBJ file, whose first line says what is wrong and whose second is the
+ *   command line.  Exit 1 where there is a finding.
  * - `soak --replay FILE...` does the same with such files.
  *
- * A scene is a generator of tests/scenes/ with random sizes, seen from a random
- * direction, with random options; one in four is one of decode.h. */
+ * soak_sample.h has the scenes. */
 #include <inttypes.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
-#include "base/stream.h"
 #include "tests/fuzz/agreement.h"
-#include "tests/fuzz/decode.h"
-#include "tests/fuzz/soak_kinds.h"
-#include "tests/scenes/write_obj.h"
+#include "tests/fuzz/soak_sample.h"
 
-enum { COUNTS_MAX = 40 };
-enum { TEXT_MAX = 1 << 22, WORDS_MAX = 32, WORD_SIZE = 64, PATH_SIZE = 1000 };
+enum { COUNTS_MAX = 40, PATH_SIZE = 1000 };
 
-struct sample {
-  char kind[32];
-  char obj[TEXT_MAX];
-  size_t length;
-  char word[WORDS_MAX][WORD_SIZE];
-  int words;
-};
+/* ---- Findings ------------------------------------------------------------ */
 
-static void fail(const char *what, const char *path) {
-  fprintf(stderr, "soak: %s: %s\n", path, what);
-  exit(2);
-}
-
-/* ---- Command lines ------------------------------------------------------- */
-
-static void add_word(struct sample *sample, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
-static void add_word(struct sample *sample, const char *format, ...) {
-  va_list arguments;
-  if (sample->words == WORDS_MAX)
-    fail("too many words", sample->kind);
-  va_start(arguments, format);
-  vsnprintf(sample->word[sample->words++], WORD_SIZE, format, arguments);
-  va_end(arguments);
-}
-
-/* Half of the time the first, which says nothing. */
-static void add_options(struct sample *sample, struct random *random) {
-  static const char *const option[][6] = {
-      {"", "--edges=all", "--edges=silhouette,border", "--edges=intersection"},
-      {"", "--fill=paint", "--fill=shade", "--fill=hatch"},
-      {"", "--hidden=dashed", "--hidden=layer", "--hidden=2"},
-      {"", "--contact=0"},
-      {"", "--crease=0", "--crease=90", "--crease=180"},
-      {"", "--exact", "--min-stroke=0"},
-      {"", "--page=50x200", "--page=A5"},
-      {"", "--order=near", "--ids"}};
-  for (size_t i = 0; i < sizeof option / sizeof *option; i++) {
-    unsigned count = 0;
-    while (count < 6 && option[i][count] != NULL)
-      count++;
-    unsigned chosen = random_below(random, 2) ? random_below(random, count) : 0;
-    if (chosen > 0)
-      add_word(sample, "%s", option[i][chosen]);
-  }
-}
-
-static void add_camera(struct sample *sample, struct random *random) {
-  static const double right[] = {0, 90, 180, 45, 26.56505117707799, 1e-7};
-  bool special = random_below(random, 3) == 0;
-  add_word(sample, "--azimuth=%.17g",
-           special ? right[random_below(random, 6)]
-                   : random_between(random, -180, 180));
-  add_word(sample, "--elevation=%.17g",
-           special ? right[random_below(random, 2)]
-                   : random_between(random, -90, 90));
-  if (random_below(random, 3) == 0)
-    add_word(sample, "--fov=%d", random_int(random, 5, 120));
-}
-
-/* ---- Inputs -------------------------------------------------------------- */
-
-static void set_obj(struct sample *sample, const char *text, size_t length) {
-  if (length >= TEXT_MAX)
-    fail("too long", sample->kind);
-  memcpy(sample->obj, text, length);
-  sample->obj[length] = '\0';
-  sample->length = length;
-}
-
-static void make_generated(struct sample *sample, struct random *random) {
-  const struct soak_kind *kind =
-      &soak_kinds[random_below(random, soak_kind_count)];
-  struct scene scene;
-  recto_options options;
-  struct stream *stream;
-  size_t length;
-  snprintf(sample->kind, sizeof sample->kind, "%s", kind->name);
-  scene_init(&scene);
-  recto_options_init(&options);
-  kind->make(&scene, &options, random);
-  if (stream_open_memory(&stream, NULL) != RECTO_OK)
-    fail("no memory", kind->name);
-  scene_write_obj(&scene, stream);
-  const char *text = stream_memory(stream, &length);
-  set_obj(sample, text, length);
-  stream_discard(stream);
-  scene_fini(&scene);
-  add_word(sample, "--up=0,0,1");
-  add_options(sample, random);
-  add_camera(sample, random);
-}
-
-/* As the fuzzer's, whose words name the files last. */
-static void make_lattice(struct sample *sample, struct random *random) {
-  static struct decoded decoded;
-  uint8_t bytes[120];
-  for (size_t i = 0; i < sizeof bytes; i++)
-    bytes[i] =
-        i < 20 && random_below(random, 2) ? 0 : (uint8_t)random_next(random);
-  decode_scene(&decoded, bytes, sizeof bytes);
-  snprintf(sample->kind, sizeof sample->kind, "lattice");
-  set_obj(sample, decoded.obj, decoded.obj_length);
-  for (int i = 1; i + 3 < decoded.argc; i++)
-    add_word(sample, "%s", decoded.argv[i]);
-}
-
-static void make_sample(struct sample *sample, uint64_t seed) {
-  struct random random = {seed};
-  sample->words = 0;
-  if (random_below(&random, 4) == 0)
-    make_lattice(sample, &random);
-  else
-    make_generated(sample, &random);
-}
-
-static const char *find(const struct sample *sample) {
+static const char *find(const struct sample *sample,
+                        struct agreement_done *done) {
   static struct fuzz_finding finding;
   static char program[] = "recto", o[] = "-o", to[] = "out.svg",
               model[] = "model.obj";
-  char *argv[WORDS_MAX + 5] = {program};
+  char *argv[SAMPLE_WORDS_MAX + 5] = {program};
   int argc = 1;
   for (int i = 0; i < sample->words; i++)
     argv[argc++] = (char *)(uintptr_t)sample->word[i];
@@ -152,7 +33,7 @@ static const char *find(const struct sample *sample) {
   argv[argc++] = to;
   argv[argc++] = model;
   finding.text[0] = '\0';
-  agreement_check(sample->obj, sample->length, argc, argv, &finding);
+  agreement_check(sample->obj, sample->length, argc, argv, &finding, done);
   return finding.text;
 }
 
@@ -205,7 +86,7 @@ static void for_indices(const struct line *line, void *user,
   while (at < line->at + line->length && *at != '\n') {
     char *end;
     unsigned long index = strtoul(at, &end, 10);
-    if (end == at || index == 0 || index > TEXT_MAX / 8)
+    if (end == at || index == 0 || index > SAMPLE_TEXT_MAX / 8)
       return;
     each(user, index);
     at = end;
@@ -214,7 +95,7 @@ static void for_indices(const struct line *line, void *user,
 
 struct numbering {
   struct sample *to;
-  uint32_t number[TEXT_MAX / 8 + 1]; /* of a point anew; 0: not used */
+  uint32_t number[SAMPLE_TEXT_MAX / 8 + 1]; /* of a point anew; 0: not used */
 };
 
 static void mark_used(void *user, unsigned long index) {
@@ -257,7 +138,7 @@ static void copy_used(struct sample *to, const struct sample *from) {
 
 static bool replace_if_found(struct sample *sample, const struct sample *trial,
                              const char *kind) {
-  if (!is_same_kind(kind, find(trial)))
+  if (!is_same_kind(kind, find(trial, NULL)))
     return false;
   memcpy(sample->obj, trial->obj, trial->length + 1);
   sample->length = trial->length;
@@ -293,13 +174,13 @@ static void write_report(const struct sample *sample, const char *what,
            seed);
   FILE *file = fopen(path, "w");
   if (file == NULL)
-    fail("cannot be written", path);
+    soak_fail("cannot be written", path);
   fprintf(file, "# %s\n# recto", what);
   for (int i = 0; i < sample->words; i++)
     fprintf(file, " %s", sample->word[i]);
   fprintf(file, "\n%s", sample->obj);
   if (fclose(file) != 0)
-    fail("cannot be written", path);
+    soak_fail("cannot be written", path);
   printf("%s: %s\n", path, what);
   fflush(stdout);
 }
@@ -311,11 +192,11 @@ static void read_report(struct sample *sample, const char *path) {
   if (file == NULL || fgets(line, sizeof line, file) == NULL ||
       fgets(line, sizeof line, file) == NULL ||
       strncmp(line, "# recto", 7) != 0)
-    fail("is no report", path);
+    soak_fail("is no report", path);
   for (char *word = strtok(line + 7, " \n"); word != NULL;
        word = strtok(NULL, " \n"))
-    add_word(sample, "%s", word);
-  sample->length = fread(sample->obj, 1, TEXT_MAX - 1, file);
+    sample_add_word(sample, "%s", word);
+  sample->length = fread(sample->obj, 1, SAMPLE_TEXT_MAX - 1, file);
   sample->obj[sample->length] = '\0';
   fclose(file);
 }
@@ -325,7 +206,7 @@ static int replay(char **path) {
   int findings = 0;
   for (; *path != NULL; path++) {
     read_report(&sample, *path);
-    const char *what = find(&sample);
+    const char *what = find(&sample, NULL);
     findings += *what != '\0';
     if (*what != '\0')
       printf("%s: %s\n", *path, what);
@@ -335,43 +216,64 @@ static int replay(char **path) {
 
 /* ---- Soaking ------------------------------------------------------------- */
 
+/* What was done with the scenes of a kind. */
 struct count {
   char kind[32];
-  unsigned long scenes;
+  unsigned long scenes, drawn, judged, cut, cut_judged, sheets, in_parts;
 };
 
-static void count_scene(struct count *count, const char *kind) {
+static struct count *find_count(struct count *count, const char *kind) {
   while (*count->kind != '\0' && strcmp(count->kind, kind) != 0)
     count++;
   snprintf(count->kind, sizeof count->kind, "%s", kind);
+  return count;
+}
+
+static void count_scene(struct count *count,
+                        const struct agreement_done *done) {
   count->scenes++;
+  count->drawn += done->drawn;
+  count->judged += done->judged;
+  count->cut += done->drawn && done->cut;
+  count->cut_judged += done->cut && done->judged;
+  count->sheets += done->drawn && done->sheet;
+  count->in_parts += done->in_parts;
+}
+
+static void print_counts(const struct count *count) {
+  printf("| kind | scenes | drawn | judged | cut | of these judged | sheets | "
+         "in parts |\n|---|---|---|---|---|---|---|---|\n");
+  for (; *count->kind != '\0'; count++)
+    printf("| %s | %lu | %lu | %lu | %lu | %lu | %lu | %lu |\n", count->kind,
+           count->scenes, count->drawn, count->judged, count->cut,
+           count->cut_judged, count->sheets, count->in_parts);
 }
 
 static int soak(double seconds, uint64_t seed, const char *folder) {
   static struct sample sample;
-  struct count count[COUNTS_MAX] = {{"", 0}};
-  unsigned long scenes = 0, findings = 0;
+  struct count count[COUNTS_MAX] = {{.kind = "all"}};
+  unsigned long findings = 0;
   time_t start = time(NULL), told = start;
-  for (; difftime(time(NULL), start) < seconds; seed++, scenes++) {
-    make_sample(&sample, seed);
-    count_scene(count, sample.kind);
-    const char *what = find(&sample);
+  for (; difftime(time(NULL), start) < seconds; seed++) {
+    struct agreement_done done;
+    sample_make(&sample, seed);
+    const char *what = find(&sample, &done);
+    count_scene(&count[0], &done);
+    count_scene(find_count(count, sample.kind), &done);
     if (*what != '\0') {
       findings++;
       reduce(&sample, what);
-      write_report(&sample, find(&sample), folder, seed);
+      write_report(&sample, find(&sample, NULL), folder, seed);
     }
     if (difftime(time(NULL), told) >= 10) {
       told = time(NULL);
       fprintf(stderr, "soak: %lu scenes, %lu findings, seed %" PRIu64 "\n",
-              scenes, findings, seed);
+              count[0].scenes, findings, seed);
     }
   }
-  printf("%lu scenes, up to seed %" PRIu64 ", %lu findings:", scenes, seed - 1,
-         findings);
-  for (const struct count *c = count; *c->kind != '\0'; c++)
-    printf(" %s %lu", c->kind, c->scenes);
-  printf("\n");
+  printf("%lu scenes, up to seed %" PRIu64 ", %lu findings\n\n",
+         count[0].scenes, seed - 1, findings);
+  print_counts(count);
   return findings > 0;
 }
 
@@ -379,6 +281,6 @@ int main(int argc, char **argv) {
   if (argc > 2 && strcmp(argv[1], "--replay") == 0)
     return replay(argv + 2);
   if (argc != 4)
-    fail("see the head of tests/fuzz/soak.c", "usage");
+    soak_fail("see the head of tests/fuzz/soak.c", "usage");
   return soak(strtod(argv[1], NULL), strtoull(argv[2], NULL, 10), argv[3]);
 }

@@ -99,6 +99,51 @@ static void make_flaws(struct scene *s, recto_options *o, struct random *r) {
   else
     scenes_thin_bars(s, o, below(r, 1, 20));
 }
+static void make_rooms(struct scene *s, recto_options *o, struct random *r) {
+  scenes_room(s, o, (enum scenes_eye)random_below(r, SCENES_EYE_ON_LINE + 1));
+}
+static void make_near(struct scene *s, recto_options *o, struct random *r) {
+  static const double by[] = {1e-9, 1e-6, 1e-4, 1e-3, 0.1};
+  if (random_below(r, 2))
+    scenes_near_sheets(s, o, by[below(r, 0, 4)]);
+  else
+    scenes_slit(s, o, by[below(r, 1, 4)]);
+}
+static void make_meshes(struct scene *s, recto_options *o, struct random *r) {
+  switch (random_below(r, 6)) {
+  case 0:
+    scenes_t_junctions(s, o, below(r, 1, 8));
+    break;
+  case 1:
+    scenes_fan(s, o, below(r, 3, 60));
+    break;
+  case 2:
+    scenes_icosahedron(s, o);
+    break;
+  case 3:
+    scenes_box_square_on(s, o);
+    break;
+  case 4:
+    scenes_cycle_field(s, o, below(r, 1, 4));
+    break;
+  default:
+    scenes_white_square(s, o, below(r, 1, 6));
+  }
+}
+/* Segments between corners of another scene: along its faces, through them,
+ * before and behind them. */
+static void make_wires(struct scene *s, recto_options *o, struct random *r) {
+  unsigned wires = below(r, 1, 6);
+  if (random_below(r, 2))
+    make_boxes(s, o, r);
+  else
+    make_soup(s, o, r);
+  uint32_t points = (uint32_t)s->point.count;
+  for (unsigned i = 0; i < wires; i++) {
+    uint32_t from = random_below(r, points);
+    build_segment(s, from, random_below(r, points));
+  }
+}
 static void make_small(struct scene *s, recto_options *o, struct random *r) {
   scenes_small(s, o, random_next(r));
 }
@@ -115,5 +160,9 @@ const struct soak_kind soak_kinds[] = {{"sticks", make_sticks},
                                        {"surfaces", make_surfaces},
                                        {"piercing", make_piercing},
                                        {"flaws", make_flaws},
+                                       {"rooms", make_rooms},
+                                       {"near", make_near},
+                                       {"meshes", make_meshes},
+                                       {"wires", make_wires},
                                        {"small", make_small}};
 const unsigned soak_kind_count = sizeof soak_kinds / sizeof *soak_kinds;

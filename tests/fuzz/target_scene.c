@@ -8,7 +8,7 @@ static void run(const uint8_t *bytes, size_t count,
   static struct decoded decoded;
   decode_scene(&decoded, bytes, count);
   agreement_check(decoded.obj, decoded.obj_length, decoded.argc, decoded.argv,
-                  finding);
+                  finding, NULL);
 }
 
 /* The model and the command line that draws it, to which the method that the
