@@ -140,6 +140,27 @@ claim "one that has no room is refused" \
 claim "one that shows nothing is refused" refuses 'shows nothing of any view' \
   cube.obj -o no.svg --sheet first --detail 190,30,5,2
 
+details=()
+for x in 1 2 3 4 5 6 7 8 9; do details+=(--detail "$x,150,3,2"); done
+claim "nine details are too many" refuses 'given 9 times, and 8 are the most' \
+  cube.obj -o no.svg --view front --scale 1:1 "${details[@]}"
+is_described() { # WORDS OPTION...
+  local words=$1
+  shift
+  run 0 cube.obj "$@" -o sheet.svg && grep -q "<desc>$words</desc>" sheet.svg &&
+    return 0
+  say "$(grep '<desc>' sheet.svg)" && false
+}
+claim "a view with details is described as one without" is_described \
+  'Visible lines, seen from azimuth 0, elevation 0 degrees.' \
+  --view front --scale 20 --detail 105,148,5,2
+claim "hidden lines of one view are told" is_described \
+  'Visible and hidden lines: front and iso in first-angle projection.' \
+  --views front,iso --hidden-in iso=dashed
+claim "of some views only, too" is_described \
+  'Visible lines: front and iso in first-angle projection, 4:3.' \
+  --views front,iso --hidden-in iso=none --scale 4:3
+
 refuses_sheet() {
   local pattern=$1
   shift

@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "api/captions.h"
 #include "base/memory.h"
 #include "recto.h"
 #include "tests/svg_text.h"
@@ -21,8 +22,11 @@ static const double points[] = {0, 0, 0, 7, 1, 2, 3, 11, 1, 2, 4, 5};
 static const uint32_t corners[] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
 enum { POINTS = 4 };
 
-static recto_scene *make_scene(void) {
-  const recto_mesh mesh = {.points = points,
+/* A plate that is edge-on in the view from a side. */
+static const double long_points[] = {0, 0, 0, 1000, 0, 0, 0, 9, 0, 0, 1, 0};
+
+static recto_scene *make_scene_of(const double *at) {
+  const recto_mesh mesh = {.points = at,
                            .point_count = POINTS,
                            .corners = corners,
                            .corner_count = 12};
@@ -40,8 +44,10 @@ static void init_sheet(recto_options *options, recto_arrangement how,
   options->sheet.view_count = count;
 }
 
-static recto_drawing *draw(const recto_options *options) {
-  recto_scene *scene = make_scene();
+static recto_scene *make_scene(void) { return make_scene_of(points); }
+
+static recto_drawing *draw_scene(recto_scene *scene,
+                                 const recto_options *options) {
   recto_drawing *drawing;
   recto_error error;
   recto_status status = recto_scene_render(scene, options, &drawing, &error);
@@ -50,6 +56,10 @@ static recto_drawing *draw(const recto_options *options) {
   assert_int_equal(status, RECTO_OK);
   recto_scene_destroy(scene);
   return drawing;
+}
+
+static recto_drawing *draw(const recto_options *options) {
+  return draw_scene(make_scene(), options);
 }
 
 /* ---- What is drawn ------------------------------------------------------- */
@@ -199,6 +209,31 @@ static void other_views_stand_in_the_free_corner(void **state) {
   assert_true(iso.high[1] < box_of(drawing, "left").low[1]);
   assert_true(
       is_close(middle_of(iso, 0), middle_of(box_of(drawing, "left"), 0)));
+  recto_drawing_destroy(drawing);
+}
+
+/* Where the only view from a side is on the left, or that along the vertical
+ * is on the other side, the corner between these is taken. */
+static void the_free_corner_is_beside_the_aligned_views(void **state) {
+  (void)state;
+  static const recto_sheet_view view[] = {
+      {.name = "front"}, {.name = "top"}, {.name = "left"}, {.name = "iso"}};
+  static const recto_sheet_view below[] = {
+      {.name = "front"}, {.name = "bottom"}, {.name = "left"}, {.name = "iso"}};
+  recto_options options;
+  init_sheet(&options, RECTO_ARRANGEMENT_THIRD, view, 4);
+  recto_drawing *drawing = draw(&options);
+  struct box iso = box_of(drawing, "iso");
+  assert_true(iso.high[0] < box_of(drawing, "top").low[0]);
+  assert_true(iso.low[1] > box_of(drawing, "left").high[1]);
+  assert_true(
+      is_close(middle_of(iso, 0), middle_of(box_of(drawing, "left"), 0)));
+  recto_drawing_destroy(drawing);
+  init_sheet(&options, RECTO_ARRANGEMENT_FIRST, below, 4);
+  drawing = draw(&options);
+  iso = box_of(drawing, "iso");
+  assert_true(iso.low[0] > box_of(drawing, "bottom").high[0]);
+  assert_true(iso.low[1] > box_of(drawing, "left").high[1]);
   recto_drawing_destroy(drawing);
 }
 
@@ -491,6 +526,103 @@ static void stats_have_a_part_for_each_view(void **state) {
   recto_drawing_destroy(drawing);
 }
 
+/* ---- Warnings, names ----------------------------------------------------- */
+
+struct warnings {
+  int count;
+  char text[4][128];
+};
+
+static void note_warning(void *user, const char *file, unsigned long line,
+                         const char *text) {
+  struct warnings *warnings = user;
+  (void)file;
+  (void)line;
+  assert_in_range(warnings->count, 0, 3);
+  snprintf(warnings->text[warnings->count++], 128, "%s", text);
+}
+
+static bool go_on(void *user, double share, const char *stage) {
+  (void)user;
+  (void)share;
+  (void)stage;
+  return true;
+}
+
+/* Of a view that is edge-on nothing is requested but what it does not have. */
+static void a_view_without_lines_is_warned_of(void **state) {
+  (void)state;
+  static const recto_sheet_view view[] = {{.name = "front"},
+                                          {.name = "iso", .scale = 1e9}};
+  struct warnings warnings = {0};
+  recto_options options;
+  init_sheet(&options, RECTO_ARRANGEMENT_FIRST, view, 2);
+  options.warning = note_warning;
+  options.progress = go_on;
+  options.user = &warnings;
+  recto_drawing_destroy(draw(&options));
+  assert_int_equal(warnings.count, 1);
+  assert_string_equal(warnings.text[0], "the view front is empty");
+  warnings.count = 0;
+  options.ink.edges = RECTO_EDGE_WIRE;
+  recto_drawing_destroy(draw(&options));
+  assert_int_equal(warnings.count, 1);
+  assert_non_null(strstr(warnings.text[0], "the drawing is empty: nothing"));
+}
+
+/* All views warn of it; the near plane cuts some alone. */
+static void a_warning_of_several_views_is_given_once(void **state) {
+  (void)state;
+  const recto_pen pens[] = {{.colour = 0}, {.colour = 1, .has_colour = true}};
+  struct warnings warnings = {0};
+  recto_options options;
+  init_sheet(&options, RECTO_ARRANGEMENT_FIRST, six, 6);
+  options.ink.pen = pens;
+  options.ink.pen_count = 2;
+  options.warning = note_warning;
+  options.progress = go_on;
+  options.user = &warnings;
+  recto_drawing_destroy(draw(&options));
+  assert_int_equal(warnings.count, 1);
+  assert_non_null(strstr(warnings.text[0], "pen"));
+}
+
+/* As `--view front --detail` has it. */
+static void a_view_alone_is_named_by_its_direction(void **state) {
+  (void)state;
+  static const recto_sheet_view view[] = {{.name = NULL}};
+  recto_options options;
+  init_sheet(&options, RECTO_ARRANGEMENT_FIRST, view, 1);
+  options.camera.azimuth_deg = options.camera.elevation_deg = 0;
+  recto_drawing *drawing = draw(&options);
+  recto_layer layer;
+  assert_true(recto_drawing_layer(drawing, 0, &layer));
+  assert_string_equal(layer.label, "1 front visible");
+  recto_drawing_destroy(drawing);
+  options.camera.azimuth_deg = 1;
+  drawing = draw(&options);
+  assert_true(recto_drawing_layer(drawing, 0, &layer));
+  assert_string_equal(layer.label, "1 view visible");
+  recto_drawing_destroy(drawing);
+}
+
+static void scales_are_written_as_ratios(void **state) {
+  (void)state;
+  static const struct {
+    double scale;
+    const char *text;
+  } pair[] = {
+      {1, "1:1"},          {2, "2:1"},           {0.5, "1:2"},
+      {2.5, "2.5:1"},      {4.0 / 3, "4:3"},     {0.75, "3:4"},
+      {50.0 / 3, "50:3"},  {0.1, "1:10"},        {3.14159265, "3.142:1"},
+      {1e-6, "1:1000000"}, {1e9, "1000000000:1"}};
+  for (size_t i = 0; i < sizeof pair / sizeof pair[0]; i++) {
+    char text[CAPTIONS_SCALE_SIZE];
+    captions_write_scale(text, pair[i].scale);
+    assert_string_equal(text, pair[i].text);
+  }
+}
+
 /* ---- Details ------------------------------------------------------------- */
 
 static double distance_to_segment(const double p[2], const double *a) {
@@ -666,6 +798,113 @@ static void text_is_below_what_it_names(void **state) {
   recto_drawing_destroy(drawing);
 }
 
+static size_t count_text(const recto_drawing *drawing) {
+  recto_stroke stroke;
+  size_t count = 0;
+  for (size_t i = 0; recto_drawing_stroke(drawing, i, &stroke); i++)
+    count += stroke.is_text;
+  return count;
+}
+
+static void init_long_sheet(recto_options *options,
+                            const recto_sheet_view *view, size_t count) {
+  init_sheet(options, RECTO_ARRANGEMENT_FIRST, view, count);
+  options->camera.fit = RECTO_FIT_SCALE;
+  options->camera.scale = 0.08;
+  options->sheet.names = true;
+  options->page.width_mm = 297;
+  options->page.height_mm = 210;
+}
+
+/* The columns of views that are edge-on are as wide as their names, and so are
+ * those of small views with names that tell a scale. */
+static void names_lie_beside_each_other_inside_the_margins(void **state) {
+  (void)state;
+  static const recto_sheet_view view[] = {{.name = "left"},
+                                          {.name = "right"},
+                                          {.name = "front"},
+                                          {.name = "dimetric", .scale = 0.01},
+                                          {.name = "trimetric", .scale = 0.01}};
+  enum { VIEWS = 5 };
+  struct box name[VIEWS];
+  recto_options options;
+  init_long_sheet(&options, view, VIEWS);
+  recto_drawing *drawing = draw_scene(make_scene_of(long_points), &options);
+  size_t from = 0;
+  for (size_t i = 0; i < VIEWS; i++) {
+    init_long_sheet(&options, &view[i], 1);
+    recto_drawing *alone = draw_scene(make_scene_of(long_points), &options);
+    size_t strokes = count_text(alone);
+    recto_drawing_destroy(alone);
+    name[i] = box_of_text(drawing, from, from + strokes);
+    from += strokes;
+    assert_true(name[i].low[0] >= 10 && name[i].high[0] <= 287);
+    for (size_t k = 0; k < i; k++)
+      assert_true(name[i].low[0] > name[k].high[0] ||
+                  name[i].high[0] < name[k].low[0] ||
+                  name[i].low[1] > name[k].high[1] ||
+                  name[i].high[1] < name[k].low[1]);
+  }
+  assert_int_equal(from, count_text(drawing));
+  recto_drawing_destroy(drawing);
+}
+
+static double gap_of_strokes(const recto_stroke *a, const recto_stroke *b) {
+  double least = INFINITY;
+  for (size_t i = 0; i + 1 < a->count + a->closed; i++)
+    for (size_t part = 0; part <= 20; part++) {
+      const double *from = a->points + 2 * i;
+      const double *to = a->points + 2 * ((i + 1) % a->count);
+      const double p[2] = {from[0] + (to[0] - from[0]) * (double)part / 20,
+                           from[1] + (to[1] - from[1]) * (double)part / 20};
+      for (size_t k = 0; k + 1 < b->count + b->closed; k++) {
+        const double *c = b->points + 2 * k;
+        const double *d = b->points + 2 * ((k + 1) % b->count);
+        const double side[4] = {c[0], c[1], d[0], d[1]};
+        least = fmin(least, distance_to_segment(p, side));
+      }
+    }
+  return least;
+}
+
+/* The letter is drawn last: an A is three strokes. */
+static void a_letter_is_clear_of_the_lines(void **state) {
+  (void)state;
+  recto_options options;
+  init_sheet(&options, RECTO_ARRANGEMENT_FIRST, NULL, 0);
+  options.camera.fit = RECTO_FIT_SCALE;
+  options.camera.scale = 8;
+  options.sheet.names = true;
+  for (int fill = 0; fill < 2; fill++) {
+    options.sheet.detail_count = 0;
+    options.ink.fill = fill ? RECTO_FILL_HATCH : RECTO_FILL_NONE;
+    recto_drawing *plain = draw(&options);
+    struct box top = box_of(plain, "top");
+    recto_drawing_destroy(plain);
+    for (int k = 0; k <= 10; k++) {
+      const recto_detail detail = {.x_mm = top.low[0] +
+                                           k * (top.high[0] - top.low[0]) / 10,
+                                   .y_mm = middle_of(top, 1),
+                                   .radius_mm = 4,
+                                   .scale = 2};
+      options.sheet.detail = &detail;
+      options.sheet.detail_count = 1;
+      recto_drawing *drawing = draw(&options);
+      size_t count = recto_drawing_stroke_count(drawing);
+      recto_stroke letter, other;
+      for (size_t i = count - 3; i < count; i++) {
+        assert_true(recto_drawing_stroke(drawing, i, &letter));
+        assert_true(letter.is_text);
+        for (size_t n = 0; n < count - 3; n++) {
+          assert_true(recto_drawing_stroke(drawing, n, &other));
+          assert_true(gap_of_strokes(&letter, &other) > 0.3);
+        }
+      }
+      recto_drawing_destroy(drawing);
+    }
+  }
+}
+
 static void only_sheets_have_text(void **state) {
   (void)state;
   recto_options options;
@@ -821,6 +1060,13 @@ int main(void) {
       cmocka_unit_test(progress_grows_and_cancels),
       cmocka_unit_test(a_prepared_scene_gives_the_same_bytes),
       cmocka_unit_test(stats_have_a_part_for_each_view),
+      cmocka_unit_test(the_free_corner_is_beside_the_aligned_views),
+      cmocka_unit_test(a_view_without_lines_is_warned_of),
+      cmocka_unit_test(a_warning_of_several_views_is_given_once),
+      cmocka_unit_test(a_view_alone_is_named_by_its_direction),
+      cmocka_unit_test(scales_are_written_as_ratios),
+      cmocka_unit_test(names_lie_beside_each_other_inside_the_margins),
+      cmocka_unit_test(a_letter_is_clear_of_the_lines),
       cmocka_unit_test(views_that_make_no_sense_are_refused),
       cmocka_unit_test(what_contradicts_a_sheet_is_refused),
       cmocka_unit_test(a_detail_is_the_circle_enlarged),

@@ -37,11 +37,12 @@ static void add_numbers(struct sentence *words, const double *number,
   }
 }
 
-static void say_contents(struct sentence *words, const recto_options *o) {
+static void say_contents(struct sentence *words, const recto_options *o,
+                         bool has_hidden) {
   static const char *const fill[] = {"", "painted faces", "shaded faces",
                                      "hatched faces"};
   bool lines = o->ink.edges != RECTO_EDGES_NONE;
-  bool hidden = lines && o->ink.hidden != RECTO_HIDDEN_NONE;
+  bool hidden = lines && has_hidden;
   bool faces = o->ink.fill != RECTO_FILL_NONE;
   if (lines)
     sentence_add(words, "visible %slines", hidden ? "and hidden " : "");
@@ -53,7 +54,7 @@ static void say_contents(struct sentence *words, const recto_options *o) {
 /* "Visible lines and shaded faces, seen from azimuth 45, elevation 35.264
  * degrees." */
 static void describe_view(struct sentence *words, const recto_options *o) {
-  say_contents(words, o);
+  say_contents(words, o, o->ink.hidden != RECTO_HIDDEN_NONE);
   if (words->length == 0)
     sentence_add(words, "Nothing");
   if (o->camera.kind == RECTO_CAMERA_EYE) {
@@ -69,21 +70,56 @@ static void describe_view(struct sentence *words, const recto_options *o) {
   sentence_add(words, "%s.", o->camera.fov_deg > 0 ? ", in perspective" : "");
 }
 
-void captions_write_scale(char text[CAPTIONS_SCALE_SIZE], double scale) {
-  char number[NUMBER_TEXT_SIZE];
-  double least = fmin(scale, 1);
-  double side = scale >= 1 ? scale : 1 / scale;
-  size_t length = side < 1e6 ? number_format(number, side, 3)
-                             : number_format_exact(number, side);
-  (void)snprintf(text, CAPTIONS_SCALE_SIZE, least < 1 ? "1:%.*s" : "%.*s:1",
-                 (int)length, number);
+/* The smallest denominator, of those of one digit, with which a number is a
+ * fraction; 0: there is none. */
+static int find_denominator(double number) {
+  for (int i = 1; i < 10; i++) {
+    double whole = nearbyint(number * i);
+    if (whole < 1e6 && fabs(number * i - whole) <= 1e-9 * whole)
+      return i;
+  }
+  return 0;
 }
 
-/* "Visible lines, front, top and left views in first-angle projection, 1:2." */
+void captions_write_scale(char text[CAPTIONS_SCALE_SIZE], double scale) {
+  char number[NUMBER_TEXT_SIZE];
+  bool is_less = fmin(scale, 1) < 1;
+  double side = scale >= 1 ? scale : 1 / scale;
+  int other = find_denominator(side);
+  /* As 2.5:1 rather than 5:2, but as 4:3. */
+  if (other == 0 || fabs(nearbyint(side * 1000) - side * 1000) < 1e-6)
+    other = 1;
+  size_t length = side * other < 1e6
+                      ? number_format(number, side * other, 3)
+                      : number_format_exact(number, side * other);
+  if (is_less)
+    (void)snprintf(text, CAPTIONS_SCALE_SIZE, "%d:%.*s", other, (int)length,
+                   number);
+  else
+    (void)snprintf(text, CAPTIONS_SCALE_SIZE, "%.*s:%d", (int)length, number,
+                   other);
+}
+
+/* Whether any view has hidden lines. */
+static bool has_hidden_lines(const recto_options *o,
+                             const struct multiview *views) {
+  for (size_t i = 0; i < views->count; i++) {
+    const recto_sheet_view *view = views->view[i].asked;
+    if ((view->has_hidden ? view->hidden : o->ink.hidden) != RECTO_HIDDEN_NONE)
+      return true;
+  }
+  return false;
+}
+
+/* "Visible lines: front, top and left in first-angle projection, 1:2."  One view
+ * by the camera is described as without a sheet. */
 static void describe_sheet(struct sentence *words, const recto_options *o,
-                           const struct multiview *views,
-                           const struct scene *scene) {
-  say_contents(words, o);
+                           const struct multiview *views) {
+  if (views->count == 1 && views->view[0].asked->name == NULL) {
+    describe_view(words, o);
+    return;
+  }
+  say_contents(words, o, has_hidden_lines(o, views));
   if (words->length == 0)
     sentence_add(words, "Nothing");
   for (size_t i = 0; i < views->count; i++)
@@ -97,7 +133,7 @@ static void describe_sheet(struct sentence *words, const recto_options *o,
                                                                : "third");
   if (o->camera.fit != RECTO_FIT_PAGE) {
     char scale[CAPTIONS_SCALE_SIZE];
-    captions_write_scale(scale, views->scale / options_unit_mm(o, scene));
+    captions_write_scale(scale, views->scale / views->unit_mm);
     sentence_add(words, ", %s", scale);
   }
   sentence_add(words, ".");
@@ -123,6 +159,6 @@ bool captions_set_sheet(struct drawing *drawing, const recto_scene *scene,
                         const recto_options *options,
                         const struct multiview *views) {
   struct sentence words = {.length = 0};
-  describe_sheet(&words, options, views, &scene->scene);
+  describe_sheet(&words, options, views);
   return store_captions(drawing, scene->path, &words);
 }

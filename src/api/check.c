@@ -210,7 +210,8 @@ static recto_status check_sheet(const struct preparation *prepared,
                                 struct judge_verdict *verdict,
                                 recto_error *error) {
   struct multiview views;
-  recto_status status = multiview_arrange(&views, prepared, o, error);
+  recto_status status = multiview_arrange(
+      &views, prepared, o, options_unit_mm(o, &prepared->welded.scene), error);
   if (status != RECTO_OK)
     return status;
   if (o->output.tight)

@@ -6,16 +6,18 @@ librecto_core_la_SOURCES += \
   %D%/clip_warning.c %D%/clip_warning.h \
   %D%/colour.c \
   %D%/dash.c \
+  %D%/detail_places.c %D%/detail_places.h \
   %D%/draw_file.c \
   %D%/group_numbers.c %D%/group_numbers.h \
   %D%/handle.h \
   %D%/join.c \
+  %D%/letter_places.c %D%/letter_places.h \
   %D%/mesh.c \
   %D%/judge_input.c %D%/judge_input.h \
   %D%/options.c %D%/options.h \
   %D%/output.c \
   %D%/output_format.c %D%/output_format.h \
-  %D%/multiview.c %D%/multiview.h \
+  %D%/multiview.c %D%/multiview.h %D%/multiview_check.c \
   %D%/part.c \
   %D%/part_check.c %D%/part_check.h \
   %D%/render.c %D%/render.h \
@@ -27,6 +29,8 @@ librecto_core_la_SOURCES += \
   %D%/sized.c %D%/sized.h \
   %D%/shares.c %D%/shares.h \
   %D%/stats.c %D%/stats.h \
+  %D%/sheet_grid.c %D%/sheet_grid.h \
+  %D%/sheet_labels.c %D%/sheet_labels.h \
   %D%/sheet_text.c %D%/sheet_text.h \
   %D%/verify.c %D%/verify.h \
   %D%/version.c \

@@ -388,21 +388,31 @@ static bool is_outside_page(const struct render *render) {
   return render->triangles == 0 && render->sheet.edge.count == 0;
 }
 
-/* Warns if the drawing is empty, which is no error but seldom intended. */
-static void warn_of_empty_page(const struct render *render) {
-  const recto_options *o = render->options;
-  const struct drawing *drawing = render->drawing;
-  if (drawing->stroke.count > 0 || drawing->fill.count > 0 ||
-      o->warning == NULL)
+static void warn_of_empty_drawing(const recto_options *o, const char *why) {
+  char text[128];
+  if (o->warning == NULL)
     return;
-  const char *why = "nothing that was requested is visible and long enough";
   if (o->ink.edges == RECTO_EDGES_NONE && o->ink.fill == RECTO_FILL_NONE)
     why = "neither lines nor fills are requested";
-  else if (is_outside_page(render))
-    why = "all of the scene is outside of the page's margins";
-  char text[128];
   snprintf(text, sizeof text, "the drawing is empty: %s", why);
   o->warning(o->user, "", 0, text);
+}
+
+#define NOTHING_VISIBLE "nothing that was requested is visible and long enough"
+
+void render_warn_of_nothing(const recto_options *options) {
+  warn_of_empty_drawing(options, NOTHING_VISIBLE);
+}
+
+/* Warns if the drawing is empty, which is no error but seldom intended. */
+static void warn_of_empty_page(const struct render *render) {
+  const struct drawing *drawing = render->drawing;
+  if (drawing->stroke.count == 0 && drawing->fill.count == 0)
+    warn_of_empty_drawing(
+        render->options,
+        is_outside_page(render)
+            ? "all of the scene is outside of the page's margins"
+            : NOTHING_VISIBLE);
 }
 
 /* Warns of faces that the default near plane clips, which it does where depths
@@ -482,7 +492,8 @@ static recto_status run_and_report(struct render *render, recto_error *error) {
     number_elements(render->drawing, scene);
     stats_add_seconds(render->report, "render_cpu_s", clock_cpu() - cpu);
     stats_add_seconds(render->report, "render_wall_s", clock_wall() - wall);
-    warn_of_empty_page(render);
+    if (!render->request->may_be_empty)
+      warn_of_empty_page(render);
     warn_of_near_plane(render);
     clipped_report(&render->overflow, render->report);
     if (!is_outside_page(render))

@@ -9,6 +9,7 @@ struct render_request {
   const recto_options *options;       /* valid, their scale settled; no sheet */
   const struct preparation *prepared; /* taken where it serves; NULL: none */
   double shift_mm[2]; /* of the drawing from where the options place it */
+  bool may_be_empty;  /* there is no warning of that */
 };
 
 /* Draws a view.
@@ -16,5 +17,8 @@ struct render_request {
 USE_RESULT recto_status render_view(recto_drawing **drawing,
                                     const struct render_request *request,
                                     recto_error *error);
+
+/* Warns that nothing is drawn. */
+void render_warn_of_nothing(const recto_options *options);
 
 #endif

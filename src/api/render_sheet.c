@@ -14,6 +14,7 @@
 #include "api/options.h"
 #include "api/render.h"
 #include "api/shares.h"
+#include "api/sheet_labels.h"
 #include "api/sheet_text.h"
 #include "api/stats.h"
 #include "base/clock.h"
@@ -28,6 +29,7 @@ struct sheet_work {
   struct multiview views;
   recto_drawing *view[MULTIVIEW_MAX + RECTO_DETAIL_MAX]; /* then details */
   recto_drawing *made;
+  ARRAY(char *) warning; /* those that views gave */
 };
 
 /* How many drawings make the sheet. */
@@ -35,38 +37,85 @@ static size_t count_parts(const struct sheet_work *work) {
   return work->views.count + work->views.details;
 }
 
-/* ---- Progress ------------------------------------------------------------ */
+/* ---- Calls to the caller ------------------------------------------------- */
 
-/* The part of the whole work that one view is. */
-struct view_progress {
-  const recto_options *options;
+/* What the drawing of one view tells: its part of the whole work, and its
+ * warnings. */
+struct view_calls {
+  struct sheet_work *work;
   double from, to;   /* of the whole work */
   double begin, end; /* of that of a drawing of one view */
 };
 
 static bool pass_view_progress(void *user, double share, const char *stage) {
-  const struct view_progress *view = user;
+  const struct view_calls *view = user;
+  const recto_options *options = view->work->options;
   double done = (share - view->begin) / (view->end - view->begin);
-  return view->options->progress(
-      view->options->user, view->from + done * (view->to - view->from), stage);
+  return options->progress(options->user,
+                           view->from + done * (view->to - view->from), stage);
 }
 
-static void divide_work(struct view_progress *progress,
-                        const struct sheet_work *work, size_t index,
-                        recto_options *of_view) {
+/* Passes what no view before warned of. */
+static void pass_view_warning(void *user, const char *file, unsigned long line,
+                              const char *text) {
+  const struct view_calls *view = user;
+  struct sheet_work *work = view->work;
+  for (size_t i = 0; i < work->warning.count; i++)
+    if (strcmp(work->warning.item[i], text) == 0)
+      return;
+  char *copy = mem_copy_text(text);
+  if (copy != NULL && !ARRAY_PUSH(&work->warning, copy))
+    mem_free(copy);
+  work->options->warning(work->options->user, file, line, text);
+}
+
+static void warn_of_empty_part(const struct sheet_work *work, const char *what,
+                               const char *name) {
+  char text[64];
+  (void)snprintf(text, sizeof text, "the %s %s is empty", what, name);
+  work->options->warning(work->options->user, "", 0, text);
+}
+
+/* Warns of a sheet without any ink, else of the views and details that have
+ * none. */
+static void warn_of_empty_parts(const struct sheet_work *work) {
+  bool is_empty[MULTIVIEW_MAX + RECTO_DETAIL_MAX], all = true;
+  if (work->options->warning == NULL)
+    return;
+  for (size_t i = 0; i < count_parts(work); i++) {
+    const struct drawing *drawing = &work->view[i]->drawing;
+    is_empty[i] = drawing->stroke.count == 0 && drawing->fill.count == 0;
+    all = all && is_empty[i];
+  }
+  if (all)
+    render_warn_of_nothing(work->options);
+  for (size_t i = 0; !all && i < count_parts(work); i++)
+    if (is_empty[i] && i < work->views.count)
+      warn_of_empty_part(work, "view", multiview_name(&work->views, i));
+    else if (is_empty[i])
+      warn_of_empty_part(
+          work, "detail",
+          sheet_labels_letter(&work->views.detail[i - work->views.count]));
+}
+
+/* Makes the drawing of a part call back by `calls`.  A detail would warn of
+ * what lies beyond its circle. */
+static void divide_work(struct view_calls *calls, struct sheet_work *work,
+                        size_t index, recto_options *of_view) {
   double begin[SHARE_STAGES + 1];
   shares_plan(begin, work->options);
   double first = begin[SHARE_TOPOLOGY], last = begin[SHARE_WRITE];
   double each = (last - first) / (double)count_parts(work);
-  *progress = (struct view_progress){.options = work->options,
-                                     .from = first + (double)index * each,
-                                     .to = first + (double)(index + 1) * each,
-                                     .begin = first,
-                                     .end = last};
-  if (work->options->progress == NULL)
-    return;
-  of_view->progress = pass_view_progress;
-  of_view->user = progress;
+  *calls = (struct view_calls){.work = work,
+                               .from = first + (double)index * each,
+                               .to = first + (double)(index + 1) * each,
+                               .begin = first,
+                               .end = last};
+  of_view->user = calls;
+  if (of_view->progress != NULL)
+    of_view->progress = pass_view_progress;
+  if (of_view->warning != NULL)
+    of_view->warning = index < work->views.count ? pass_view_warning : NULL;
 }
 
 /* ---- Stages -------------------------------------------------------------- */
@@ -83,8 +132,9 @@ static recto_status prepare(struct sheet_work *work, recto_error *error) {
     status = preparation_init(&work->own, &work->scene->scene, work->options,
                               true, error);
   if (status == RECTO_OK)
-    status =
-        multiview_arrange(&work->views, work->prepared, work->options, error);
+    status = multiview_arrange(
+        &work->views, work->prepared, work->options,
+        options_unit_mm(work->options, &work->scene->scene), error);
   poll_close(&poll);
   return status;
 }
@@ -114,36 +164,29 @@ static recto_status clip_detail(struct sheet_work *work, size_t index,
           ? RECTO_OK
           : error_memory(error);
   poll_close(&poll);
-  const struct drawing *drawing = &work->view[index]->drawing;
-  if (status == RECTO_OK && drawing->stroke.count == 0 &&
-      drawing->fill.count == 0 && work->options->warning != NULL) {
-    char text[64];
-    (void)snprintf(text, sizeof text, "the detail %c is empty",
-                   detail->name[strlen(detail->name) - 1]);
-    work->options->warning(work->options->user, "", 0, text);
-  }
   return status;
 }
 
-/* Warnings that several views have in common are those of the first. */
 static recto_status draw_views(struct sheet_work *work, recto_error *error) {
   recto_status status = RECTO_OK;
   for (size_t i = 0; i < count_parts(work) && status == RECTO_OK; i++) {
     recto_options of_view;
-    struct view_progress progress;
-    struct render_request request = {
-        .scene = work->scene, .options = &of_view, .prepared = work->prepared};
+    struct view_calls calls;
+    struct render_request request = {.scene = work->scene,
+                                     .options = &of_view,
+                                     .prepared = work->prepared,
+                                     .may_be_empty = true};
     multiview_options(&work->views, i, work->options, &of_view,
                       request.shift_mm);
-    divide_work(&progress, work, i, &of_view);
-    if (i > 0)
-      of_view.warning = NULL;
+    divide_work(&calls, work, i, &of_view);
     status = render_view(&work->view[i], &request, error);
     if (status == RECTO_OK && i >= work->views.count)
       status = clip_detail(work, i, error);
     if (status != RECTO_OK)
       name_view_of_error(multiview_name(&work->views, i), error);
   }
+  if (status == RECTO_OK)
+    warn_of_empty_parts(work);
   return status;
 }
 
@@ -158,9 +201,8 @@ static recto_status put_together(struct sheet_work *work, recto_error *error) {
     drawing_fini(&work->view[i]->drawing);
     drawing_init(&work->view[i]->drawing);
   }
-  double unit_mm = options_unit_mm(work->options, &work->scene->scene);
   if (status == RECTO_OK &&
-      !(sheet_text_add(drawing, &work->views, work->options, unit_mm) &&
+      !(sheet_text_add(drawing, &work->views, work->options) &&
         captions_set_sheet(drawing, work->scene, work->options, &work->views)))
     status = error_memory(error);
   poll_close(&poll);
@@ -185,13 +227,12 @@ static void sum_verdicts(struct sheet_work *work) {
 static void report_sheet(struct sheet_work *work) {
   struct report *report = work->made->report;
   const struct multiview *views = &work->views;
-  double unit_mm = options_unit_mm(work->options, &work->scene->scene);
   report_count(report, "sheet", "views", views->count);
   report_text(report, "sheet", "projection",
               work->options->sheet.arrangement == RECTO_ARRANGEMENT_FIRST
                   ? "first-angle"
                   : "third-angle");
-  report_double(report, "sheet", "scale", views->scale / unit_mm);
+  report_double(report, "sheet", "scale", views->scale / views->unit_mm);
   report_double(report, "sheet", "gap_mm", views->gap_mm);
   for (size_t i = 0; i < count_parts(work); i++) {
     report_adopt(report, "views", multiview_name(views, i),
@@ -247,6 +288,9 @@ recto_status render_sheet(recto_drawing **drawing, const recto_scene *scene,
   recto_status status = run(&work, error);
   for (size_t i = 0; i < count_parts(&work); i++)
     recto_drawing_destroy(work.view[i]);
+  for (size_t i = 0; i < work.warning.count; i++)
+    mem_free(work.warning.item[i]);
+  ARRAY_FREE(&work.warning);
   preparation_fini(&work.own);
   *drawing = status == RECTO_OK ? work.made : NULL;
   if (status != RECTO_OK)

@@ -3,10 +3,9 @@
 #include "api/sheet_text.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
 
-#include "api/captions.h"
+#include "api/letter_places.h"
+#include "api/sheet_labels.h"
 #include "drawing/circle_clip.h"
 #include "drawing/text.h"
 
@@ -37,21 +36,6 @@ static bool add_centred(struct drawing *drawing, const struct text_line *line,
   return text_add(drawing, (uint32_t)drawing->layer.count - 1, line, at);
 }
 
-/* "FRONT", or "ISO (2:1)". */
-static void write_name(char text[], size_t size,
-                       const struct multiview_view *view, bool with_scale,
-                       double unit_mm) {
-  char scale[CAPTIONS_SCALE_SIZE];
-  captions_write_scale(scale, view->scale / unit_mm);
-  (void)snprintf(text, size, "%s", view->name);
-  for (char *at = text; *at != '\0'; at++)
-    if (*at >= 'a' && *at <= 'z')
-      *at = (char)(*at - 'a' + 'A');
-  size_t length = strlen(text);
-  if (with_scale)
-    (void)snprintf(text + length, size - length, " (%s)", scale);
-}
-
 /* ---- Details ------------------------------------------------------------- */
 
 static bool add_circle(struct drawing *drawing,
@@ -70,58 +54,70 @@ static bool add_circle(struct drawing *drawing,
   return ARRAY_PUSH(&drawing->stroke, stroke);
 }
 
-/* The circles of a detail, its letter beside the first, and below the second
- * also its scale. */
+/* The circles of a detail, and its label below the second. */
 static bool add_detail(struct drawing *drawing, const struct multiview *views,
-                       const struct multiview_detail *detail, bool with_scale,
-                       double unit_mm) {
+                       const struct multiview_detail *detail) {
   const recto_detail *asked = detail->asked;
   const struct drawing_circle mark = {asked->x_mm, asked->y_mm,
                                       asked->radius_mm};
   const struct drawing_circle large = {detail->centre_mm[0],
                                        detail->centre_mm[1], detail->radius_mm};
-  const char *letter = detail->name + strlen("detail-");
-  char text[CAPTIONS_SCALE_SIZE + 8], scale[CAPTIONS_SCALE_SIZE];
-  captions_write_scale(scale, detail->scale / unit_mm);
-  if (with_scale)
-    (void)snprintf(text, sizeof text, "%s (%s)", letter, scale);
-  else
-    (void)snprintf(text, sizeof text, "%s", letter);
-  const struct text_line beside = {letter, views->letter_mm};
-  const struct text_line below = {text, views->letter_mm};
-  double corner = mark.radius * sqrt(0.5);
-  const struct drawing_point at = {mark.x + corner, mark.y + corner};
+  const struct text_line below = {detail->label, views->letter_mm};
   return add_circle(drawing, &mark) && add_circle(drawing, &large) &&
-         text_add(drawing, (uint32_t)drawing->layer.count - 1, &beside, at) &&
          add_centred(drawing, &below, large.x,
                      large.y - large.radius - 2 * views->letter_mm);
+}
+
+static bool add_leader(struct drawing *drawing,
+                       const struct drawing_point leader[2]) {
+  const struct drawing_stroke stroke = {.point = (uint32_t)drawing->point.count,
+                                        .count = 2,
+                                        .layer =
+                                            (uint32_t)drawing->layer.count - 1,
+                                        .face = DRAWING_NONE,
+                                        .edge = DRAWING_NONE,
+                                        .group = DRAWING_NONE,
+                                        .text = true};
+  return ARRAY_PUSH(&drawing->point, leader[0]) &&
+         ARRAY_PUSH(&drawing->point, leader[1]) &&
+         ARRAY_PUSH(&drawing->stroke, stroke);
+}
+
+/* The letter beside what a detail shows, once all else is drawn. */
+static bool add_letter(struct drawing *drawing, const struct multiview *views,
+                       size_t detail) {
+  struct letter_place place;
+  const struct text_line line = {sheet_labels_letter(&views->detail[detail]),
+                                 views->letter_mm};
+  return letter_places_find(&place, drawing, views, detail) &&
+         (!place.has_leader || add_leader(drawing, place.leader)) &&
+         add_centred(drawing, &line, place.middle.x,
+                     place.middle.y - views->letter_mm / 2);
 }
 
 /* -------------------------------------------------------------------------- */
 
 bool sheet_text_add(struct drawing *drawing, const struct multiview *views,
-                    const recto_options *options, double unit_mm) {
+                    const recto_options *options) {
   bool ok = true;
   size_t first = drawing->stroke.count;
-  bool is_true = options->camera.fit != RECTO_FIT_PAGE;
   if (views->title_mm > 0 || views->name_mm > 0 || views->details > 0)
     ok = add_text_layer(drawing, options);
   for (size_t i = 0; ok && views->name_mm > 0 && i < views->count; i++) {
     const struct multiview_view *view = &views->view[i];
-    char text[128];
-    write_name(text, sizeof text, view, is_true && view->scale != views->scale,
-               unit_mm);
-    const struct text_line line = {text, views->name_mm};
+    const struct text_line line = {view->label, views->name_mm};
     ok = add_centred(drawing, &line, (view->low_mm[0] + view->high_mm[0]) / 2,
                      view->low_mm[1] - 2 * views->name_mm);
   }
   for (size_t i = 0; ok && i < views->details; i++)
-    ok = add_detail(drawing, views, &views->detail[i], is_true, unit_mm);
+    ok = add_detail(drawing, views, &views->detail[i]);
   if (ok && views->title_mm > 0) {
     const struct text_line line = {views->title, views->title_mm};
     ok = add_centred(drawing, &line, views->page_mm[0] / 2,
                      views->margin_mm + 0.4 * views->title_mm);
   }
+  for (size_t i = 0; ok && i < views->details; i++)
+    ok = add_letter(drawing, views, i);
   drawing->counts.pen_lifts += drawing->stroke.count - first;
   return ok;
 }

@@ -13,10 +13,9 @@ double sheet_text_pen_mm(const recto_options *options);
  * its scale if that is a true one and not the sheet's; for each detail a circle
  * about what it shows and one about it, with its letter: strokes of pen 1, on a
  * layer of their own.
- * unit_mm  of a unit of the user's scene
  * Returns false when memory ran out. */
 USE_RESULT bool sheet_text_add(struct drawing *drawing,
                                const struct multiview *views,
-                               const recto_options *options, double unit_mm);
+                               const recto_options *options);
 
 #endif

@@ -74,15 +74,15 @@ bool sheet_parse_detail(struct arguments *arguments, const char *text) {
   recto_detail detail = {.x_mm = 0};
   double *const length[] = {&detail.x_mm, &detail.y_mm, &detail.radius_mm};
   char item[64];
-  if (sheet->detail_count == RECTO_DETAIL_MAX)
-    return false;
   for (int i = 0; i < 3; i++)
     if (!next_item(&text, item) || !value_length(item, length[i]))
       return false;
   if (!value_scale(text, &detail.scale) ||
       !(detail.radius_mm >= RECTO_FINEST_MM))
     return false;
-  arguments->detail[sheet->detail_count++] = detail;
+  if (sheet->detail_count < RECTO_DETAIL_MAX)
+    arguments->detail[sheet->detail_count] = detail;
+  sheet->detail_count++; /* sheet_settle refuses too many */
   sheet->detail = arguments->detail;
   return true;
 }
@@ -146,6 +146,13 @@ bool sheet_settle(struct arguments *a, char message[MESSAGE_SIZE]) {
   bool is_one = sheet->detail_count > 0 && !sheet_is_requested(a);
   if (is_one)
     take_one_view(a);
+  if (sheet->detail_count > RECTO_DETAIL_MAX) {
+    snprintf(message, MESSAGE_SIZE,
+             "--detail is given %zu times, and %d are "
+             "the most",
+             sheet->detail_count, RECTO_DETAIL_MAX);
+    return false;
+  }
   if (!sheet_is_requested(a)) {
     if (a->view_hidden_count > 0)
       wrong = "--hidden-in is for --sheet and --views";

@@ -1,0 +1,22 @@
+/* sheet_grid.h - the columns and rows in which the views of a sheet stand. */
+#ifndef API_SHEET_GRID_H
+#define API_SHEET_GRID_H
+
+#include "api/multiview.h"
+
+/* Whether the view of that name, which may be NULL, is along an axis, so that
+ * it has a column and a row of its own. */
+bool sheet_grid_has_cell(const char *name);
+
+/* Chooses the page's orientation, the scale and the place of every view.
+ * views    with their boxes, the first page and the heights of text
+ * scaled   the options in units of the prepared scene
+ * size     of the scene, in these units
+ * exponent the user's units are these times 2^exponent
+ * Errors   RECTO_ERROR_ARGUMENT: the page has no room for the views */
+USE_RESULT recto_status sheet_grid_arrange(struct multiview *views,
+                                           const recto_options *scaled,
+                                           double size, int exponent,
+                                           recto_error *error);
+
+#endif
