@@ -611,11 +611,12 @@ static void scales_are_written_as_ratios(void **state) {
   static const struct {
     double scale;
     const char *text;
-  } pair[] = {
-      {1, "1:1"},          {2, "2:1"},           {0.5, "1:2"},
-      {2.5, "2.5:1"},      {4.0 / 3, "4:3"},     {0.75, "3:4"},
-      {50.0 / 3, "50:3"},  {0.1, "1:10"},        {3.14159265, "3.142:1"},
-      {1e-6, "1:1000000"}, {1e9, "1000000000:1"}};
+  } pair[] = {{1, "1:1"},          {2, "2:1"},
+              {0.5, "1:2"},        {2.5, "2.5:1"},
+              {4.0 / 3, "4:3"},    {0.75, "3:4"},
+              {50.0 / 3, "50:3"},  {20.0 / 11, "20:11"},
+              {0.1, "1:10"},       {3.14159265, "3.142:1"},
+              {1e-6, "1:1000000"}, {1e9, "1000000000:1"}};
   for (size_t i = 0; i < sizeof pair / sizeof pair[0]; i++) {
     char text[CAPTIONS_SCALE_SIZE];
     captions_write_scale(text, pair[i].scale);

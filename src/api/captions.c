@@ -5,9 +5,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "api/options.h"
 #include "base/number.h"
 #include "base/sentence.h"
+#include "base/tolerance.h"
 
 /* The name of a file without its folder and extension. */
 static char *title_of(const char *path) {
@@ -70,28 +70,35 @@ static void describe_view(struct sentence *words, const recto_options *o) {
   sentence_add(words, "%s.", o->camera.fov_deg > 0 ? ", in perspective" : "");
 }
 
-/* The smallest denominator, of those of one digit, with which a number is a
- * fraction; 0: there is none. */
-static int find_denominator(double number) {
-  for (int i = 1; i < 10; i++) {
-    double whole = nearbyint(number * i);
-    if (whole < 1e6 && fabs(number * i - whole) <= 1e-9 * whole)
+/* A number as it is written: with three decimals, or all where it is large. */
+static double round_to_text(double number) {
+  return number < 1e6 ? nearbyint(number * 1000) / 1000 : number;
+}
+
+/* Whether the text of a number is all of it, but for rounding. */
+static bool is_exact(double number) {
+  double off = fabs(round_to_text(number) - number);
+  return off <= number * TOLERANCE_EXTENT_SHARE;
+}
+
+/* By which number below 100 a ratio that is no decimal fraction becomes one of whole
+ * numbers: 4:3.  1: it is one, or there is none. */
+static int find_denominator(double side) {
+  for (int i = 1; i < 100; i++)
+    if (is_exact(side * i) &&
+        (i == 1 || nearbyint(side * i) == round_to_text(side * i)))
       return i;
-  }
-  return 0;
+  return 1;
 }
 
 void captions_write_scale(char text[CAPTIONS_SCALE_SIZE], double scale) {
   char number[NUMBER_TEXT_SIZE];
-  bool is_less = fmin(scale, 1) < 1;
-  double side = scale >= 1 ? scale : 1 / scale;
+  bool is_less = scale < 1;
+  double side = is_less ? 1 / scale : scale;
   int other = find_denominator(side);
-  /* As 2.5:1 rather than 5:2, but as 4:3. */
-  if (other == 0 || fabs(nearbyint(side * 1000) - side * 1000) < 1e-6)
-    other = 1;
-  size_t length = side * other < 1e6
-                      ? number_format(number, side * other, 3)
-                      : number_format_exact(number, side * other);
+  double written = round_to_text(side * other);
+  size_t length = written < 1e6 ? number_format(number, written, 3)
+                                : number_format_exact(number, written);
   if (is_less)
     (void)snprintf(text, CAPTIONS_SCALE_SIZE, "%d:%.*s", other, (int)length,
                    number);
@@ -111,8 +118,8 @@ static bool has_hidden_lines(const recto_options *o,
   return false;
 }
 
-/* "Visible lines: front, top and left in first-angle projection, 1:2."  One view
- * by the camera is described as without a sheet. */
+/* "Visible lines: front, top and left in first-angle projection, 1:2."  One
+ * view by the camera is described as without a sheet. */
 static void describe_sheet(struct sentence *words, const recto_options *o,
                            const struct multiview *views) {
   if (views->count == 1 && views->view[0].asked->name == NULL) {

@@ -3,7 +3,7 @@
 #define API_CAPTIONS_H
 
 #include "api/handle.h"
-#include "api/multiview.h"
+#include "api/multiview_layout.h"
 
 /* Sets the title, the name of the only file that was read without its folder
  * and extension, and the description, a sentence about what is drawn from

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "api/sheet_grid.h"
 #include "api/sheet_labels.h"
 
 /* What is left free on each side of the circle about what a detail shows, for
@@ -142,7 +143,7 @@ static recto_status place_detail(struct multiview *views, size_t index,
                      letter, asked->radius_mm, asked->x_mm, asked->y_mm);
   detail->radius_mm = asked->radius_mm * asked->scale;
   detail->scale =
-      multiview_limit_scale(views->view[detail->view].scale * asked->scale);
+      sheet_grid_limit_scale(views->view[detail->view].scale * asked->scale);
   sheet_labels_of_detail(views, detail);
   if (!find_room(views, index))
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,

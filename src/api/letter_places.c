@@ -24,7 +24,7 @@ struct ink_cells {
   uint32_t *sum; /* of the ink left of and below each corner of a cell */
 };
 
-static uint32_t *corner_of(const struct ink_cells *ink, int x, int y) {
+static uint32_t *sum_at(const struct ink_cells *ink, int x, int y) {
   return &ink->sum[(size_t)y * ((size_t)ink->count + 1) + (size_t)x];
 }
 
@@ -64,7 +64,7 @@ static void mark_segment(struct ink_cells *ink, struct drawing_point from,
       cell[axis] = (int)fmin(fmax((p - ink->low[axis]) / ink->cell_mm, 0),
                              ink->count - 1);
     }
-    *corner_of(ink, cell[0] + 1, cell[1] + 1) = 1;
+    *sum_at(ink, cell[0] + 1, cell[1] + 1) = 1;
   }
 }
 
@@ -85,9 +85,8 @@ static bool mark_strokes(struct ink_cells *ink, const struct drawing *drawing) {
 static void sum_cells(struct ink_cells *ink) {
   for (int y = 1; y <= ink->count; y++)
     for (int x = 1; x <= ink->count; x++)
-      *corner_of(ink, x, y) += *corner_of(ink, x - 1, y) +
-                               *corner_of(ink, x, y - 1) -
-                               *corner_of(ink, x - 1, y - 1);
+      *sum_at(ink, x, y) += *sum_at(ink, x - 1, y) + *sum_at(ink, x, y - 1) -
+                            *sum_at(ink, x - 1, y - 1);
 }
 
 /* How many cells have ink of those that a rectangle meets. */
@@ -101,8 +100,8 @@ static uint32_t count_ink(const struct ink_cells *ink, struct drawing_point at,
     low[axis] = (int)fmin(fmax(floor(from / ink->cell_mm), 0), ink->count);
     high[axis] = (int)fmin(fmax(ceil(to / ink->cell_mm), 0), ink->count);
   }
-  return *corner_of(ink, high[0], high[1]) - *corner_of(ink, low[0], high[1]) -
-         *corner_of(ink, high[0], low[1]) + *corner_of(ink, low[0], low[1]);
+  return *sum_at(ink, high[0], high[1]) - *sum_at(ink, low[0], high[1]) -
+         *sum_at(ink, high[0], low[1]) + *sum_at(ink, low[0], low[1]);
 }
 
 /* ---- Places -------------------------------------------------------------- */

@@ -2,7 +2,7 @@
 #ifndef API_LETTER_PLACES_H
 #define API_LETTER_PLACES_H
 
-#include "api/multiview.h"
+#include "api/multiview_layout.h"
 #include "drawing/drawing.h"
 
 /* Where the letter of a detail is drawn. */

@@ -18,6 +18,7 @@ librecto_core_la_SOURCES += \
   %D%/output.c \
   %D%/output_format.c %D%/output_format.h \
   %D%/multiview.c %D%/multiview.h %D%/multiview_check.c \
+  %D%/multiview_layout.h \
   %D%/part.c \
   %D%/part_check.c %D%/part_check.h \
   %D%/render.c %D%/render.h \

@@ -76,8 +76,8 @@ static void turn_camera(recto_options *options,
   options->camera.has_target = false;
 }
 
-/* Heights of letters that ISO 3098 has, to 20 mm: the largest that is not above
- * a share of the page's shorter side, or one of the next lower. */
+/* Heights of letters that [ISO3098] has, to 20 mm: the largest that is not
+ * above a share of the page's shorter side, or one of the next lower. */
 static double choose_text_height(const double page_mm[2], int lower) {
   static const double height[] = {1.8, 2.5, 3.5, 5, 7, 10, 14, 20};
   int i = sizeof height / sizeof height[0] - 1;

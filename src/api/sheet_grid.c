@@ -289,7 +289,7 @@ static void place_view(struct multiview_view *view, const struct grid *grid,
   }
 }
 
-double multiview_limit_scale(double scale) {
+double sheet_grid_limit_scale(double scale) {
   return fmin(fmax(scale, DBL_MIN), DBL_MAX);
 }
 
@@ -298,14 +298,14 @@ static void place_views(struct multiview *views, struct grid *grid,
   size_tracks(grid, scale);
   choose_gap(views, grid);
   place_tracks(views, grid);
-  views->scale = multiview_limit_scale(ldexp(scale, -exponent));
+  views->scale = sheet_grid_limit_scale(ldexp(scale, -exponent));
   for (size_t i = 0; i < views->count; i++) {
     struct multiview_view *view = &views->view[i];
     place_view(view, grid, scale);
     view->scale =
         view->is_aligned
             ? views->scale
-            : multiview_limit_scale(views->scale * relative_scale(view));
+            : sheet_grid_limit_scale(views->scale * relative_scale(view));
   }
 }
 

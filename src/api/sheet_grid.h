@@ -2,11 +2,14 @@
 #ifndef API_SHEET_GRID_H
 #define API_SHEET_GRID_H
 
-#include "api/multiview.h"
+#include "api/multiview_layout.h"
 
 /* Whether the view of that name, which may be NULL, is along an axis, so that
  * it has a column and a row of its own. */
 bool sheet_grid_has_cell(const char *name);
+
+/* The nearest scale that is a positive number. */
+double sheet_grid_limit_scale(double scale);
 
 /* Chooses the page's orientation, the scale and the place of every view.
  * views    with their boxes, the first page and the heights of text

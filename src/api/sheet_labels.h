@@ -2,7 +2,7 @@
 #ifndef API_SHEET_LABELS_H
 #define API_SHEET_LABELS_H
 
-#include "api/multiview.h"
+#include "api/multiview_layout.h"
 
 /* Writes the labels of all views that are to have one: "FRONT", and where a
  * view has a true scale that is not the sheet's, "ISO (2:1)".  The room of a

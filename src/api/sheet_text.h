@@ -3,7 +3,7 @@
 #ifndef API_SHEET_TEXT_H
 #define API_SHEET_TEXT_H
 
-#include "api/multiview.h"
+#include "api/multiview_layout.h"
 #include "drawing/drawing.h"
 
 /* The width of the pen that draws text, and the circles about details. */

@@ -2,9 +2,9 @@
 #ifndef VIEW_PREFERRED_SCALE_H
 #define VIEW_PREFERRED_SCALE_H
 
-/* The largest of the scales that ISO 5455 prefers which is not above `scale`, a
- * normal number above 0: 1, 2 or 5 times a power of ten.  One that is above it
- * by no more than rounding errors counts as equal. */
+/* The largest of the scales that [ISO5455] prefers which is not above `scale`,
+ * a normal number above 0: 1, 2 or 5 times a power of ten.  One that is above
+ * it by no more than rounding errors counts as equal. */
 double preferred_scale(double scale);
 
 #endif
