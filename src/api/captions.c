@@ -81,8 +81,8 @@ static bool is_exact(double number) {
   return off <= number * TOLERANCE_EXTENT_SHARE;
 }
 
-/* By which number below 100 a ratio that is no decimal fraction becomes one of whole
- * numbers: 4:3.  1: it is one, or there is none. */
+/* By which number below 100 a ratio that is no decimal fraction becomes one of
+ * whole numbers: 4:3.  1: it is one, or there is none. */
 static int find_denominator(double side) {
   for (int i = 1; i < 100; i++)
     if (is_exact(side * i) &&
