@@ -53,6 +53,13 @@ static const struct view {
       {.normal = {0, 1, 0}, .offset = 1},
       {.normal = {1, 0, 0}}},
      3},
+    {"star", /* a plane given twice */
+     45,
+     35.26,
+     {{.normal = {0, 0, 1}, .offset = 0.2},
+      {.normal = {-1, 2, 0.5}, .offset = 0.1},
+      {.normal = {-1, 2, 0.5}, .offset = 0.1}},
+     3},
     {"wave", 45, 35.26, {{.normal = {1, 0, 0}}}, 1},
 };
 enum { VIEWS = sizeof views / sizeof views[0] };

@@ -83,11 +83,12 @@ static bool add_common_line(const struct cut_edge_finder *finder, int j,
                                       k};
   struct judge_point3 from = point3_along(at, -reach, along);
   struct judge_point3 to = point3_along(at, reach, along);
-  /* Both planes have the line: it is beyond the third one. */
+  /* Both planes have the line: it is beyond the third one, or that is one of
+   * them again. */
   double t0 = 0, t1 = 1;
   for (int other = 0; other < removed->planes; other++) {
-    double a = judge_plane_height(&removed->plane[other], from);
-    double b = judge_plane_height(&removed->plane[other], to);
+    double a = judge_plane_height(&removed->plane[other], from) + removed->near;
+    double b = judge_plane_height(&removed->plane[other], to) + removed->near;
     if (other == j || other == k)
       continue;
     if (a < 0 && b < 0)
