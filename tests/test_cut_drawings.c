@@ -500,7 +500,14 @@ static void bad_planes_are_refused(void **state) {
   options.mesh.cut = &all;
   assert_int_equal(recto_scene_render(scene, &options, &drawing, &error),
                    RECTO_ERROR_EMPTY);
+  /* A face of the box is on both, but nothing is between them. */
+  const recto_plane facing[] = {plane_of(1, 0, 0, 1), plane_of(-3, 0, 0, -3)};
+  options.mesh.cut = facing;
+  options.mesh.cut_count = 2;
+  assert_int_equal(recto_scene_render(scene, &options, &drawing, &error),
+                   RECTO_ERROR_ARGUMENT);
   options.mesh.cut = NULL;
+  options.mesh.cut_count = 1;
   assert_int_equal(recto_scene_render(scene, &options, &drawing, &error),
                    RECTO_ERROR_ARGUMENT);
   options.mesh.cut = bad;

@@ -86,6 +86,21 @@ static void add_cut_plane(struct cut_points *points,
   points->plane[points->planes++] = *plane;
 }
 
+bool cut_points_have_room(const struct cut_points *points) {
+  for (unsigned j = 0; j < points->planes; j++)
+    for (unsigned k = 0; k < j; k++) {
+      const struct cut_plane *a = &points->plane[j], *b = &points->plane[k];
+      double most = 0;
+      for (int i = 0; i < 3; i++)
+        most = fmax(most, fabs(a->normal[i] + b->normal[i]));
+      if (most <= TOLERANCE_PARALLEL_PLANES &&
+          height(a, points->origin) + height(b, points->origin) <=
+              2 * points->tolerance + 4 * points->unit)
+        return false;
+    }
+  return true;
+}
+
 recto_status cut_points_init(struct cut_points *points,
                              const struct scene *scene,
                              const struct cut_plane *plane, size_t planes,

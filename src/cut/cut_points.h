@@ -37,6 +37,10 @@ USE_RESULT recto_status cut_points_init(struct cut_points *points,
                                         size_t planes, recto_error *error);
 void cut_points_fini(struct cut_points *points);
 
+/* Whether something can lie beyond all planes: no two of them are parallel,
+ * face each other, and are so close that points are on both. */
+bool cut_points_have_room(const struct cut_points *points);
+
 static inline const struct cut_point *
 cut_made_point(const struct cut_points *points, uint32_t point) {
   return &points->point.item[point - points->first];

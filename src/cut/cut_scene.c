@@ -56,11 +56,12 @@ recto_status cut_scene(struct cut *cut, const struct scene *scene,
   recto_status status =
       cut_points_init(&cutter.points, scene, plane, planes, error);
   cut->unit = cutter.points.unit;
-  if (status == RECTO_OK)
+  bool has_room = status == RECTO_OK && cut_points_have_room(&cutter.points);
+  if (status == RECTO_OK && has_room)
     status = cut_faces(&cutter, error);
-  if (status == RECTO_OK)
+  if (status == RECTO_OK && has_room)
     status = cut_sections(&cutter, error);
-  if (status == RECTO_OK)
+  if (status == RECTO_OK && has_room)
     status = cut_assemble(&cutter, unstated, error);
   if (status == RECTO_OK && !cutter.anything_goes)
     status = error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
