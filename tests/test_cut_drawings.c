@@ -477,6 +477,30 @@ static void planes_that_are_one_cut_as_one(void **state) {
   recto_scene_destroy(scene);
 }
 
+/* The top hides the vertical edge of the cut face, which begins in a corner of
+ * the top that the cut makes, also where they are in contact. */
+static void the_judge_knows_the_corners_that_a_cut_makes(void **state) {
+  (void)state;
+  const recto_plane plane = plane_of(0, -1, 0, -0.25);
+  const recto_mesh mesh = box_mesh(box_cube[0], 8);
+  recto_scene *scene = box_scene(&mesh);
+  recto_drawing *drawing;
+  recto_options options;
+  recto_error error = {0};
+  recto_options_init(&options);
+  options.camera.azimuth_deg = 319;
+  options.camera.elevation_deg = 68;
+  options.ink.edges = RECTO_EDGES_ALL;
+  options.solver.contact = 0.002;
+  options.mesh.cut = &plane;
+  options.mesh.cut_count = 1;
+  options.verify = 1000;
+  if (recto_scene_render(scene, &options, &drawing, &error) != RECTO_OK)
+    fail_msg("%s", error.text);
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(scene);
+}
+
 static void bad_planes_are_refused(void **state) {
   (void)state;
   const recto_mesh mesh = box_mesh(box_cube[0], 8);
@@ -676,6 +700,7 @@ int main(void) {
       cmocka_unit_test(moves_of_hatching_run_along_lines),
       cmocka_unit_test(cut_faces_are_hatched_solid_or_not),
       cmocka_unit_test(planes_that_are_one_cut_as_one),
+      cmocka_unit_test(the_judge_knows_the_corners_that_a_cut_makes),
       cmocka_unit_test(bad_planes_are_refused),
       cmocka_unit_test(sizes_do_not_matter),
       cmocka_unit_test(a_section_is_a_cut_parallel_to_the_page),

@@ -84,9 +84,22 @@ static bool is_whole(const struct scene *scene,
   return true;
 }
 
+/* Whether a cut may have made an end of the edge a corner of the triangle: both
+ * the triangle's plane and one of the cut contain it. */
+static bool cut_may_share(const struct judge_triangles *all,
+                          const struct judge_triangle *t,
+                          const struct judge_end *end) {
+  bool shares = false;
+  for (int k = 0; k < all->removed.planes; k++)
+    shares |= fabs(judge_plane_height(&all->removed.plane[k], end->position)) <=
+              all->removed.near;
+  return shares && triangle_distance(t, end->position) <=
+                       all->removed.near + end->margin.plane_error;
+}
+
 /* Whether an end of the edge is a corner of the triangle.  It is undecided for
- * faces of more corners and for those that the page or the near plane clips:
- * the judge does not know the drawing's triangles of these. */
+ * faces of more corners and for those that the page, the near plane or a cut
+ * clips: the judge does not know the drawing's triangles of these. */
 static enum shared_end triangle_shares(const struct judge_ray *ray,
                                        const struct judge_triangles *all,
                                        const struct judge_triangle *t,
@@ -102,6 +115,8 @@ static enum shared_end triangle_shares(const struct judge_ray *ray,
   }
   bool sure = most == SHARED && count == 3 && !end->is_cut &&
               is_whole(scene, ray->camera, start, count);
+  if (most == SHARED_NO && cut_may_share(all, t, end))
+    return SHARED_PERHAPS;
   return most == SHARED && !sure ? SHARED_PERHAPS : most;
 }
 
