@@ -30,7 +30,8 @@ EXTRA_PROGRAMS += %D%/bench %D%/dense %D%/zraster %D%/accuracy %D%/chart \
 %C%_hard_LDADD = tests/scenes/libscenes.la librecto_core.la -lm
 EXTRA_DIST += %D%/quadratic.sh %D%/least_model.sh doc/least-model.md \
   doc/accuracy.md doc/chart doc/peers.md \
-  %D%/peers/asymptote.py %D%/peers/gl2ps.c %D%/peers/gl2ps_lines.py \
+  %D%/peers/asymptote.py %D%/peers/asymptote_lines.py \
+  %D%/peers/gl2ps.c %D%/peers/gl2ps_lines.py \
   %D%/peers/gnuplot.py %D%/peers/gnuplot_lines.py %D%/peers/lineart.py \
   %D%/peers/page.py %D%/peers/peers.sh %D%/peers/prepare.py \
   %D%/peers/sketch.py %D%/peers/sketch_lines.py %D%/peers/three.mjs \

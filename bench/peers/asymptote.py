@@ -1,7 +1,7 @@
 """asymptote.py MODEL OUT - a model in page coordinates as a program for
-Asymptote's module bsp, which divides faces by a binary space partition and
-clips each to what no later one covers: triangles, as it takes a polygon for
-linear whose corners are not in one plane to the last bits."""
+Asymptote's module bsp, which divides faces by a binary space partition, clips
+each piece to its part of it and paints them from back to front: triangles, as it
+takes a polygon for linear whose corners are not in one plane to the last bits."""
 import sys
 
 import page

@@ -6,14 +6,15 @@
 #
 # Needs python3, and measures those of gl2ps (with OSMesa), gnuplot, sketch,
 # Asymptote and Blender that are installed; PEERS_NODE names a folder in which
-# npm installed three, three-svg-renderer and esbuild.  PEERS names some of the
-# programs, as below; LIMIT seconds of CPU time each.
+# npm installed three and esbuild, and three-svg-renderer with its dependencies
+# but for arrangement-2d-js, which is not on npm (npm pack three-svg-renderer).
+# PEERS names some of the programs, as below; LIMIT seconds of CPU time each.
 set -u
 here=$(cd "$(dirname "$0")" && pwd)
 recto=$1 scene_program=$2 examples=$3
 shift 3
-test $# -gt 0 || set -- cubes cycles soup fandisk bunny
-limit=${LIMIT:-120}
+test $# -gt 0 || set -- cubes cycles table soup fandisk bunny surface dense
+limit=${LIMIT:-60}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
@@ -28,7 +29,7 @@ script() { "$python" "$here/$1.py" "${@:2}"; }
 timed() {
   : >runs.txt
   for _ in 1 2 3; do
-    (ulimit -t "$limit"; exec timeout $((2 * limit)) /usr/bin/time -f '%U %S %M' -o one "${@:2}") \
+    (ulimit -t "$limit"; exec timeout $((20 * limit)) /usr/bin/time -f '%U %S %M' -o one "${@:2}") \
       >"$1.log" 2>&1 || return 1
     tail -n 1 one | awk '{ print $1 + $2, $3 / 1000 }' >>runs.txt
     awk 'END { exit !($1 > 5) }' runs.txt && break
@@ -106,8 +107,8 @@ measure_asymptote() {
   command -v asy >/dev/null || return 0
   script asymptote page.obj page.asy
   if timed asy asy -f eps -noView -o asy page.asy; then
-    printf '| %s | %s | %.2f | %.0f | | |\n' "$scene" "Asymptote, bsp, all sides" \
-      "$seconds" "$mb"
+    script asymptote_lines asy.eps page.json asy-lines.svg
+    row "Asymptote, bsp, all sides" asy-lines.svg "$sides" "${page[@]}"
   else
     failed "Asymptote, bsp, all sides" "> $limit s, or failed"
   fi

@@ -75,6 +75,8 @@ static const double NEAR_SHARE = 1e-5;
 /* What a plane leaves reaches farther than this share, or is drawn so large that
  * the grid of the cut shows. */
 static const double LEFT_SHARE = 1e-3;
+/* The scenes are some units large, but for single points far away. */
+static const double CONTACT_MAX = 0.01;
 
 /* How far a point is beyond a plane. */
 static double beyond(const recto_plane *plane, const struct scene_point *p) {
@@ -116,7 +118,7 @@ bool is_judgeable(const recto_scene *scene, const recto_options *options) {
   for (size_t i = 0; i < options->mesh.cut_count; i++)
     if (!is_plane_clear(&scene->scene, &options->mesh.cut[i], diagonal))
       return false;
-  return options->solver.contact <= diagonal / 100 &&
+  return options->solver.contact <= CONTACT_MAX &&
          are_polygons_simple(&scene->scene) &&
          !is_open_around_faces(&scene->scene);
 }

@@ -9,7 +9,7 @@
  *   corner twice;
  * - a surface is not closed and has faces without a border, so that rays may leave
  *   it and not enter it;
- * - the contact is more than a hundredth of the scene's diagonal;
+ * - the contact is more than a hundredth of a unit;
  * - a face lies nearly in a plane of the cut, or what a plane leaves is nearly
  *   nothing: the cut's points, which are rounded to a grid, may lie on the other
  *   side, and what is left may be within contact. */
