@@ -229,6 +229,67 @@ static void a_solver_does_no_more_than_was_requested(void **state) {
         check_parts(*s, parts & 1, parts & 2);
 }
 
+/* ---- The limits of brute force ------------------------------------------- */
+
+/* A drawn line behind a face, one of `copies` such lines, and `count` copies of
+ * that face. */
+static void covered_lines(struct sheet *sheet, size_t copies, size_t count) {
+  static const int line[][3] = {{4, 4, 9}, {6, 4, 9}, {4, 6, 9}};
+  const struct geom_point cover[3] = {
+      {0, 0, 1 << 24}, {20 << 20, 0, 1 << 24}, {0, 20 << 20, 1 << 24}};
+  exact_sheet_init(sheet);
+  exact_add_face(sheet, line, 3, 1 << 20);
+  for (size_t i = sheet->edge.count; i < copies; i++)
+    assert_true(ARRAY_PUSH(&sheet->edge, sheet->edge.item[0]));
+  for (size_t t = 1; t < count; t++)
+    exact_add_triangle(sheet, cover, 1);
+}
+
+static void brute_tests_a_hidden_edge_no_further(void **state) {
+  enum { LINES = 3, FACES = 1000 };
+  const struct solver_request request = {.edges = true, .threads = 1};
+  struct report *report = report_create();
+  struct sheet sheet;
+  struct map map;
+  (void)state;
+  covered_lines(&sheet, LINES, FACES);
+  assert_int_equal(
+      exact_solve_as(&solver_brute, &request, &sheet, &map, report), RECTO_OK);
+  for (size_t e = 0; e < LINES; e++)
+    assert_int_equal(map.edge_state[e], MAP_HIDDEN);
+  /* The face itself and one in front of it. */
+  assert_true(report_get(report, "occlusion", "pairs", 0) <= 2 * LINES);
+  report_destroy(report);
+  map_fini(&map);
+  exact_sheet_fini(&sheet);
+}
+
+static void brute_refuses_what_would_take_hours(void **state) {
+  enum { MANY = 224000 };
+  static const struct {
+    size_t lines;
+    bool fragments;
+    const char *says;
+  } many[] = {{3, true, "224000 triangles against 224000 triangles"},
+              {MANY, false, "224000 lines against 224000 triangles"}};
+  (void)state;
+  for (size_t i = 0; i < sizeof many / sizeof *many; i++) {
+    const struct solver_request request = {.edges = !many[i].fragments,
+                                           .fragments = many[i].fragments,
+                                           .threads = 1};
+    recto_error error = {0};
+    struct sheet sheet;
+    struct map map;
+    covered_lines(&sheet, many[i].lines, MANY);
+    map_init(&map);
+    assert_int_equal(solver_brute.solve(&sheet, &request, &map, NULL, &error),
+                     RECTO_ERROR_LIMIT);
+    assert_non_null(strstr(error.text, many[i].says));
+    map_fini(&map);
+    exact_sheet_fini(&sheet);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_solver_is_found_by_its_method_and_its_name),
@@ -237,6 +298,8 @@ int main(void) {
       cmocka_unit_test(a_cancelled_raster_is_not_polled_again),
       cmocka_unit_test(numbers_of_pixels_out_of_range_are_refused),
       cmocka_unit_test(a_solver_does_no_more_than_was_requested),
+      cmocka_unit_test(brute_tests_a_hidden_edge_no_further),
+      cmocka_unit_test(brute_refuses_what_would_take_hours),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -28,6 +28,13 @@ bool sheet_drop_triangles(struct sheet *sheet) {
   return true;
 }
 
+size_t sheet_count_requested(const struct sheet *sheet) {
+  size_t count = 0;
+  for (size_t e = 0; e < sheet->edge.count; e++)
+    count += sheet->edge.item[e].edge_class != 0;
+  return count;
+}
+
 void sheet_fini(struct sheet *sheet) {
   ARRAY_FREE(&sheet->point);
   ARRAY_FREE(&sheet->triangle);

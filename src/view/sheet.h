@@ -120,6 +120,9 @@ struct sheet {
 /* Zero-initialised is empty; layout_sheet (layout.h) fills it. */
 void sheet_fini(struct sheet *sheet);
 
+/* How many edges are of a requested class. */
+size_t sheet_count_requested(const struct sheet *sheet);
+
 /* Frees the triangles to save memory, once only the scene faces of edges are
  * still needed (sheet_edge_face).  Returns false when the caller cancelled; the
  * edges may then not be used any more. */

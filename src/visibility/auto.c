@@ -5,18 +5,11 @@
  * them is quicker than building an index. */
 #define BRUTE_PAIRS_MAX 2000
 
-static size_t count_drawn(const struct sheet *sheet) {
-  size_t drawn = 0;
-  for (size_t e = 0; e < sheet->edge.count; e++)
-    drawn += sheet->edge.item[e].edge_class != 0;
-  return drawn;
-}
-
 const struct solver *solver_choose(const struct sheet *sheet,
                                    const struct solver_request *request,
                                    const char **why) {
   size_t triangles = sheet->triangle.count;
-  size_t requested = request->edges ? count_drawn(sheet) : 0;
+  size_t requested = request->edges ? sheet_count_requested(sheet) : 0;
   if (request->fragments)
     requested += triangles;
   if (triangles <= BRUTE_PAIRS_MAX && requested <= BRUTE_PAIRS_MAX &&

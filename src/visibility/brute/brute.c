@@ -13,6 +13,20 @@
 #include "visibility/progress.h"
 #include "visibility/solver.h"
 
+/* The most pairs of lines and triangles, and of triangles.  Those that overlap
+ * take about 100 ns each, so that all of them take about an hour at most. */
+static const size_t PAIRS_MAX = 50000000000;
+
+static recto_status check_pairs(size_t count, const char *what, size_t faces,
+                                recto_error *error) {
+  if (count == 0 || faces <= PAIRS_MAX / count)
+    return RECTO_OK;
+  return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
+                   "too much for brute: %zu %s against %zu triangles are more "
+                   "than %zu pairs; -m auto has no such limit",
+                   count, what, faces, PAIRS_MAX);
+}
+
 static bool solve_edges_brute(const struct sheet *sheet, struct map *map,
                               struct occlusion_counts *counts,
                               struct progress *progress) {
@@ -32,7 +46,7 @@ static bool solve_edges_brute(const struct sheet *sheet, struct map *map,
     if (!progress_step_at(progress, n, e, sheet->edge.count))
       goto end;
     edge_intervals_start(&intervals);
-    for (size_t t = 0; t < n; t++) {
+    for (size_t t = 0; t < n && !intervals.occluded; t++) {
       struct occluded_interval interval;
       if (!sheet_is_edge_on(sheet, t) &&
           occlude_edge(&occluder[t], s.p, s.q, &interval, counts) &&
@@ -135,11 +149,19 @@ static recto_status solve_brute(struct sheet *sheet,
   struct occlusion_counts counts = {0};
   struct progress progress = progress_of(request, "edges");
   struct triangle_grid grid;
-  recto_status status = RECTO_OK;
+  size_t triangles = sheet->triangle.count;
+  recto_status status =
+      request->fragments ? check_pairs(triangles, "triangles", triangles, error)
+                         : RECTO_OK;
+  if (status != RECTO_OK)
+    return status;
   if (!triangle_grid_init(&grid, sheet))
     return error_memory(error);
   if (request->intersections)
     status = intersection_find_all(sheet, &grid, NULL, request, report, error);
+  if (status == RECTO_OK && request->edges)
+    status =
+        check_pairs(sheet_count_requested(sheet), "lines", triangles, error);
   if (status == RECTO_OK && request->edges &&
       !solve_edges_brute(sheet, map, &counts, &progress))
     status = error_memory(error);
