@@ -290,12 +290,13 @@ static bool add_precisions(struct assembly *a, struct precision unstated) {
   struct precision most = {unit, 0};
   size_t count = from->precision.count;
   for (size_t i = 0; i <= count; i++) {
-    const struct precision_range *range = &from->precision.item[i];
     struct precision own = unstated;
-    if (i < count && range->stated)
-      own = range->precision;
-    if (i < count && !ARRAY_PUSH(&a->scene->precision, *range))
-      return false;
+    if (i < count) {
+      const struct precision_range *range = &from->precision.item[i];
+      if (!ARRAY_PUSH(&a->scene->precision, *range))
+        return false;
+      own = range->stated ? range->precision : unstated;
+    }
     most.absolute = fmax(most.absolute, own.absolute);
     most.relative = fmax(most.relative, own.relative);
   }

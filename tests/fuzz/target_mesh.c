@@ -1,5 +1,6 @@
-/* target_mesh.c - meshes in the caller's arrays, right and wrong ones: an
- * argument is refused and nothing was added, or results that are consistent. */
+/* target_mesh.c - meshes in the caller's arrays, right and wrong ones, whole
+ * and cut: an argument is refused and nothing was added, or results that are
+ * consistent. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -84,6 +85,20 @@ static recto_mesh make_mesh(struct source *source, struct arrays *arrays) {
   return mesh;
 }
 
+/* None, or a plane through or along a side of the mesh. */
+static size_t make_cut(struct source *source, recto_plane *plane) {
+  static const double normals[][3] = {{1, 0, 0}, {0, 1, 0},  {0, 0, -1},
+                                      {1, 1, 0}, {1, -1, 1}, {-1, 0, 2}};
+  unsigned byte = next(source);
+  if (byte == 0)
+    return 0;
+  *plane = (recto_plane){.offset = 0.5 * (next(source) % 9) - 2};
+  for (int axis = 0; axis < 3; axis++)
+    plane->normal[axis] =
+        normals[byte % (sizeof normals / sizeof normals[0])][axis];
+  return 1;
+}
+
 static void check_edges(const recto_drawing *drawing, size_t points,
                         size_t faces, struct fuzz_finding *finding) {
   recto_edge edge;
@@ -116,7 +131,8 @@ static void check_faces(const recto_drawing *drawing, size_t faces,
   const recto_half_edge *side = recto_drawing_half_edges(drawing, &sides);
   recto_fragment fragment;
   for (size_t i = 0; recto_drawing_fragment(drawing, i, &fragment); i++)
-    if (fragment.face >= faces || fragment.loop_count == 0 ||
+    if ((fragment.face >= faces && fragment.face != RECTO_NONE) ||
+        fragment.loop_count == 0 ||
         fragment.loop + (size_t)fragment.loop_count > loops)
       fuzz_found(finding, "fragment %zu: a face or loops that are not there",
                  i);
@@ -195,6 +211,9 @@ static void run(const uint8_t *bytes, size_t count,
   options.camera.elevation_deg = 15 * (int)(next(&source) % 13) - 90;
   options.camera.fov_deg = next(&source) % 4 == 0 ? 60 : 0;
   recto_mesh mesh = make_mesh(&source, &arrays);
+  recto_plane plane;
+  options.mesh.cut = &plane;
+  options.mesh.cut_count = make_cut(&source, &plane);
   if (recto_scene_create(&scene, NULL) != RECTO_OK)
     abort();
   recto_status status = recto_scene_add_mesh(scene, &mesh, &error);
