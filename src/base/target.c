@@ -417,13 +417,22 @@ static bool reserve_space(int descriptor, size_t count) {
   return true;
 }
 
+/* Some file systems can be interrupted there. */
+static bool set_size(int descriptor, size_t count) {
+  int failed;
+  do
+    failed = ftruncate(descriptor, (off_t)count);
+  while (failed != 0 && errno == EINTR);
+  return failed == 0;
+}
+
 bool target_reserve(struct target *target, size_t count) {
   return reserve_space(target->descriptor, count);
 }
 
 bool target_replace(struct target *target, const char *bytes, size_t count) {
   int to = target->descriptor;
-  return write_bytes_all(to, bytes, count) && ftruncate(to, (off_t)count) == 0;
+  return write_bytes_all(to, bytes, count) && set_size(to, count);
 }
 
 /* Where the folder's entry cannot be changed, as that of a file that is mounted
@@ -442,7 +451,7 @@ static bool copy_in_place(struct target *target) {
     ok = got > 0 && write_bytes_all(to, chunk, (size_t)got);
     at += got;
   }
-  ok = ok && ftruncate(to, at) == 0;
+  ok = ok && set_size(to, (size_t)at);
   if (to >= 0)
     ok = close(to) == 0 && ok;
   mem_free(chunk);
