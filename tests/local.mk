@@ -88,6 +88,7 @@ dist_check_SCRIPTS += \
   %D%/test_cli_descriptors.sh \
   %D%/test_cli_frames.sh \
   %D%/test_cli_margins.sh \
+  %D%/test_cli_memory.sh \
   %D%/test_cli_messages.sh \
   %D%/test_cli_outputs.sh \
   %D%/test_cli_progress.sh \

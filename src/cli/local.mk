@@ -7,6 +7,7 @@ recto_SOURCES += \
   %D%/help.c \
   %D%/lists.c %D%/lists.h \
   %D%/main.c \
+  %D%/memory_limit.c %D%/memory_limit.h \
   %D%/message.c %D%/message.h \
   %D%/options.c \
   %D%/option_scope.c %D%/option_scope.h \

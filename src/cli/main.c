@@ -2,9 +2,10 @@
 #include <stdio.h>
 
 #include "cli/descriptors.h"
+#include "cli/memory_limit.h"
+#include "cli/message.h"
 #include "cli/parse.h"
 #include "cli/run.h"
-#include "cli/message.h"
 
 static int run_program(struct arguments *arguments, int argc, char **argv) {
   char message[MESSAGE_SIZE];
@@ -31,6 +32,7 @@ int main(int argc, char **argv) {
   struct arguments arguments;
   if (!descriptors_reserve())
     return EXIT_FAILED; /* and there is nowhere to say so */
+  memory_limit_set();
   int code = run_program(&arguments, argc, argv);
   arguments_fini(&arguments);
   return code;
