@@ -131,6 +131,27 @@ claim "a sheet has a detail, and is right" has_detail "$models/castle.obj" \
   --sheet first --scale auto --page A4 --detail 97,146.5,6,4
 claim "so has a single view" has_detail "$models/gears.obj" --view dimetric \
   --scale 9:10 --portrait --detail 105,148,8,3
+# A sheet with a line less in its detail, or with one that is elsewhere.
+has_fault_in_detail() { # LINE FAULT MODEL OPTION...
+  local line=$1 fault=$2
+  shift 2
+  run 0 "$@" -o whole.svg &&
+    awk -v line="$line" '
+      /detail-A-layer1/ { on = 1 }
+      on && / d="/ && ++n == 2 { if (line == "") next
+                                 sub(/ d="[^"]*"/, " d=\"" line "\"") }
+      { print }' whole.svg >sheet.svg && ! cmp -s whole.svg sheet.svg &&
+    run 1 "$@" --check sheet.svg && grep -qE "^$fault +[1-9]" out
+}
+claim "a line that a detail lacks is found" has_fault_in_detail '' \
+  'missing ink' "$models/gears.obj" --view dimetric --scale 9:10 --portrait \
+  --detail 105,148,8,3
+claim "so is one that it has too much" has_fault_in_detail \
+  'M95 220L105 226' 'false ink' "$models/gears.obj" --view dimetric \
+  --scale 9:10 --portrait --detail 105,148,8,3
+claim "a detail that is rounded is right" has_detail "$models/gears.obj" \
+  --view dimetric --scale 9:10 --portrait --detail 105,148,8,3 --precision 1 \
+  --curves 0.1
 claim "a detail that is not on the page is refused" \
   refuses 'A, of 5 mm about 3,30, is not on the page' cube.obj -o no.svg \
   --sheet first --detail 3,30,5,2

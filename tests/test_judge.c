@@ -25,6 +25,7 @@ struct page {
   size_t length;
   double contact;                  /* as in judge_options */
   const struct scene_point *given; /* as in judge_options */
+  struct judge_removed removed;    /* as in judge_options */
   struct judge_camera camera;
 };
 
@@ -39,6 +40,7 @@ static void open_page(struct page *page) {
   page->length = 0;
   page->contact = -1;
   page->given = NULL;
+  page->removed = (struct judge_removed){.planes = 0};
   write_text(page, "<?xml version=\"1.0\"?>\n"
                    "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"100mm\""
                    " height=\"100mm\" viewBox=\"0 0 100 100\">\n"
@@ -73,6 +75,7 @@ judge_page(struct page *page, const struct scene *scene, unsigned edges) {
   options.edges = edges;
   options.contact = page->contact;
   options.given = page->given;
+  options.removed = page->removed;
   write_text(page, "</g>\n</svg>\n");
   assert_null(judge_read_svg(&drawing, page->text, page->length));
   assert_true(
@@ -960,6 +963,36 @@ static void any_bytes_and_no_memory_are_survived(void **state) {
 
 /* ---- The grid of segments ------------------------------------------------ */
 
+/* Of two boxes, one above the other, a quarter is cut out.  Between them the
+ * planes of the cut meet outside of the model. */
+static void a_line_of_the_cut_beside_the_model_is_absent(void **state) {
+  (void)state;
+  for (int within = 0; within < 2; within++) {
+    struct page page;
+    struct scene scene;
+    scene_init(&scene);
+    build_box(&scene, vector_of(-1, -1, -2), vector_of(1, 1, -1));
+    build_box(&scene, vector_of(-1, -1, 1), vector_of(1, 1, 2));
+    look_from(&page, 9, 9, 1);
+    open_page(&page);
+    page.removed =
+        (struct judge_removed){.plane = {{judge_point3_of(1, 0, 0), 0.25},
+                                         {judge_point3_of(0, 1, 0), 0.25}},
+                               .planes = 2};
+    double z = within ? 1.25 : 0.25;
+    draw_line(&page, vector_of(0.25, 0.25, z), vector_of(0.25, 0.25, z + 0.5));
+    struct judge_verdict verdict =
+        judge_page(&page, &scene, RECTO_EDGE_SECTION);
+    if (within) {
+      assert_int_equal(verdict.false_ink.samples, 0);
+    } else {
+      assert_true(verdict.false_ink.samples > 0);
+      assert_true(verdict.false_at.on_edge && verdict.false_at.is_absent);
+    }
+    scene_fini(&scene);
+  }
+}
+
 /* Whatever the reach, all segments within reach of a point are found
  * there, in a space that grows with the segments alone. */
 static void a_wide_reach_takes_no_more_space(void **state) {
@@ -1024,6 +1057,7 @@ int main(void) {
       cmocka_unit_test(any_bytes_and_no_memory_are_survived),
       cmocka_unit_test(what_is_not_such_a_file_is_refused),
       cmocka_unit_test(a_wide_reach_takes_no_more_space),
+      cmocka_unit_test(a_line_of_the_cut_beside_the_model_is_absent),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,6 +3,8 @@
  * The page is the file's own.  Lines may be off, along and across, by a quarter
  * of the pen's width, which is invisible, and by what the options allow ink to
  * move them (ink_deviation_mm). */
+#include <float.h>
+
 #include "api/handle.h"
 #include "api/judge_input.h"
 #include "api/multiview.h"
@@ -74,13 +76,20 @@ static void undo_cropping(struct judge_drawing *drawing, double height_mm) {
   }
 }
 
-/* Checks the drawing of a view.
- * o         its lengths are scaled as the scene is
- * shift_mm  of the drawing from where the options place it */
-static recto_status
-judge_file_drawing(const struct preparation *prepared, const recto_options *o,
-                   const double shift_mm[2], struct judge_drawing *drawing,
-                   struct judge_verdict *verdict, recto_error *error) {
+/* Where the drawing of a view, or of a detail, is on the page. */
+struct part_place {
+  double shift_mm[2]; /* from where the options place it */
+  struct judge_circle circle;
+};
+
+/* Checks the drawing of a view, or of a detail.
+ * o  its lengths are scaled as the scene is */
+static recto_status judge_file_drawing(const struct preparation *prepared,
+                                       const recto_options *o,
+                                       const struct part_place *place,
+                                       struct judge_drawing *drawing,
+                                       struct judge_verdict *verdict,
+                                       recto_error *error) {
   struct camera camera;
   struct judge_input input;
   const struct scene *scene = &prepared->welded.scene;
@@ -88,11 +97,12 @@ judge_file_drawing(const struct preparation *prepared, const recto_options *o,
   if (status != RECTO_OK)
     return status;
   for (int k = 0; k < 2; k++)
-    camera.middle_mm[k] += shift_mm[k];
+    camera.middle_mm[k] += place->shift_mm[k];
   if (!judge_input_init(&input, scene))
     return error_memory(error);
   judge_input_cut(&input, prepared);
   struct judge_camera seen = judge_input_camera(&input, &camera, o);
+  seen.circle = place->circle;
   struct judge_options options = judge_input_options(&input, &camera, o);
   options.samples = SAMPLES;
   options.edges &= ~dash_pattern_classes(o); /* nothing is missing in gaps */
@@ -117,7 +127,7 @@ static recto_status check_view_alone(const struct preparation *prepared,
                                      struct judge_drawing *drawing,
                                      struct judge_verdict *verdict,
                                      recto_error *error) {
-  static const double shift_mm[2] = {0, 0};
+  static const struct part_place place = {{0, 0}, {0, 0, 0}};
   struct camera camera;
   recto_options o = *options;
   recto_status status = preparation_rescale(prepared, &o, error);
@@ -126,9 +136,9 @@ static recto_status check_view_alone(const struct preparation *prepared,
     if (status == RECTO_OK)
       undo_cropping(drawing, camera.page_mm[1]);
   }
-  return status == RECTO_OK ? judge_file_drawing(prepared, &o, shift_mm,
-                                                 drawing, verdict, error)
-                            : status;
+  return status == RECTO_OK
+             ? judge_file_drawing(prepared, &o, &place, drawing, verdict, error)
+             : status;
 }
 
 /* How far a point is from the box of a view, squared. */
@@ -139,28 +149,30 @@ static double distance_to_view(const struct multiview_view *view,
   return dx * dx + dy * dy;
 }
 
-/* Whether all of a stroke is in the larger circle of a detail. */
+/* Whether all of a stroke is in the larger circle of a detail.
+ * step_mm  by which coordinates are rounded */
 static bool is_in_detail(const struct multiview_detail *detail,
                          const struct judge_drawing *drawing,
-                         const struct judge_stroke *stroke) {
+                         const struct judge_stroke *stroke, double step_mm) {
   for (uint32_t i = 0; i < stroke->count; i++) {
     struct judge_point2 p = drawing->point.item[stroke->point + i];
     if (hypot(p.x - detail->centre_mm[0], p.y - detail->centre_mm[1]) >
-        detail->radius_mm + RECTO_FINEST_MM)
+        detail->radius_mm + RECTO_FINEST_MM + step_mm)
       return false;
   }
   return true;
 }
 
-/* The view that a stroke is of: the nearest one.  Details are not judged. */
+/* The view that a stroke is of: the nearest one; past these, the detail. */
 static size_t view_of_stroke(const struct multiview *views,
                              const struct judge_drawing *drawing,
-                             const struct judge_stroke *stroke) {
+                             const struct judge_stroke *stroke,
+                             double step_mm) {
   size_t nearest = 0;
   struct judge_point2 at = drawing->point.item[stroke->point];
   for (size_t i = 0; i < views->details; i++)
-    if (is_in_detail(&views->detail[i], drawing, stroke))
-      return views->count;
+    if (is_in_detail(&views->detail[i], drawing, stroke, step_mm))
+      return views->count + i;
   for (size_t i = 1; i < views->count; i++)
     if (distance_to_view(&views->view[i], at) <
         distance_to_view(&views->view[nearest], at))
@@ -168,16 +180,39 @@ static size_t view_of_stroke(const struct multiview *views,
   return nearest;
 }
 
-/* Collects the strokes of a view, which refer to the points of `drawing`. */
+/* The circle in which all lines of a detail are drawn: wider lines than that of
+ * the circle end before it. */
+static recto_status find_circle(struct judge_circle *circle,
+                                const struct multiview_detail *detail,
+                                const struct scene *scene,
+                                const recto_options *o, recto_error *error) {
+  struct pens pens;
+  double widest_mm = 0, weight = 1;
+  recto_status status = pens_init(&pens, scene, o, error);
+  for (unsigned i = 0; status == RECTO_OK && i < RECTO_EDGE_CLASS_COUNT; i++)
+    weight = fmax(weight, pens_weight(&pens, 1u << i));
+  for (uint32_t pen = 0; status == RECTO_OK && pen <= o->ink.pen_count; pen++)
+    widest_mm = fmax(widest_mm, pens_width_mm(&pens, pen) * weight);
+  pens_fini(&pens);
+  /* DBL_MIN: nothing is drawn. */
+  *circle =
+      (struct judge_circle){detail->centre_mm[0], detail->centre_mm[1],
+                            fmax(detail->radius_mm - widest_mm / 2, DBL_MIN)};
+  return status;
+}
+
+/* Collects the strokes of a view or a detail, which refer to the points of
+ * `drawing`. */
 static bool collect_strokes_of_view(struct judge_drawing *part,
                                     const struct judge_drawing *drawing,
-                                    const struct multiview *views,
-                                    size_t index) {
+                                    const struct multiview *views, size_t index,
+                                    double step_mm) {
   part->stroke.count = 0;
   for (size_t i = 0; i < drawing->stroke.count; i++) {
     const struct judge_stroke *stroke = &drawing->stroke.item[i];
     if (!poll_at(i) ||
-        (stroke->count > 0 && view_of_stroke(views, drawing, stroke) == index &&
+        (stroke->count > 0 &&
+         view_of_stroke(views, drawing, stroke, step_mm) == index &&
          !ARRAY_PUSH(&part->stroke, *stroke)))
       return false;
   }
@@ -220,18 +255,24 @@ static recto_status check_sheet(const struct preparation *prepared,
   part.stroke.item = NULL;
   part.stroke.count = part.stroke.capacity = 0;
   *verdict = (struct judge_verdict){.drawn = {0, 0}};
-  for (size_t i = 0; i < views.count && status == RECTO_OK; i++) {
+  for (size_t i = 0; i < views.count + views.details && status == RECTO_OK;
+       i++) {
     recto_options of_view;
-    double shift_mm[2];
+    struct part_place place = {.circle = {.radius_mm = 0}};
     struct judge_verdict found;
-    multiview_options(&views, i, o, &of_view, shift_mm);
+    multiview_options(&views, i, o, &of_view, place.shift_mm);
+    if (i >= views.count)
+      status = find_circle(&place.circle, &views.detail[i - views.count],
+                           &prepared->welded.scene, &of_view, error);
+    if (status != RECTO_OK)
+      break;
     status = preparation_rescale(prepared, &of_view, error);
     if (status == RECTO_OK &&
-        !collect_strokes_of_view(&part, drawing, &views, i))
+        !collect_strokes_of_view(&part, drawing, &views, i, o->output.unit_mm))
       status = error_memory(error);
     if (status == RECTO_OK)
-      status = judge_file_drawing(prepared, &of_view, shift_mm, &part, &found,
-                                  error);
+      status =
+          judge_file_drawing(prepared, &of_view, &place, &part, &found, error);
     if (status == RECTO_OK)
       add_verdict(verdict, &found);
   }

@@ -145,7 +145,9 @@ static recto_status verdict_error(const struct verify *verify,
     sentence_add(&words, "no line is drawn and ");
   if (w->on_edge)
     say_edge(&words, verify, w, origin);
-  if (w->on_edge && is_false)
+  if (w->on_edge && is_false && w->is_absent)
+    sentence_add(&words, " of two planes of the cut is outside of the model");
+  else if (w->on_edge && is_false)
     sentence_add(&words,
                  w->blocker == SCENE_NONE ? " is hidden by a cut face"
                                           : " is hidden by face %lu",

@@ -4,6 +4,11 @@
 
 #include "judge/point.h"
 
+/* A circle of the page. */
+struct judge_circle {
+  double x_mm, y_mm, radius_mm;
+};
+
 struct judge_camera {
   double matrix[12]; /* model to page mm, homogeneous, row by row; the third
                         row is the depth in front of the eye (perspective) */
@@ -15,7 +20,8 @@ struct judge_camera {
   double depth_step;        /* rounding unit of the drawing's depths: scene
                                units, in perspective those of 1 / d; 0: none */
   double width_mm, height_mm;
-  double margin_mm; /* edges are drawn inside the margins only */
+  double margin_mm;           /* edges are drawn inside the margins only */
+  struct judge_circle circle; /* and inside this; radius_mm 0: anywhere */
 };
 
 /* From the camera's axes: on the page

@@ -225,6 +225,7 @@ static enum judge_visibility explain_ink(const struct judge_context *context,
         visibility != JUDGE_BLOCKED
             ? cut_existence(context, edge, judge_point3_of_image(edge, t))
             : visibility;
+    bool is_absent = visibility != JUDGE_BLOCKED && least == JUDGE_BLOCKED;
     visibility = least > visibility ? least : visibility;
     if (visibility == JUDGE_BLOCKED && is_doubtful(edge))
       visibility = JUDGE_UNSURE;
@@ -234,6 +235,7 @@ static enum judge_visibility explain_ink(const struct judge_context *context,
                           witness->at)) {
       nearest = away;
       set_witness_edge(witness, edge, judge_point3_of_image(edge, t), blocker);
+      witness->is_absent = is_absent;
     }
   }
   bool may_pierce =
@@ -397,15 +399,18 @@ static void judge_edge_sample(struct judge_context *context, uint32_t number,
   }
 }
 
-/* The part of an edge's image that is on the page.  Returns false where it need
- * not be drawn: the edge is not requested, or its image is a point.  A short
- * part may belong to a longer line (missing_run.h), so if there is a shortest
- * length only parts within ray_offset_mm are left out. */
+/* The part of an edge's image that is on the page and in the camera's circle.
+ * Returns false where it need not be drawn: the edge is not requested, or its
+ * image is a point.  A short part may belong to a longer line (missing_run.h),
+ * so if there is a shortest length only parts within ray_offset_mm are left
+ * out. */
 static bool visible_part(const struct judge_context *context, uint32_t edge,
                          struct judge_segment *part, double *t0, double *t1) {
   if (!is_requested(context, edge) ||
       !judge_clip_to_page(context->camera, context->image[edge].a,
-                          context->image[edge].b, t0, t1))
+                          context->image[edge].b, t0, t1) ||
+      !judge_clip_to_circle(context->camera, context->image[edge].a,
+                            context->image[edge].b, t0, t1))
     return false;
   part->a = point_on(&context->image[edge], *t0);
   part->b = point_on(&context->image[edge], *t1);

@@ -67,6 +67,8 @@ struct judge_witness {
   uint32_t point[2]; /* the edge's ends; SCENE_NONE: an intersection */
   uint32_t face[2];  /* two of its faces; SCENE_NONE */
   uint32_t blocker;  /* the face that hides it; SCENE_NONE */
+  bool is_absent;    /* nothing hides it: two planes of a cut meet there, and
+                        the model does not reach it */
 };
 
 /* Samples, and the length in mm that they stand for. */

@@ -30,6 +30,24 @@ bool judge_clip_to_page(const struct judge_camera *camera,
   return *t0 <= *t1;
 }
 
+bool judge_clip_to_circle(const struct judge_camera *camera,
+                          struct judge_point2 a, struct judge_point2 b,
+                          double *t0, double *t1) {
+  const struct judge_circle *circle = &camera->circle;
+  double ux = b.x - a.x, uy = b.y - a.y;
+  double vx = a.x - circle->x_mm, vy = a.y - circle->y_mm;
+  double uu = ux * ux + uy * uy, uv = ux * vx + uy * vy;
+  double away = vx * vx + vy * vy - circle->radius_mm * circle->radius_mm;
+  double root = uv * uv - uu * away;
+  if (circle->radius_mm == 0)
+    return true;
+  if (!(uu > 0 && root > 0))
+    return false;
+  *t0 = fmax(*t0, (-uv - sqrt(root)) / uu);
+  *t1 = fmin(*t1, (-uv + sqrt(root)) / uu);
+  return *t0 <= *t1;
+}
+
 struct judge_point3 judge_point3_of_image(const struct judge_edge *edge,
                                           double t) {
   double one = (1 - t) * edge->depth[1], two = t * edge->depth[0];

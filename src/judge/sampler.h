@@ -22,6 +22,12 @@ bool judge_clip_to_page(const struct judge_camera *camera,
                         struct judge_point2 a, struct judge_point2 b,
                         double *t0, double *t1);
 
+/* Leaves of the parameters from *t0 to *t1 of a segment those in the camera's
+ * circle, if there is one; false where nothing is. */
+bool judge_clip_to_circle(const struct judge_camera *camera,
+                          struct judge_point2 a, struct judge_point2 b,
+                          double *t0, double *t1);
+
 /* The point of an edge whose image is at parameter t of the edge's image. */
 struct judge_point3 judge_point3_of_image(const struct judge_edge *edge,
                                           double t);
