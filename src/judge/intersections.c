@@ -11,6 +11,7 @@
 #include "judge/clipped_triangle.h"
 #include "judge/grid.h"
 #include "judge/sampler.h"
+#include "judge/traversal.h"
 
 enum { FEW_CORNERS = 32 };
 

@@ -333,36 +333,3 @@ void judge_triangles_fini(struct judge_triangles *all) {
   all->node = NULL;
   all->nodes = 0;
 }
-
-/* ---- Neighbours ---------------------------------------------------------- */
-
-static bool boxes_meet(const struct judge_box *a, const struct judge_box *b) {
-  for (int k = 0; k < 3; k++)
-    if (a->high[k] < b->low[k] || b->high[k] < a->low[k])
-      return false;
-  return true;
-}
-
-bool judge_triangles_near(const struct judge_triangles *all,
-                          const struct judge_box *box, uint32_t but,
-                          bool (*found)(void *user, uint32_t triangle),
-                          void *user) {
-  uint32_t stack[JUDGE_STACK_SIZE];
-  unsigned depth = 0;
-  if (all->nodes > 0)
-    stack[depth++] = 0;
-  while (depth > 0) {
-    const struct judge_node *node = &all->node[stack[--depth]];
-    if (node->face == but || !boxes_meet(&node->box, box))
-      continue;
-    if (node->count == 0) {
-      stack[depth++] = node->first;
-      stack[depth++] = node->first + 1;
-      continue;
-    }
-    for (uint32_t i = 0; i < node->count; i++)
-      if (!found(user, node->first + i))
-        return false;
-  }
-  return true;
-}

@@ -77,14 +77,6 @@ judge_fan_along(const struct judge_triangles *all, uint32_t face, uint32_t a,
                 uint32_t b, size_t *count);
 void judge_triangles_fini(struct judge_triangles *all);
 
-/* Calls found(user, i) for the triangles of all leaves whose boxes meet `box`,
- * until it returns false; returns whether it never did.
- * but  triangles of this face may be skipped: a large face has very many */
-bool judge_triangles_near(const struct judge_triangles *all,
-                          const struct judge_box *box, uint32_t but,
-                          bool (*found)(void *user, uint32_t triangle),
-                          void *user);
-
 struct judge_box judge_triangle_box(const struct judge_triangle *triangle);
 
 #endif
