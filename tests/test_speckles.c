@@ -305,6 +305,55 @@ static void a_gap_is_closed_once(void **state) {
   ink_fixture_end(&k);
 }
 
+/* ---- Zigzags ------------------------------------------------------------- */
+
+/* Whether a crease of forty edges is drawn that begins and ends free: it turns
+ * at each point by one angle, and its faces meet at another one. */
+static bool is_zigzag_drawn(double turn_deg, double fold_deg) {
+  enum { POINTS = 41 };
+  const double degree = acos(-1) / 180, fold = fold_deg * degree;
+  const struct scene_point corner[4] = {
+      {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -cos(fold), -sin(fold)}};
+  static const uint32_t face[2][3] = {{0, 1, 2}, {1, 0, 3}};
+  struct ink_fixture k;
+  start(&k);
+  for (int i = 0; i < 4; i++)
+    assert_true(ARRAY_PUSH(&k.scene.point, corner[i]));
+  for (int i = 0; i < 2; i++)
+    assert_int_equal(scene_add_face(&k.scene, face[i], 3, 1, NULL, NULL),
+                     RECTO_OK);
+  k.sheet.scene = &k.scene;
+  k.sheet.triangles_dropped = true;
+  k.sheet.camera.s = k.sheet.camera.d_max = 1;
+  k.sheet.camera.middle_mm[0] = k.sheet.camera.middle_mm[1] = 50;
+  for (int i = 0; i < POINTS; i++) {
+    uint32_t p = ink_fixture_point(&k, 20 + i * cos(turn_deg * degree / 2),
+                                   50 + i % 2 * sin(turn_deg * degree / 2));
+    if (i == 0)
+      continue;
+    uint32_t e = ink_fixture_edge(&k, p - 1, p, CREASE);
+    k.sheet.edge.item[e].triangle[0] = 0;
+    k.sheet.edge.item[e].triangle[1] = 1;
+  }
+  ink_fixture_draw(&k);
+  bool drawn = k.drawing.stroke.count == 1;
+  assert_int_equal(k.drawing.dropped.count, !drawn);
+  ink_fixture_end(&k);
+  return drawn;
+}
+
+/* Decision 0056: 45 degrees are asked of a line, and 60 of one that turns back,
+ * which is by more than 120. */
+static void zigzags_must_be_sharper_than_other_lines(void **state) {
+  (void)state;
+  assert_false(is_zigzag_drawn(0, 40));
+  assert_true(is_zigzag_drawn(0, 50));
+  assert_false(is_zigzag_drawn(110, 40));
+  assert_true(is_zigzag_drawn(110, 50));
+  assert_false(is_zigzag_drawn(130, 50));
+  assert_true(is_zigzag_drawn(130, 65));
+}
+
 /* ---- Hairs --------------------------------------------------------------- */
 
 /* Whether a line of `length` mm is drawn beside a long one of two sides, from
@@ -439,6 +488,7 @@ int main(void) {
       cmocka_unit_test(gaps_below_half_a_pen_are_closed),
       cmocka_unit_test(only_lines_that_go_on_are_joined),
       cmocka_unit_test(a_gap_is_closed_once),
+      cmocka_unit_test(zigzags_must_be_sharper_than_other_lines),
       cmocka_unit_test(hairs_within_half_a_pen_are_covered),
       cmocka_unit_test(a_hair_that_sticks_out_is_drawn),
       cmocka_unit_test(what_covers_is_of_the_same_pen_and_as_wide),

@@ -279,6 +279,12 @@ check_listed() {
     sed 's/$/: not in local.mk/'
 }
 
+# Of two tests that have one log make runs only one.
+check_logs() {
+  (cd "$1/tests" && printf '%s\n' test_*.c test_*.sh) | sed 's/\.[a-z]*$//' |
+    LC_ALL=C sort | uniq -d | sed 's|.*|tests/&.log: of two tests|'
+}
+
 # ---- The tree as it is ----------------------------------------------------
 
 holds() {
@@ -287,7 +293,7 @@ holds() {
   test -z "$found" || { say "$found" && false; }
 }
 claim "there are sources to check" test "$(sources "$srcdir" | wc -l)" -gt 50
-for check in sources circles names tolerances users reports width listed; do
+for check in sources circles names tolerances users reports width listed logs; do
   claim "check_$check finds nothing" holds check_$check "$srcdir"
 done
 
@@ -355,8 +361,10 @@ static inline int *count_vertices(int a,
                              int b) { return 0; }
 struct planted_tag { int x; };
 END
+mkdir "$copy/tests"
+touch "$copy"/tests/test_{twin,line}.c "$copy"/tests/test_{twin,lines}.sh
 echo "/* new.c - nothing. */" >"$copy/src/visibility/included/new.c"
-for check in sources circles names tolerances users reports width listed; do
+for check in sources circles names tolerances users reports width listed logs; do
   check_$check "$copy" >"$scratch/$check"
 done
 
@@ -400,6 +408,7 @@ claim "nor a struct" finds names \
 claim "and no other names are reported" test "$(wc -l <"$scratch/names")" -eq 2
 claim "a source may not be left out of the build" finds listed \
   "src/geom/new.c: not in" ""
+claim "two tests may not have one log" finds logs "tests/test_twin.log: " ""
 
 # ---- The library ----------------------------------------------------------
 

@@ -51,4 +51,16 @@ project_point(const struct projection *projection, struct view_point p) {
       snap(clamp(z * projection->z_factor, 0, (double)SHEET_Z_MAX))};
 }
 
+/* The view point of a grid point, the inverse up to rounding. */
+static inline struct view_point
+unproject_point(const struct projection *projection, struct geom_point p) {
+  double z = (double)p.z / projection->z_factor;
+  double d = projection->perspective ? projection->d_max / (z + 1)
+                                     : projection->d_max - z;
+  double per_unit =
+      projection->perspective ? projection->units / d : projection->units;
+  return (struct view_point){(p.x - projection->offset[0]) / per_unit,
+                             (p.y - projection->offset[1]) / per_unit, d};
+}
+
 #endif

@@ -14,6 +14,7 @@
 #include "base/union_find.h"
 #include "ink/lines/crease_lines.h"
 #include "scene/angle.h"
+#include "view/project.h"
 
 /* A line turns back where it turns by more than 120 degrees. */
 #define TURNED_BACK_COSINE (-0.5)
@@ -39,11 +40,16 @@ static void add_neighbour(struct line_neighbours *of, uint32_t point) {
   of->count += of->count < 3;
 }
 
-/* Whether a line that passes three points turns back at the middle one. */
-static bool turns_back(const struct scene_point *a, const struct scene_point *b,
-                       const struct scene_point *c) {
-  const double p[3] = {b->x - a->x, b->y - a->y, b->z - a->z};
-  const double q[3] = {c->x - b->x, c->y - b->y, c->z - b->z};
+/* Whether a line that passes three points of the sheet turns back in space at
+ * the middle one.  A sheet does not know the scene's numbers of its points. */
+static bool turns_back(const struct projection *projection,
+                       struct geom_point from, struct geom_point at,
+                       struct geom_point to) {
+  struct view_point a = unproject_point(projection, from),
+                    b = unproject_point(projection, at),
+                    c = unproject_point(projection, to);
+  const double p[3] = {b.x - a.x, b.y - a.y, b.d - a.d};
+  const double q[3] = {c.x - b.x, c.y - b.y, c.d - b.d};
   double dot = 0, square[2] = {0, 0};
   for (int i = 0; i < 3; i++) {
     dot += p[i] * q[i];
@@ -81,10 +87,11 @@ static void look_at_edges(const struct sheet *sheet,
 static void look_at_points(const struct sheet *sheet, uint32_t *line,
                            struct crease_line *lines,
                            const struct line_neighbours *next) {
-  const struct scene_point *at = sheet->scene->point.item;
+  const struct projection projection = projection_of(&sheet->camera);
+  const struct geom_point *at = sheet->point.item;
   for (uint32_t p = 0; p < sheet->vertex_count; p++)
-    if (next[p].count == 2 &&
-        turns_back(&at[next[p].point[0]], &at[p], &at[next[p].point[1]]))
+    if (next[p].count == 2 && turns_back(&projection, at[next[p].point[0]],
+                                         at[p], at[next[p].point[1]]))
       lines[union_find_root(line, p)].turns++;
 }
 

@@ -1,5 +1,5 @@
 #!/bin/bash
-# test_speckles.sh - what is left out of default drawings is noise: drawings of
+# test_cli_speckles.sh - what is left out of default drawings is noise: drawings of
 # solids are the exact ones, and those of scans have the same outlines.
 . "$(dirname "$0")/tap.sh"
 . "$(dirname "$0")/cli.sh"
@@ -157,10 +157,10 @@ fewer() {
 started() {
   local model=$RECTO_MODELS/stanford-bunny.obj
   run 0 "$model" -q -o plain.svg &&
-    run 0 "$model" -q --crease=30,60 -o started.svg --verify=2000 &&
+    run 0 "$model" -q --crease=30,80 -o started.svg --verify=2000 &&
     test "$(strokes started.svg crease | wc -l)" -lt \
       "$(strokes plain.svg crease | wc -l)" &&
-    run 0 --check started.svg --crease=30,60 "$model" &&
+    run 0 --check started.svg --crease=30,80 "$model" &&
     run 1 --check started.svg "$model" &&
     for model in "$models"/{castle,gears}.obj "$RECTO_MODELS/fandisk.obj"; do
       run 0 "$model" -q -o plain.svg &&

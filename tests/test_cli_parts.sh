@@ -1,5 +1,5 @@
 #!/bin/bash
-# test_parts.sh - drawings in parts on the command line, and the engines that
+# test_cli_parts.sh - drawings in parts on the command line, and the engines that
 # distribute them: GNU parallel and make; test_slurm.sh has Slurm.
 . "$(dirname "$0")/tap.sh"
 cd "$scratch" || exit 1
@@ -32,6 +32,23 @@ takes_ink() {
     cmp ink.hpgl joined.hpgl
 }
 claim "other pens and another format are those of the join" takes_ink
+
+scans() {
+  local model i
+  for model in "$RECTO_MODELS"/*.obj; do
+    for i in 1 2 3; do
+      "$recto" "$model" -q --part $i/3 -o "scan-$i.recto" || return 1
+    done
+    "$recto" "$model" -q -o scan.svg &&
+      "$recto" --join scan-?.recto -q -o joined.svg &&
+      cmp scan.svg joined.svg || return 1
+  done
+}
+if test -d "${RECTO_MODELS:-/nonexistent}"; then
+  claim "parts of real models make their drawings" scans
+else
+  skip "parts of real models make their drawings" "no RECTO_MODELS"
+fi
 
 says() { # MESSAGE ARGUMENT...
   local message=$1
