@@ -2,6 +2,7 @@
 #include "tests/fuzz/decode.h"
 
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -66,6 +67,11 @@ static const char *const alternatives[][MAX_ALTERNATIVES] = {
     {"", "", "--cut=x=1", "--cut=y<1 --cut=z=0.5", "--cut=1,2,3,4",
      "--cut=x=0 --cut=y=0 --cut=z=0 --cut-fill=solid",
      "--cut=z=1 --cut-fill=none"},
+    {"", "", "", "--sheet=first", "--sheet=third --view-names --title=A",
+     "--views=front,iso:2 --hidden-in=iso=none --view-names",
+     "--sheet=third --views=left,top,back,dimetric:1:2 --scale=auto",
+     "--sheet=third --scale=5 --detail=97,136,6,2 --detail=97,160,9,3",
+     "--scale=10 --detail=105,148,8,2"},
 };
 
 /* ---- Words --------------------------------------------------------------- */
@@ -91,6 +97,13 @@ static void add_words(struct decoded *d, const char *text) {
     add_word(d, "%.*s", (int)length, text);
     text += length + (text[length] == ' ');
   }
+}
+
+static bool has_word(const struct decoded *d, const char *begin) {
+  for (int i = 0; i < d->argc; i++)
+    if (strncmp(d->argv[i], begin, strlen(begin)) == 0)
+      return true;
+  return false;
 }
 
 static void add_options(struct decoded *d, struct source *source) {
@@ -135,7 +148,7 @@ static void add_place(struct decoded *d, struct source *source,
 }
 
 /* A named view, alone or in perspective, or an eye on the lattice. */
-static void add_camera(struct decoded *d, struct source *source) {
+static void add_any_camera(struct decoded *d, struct source *source) {
   static const char *const angles[] = {"--fov=30", "--fov=60", "--fov=90",
                                        "--fov=150", "--fov=1"};
   unsigned kind = next(source) % 8;
@@ -152,6 +165,31 @@ static void add_camera(struct decoded *d, struct source *source) {
     add_words(d, "--ortho");
   else
     add_words(d, choose(source, angles, COUNT(angles)));
+}
+
+static void remove_words(struct decoded *d, const char *begin) {
+  int kept = 0;
+  for (int i = 0; i < d->argc; i++)
+    if (strncmp(d->argv[i], begin, strlen(begin)) != 0)
+      d->argv[kept++] = d->argv[i];
+  d->argc = kept;
+}
+
+/* A sheet says what is seen from where, and one of a single view with details
+ * has no eye; the bytes are read all the same.  What all sheets refuse is left
+ * out. */
+static void add_camera(struct decoded *d, struct source *source) {
+  static const char *const directions[] = {
+      "--view=", "--azimuth=", "--elevation="};
+  static const char *const refused[] = {"--camera=", "--lookat=",  "--ortho",
+                                        "--fov=",    "--section=", "--no-fit"};
+  add_any_camera(d, source);
+  bool has_views = has_word(d, "--sheet=") || has_word(d, "--views=");
+  for (size_t i = 0; has_views && i < COUNT(directions); i++)
+    remove_words(d, directions[i]);
+  for (size_t i = 0;
+       (has_views || has_word(d, "--detail=")) && i < COUNT(refused); i++)
+    remove_words(d, refused[i]);
 }
 
 /* ---- The scene ----------------------------------------------------------- */

@@ -74,7 +74,8 @@ static const struct {
             "1:2 all none silhouette border crease group intersection wire "
             "smooth dashed layer paint shade hatch near svg hpgl auto newell "
             "watkins warnock tiles brute zbuffer scanline-zbuffer painter "
-            "hidden=2 silhouette=2 2=0.5mm 2=#c00 exact box"},
+            "hidden=2 silhouette=2 2=0.5mm 2=#c00 exact box first third "
+            "front,top,iso:2 iso=none 97,136,6,2 1:1 auto"},
 };
 
 static void print_word(const char *word, size_t length, FILE *file) {
