@@ -60,36 +60,46 @@ static bool is_within_region(const struct hatch_regions *regions,
              pens_of_hatch(pens, scene->face_group.item[other]);
 }
 
+static void set_crossable(const struct hatch_regions *regions,
+                          const struct map *map, uint32_t h) {
+  regions->crossable[h] = 1;
+  regions->crossable[map->half_edge.item[h].twin] = 1;
+}
+
+/* Joins the fragments of regions.  No line is drawn where two of them meet. */
 static void join_fragments(const struct hatch_regions *regions,
                            const struct scene *scene, const struct map *map,
                            const struct pens *pens) {
   const struct map_half_edge *half = map->half_edge.item;
   for (uint32_t h = 0; h < map->half_edge.count; h++) {
     (void)poll_at(h);
-    if (half[h].twin != SHEET_NONE && half[h].twin > h &&
-        is_within_region(regions, scene, map, pens, &half[h],
-                         &half[half[h].twin]))
-      union_find_join(regions->root, half[h].fragment,
-                      half[half[h].twin].fragment);
+    if (half[h].twin == SHEET_NONE || half[h].twin < h ||
+        !is_within_region(regions, scene, map, pens, &half[h],
+                          &half[half[h].twin]))
+      continue;
+    union_find_join(regions->root, half[h].fragment,
+                    half[half[h].twin].fragment);
+    set_crossable(regions, map, h);
   }
 }
 
-/* Finds the half-edges within the regions along which no line is drawn. */
+/* Finds the other half-edges within the regions along which no line is drawn:
+ * those of fragments that are joined elsewhere. */
 static void find_crossable(const struct hatch_regions *regions,
                            const struct scene *scene, const struct map *map) {
   const struct map_half_edge *half = map->half_edge.item;
   for (uint32_t h = 0; h < map->half_edge.count; h++) {
-    const struct map_half_edge *twin =
-        half[h].twin == SHEET_NONE ? NULL : &half[half[h].twin];
     (void)poll_at(h);
-    regions->crossable[h] =
-        twin != NULL &&
-        regions->root[half[h].fragment] == regions->root[twin->fragment] &&
+    if (regions->crossable[h] || half[h].twin == SHEET_NONE || half[h].twin < h)
+      continue;
+    const struct map_half_edge *twin = &half[half[h].twin];
+    if (regions->root[half[h].fragment] == regions->root[twin->fragment] &&
         (is_within_cut_face(regions, scene, map, &half[h], twin) ||
          (!hatch_regions_side_is_inked(regions,
                                        &map->corner.item[half[h].side]) &&
           !hatch_regions_side_is_inked(regions,
-                                       &map->corner.item[twin->side])));
+                                       &map->corner.item[twin->side]))))
+      set_crossable(regions, map, h);
   }
 }
 
@@ -119,7 +129,7 @@ bool hatch_regions_init(struct hatch_regions *regions,
       .count = map->fragment.count};
   regions->root = union_find_create(regions->count);
   regions->fragment = mem_alloc(regions->count, sizeof *regions->fragment);
-  regions->crossable = mem_alloc(map->half_edge.count, 1);
+  regions->crossable = mem_calloc(map->half_edge.count, 1);
   bool ok = regions->root != NULL && regions->fragment != NULL &&
             regions->crossable != NULL;
   if (ok && !options->ink.ids)
