@@ -92,6 +92,32 @@ f 4 3 1 1
 f 5 1 2
 END_OF_MODEL
 
+# From below its middle, rays that are undecided by no border leave it and enter it
+# nowhere.
+claim "a surface that is not closed, cut through its middle" passes \
+  --edges=all --contact=0 --exact --azimuth=33 --elevation=22 --up=0,0,1 \
+  --cut=-0.13833064484169366,-0.59885199796327848,0.24512150346581429,0.14360593327391963 \
+  <<'END_OF_MODEL'
+v -0.5 -0.25 0.061467682588178515
+v -0.25 -0.25 -0.21017152293525476
+v 0 -0.25 0.0470400026866224
+v -0.5 0 -0.04656924969982098
+v -0.25 0 0.0470400026866224
+v 0 0 1
+v 0.75 0 0.04579094280463962
+v 1 0 -0.04471440983336958
+v 0 0.25 0.0470400026866224
+v 0.75 0.25 -0.006536976075760194
+v 1 0.25 -0.015827950827987085
+f 1 2 5
+f 1 5 4
+f 2 3 6
+f 2 6 5
+f 5 6 9
+f 7 8 11
+f 7 11 10
+END_OF_MODEL
+
 # All of that lets nothing pass that is wrong: a line more, where faces meet in
 # diagonals and a plane cuts them, is still found.
 a_line_more_is_found() {

@@ -86,6 +86,6 @@ bool judge_edges_add(struct judge_edges *edges,
 
 void judge_edges_fini(struct judge_edges *edges) {
   ARRAY_FREE(&edges->edge);
-  mem_free(edges->has_border);
-  edges->has_border = NULL;
+  mem_free(edges->border);
+  edges->border = NULL;
 }

@@ -36,7 +36,7 @@ struct judge_edge {
 
 struct judge_edges {
   const struct judge_removed *removed; /* of edges that are added */
-  uint8_t *has_border;                 /* of each face: a side is a border */
+  uint8_t *border;                     /* of each face, an enum judge_border */
   ARRAY(struct judge_edge) edge;
 };
 

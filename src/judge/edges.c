@@ -15,6 +15,7 @@
 #include "judge/edge_classes.h"
 #include "judge/folds.h"
 #include "judge/intersections.h"
+#include "judge/open_surfaces.h"
 
 struct side_list {
   ARRAY(struct judge_side) side;
@@ -136,7 +137,13 @@ static bool add_edge_of_sides(struct edge_finder *finder,
 /* Adds the edge of one side, or of more than two. */
 static bool add_border(struct edge_finder *finder,
                        const struct judge_side *side) {
-  finder->edges->has_border[side->face] = 1;
+  uint8_t *border = &finder->edges->border[side->face];
+  struct judge_point3 a = judge_point3_at(finder->scene, side->a),
+                      b = judge_point3_at(finder->scene, side->b);
+  uint8_t is = judge_is_cut_between(finder->edges->removed, a, b)
+                   ? JUDGE_BORDER_CUT
+                   : JUDGE_BORDER;
+  *border = is > *border ? is : *border;
   const struct judge_source source = {{side->a, side->b},
                                       {side->face, SCENE_NONE},
                                       RECTO_EDGE_BORDER,
@@ -144,9 +151,7 @@ static bool add_border(struct edge_finder *finder,
                                       0,
                                       JUDGE_CUT_NONE,
                                       0};
-  return judge_edges_add(finder->edges, finder->camera,
-                         judge_point3_at(finder->scene, side->a),
-                         judge_point3_at(finder->scene, side->b), &source);
+  return judge_edges_add(finder->edges, finder->camera, a, b, &source);
 }
 
 /* Whether the face runs along the side from a, and not towards it.
@@ -307,8 +312,8 @@ bool judge_edges_init(struct judge_edges *edges,
   finder.first_at = find_first_at(
       options->given != NULL ? options->given : all->scene->point.item,
       all->scene->point.count);
-  edges->has_border = mem_calloc(scene_face_count(all->scene), 1);
-  bool ok = edges->has_border != NULL &&
+  edges->border = mem_calloc(scene_face_count(all->scene), 1);
+  bool ok = edges->border != NULL &&
             judge_facings_init(&finder.facings, all, camera, options) &&
             finder.first_at != NULL && mark_shared(&finder) &&
             list_scene_sides(all->scene, &sides) &&

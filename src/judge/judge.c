@@ -12,6 +12,7 @@
 #include "judge/contact.h"
 #include "judge/grid.h"
 #include "judge/missing_run.h"
+#include "judge/open_surfaces.h"
 
 struct judge_context {
   const struct judge_drawing *drawing;
@@ -506,14 +507,6 @@ static void set_removed(struct judge_context *context) {
         fmax(removed->contact, context->all.triangle.item[t].contact);
 }
 
-static bool mark_borders(struct judge_context *context) {
-  for (size_t t = 0; t < context->all.triangle.count; t++) {
-    struct judge_triangle *triangle = &context->all.triangle.item[t];
-    triangle->has_border = context->edges.has_border[triangle->face];
-  }
-  return true;
-}
-
 /* Builds triangles, edges and grids; false when memory ran out. */
 static bool build_context(struct judge_context *context,
                           const struct scene *scene) {
@@ -531,8 +524,8 @@ static bool build_context(struct judge_context *context,
   context->grid = largest_rounding(context);
   return judge_edges_init(&context->edges, &context->all, camera,
                           &context->options) &&
-         mark_borders(context) && collect_images(context) &&
-         collect_ink(context) &&
+         judge_mark_borders(&context->all, context->edges.border) &&
+         collect_images(context) && collect_ink(context) &&
          judge_grid_init(&context->by_image, context->image,
                          (uint32_t)context->edges.edge.count, width, height,
                          cell, context->options.lateral_mm) &&

@@ -16,7 +16,9 @@ struct judge_triangle {
                                  corner is farther off its plane: contact.h */
   bool bent; /* the face is not planar, or its sides cross: its triangles are
                 not in one plane, or overlap */
-  bool has_border; /* a side of the face is a border */
+  /* A side of the face is a border, or its surface is not closed where it is
+   * cut: open_surfaces.h. */
+  bool has_border;
   bool open; /* the face is not planar and has so many corners that the judge
                 does not know its triangulation: what it hides is undecided */
 };

@@ -6,7 +6,6 @@
 
 #include "api/handle.h"
 #include "scene/self_intersection.h"
-#include "scene/topology.h"
 #include "view/triangulate.h"
 
 static double diagonal_of(const struct scene *scene) {
@@ -51,29 +50,11 @@ static bool are_polygons_simple(const struct scene *scene) {
   return simple;
 }
 
-/* Whether there are borders, and faces that have none. */
-static bool is_open_around_faces(const struct scene *scene) {
-  struct topology topology;
-  bool open = false, inner = false;
-  if (topology_init(&topology, scene, NULL) != RECTO_OK)
-    abort();
-  for (size_t f = 0; f < scene_face_count(scene); f++) {
-    bool has_border = false;
-    for (uint32_t i = scene->face_start.item[f];
-         i < scene->face_start.item[f + 1]; i++)
-      has_border =
-          has_border || topology.edge.item[topology.corner_edge[i]].uses == 1;
-    open = open || has_border;
-    inner = inner || !has_border;
-  }
-  topology_fini(&topology);
-  return open && inner;
-}
-
-/* What is nearer to a plane than this share of the diagonal nearly lies in it. */
+/* What is nearer to a plane than this share of the diagonal, nearly lies in
+ * it. */
 static const double NEAR_SHARE = 1e-5;
-/* What a plane leaves reaches farther than this share, or is drawn so large that
- * the grid of the cut shows. */
+/* What a plane leaves reaches farther than this share, or is drawn so large
+ * that the grid of the cut shows. */
 static const double LEFT_SHARE = 1e-3;
 /* The scenes are some units large, but for single points far away. */
 static const double CONTACT_MAX = 0.01;
@@ -119,6 +100,5 @@ bool is_judgeable(const recto_scene *scene, const recto_options *options) {
     if (!is_plane_clear(&scene->scene, &options->mesh.cut[i], diagonal))
       return false;
   return options->solver.contact <= CONTACT_MAX &&
-         are_polygons_simple(&scene->scene) &&
-         !is_open_around_faces(&scene->scene);
+         are_polygons_simple(&scene->scene);
 }

@@ -5,14 +5,12 @@
 #include "recto.h"
 
 /* False of scenes that are cut (doc/decisions/0046), where
- * - a polygon of four corners and more is not planar, or crosses itself, or has a
- *   corner twice;
- * - a surface is not closed and has faces without a border, so that rays may leave
- *   it and not enter it;
+ * - a polygon of four corners and more is not planar, or crosses itself, or has
+ *   a corner twice;
  * - the contact is more than a hundredth of a unit;
  * - a face lies nearly in a plane of the cut, or what a plane leaves is nearly
- *   nothing: the cut's points, which are rounded to a grid, may lie on the other
- *   side, and what is left may be within contact. */
+ *   nothing: the cut's points, which are rounded to a grid, may lie on the
+ *   other side, and what is left may be within contact. */
 bool is_judgeable(const recto_scene *scene, const recto_options *options);
 
 #endif
