@@ -15,6 +15,7 @@ found=0
 
 longest() {
   case $1 in
+    options) echo 17 ;;
     scene | mesh) echo 200 ;;
     cli) echo 500 ;;
     *) echo 4096 ;;
