@@ -1,6 +1,7 @@
 /* test_multiview.c - the views of a sheet lie where first- and third-angle
  * projection have them, aligned and at one scale, and are the drawings that
  * each view is by itself. */
+#include <float.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -338,6 +339,25 @@ static void preferred_scales_are_those_of_the_standard(void **state) {
   }
 }
 
+/* A unit so large or so small that there is no such scale. */
+static void a_scale_out_of_range_is_the_largest_that_fits(void **state) {
+  (void)state;
+  static const double unit_mm[] = {DBL_MAX, DBL_MIN};
+  assert_true(preferred_scale_of(1, DBL_MAX) == 1);
+  assert_true(preferred_scale_of(30, DBL_MIN) == 30);
+  assert_true(preferred_scale_of(1e-300, 1e10) == 1e-300);
+  assert_true(preferred_scale_of(30, 10) == 20);
+  for (int i = 0; i < 2; i++) {
+    recto_options options;
+    init_sheet(&options, RECTO_ARRANGEMENT_FIRST, NULL, 0);
+    options.camera.fit = RECTO_FIT_PREFERRED;
+    options.camera.unit_mm = unit_mm[i];
+    recto_drawing *drawing = draw(&options);
+    assert_true(scale_of(drawing) > 5 && scale_of(drawing) < 15);
+    recto_drawing_destroy(drawing);
+  }
+}
+
 static void a_single_view_may_have_a_preferred_scale(void **state) {
   (void)state;
   recto_options options;
@@ -611,12 +631,20 @@ static void scales_are_written_as_ratios(void **state) {
   static const struct {
     double scale;
     const char *text;
-  } pair[] = {{1, "1:1"},          {2, "2:1"},
-              {0.5, "1:2"},        {2.5, "2.5:1"},
-              {4.0 / 3, "4:3"},    {0.75, "3:4"},
-              {50.0 / 3, "50:3"},  {20.0 / 11, "20:11"},
-              {0.1, "1:10"},       {3.14159265, "3.142:1"},
-              {1e-6, "1:1000000"}, {1e9, "1000000000:1"}};
+  } pair[] = {{1, "1:1"},
+              {2, "2:1"},
+              {0.5, "1:2"},
+              {2.5, "2.5:1"},
+              {4.0 / 3, "4:3"},
+              {0.75, "3:4"},
+              {50.0 / 3, "50:3"},
+              {20.0 / 11, "20:11"},
+              {0.1, "1:10"},
+              {3.14159265, "3.142:1"},
+              {1e-6, "1:1000000"},
+              {1e9, "1000000000:1"},
+              {INFINITY, "2e+308:1"},
+              {5e-324, "1:2e+308"}};
   for (size_t i = 0; i < sizeof pair / sizeof pair[0]; i++) {
     char text[CAPTIONS_SCALE_SIZE];
     captions_write_scale(text, pair[i].scale);
@@ -1053,6 +1081,7 @@ int main(void) {
       cmocka_unit_test(a_preferred_scale_is_rounded_down),
       cmocka_unit_test(a_given_scale_is_kept),
       cmocka_unit_test(preferred_scales_are_those_of_the_standard),
+      cmocka_unit_test(a_scale_out_of_range_is_the_largest_that_fits),
       cmocka_unit_test(a_single_view_may_have_a_preferred_scale),
       cmocka_unit_test(a_view_is_what_it_is_by_itself),
       cmocka_unit_test(a_view_has_hidden_lines_of_its_own),

@@ -1,6 +1,7 @@
 /* captions.c - the title and the description of a drawing. */
 #include "api/captions.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -94,17 +95,19 @@ static int find_denominator(double side) {
 void captions_write_scale(char text[CAPTIONS_SCALE_SIZE], double scale) {
   char number[NUMBER_TEXT_SIZE];
   bool is_less = scale < 1;
-  double side = is_less ? 1 / scale : scale;
-  int other = find_denominator(side);
+  double side = fmin(is_less ? 1 / scale : scale, DBL_MAX);
+  int other = find_denominator(side), length;
   double written = round_to_text(side * other);
-  size_t length = written < 1e6 ? number_format(number, written, 3)
-                                : number_format_exact(number, written);
+  if (written < 1e6)
+    length = (int)number_format(number, written, 3);
+  else if (written < 1e15)
+    length = (int)number_format_exact(number, written);
+  else /* too many digits: 2e+99; there is no decimal point */
+    length = snprintf(number, sizeof number, "%.0e", written);
   if (is_less)
-    (void)snprintf(text, CAPTIONS_SCALE_SIZE, "%d:%.*s", other, (int)length,
-                   number);
+    (void)snprintf(text, CAPTIONS_SCALE_SIZE, "%d:%.*s", other, length, number);
   else
-    (void)snprintf(text, CAPTIONS_SCALE_SIZE, "%.*s:%d", (int)length, number,
-                   other);
+    (void)snprintf(text, CAPTIONS_SCALE_SIZE, "%.*s:%d", length, number, other);
 }
 
 /* Whether any view has hidden lines. */

@@ -6,6 +6,8 @@
  *   put the drawings together. */
 #include "api/render_sheet.h"
 
+#include <float.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -232,7 +234,8 @@ static void report_sheet(struct sheet_work *work) {
               work->options->sheet.arrangement == RECTO_ARRANGEMENT_FIRST
                   ? "first-angle"
                   : "third-angle");
-  report_double(report, "sheet", "scale", views->scale / views->unit_mm);
+  report_double(report, "sheet", "scale",
+                fmin(views->scale / views->unit_mm, DBL_MAX));
   report_double(report, "sheet", "gap_mm", views->gap_mm);
   for (size_t i = 0; i < count_parts(work); i++) {
     report_adopt(report, "views", multiview_name(views, i),

@@ -226,10 +226,9 @@ static recto_status choose_sheet_scale(struct multiview *views,
                      "with what is between and about them%s",
                      views->page_mm[0], views->page_mm[1], views->count,
                      views->name_mm > 0 ? ", such as their names" : "");
-  *scale =
-      scaled->camera.fit == RECTO_FIT_PREFERRED
-          ? preferred_scale(most / scaled->camera.scale) * scaled->camera.scale
-          : fmin(most, wanted);
+  *scale = scaled->camera.fit == RECTO_FIT_PREFERRED
+               ? preferred_scale_of(most, scaled->camera.scale)
+               : fmin(most, wanted);
   if (wanted < INFINITY && wanted > most * (1 + TOLERANCE_EXTENT_SHARE)) {
     size_tracks(grid, wanted);
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,

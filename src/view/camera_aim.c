@@ -342,7 +342,7 @@ static void choose_orientation(struct aim *aim, const struct extent *e,
 static void prefer_scale(struct aim *aim) {
   double depth = aim->camera->perspective ? view_of_aim(aim, aim->target).d : 1;
   double whole = aim->options->camera.scale * depth;
-  aim->camera->s = preferred_scale(aim->camera->s / whole) * whole;
+  aim->camera->s = preferred_scale_of(aim->camera->s, whole);
 }
 
 /* Scales the drawing to fill the page inside the margins.

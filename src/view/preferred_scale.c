@@ -22,3 +22,8 @@ double preferred_scale(double scale) {
     }
   return best;
 }
+
+double preferred_scale_of(double most, double whole) {
+  double scale = most / whole;
+  return isnormal(scale) ? preferred_scale(scale) * whole : most;
+}

@@ -7,4 +7,9 @@
  * it by no more than rounding errors counts as equal. */
 double preferred_scale(double scale);
 
+/* The largest of these scales, times `whole`, that is not above `most`; `most`
+ * itself where their ratio is no normal number, so that there is none.
+ * whole  the scale 1:1; both above 0 */
+double preferred_scale_of(double most, double whole);
+
 #endif
