@@ -92,6 +92,17 @@ static bool is_plane_clear(const struct scene *scene, const recto_plane *plane,
   return left > LEFT_SHARE * diagonal;
 }
 
+/* Whether an eye is so far from what it looks at that the grid of the cut does
+ * not show. */
+static bool is_eye_clear(const recto_camera_options *camera, double diagonal) {
+  double distance = 0;
+  if (camera->kind != RECTO_CAMERA_EYE || !camera->has_target)
+    return true;
+  for (int k = 0; k < 3; k++)
+    distance = hypot(distance, camera->target[k] - camera->eye[k]);
+  return distance > LEFT_SHARE * diagonal;
+}
+
 bool is_judgeable(const recto_scene *scene, const recto_options *options) {
   if (options->mesh.cut_count == 0 && !options->camera.has_section)
     return true;
@@ -100,5 +111,6 @@ bool is_judgeable(const recto_scene *scene, const recto_options *options) {
     if (!is_plane_clear(&scene->scene, &options->mesh.cut[i], diagonal))
       return false;
   return options->solver.contact <= CONTACT_MAX &&
+         is_eye_clear(&options->camera, diagonal) &&
          are_polygons_simple(&scene->scene);
 }

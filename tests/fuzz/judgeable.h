@@ -10,7 +10,8 @@
  * - the contact is more than a hundredth of a unit;
  * - a face lies nearly in a plane of the cut, or what a plane leaves is nearly
  *   nothing: the cut's points, which are rounded to a grid, may lie on the
- *   other side, and what is left may be within contact. */
+ *   other side, and what is left may be within contact;
+ * - an eye is so near to what it looks at that this grid shows. */
 bool is_judgeable(const recto_scene *scene, const recto_options *options);
 
 #endif
