@@ -83,7 +83,7 @@ dist_check_SCRIPTS += \
   %D%/test_captions.sh \
   %D%/test_cli_curves.sh \
   %D%/test_cli_dash.sh \
-  %D%/test_cli_sheet.sh \
+  %D%/test_cli_multiview.sh \
   %D%/test_cli_units.sh \
   %D%/test_cli_descriptors.sh \
   %D%/test_cli_frames.sh \
@@ -231,7 +231,7 @@ unit_tests += %D%/test_ink_segment_graph %D%/test_ink_chain %D%/test_ink_clean \
   %D%/test_ink_draw %D%/test_ink_merge %D%/test_pens %D%/test_dashes
 unit_tests += %D%/test_lists
 %C%_test_lists_SOURCES = %D%/test_lists.c src/cli/parse.c src/cli/frames.c \
-  src/cli/lists.c src/cli/options.c src/cli/option_scope.c src/cli/sheet.c \
+  src/cli/lists.c src/cli/options.c src/cli/option_scope.c src/cli/multiview.c \
   src/cli/value.c
 %C%_test_dashes_SOURCES = %D%/test_dashes.c %D%/ink_fixture.c %D%/ink_fixture.h
 %C%_test_pens_SOURCES = %D%/test_pens.c %D%/ink_fixture.c %D%/ink_fixture.h

@@ -3,8 +3,8 @@
 
 #include <math.h>
 
-#include "api/sheet_grid.h"
-#include "api/sheet_labels.h"
+#include "api/multiview_grid.h"
+#include "api/multiview_labels.h"
 
 /* What is left free on each side of the circle about what a detail shows, for
  * its letter, in that one's height. */
@@ -123,7 +123,7 @@ static recto_status place_detail(struct multiview *views, size_t index,
                                  recto_error *error) {
   struct multiview_detail *detail = &views->detail[index];
   const recto_detail *asked = detail->asked;
-  const char *letter = sheet_labels_letter(detail);
+  const char *letter = multiview_labels_letter(detail);
   bool on_page = true;
   const double at[2] = {asked->x_mm, asked->y_mm};
   for (int axis = 0; axis < 2; axis++)
@@ -142,9 +142,9 @@ static recto_status place_detail(struct multiview *views, size_t index,
                      "of any view",
                      letter, asked->radius_mm, asked->x_mm, asked->y_mm);
   detail->radius_mm = asked->radius_mm * asked->scale;
-  detail->scale =
-      sheet_grid_limit_scale(views->view[detail->view].scale * asked->scale);
-  sheet_labels_of_detail(views, detail);
+  detail->scale = multiview_grid_limit_scale(views->view[detail->view].scale *
+                                             asked->scale);
+  multiview_labels_of_detail(views, detail);
   if (!find_room(views, index))
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
                      "the detail %s, of %.4g mm, has no room beside the views: "

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "api/sheet_labels.h"
+#include "api/multiview_labels.h"
 #include "base/poll.h"
 #include "drawing/text.h"
 
@@ -170,7 +170,7 @@ bool letter_places_find(struct letter_place *place,
                         const struct drawing *drawing,
                         const struct multiview *views, size_t detail) {
   const struct multiview_detail *of = &views->detail[detail];
-  const struct text_line line = {sheet_labels_letter(of), views->letter_mm};
+  const struct text_line line = {multiview_labels_letter(of), views->letter_mm};
   double letter = views->letter_mm;
   const double half[2] = {text_width_mm(&line) / 2 + CLEAR * letter,
                           letter / 2 + CLEAR * letter};

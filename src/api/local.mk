@@ -23,16 +23,16 @@ librecto_core_la_SOURCES += \
   %D%/part_check.c %D%/part_check.h \
   %D%/render.c %D%/render.h \
   %D%/render_scene.c \
-  %D%/render_sheet.c %D%/render_sheet.h \
+  %D%/render_multiview.c %D%/render_multiview.h \
   %D%/preparation.c %D%/preparation.h \
   %D%/result.c %D%/result.h %D%/result_edges.c %D%/result_faces.c \
   %D%/scene.c \
   %D%/sized.c %D%/sized.h \
   %D%/shares.c %D%/shares.h \
   %D%/stats.c %D%/stats.h \
-  %D%/sheet_grid.c %D%/sheet_grid.h \
-  %D%/sheet_labels.c %D%/sheet_labels.h \
-  %D%/sheet_text.c %D%/sheet_text.h \
+  %D%/multiview_grid.c %D%/multiview_grid.h \
+  %D%/multiview_labels.c %D%/multiview_labels.h \
+  %D%/multiview_text.c %D%/multiview_text.h \
   %D%/verify.c %D%/verify.h \
   %D%/version.c \
   %D%/vocabulary.c

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "api/detail_places.h"
-#include "api/sheet_labels.h"
-#include "api/sheet_grid.h"
+#include "api/multiview_labels.h"
+#include "api/multiview_grid.h"
 #include "drawing/text.h"
 #include "view/camera_extent.h"
 
@@ -133,8 +133,8 @@ recto_status multiview_arrange(struct multiview *views,
   memcpy(views->page_mm, camera.page_mm, sizeof views->page_mm);
   views->margin_mm = camera.margin_mm;
   choose_text(views, options);
-  status = sheet_grid_arrange(views, &scaled, camera.size,
-                              prepared->rescaled.exponent, error);
+  status = multiview_grid_arrange(views, &scaled, camera.size,
+                                  prepared->rescaled.exponent, error);
   if (status == RECTO_OK)
     status = check_title_width(views, error);
   return status == RECTO_OK ? detail_places_find(views, options, error)

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "api/multiview.h"
-#include "api/sheet_grid.h"
+#include "api/multiview_grid.h"
 #include "api/sized.h"
 #include "drawing/text.h"
 
@@ -29,7 +29,8 @@ static recto_status check_sheet_view(const recto_sheet_view *view,
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
                      "the view %s has a field that is out of range",
                      name_of_view(view));
-  if (sheet_grid_has_cell(view->name) && view->scale != 0 && view->scale != 1)
+  if (multiview_grid_has_cell(view->name) && view->scale != 0 &&
+      view->scale != 1)
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
                      "the view %s is aligned with others and has their scale",
                      view->name);

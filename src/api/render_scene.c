@@ -2,7 +2,7 @@
 #include "api/multiview.h"
 #include "api/options.h"
 #include "api/render.h"
-#include "api/render_sheet.h"
+#include "api/render_multiview.h"
 
 recto_status recto_scene_render(const recto_scene *scene,
                                 const recto_options *options,
@@ -19,7 +19,7 @@ recto_status recto_scene_render(const recto_scene *scene,
   if (status != RECTO_OK)
     return status;
   if (multiview_is_requested(&own))
-    return render_sheet(drawing, scene, &own, error);
+    return render_multiview(drawing, scene, &own, error);
   const struct render_request request = {
       .scene = scene, .options = &own, .prepared = scene->prepared};
   return render_view(drawing, &request, error);

@@ -155,7 +155,7 @@
  * Derivation  view coordinates are sums of three products, off by about
  *             2^-51 of the diagonal, more for a model far from its origin.
  * Users       view/camera_aim.c, view/project.c, view/layout_clipping.c,
- *             view/preferred_scale.c, api/sheet_grid.c, api/captions.c,
+ *             view/preferred_scale.c, api/multiview_grid.c, api/captions.c,
  *             judge/triangles.c, judge/sampler.c
  * Ten times   a plate turned by 1e-11 rad still counts as square-on. */
 #define TOLERANCE_EXTENT_SHARE 0x1p-40

@@ -14,6 +14,6 @@ recto_SOURCES += \
   %D%/parse.c %D%/parse.h \
   %D%/progress_bar.c %D%/progress_bar.h \
   %D%/run.c %D%/run.h \
-  %D%/sheet.c %D%/sheet.h \
+  %D%/multiview.c %D%/multiview.h \
   %D%/signals.c %D%/signals.h \
   %D%/value.c %D%/value.h

@@ -8,7 +8,7 @@
 
 #include "cli/lists.h"
 #include "cli/option_scope.h"
-#include "cli/sheet.h"
+#include "cli/multiview.h"
 #include "cli/value.h"
 
 #define AT(member) offsetof(struct arguments, member)
@@ -280,11 +280,11 @@ const struct option_entry option_table[] = {
      "iso (default) front back left right top bottom", .given = AT(view_given),
      .parse = parse_view, .word = name_view},
     {OPTION_PARSED, "sheet", 0, "HOW", "first or third",
-     "front, top, side on one page: first or third angle", .parse = sheet_parse,
-     .words = "first third"},
+     "front, top, side on one page: first or third angle",
+     .parse = multiview_parse, .words = "first third"},
     {OPTION_PARSED, "views", 0, "LIST",
      "names of --view, each with :SCALE or not, such as front,top,iso:2",
-     "these on one page: front,top,left,iso:2", .parse = sheet_parse_views,
+     "these on one page: front,top,left,iso:2", .parse = multiview_parse_views,
      .word = name_view},
     {OPTION_FLAG, "view-names", 0, NULL, NULL,
      "draw the name of each view on the sheet below it",
@@ -292,12 +292,13 @@ const struct option_entry option_table[] = {
     {OPTION_LIST, "hidden-in", 0, "LIST",
      "views and none, dashed or layer, such as iso=none",
      "front=dashed,iso=none: --hidden of single views",
-     .parse_item = sheet_set_hidden, .use = {USED_BY_DRAWING, USED_BY_LINES}},
+     .parse_item = multiview_set_hidden,
+     .use = {USED_BY_DRAWING, USED_BY_LINES}},
     {OPTION_PARSED, "detail", 0, "X,Y,R,SCALE",
      "three lengths of the page, the third a radius of at least 0.01 mm, and a "
      "scale above 0",
      "circle of the page drawn again beside it, larger",
-     .parse = sheet_parse_detail},
+     .parse = multiview_parse_detail},
     {OPTION_INT, "turntable", 0, "N", "a number from 1 to 100000",
      "N drawings all around, to files such as a%03d.svg",
      .offset = AT(turntable), .least = 1, .most = 100000,

@@ -8,7 +8,7 @@
 
 #include "cli/frames.h"
 #include "cli/lists.h"
-#include "cli/sheet.h"
+#include "cli/multiview.h"
 #include "cli/value.h"
 
 enum { FIRST_LONG = 256 };
@@ -301,6 +301,7 @@ bool arguments_parse(struct arguments *arguments, int argc, char **argv,
   arguments->model_count = argc - optind;
   if (arguments->help || arguments->version || arguments->completes)
     return true;
-  return settle_page(arguments, message) && sheet_settle(arguments, message) &&
+  return settle_page(arguments, message) &&
+         multiview_settle(arguments, message) &&
          settle_camera(arguments, message) && settle_files(arguments, message);
 }

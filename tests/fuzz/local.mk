@@ -7,7 +7,7 @@ fuzz_sources = %D%/fuzz.h %D%/targets.c \
   %D%/target_part.c %D%/target_reader.c \
   %D%/target_scene.c %D%/target_svg.c \
   tests/reading.c tests/reading.h \
-  src/cli/parse.c src/cli/frames.c src/cli/lists.c src/cli/options.c src/cli/sheet.c \
+  src/cli/parse.c src/cli/frames.c src/cli/lists.c src/cli/options.c src/cli/multiview.c \
   src/cli/option_scope.c src/cli/value.c
 
 check_PROGRAMS += %D%/replay

@@ -1,6 +1,6 @@
-/* sheet_labels.h - the words that name the views and the details of a sheet. */
-#ifndef API_SHEET_LABELS_H
-#define API_SHEET_LABELS_H
+/* multiview_labels.h - the words that name the views and the details of a sheet. */
+#ifndef API_MULTIVIEW_LABELS_H
+#define API_MULTIVIEW_LABELS_H
 
 #include "api/multiview_layout.h"
 
@@ -8,14 +8,14 @@
  * view has a true scale that is not the sheet's, "ISO (2:1)".  The room of a
  * label is never made smaller.
  * Returns whether any needs more room than before. */
-bool sheet_labels_of_views(struct multiview *views);
+bool multiview_labels_of_views(struct multiview *views);
 
 /* Writes the label of a detail, whose scale is known: "A (2:1)", or where
  * scales are no true ones "A". */
-void sheet_labels_of_detail(const struct multiview *views,
-                            struct multiview_detail *detail);
+void multiview_labels_of_detail(const struct multiview *views,
+                                struct multiview_detail *detail);
 
 /* The letter of a detail. */
-const char *sheet_labels_letter(const struct multiview_detail *detail);
+const char *multiview_labels_letter(const struct multiview_detail *detail);
 
 #endif

@@ -1,5 +1,5 @@
-/* sheet_labels.c - see sheet_labels.h. */
-#include "api/sheet_labels.h"
+/* multiview_labels.c - see multiview_labels.h. */
+#include "api/multiview_labels.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -20,7 +20,7 @@ static void add_scale(char label[MULTIVIEW_LABEL_SIZE], double scale) {
   (void)snprintf(label + length, MULTIVIEW_LABEL_SIZE - length, " (%s)", text);
 }
 
-bool sheet_labels_of_views(struct multiview *views) {
+bool multiview_labels_of_views(struct multiview *views) {
   bool grows = false;
   for (size_t i = 0; views->name_mm > 0 && i < views->count; i++) {
     struct multiview_view *view = &views->view[i];
@@ -39,14 +39,14 @@ bool sheet_labels_of_views(struct multiview *views) {
   return grows;
 }
 
-const char *sheet_labels_letter(const struct multiview_detail *detail) {
+const char *multiview_labels_letter(const struct multiview_detail *detail) {
   return detail->name + strlen("detail-");
 }
 
-void sheet_labels_of_detail(const struct multiview *views,
-                            struct multiview_detail *detail) {
+void multiview_labels_of_detail(const struct multiview *views,
+                                struct multiview_detail *detail) {
   (void)snprintf(detail->label, sizeof detail->label, "%s",
-                 sheet_labels_letter(detail));
+                 multiview_labels_letter(detail));
   if (views->with_scales)
     add_scale(detail->label, detail->scale / views->unit_mm);
   detail->label_mm = width_of(detail->label, views->letter_mm);

@@ -1,5 +1,5 @@
-/* sheet.c - the options of sheets, on which several views are. */
-#include "cli/sheet.h"
+/* multiview.c - the options of sheets, on which several views are. */
+#include "cli/multiview.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 
 /* ---- Values -------------------------------------------------------------- */
 
-bool sheet_parse(struct arguments *arguments, const char *text) {
+bool multiview_parse(struct arguments *arguments, const char *text) {
   recto_arrangement *how = &arguments->options.sheet.arrangement;
   *how = strcmp(text, "first") == 0   ? RECTO_ARRANGEMENT_FIRST
          : strcmp(text, "third") == 0 ? RECTO_ARRANGEMENT_THIRD
@@ -41,7 +41,7 @@ static bool parse_sheet_view(recto_sheet_view *view, const char *text,
   return value_scale(scale, &view->scale);
 }
 
-bool sheet_parse_views(struct arguments *arguments, const char *text) {
+bool multiview_parse_views(struct arguments *arguments, const char *text) {
   recto_sheet_options *sheet = &arguments->options.sheet;
   sheet->view = arguments->sheet_view;
   sheet->view_count = 0;
@@ -69,7 +69,7 @@ static bool next_item(const char **text, char item[64]) {
   return true;
 }
 
-bool sheet_parse_detail(struct arguments *arguments, const char *text) {
+bool multiview_parse_detail(struct arguments *arguments, const char *text) {
   recto_sheet_options *sheet = &arguments->options.sheet;
   recto_detail detail = {.x_mm = 0};
   double *const length[] = {&detail.x_mm, &detail.y_mm, &detail.radius_mm};
@@ -82,13 +82,13 @@ bool sheet_parse_detail(struct arguments *arguments, const char *text) {
     return false;
   if (sheet->detail_count < RECTO_DETAIL_MAX)
     arguments->detail[sheet->detail_count] = detail;
-  sheet->detail_count++; /* sheet_settle refuses too many */
+  sheet->detail_count++; /* multiview_settle refuses too many */
   sheet->detail = arguments->detail;
   return true;
 }
 
-recto_status sheet_set_hidden(struct arguments *arguments, const char *name,
-                              const char *value) {
+recto_status multiview_set_hidden(struct arguments *arguments, const char *name,
+                                  const char *value) {
   struct view_hidden hidden = {.view = find_view(name, strlen(name))};
   int how;
   if (hidden.view == NULL || !value_word(value, "none dashed layer", &how) ||
@@ -140,10 +140,10 @@ static void take_one_view(struct arguments *a) {
   sheet->view_count = 1;
 }
 
-bool sheet_settle(struct arguments *a, char message[MESSAGE_SIZE]) {
+bool multiview_settle(struct arguments *a, char message[MESSAGE_SIZE]) {
   recto_sheet_options *sheet = &a->options.sheet;
   const char *wrong = NULL;
-  bool is_one = sheet->detail_count > 0 && !sheet_is_requested(a);
+  bool is_one = sheet->detail_count > 0 && !multiview_is_requested(a);
   if (is_one)
     take_one_view(a);
   if (sheet->detail_count > RECTO_DETAIL_MAX) {
@@ -153,7 +153,7 @@ bool sheet_settle(struct arguments *a, char message[MESSAGE_SIZE]) {
              sheet->detail_count, RECTO_DETAIL_MAX);
     return false;
   }
-  if (!sheet_is_requested(a)) {
+  if (!multiview_is_requested(a)) {
     if (a->view_hidden_count > 0)
       wrong = "--hidden-in is for --sheet and --views";
     else if (a->options.sheet.names)
@@ -177,7 +177,7 @@ bool sheet_settle(struct arguments *a, char message[MESSAGE_SIZE]) {
     snprintf(message, MESSAGE_SIZE, "%s", wrong);
     return false;
   }
-  if (!sheet_is_requested(a))
+  if (!multiview_is_requested(a))
     return true;
   if (sheet->arrangement == RECTO_ARRANGEMENT_NONE)
     sheet->arrangement = RECTO_ARRANGEMENT_FIRST;

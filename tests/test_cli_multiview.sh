@@ -1,5 +1,5 @@
 #!/bin/bash
-# test_cli_sheet.sh - sheets of several views of real models: aligned, right by
+# test_cli_multiview.sh - sheets of several views of real models: aligned, right by
 # the judge, and the same picture in all formats.
 . "$(dirname "$0")/tap.sh"
 . "$(dirname "$0")/cli.sh"

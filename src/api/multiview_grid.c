@@ -1,11 +1,11 @@
-/* sheet_grid.c - see sheet_grid.h. */
-#include "api/sheet_grid.h"
+/* multiview_grid.c - see multiview_grid.h. */
+#include "api/multiview_grid.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-#include "api/sheet_labels.h"
+#include "api/multiview_labels.h"
 #include "base/tolerance.h"
 #include "view/preferred_scale.h"
 
@@ -27,7 +27,7 @@ static const struct {
 /* The least and the greatest column and row of any view. */
 enum { LEAST_CELL = -1, CELLS = MULTIVIEW_MAX + 2 };
 
-bool sheet_grid_has_cell(const char *name) {
+bool multiview_grid_has_cell(const char *name) {
   for (size_t i = 0; i < sizeof cells / sizeof cells[0]; i++)
     if (name != NULL && strcmp(cells[i].name, name) == 0)
       return true;
@@ -50,7 +50,7 @@ static void place_in_grid(struct multiview *views, recto_arrangement how) {
   int side = how == RECTO_ARRANGEMENT_FIRST ? -1 : 1, others = 0;
   for (size_t i = 0; i < views->count; i++) {
     struct multiview_view *view = &views->view[i];
-    view->is_aligned = sheet_grid_has_cell(view->asked->name);
+    view->is_aligned = multiview_grid_has_cell(view->asked->name);
     for (size_t c = 0; c < sizeof cells / sizeof cells[0]; c++)
       if (view->is_aligned && strcmp(cells[c].name, view->name) == 0) {
         view->column = cells[c].column == 2 ? 2 : side * cells[c].column;
@@ -288,7 +288,7 @@ static void place_view(struct multiview_view *view, const struct grid *grid,
   }
 }
 
-double sheet_grid_limit_scale(double scale) {
+double multiview_grid_limit_scale(double scale) {
   return fmin(fmax(scale, DBL_MIN), DBL_MAX);
 }
 
@@ -297,14 +297,14 @@ static void place_views(struct multiview *views, struct grid *grid,
   size_tracks(grid, scale);
   choose_gap(views, grid);
   place_tracks(views, grid);
-  views->scale = sheet_grid_limit_scale(ldexp(scale, -exponent));
+  views->scale = multiview_grid_limit_scale(ldexp(scale, -exponent));
   for (size_t i = 0; i < views->count; i++) {
     struct multiview_view *view = &views->view[i];
     place_view(view, grid, scale);
     view->scale =
         view->is_aligned
             ? views->scale
-            : sheet_grid_limit_scale(views->scale * relative_scale(view));
+            : multiview_grid_limit_scale(views->scale * relative_scale(view));
   }
 }
 
@@ -312,15 +312,15 @@ static void place_views(struct multiview *views, struct grid *grid,
 
 /* The names of views tell scales, which are known once all is arranged: it is
  * done again while that widens a name. */
-recto_status sheet_grid_arrange(struct multiview *views,
-                                const recto_options *scaled, double size,
-                                int exponent, recto_error *error) {
+recto_status multiview_grid_arrange(struct multiview *views,
+                                    const recto_options *scaled, double size,
+                                    int exponent, recto_error *error) {
   enum { TIMES_MAX = 8 };
   struct grid grid;
   recto_status status = RECTO_OK;
   bool again = true;
   place_in_grid(views, scaled->sheet.arrangement);
-  (void)sheet_labels_of_views(views);
+  (void)multiview_labels_of_views(views);
   for (int i = 0; i < TIMES_MAX && again && status == RECTO_OK; i++) {
     double scale = 0;
     measure_grid(&grid, views);
@@ -328,7 +328,7 @@ recto_status sheet_grid_arrange(struct multiview *views,
     if (status != RECTO_OK)
       break;
     place_views(views, &grid, scale, exponent);
-    again = sheet_labels_of_views(views);
+    again = multiview_labels_of_views(views);
   }
   return status;
 }

@@ -1,10 +1,10 @@
-/* render_sheet.c - draws several views of a scene on one page.
+/* render_multiview.c - draws several views of a scene on one page.
  *
  * Phases
  *   prepare the scene, unless that was done, and arrange the views;
  *   draw each by itself, on the page of all and moved to its place there;
  *   put the drawings together. */
-#include "api/render_sheet.h"
+#include "api/render_multiview.h"
 
 #include <float.h>
 #include <math.h>
@@ -16,14 +16,14 @@
 #include "api/options.h"
 #include "api/render.h"
 #include "api/shares.h"
-#include "api/sheet_labels.h"
-#include "api/sheet_text.h"
+#include "api/multiview_labels.h"
+#include "api/multiview_text.h"
 #include "api/stats.h"
 #include "base/clock.h"
 #include "drawing/append.h"
 #include "drawing/circle_clip.h"
 
-struct sheet_work {
+struct multiview_work {
   const recto_scene *scene;
   const recto_options *options;
   struct preparation own;             /* empty where the scene has one */
@@ -35,7 +35,7 @@ struct sheet_work {
 };
 
 /* How many drawings make the sheet. */
-static size_t count_parts(const struct sheet_work *work) {
+static size_t count_parts(const struct multiview_work *work) {
   return work->views.count + work->views.details;
 }
 
@@ -44,7 +44,7 @@ static size_t count_parts(const struct sheet_work *work) {
 /* What the drawing of one view tells: its part of the whole work, and its
  * warnings. */
 struct view_calls {
-  struct sheet_work *work;
+  struct multiview_work *work;
   double from, to;   /* of the whole work */
   double begin, end; /* of that of a drawing of one view */
 };
@@ -61,7 +61,7 @@ static bool pass_view_progress(void *user, double share, const char *stage) {
 static void pass_view_warning(void *user, const char *file, unsigned long line,
                               const char *text) {
   const struct view_calls *view = user;
-  struct sheet_work *work = view->work;
+  struct multiview_work *work = view->work;
   for (size_t i = 0; i < work->warning.count; i++)
     if (strcmp(work->warning.item[i], text) == 0)
       return;
@@ -71,8 +71,8 @@ static void pass_view_warning(void *user, const char *file, unsigned long line,
   work->options->warning(work->options->user, file, line, text);
 }
 
-static void warn_of_empty_part(const struct sheet_work *work, const char *what,
-                               const char *name) {
+static void warn_of_empty_part(const struct multiview_work *work,
+                               const char *what, const char *name) {
   char text[64];
   (void)snprintf(text, sizeof text, "the %s %s is empty", what, name);
   work->options->warning(work->options->user, "", 0, text);
@@ -80,7 +80,7 @@ static void warn_of_empty_part(const struct sheet_work *work, const char *what,
 
 /* Warns of a sheet without any ink, else of the views and details that have
  * none. */
-static void warn_of_empty_parts(const struct sheet_work *work) {
+static void warn_of_empty_parts(const struct multiview_work *work) {
   bool is_empty[MULTIVIEW_MAX + RECTO_DETAIL_MAX], all = true;
   if (work->options->warning == NULL)
     return;
@@ -97,12 +97,12 @@ static void warn_of_empty_parts(const struct sheet_work *work) {
     else if (is_empty[i])
       warn_of_empty_part(
           work, "detail",
-          sheet_labels_letter(&work->views.detail[i - work->views.count]));
+          multiview_labels_letter(&work->views.detail[i - work->views.count]));
 }
 
 /* Makes the drawing of a part call back by `calls`.  A detail would warn of
  * what lies beyond its circle. */
-static void divide_work(struct view_calls *calls, struct sheet_work *work,
+static void divide_work(struct view_calls *calls, struct multiview_work *work,
                         size_t index, recto_options *of_view) {
   double begin[SHARE_STAGES + 1];
   shares_plan(begin, work->options);
@@ -122,7 +122,7 @@ static void divide_work(struct view_calls *calls, struct sheet_work *work,
 
 /* ---- Stages -------------------------------------------------------------- */
 
-static recto_status prepare(struct sheet_work *work, recto_error *error) {
+static recto_status prepare(struct multiview_work *work, recto_error *error) {
   const struct preparation *shared = work->scene->prepared;
   struct poll poll;
   recto_status status = RECTO_OK;
@@ -152,7 +152,7 @@ static void name_view_of_error(const char *view, recto_error *error) {
 }
 
 /* Removes what is outside of a detail's circle. */
-static recto_status clip_detail(struct sheet_work *work, size_t index,
+static recto_status clip_detail(struct multiview_work *work, size_t index,
                                 recto_error *error) {
   const struct multiview_detail *detail =
       &work->views.detail[index - work->views.count];
@@ -162,14 +162,15 @@ static recto_status clip_detail(struct sheet_work *work, size_t index,
   shares_open_poll(&poll, work->options, SHARE_WRITE, "sheet");
   recto_status status =
       drawing_clip_circle(&work->view[index]->drawing, &circle,
-                          sheet_text_pen_mm(work->options))
+                          multiview_text_pen_mm(work->options))
           ? RECTO_OK
           : error_memory(error);
   poll_close(&poll);
   return status;
 }
 
-static recto_status draw_views(struct sheet_work *work, recto_error *error) {
+static recto_status draw_views(struct multiview_work *work,
+                               recto_error *error) {
   recto_status status = RECTO_OK;
   for (size_t i = 0; i < count_parts(work) && status == RECTO_OK; i++) {
     recto_options of_view;
@@ -192,7 +193,8 @@ static recto_status draw_views(struct sheet_work *work, recto_error *error) {
   return status;
 }
 
-static recto_status put_together(struct sheet_work *work, recto_error *error) {
+static recto_status put_together(struct multiview_work *work,
+                                 recto_error *error) {
   struct poll poll;
   struct drawing *drawing = &work->made->drawing;
   recto_status status = RECTO_OK;
@@ -204,7 +206,7 @@ static recto_status put_together(struct sheet_work *work, recto_error *error) {
     drawing_init(&work->view[i]->drawing);
   }
   if (status == RECTO_OK &&
-      !(sheet_text_add(drawing, &work->views, work->options) &&
+      !(multiview_text_add(drawing, &work->views, work->options) &&
         captions_set_sheet(drawing, work->scene, work->options, &work->views)))
     status = error_memory(error);
   poll_close(&poll);
@@ -213,7 +215,7 @@ static recto_status put_together(struct sheet_work *work, recto_error *error) {
 
 /* ---- Reports ------------------------------------------------------------- */
 
-static void sum_verdicts(struct sheet_work *work) {
+static void sum_verdicts(struct multiview_work *work) {
   struct verify_counts sum = {0, 0, 0};
   for (size_t i = 0; i < count_parts(work); i++) {
     const struct verify_counts *counts = &work->view[i]->verified;
@@ -226,7 +228,7 @@ static void sum_verdicts(struct sheet_work *work) {
     verify_summarise(work->made->verdict, &sum);
 }
 
-static void report_sheet(struct sheet_work *work) {
+static void report_sheet(struct multiview_work *work) {
   struct report *report = work->made->report;
   const struct multiview *views = &work->views;
   report_count(report, "sheet", "views", views->count);
@@ -260,7 +262,7 @@ static void take_from_first(recto_drawing *made, recto_drawing *first) {
 
 /* ---- The whole ----------------------------------------------------------- */
 
-static recto_status run(struct sheet_work *work, recto_error *error) {
+static recto_status run(struct multiview_work *work, recto_error *error) {
   double cpu = clock_cpu(), wall = clock_wall();
   work->made = mem_calloc(1, sizeof *work->made);
   if (work->made == NULL)
@@ -285,9 +287,10 @@ static recto_status run(struct sheet_work *work, recto_error *error) {
   return RECTO_OK;
 }
 
-recto_status render_sheet(recto_drawing **drawing, const recto_scene *scene,
-                          const recto_options *options, recto_error *error) {
-  struct sheet_work work = {.scene = scene, .options = options};
+recto_status render_multiview(recto_drawing **drawing, const recto_scene *scene,
+                              const recto_options *options,
+                              recto_error *error) {
+  struct multiview_work work = {.scene = scene, .options = options};
   recto_status status = run(&work, error);
   for (size_t i = 0; i < count_parts(&work); i++)
     recto_drawing_destroy(work.view[i]);

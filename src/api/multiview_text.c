@@ -1,15 +1,15 @@
-/* sheet_text.c - the title of a sheet, and the names of its views and
+/* multiview_text.c - the title of a sheet, and the names of its views and
  * details. */
-#include "api/sheet_text.h"
+#include "api/multiview_text.h"
 
 #include <math.h>
 
 #include "api/letter_places.h"
-#include "api/sheet_labels.h"
+#include "api/multiview_labels.h"
 #include "drawing/circle_clip.h"
 #include "drawing/text.h"
 
-double sheet_text_pen_mm(const recto_options *options) {
+double multiview_text_pen_mm(const recto_options *options) {
   double own = options->ink.pen_count > 0 ? options->ink.pen[0].width_mm : 0;
   return own > 0 ? own : options->ink.pen_mm;
 }
@@ -23,7 +23,7 @@ static bool add_text_layer(struct drawing *drawing,
                                 .label = "1 text",
                                 .colour =
                                     pen->has_colour ? pen->colour : 0x000000,
-                                .width_mm = sheet_text_pen_mm(options),
+                                .width_mm = multiview_text_pen_mm(options),
                                 .view = "text"};
   return ARRAY_PUSH(&drawing->layer, layer);
 }
@@ -87,8 +87,8 @@ static bool add_leader(struct drawing *drawing,
 static bool add_letter(struct drawing *drawing, const struct multiview *views,
                        size_t detail) {
   struct letter_place place;
-  const struct text_line line = {sheet_labels_letter(&views->detail[detail]),
-                                 views->letter_mm};
+  const struct text_line line = {
+      multiview_labels_letter(&views->detail[detail]), views->letter_mm};
   return letter_places_find(&place, drawing, views, detail) &&
          (!place.has_leader || add_leader(drawing, place.leader)) &&
          add_centred(drawing, &line, place.middle.x,
@@ -97,8 +97,8 @@ static bool add_letter(struct drawing *drawing, const struct multiview *views,
 
 /* -------------------------------------------------------------------------- */
 
-bool sheet_text_add(struct drawing *drawing, const struct multiview *views,
-                    const recto_options *options) {
+bool multiview_text_add(struct drawing *drawing, const struct multiview *views,
+                        const recto_options *options) {
   bool ok = true;
   size_t first = drawing->stroke.count;
   if (views->title_mm > 0 || views->name_mm > 0 || views->details > 0)
