@@ -1,4 +1,4 @@
-/* multiview_grid.h - the columns and rows in which the views of a sheet stand. */
+/* multiview_grid.h - the columns and rows in which views of a sheet stand. */
 #ifndef API_MULTIVIEW_GRID_H
 #define API_MULTIVIEW_GRID_H
 

@@ -1,4 +1,4 @@
-/* multiview_labels.h - the words that name the views and the details of a sheet. */
+/* multiview_labels.h - the words that name views and details of a sheet. */
 #ifndef API_MULTIVIEW_LABELS_H
 #define API_MULTIVIEW_LABELS_H
 

@@ -167,9 +167,9 @@ static recto_status check_cut(const recto_options *o, recto_error *error) {
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
                      "a section and the planes of a cut exclude each other");
   if (o->camera.has_section && o->sheet.arrangement != RECTO_ARRANGEMENT_NONE)
-    return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
-                     "a section is of one view alone: the planes of a cut are "
-                     "of all");
+    return error_set(
+        error, RECTO_ERROR_ARGUMENT, NULL, 0,
+        "a section cannot be drawn with a sheet or details; a cut can");
   for (size_t i = 0; i < o->mesh.cut_count; i++) {
     const recto_plane *plane = &o->mesh.cut[i];
     const double *n = plane->normal;

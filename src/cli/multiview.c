@@ -143,7 +143,7 @@ static void take_one_view(struct arguments *a) {
 bool multiview_settle(struct arguments *a, char message[MESSAGE_SIZE]) {
   recto_sheet_options *sheet = &a->options.sheet;
   const char *wrong = NULL;
-  bool is_one = sheet->detail_count > 0 && !multiview_is_requested(a);
+  bool is_one = sheet->detail_count > 0 && !arguments_have_sheet(a);
   if (is_one)
     take_one_view(a);
   if (sheet->detail_count > RECTO_DETAIL_MAX) {
@@ -153,7 +153,7 @@ bool multiview_settle(struct arguments *a, char message[MESSAGE_SIZE]) {
              sheet->detail_count, RECTO_DETAIL_MAX);
     return false;
   }
-  if (!multiview_is_requested(a)) {
+  if (!arguments_have_sheet(a)) {
     if (a->view_hidden_count > 0)
       wrong = "--hidden-in is for --sheet and --views";
     else if (a->options.sheet.names)
@@ -177,7 +177,7 @@ bool multiview_settle(struct arguments *a, char message[MESSAGE_SIZE]) {
     snprintf(message, MESSAGE_SIZE, "%s", wrong);
     return false;
   }
-  if (!multiview_is_requested(a))
+  if (!arguments_have_sheet(a))
     return true;
   if (sheet->arrangement == RECTO_ARRANGEMENT_NONE)
     sheet->arrangement = RECTO_ARRANGEMENT_FIRST;

@@ -5,7 +5,7 @@
 #include "cli/arguments.h"
 
 /* Whether several views are requested on one page. */
-static inline bool multiview_is_requested(const struct arguments *arguments) {
+static inline bool arguments_have_sheet(const struct arguments *arguments) {
   return arguments->options.sheet.arrangement != RECTO_ARRANGEMENT_NONE ||
          arguments->options.sheet.view_count > 0;
 }
