@@ -103,7 +103,7 @@ done <<'END_OF_ROWS'
 --id-prefix a|a.svg|a.hpgl|svg; hpgl
 --title a|a.svg|a.hpgl|svg, pdf, eps, ps and sheets; hpgl
 --title a|a.hpgl --sheet first|a.png|svg, pdf, eps, ps and sheets; png
---desc a|a.svg|a.hpgl|svg, pdf, eps and ps; hpgl
+--desc a|a.svg|a.eps|svg and pdf; eps
 --background navy|a.svg|a.hpgl|svg, pdf, eps, ps and png; hpgl
 --precision 2|a.svg|a.hpgl|svg; hpgl
 --path polyline|a.plt --format svg|a.svg --format hpgl|svg; hpgl

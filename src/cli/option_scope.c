@@ -24,7 +24,7 @@ enum {
   WARNOCK_PIXELS,
   SMOOTH_CONTOURS
 };
-enum { SVG = 40, HPGL, PNG, VECTOR_PAGES };
+enum { SVG = 40, HPGL, PNG, PDF, POSTSCRIPT };
 enum {
   STATS = 48,
   CHECK,
@@ -40,7 +40,8 @@ enum {
 #define METHODS (METHOD(COUNT) - 1)
 #define FILLS (FILL(NONE) | FILL(PAINT) | FILL(SHADE) | FILL(HATCH))
 #define FITS (FIT(PAGE) | FIT(NONE) | FIT(SCALE) | FIT(SPHERE) | FIT(PREFERRED))
-#define FORMATS (BIT(SVG) | BIT(HPGL) | BIT(PNG) | BIT(VECTOR_PAGES))
+#define VECTOR_PAGES (BIT(PDF) | BIT(POSTSCRIPT))
+#define FORMATS (BIT(SVG) | BIT(HPGL) | BIT(PNG) | VECTOR_PAGES)
 #define LINES EDGES(RECTO_EDGES_ALL)
 #define ZBUFFERS (METHOD(ZBUFFER) | METHOD(SCANLINE_ZBUFFER))
 #define PAINTERS (METHOD(PAINTER) | METHOD(PAINTER_GIVEN))
@@ -49,9 +50,8 @@ enum {
 static const struct {
   const char *name;
   int bit;
-} format[] = {{"svg", SVG},          {"hpgl", HPGL},
-              {"png", PNG},          {"pdf", VECTOR_PAGES},
-              {"eps", VECTOR_PAGES}, {"ps", VECTOR_PAGES}};
+} format[] = {{"svg", SVG}, {"hpgl", HPGL},      {"png", PNG},
+              {"pdf", PDF}, {"eps", POSTSCRIPT}, {"ps", POSTSCRIPT}};
 
 /* All formats where none is known, which is an error of its own. */
 static uint64_t find_format(const struct arguments *a) {
@@ -154,13 +154,13 @@ static const struct {
     [USED_BY_SVG] = {"svg", BIT(SVG)},
     [USED_BY_SVG_AND_CHECK] = {"svg", BIT(SVG) | BIT(BY_CHECK)},
     [USED_BY_SCREENS] = {"svg, pdf, eps, ps and png",
-                         BIT(SVG) | BIT(PNG) | BIT(VECTOR_PAGES)},
-    [USED_BY_PAGES] = {"svg, pdf, eps and ps", BIT(SVG) | BIT(VECTOR_PAGES)},
+                         BIT(SVG) | BIT(PNG) | VECTOR_PAGES},
+    [USED_BY_SVG_AND_PDF] = {"svg and pdf", BIT(SVG) | BIT(PDF)},
     [USED_BY_PAGES_AND_SHEETS] = {"svg, pdf, eps, ps and sheets",
-                                  BIT(SVG) | BIT(VECTOR_PAGES) | BIT(SHEET) |
+                                  BIT(SVG) | VECTOR_PAGES | BIT(SHEET) |
                                       BIT(BY_CHECK)},
     [USED_BY_TIGHT] = {"svg, pdf, eps, ps and png",
-                       BIT(SVG) | BIT(PNG) | BIT(VECTOR_PAGES) | BIT(BY_CHECK)},
+                       BIT(SVG) | BIT(PNG) | VECTOR_PAGES | BIT(BY_CHECK)},
     /* A drawing that is checked brings its page, unless that was cropped. */
     [USED_BY_PAGE] = {"drawings and --tight", ~BIT(BY_CHECK)},
     [USED_BY_PNG] = {"png", BIT(PNG)},

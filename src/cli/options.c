@@ -482,7 +482,7 @@ const struct option_entry option_table[] = {
      .offset = AT(options.output.title), .use = {USED_BY_PAGES_AND_SHEETS}},
     {OPTION_CAPTION, "desc", 0, "TEXT", "a text",
      "SVG, PDF: its description (what is seen from where)",
-     .offset = AT(options.output.description), .use = {USED_BY_PAGES}},
+     .offset = AT(options.output.description), .use = {USED_BY_SVG_AND_PDF}},
     {OPTION_PARSED, "background", 0, "COLOUR",
      "none, transparent or a colour such as #c00 or navy",
      "a colour, or none (none; PNG: white)", .parse = parse_background,
