@@ -130,6 +130,45 @@ static enum judge_inside is_inside_below(const struct judge_triangles *all,
   return judge_is_inside(all, p);
 }
 
+/* Whether plane k has a cut face at a point that lies in it: what is beyond the
+ * point is beyond the other planes too, and what is below it is inside. */
+static enum judge_inside is_in_cut_face(const struct judge_triangles *all,
+                                        int k, struct judge_point3 p,
+                                        double depth) {
+  const struct judge_removed *removed = &all->removed;
+  for (int j = 0; j < removed->planes; j++)
+    if (j != k && judge_plane_height(&removed->plane[j], p) < -depth)
+      return JUDGE_OUTSIDE;
+  return is_inside_below(all, p, depth);
+}
+
+/* Whether planes meet at a point in a line of the drawing: it is between two
+ * cut faces. */
+static enum judge_visibility
+common_line_exists(const struct judge_triangles *all, struct judge_point3 at,
+                   double depth, double beside) {
+  const struct judge_removed *removed = &all->removed;
+  int sides = 0, inside = 0, outside = 0;
+  for (int i = 0; i < removed->planes; i++)
+    for (int j = 0; j < removed->planes; j++) {
+      const struct judge_plane *p = &removed->plane[i], *q = &removed->plane[j];
+      struct judge_point3 along =
+          point3_along(q->normal, -point3_dot(p->normal, q->normal), p->normal);
+      if (i == j || point3_length(along) < TOLERANCE_JUDGE_ANGLE ||
+          fabs(judge_plane_height(p, at)) > depth ||
+          fabs(judge_plane_height(q, at)) > depth)
+        continue;
+      enum judge_inside here = is_in_cut_face(
+          all, i, point3_along(at, beside, point3_unit(along)), depth);
+      sides++;
+      inside += here == JUDGE_INSIDE;
+      outside += here == JUDGE_OUTSIDE;
+    }
+  return inside == sides    ? JUDGE_CLEAR
+         : outside == sides ? JUDGE_BLOCKED
+                            : JUDGE_UNSURE;
+}
+
 enum judge_visibility judge_cut_exists(const struct judge_triangles *all,
                                        const struct judge_edge *edge,
                                        struct judge_point3 at, double beside) {
@@ -140,19 +179,15 @@ enum judge_visibility judge_cut_exists(const struct judge_triangles *all,
     return JUDGE_CLEAR;
   if (source->cut == JUDGE_CUT_BESIDE)
     return JUDGE_UNSURE;
-  if (source->cut == JUDGE_CUT_OF_PLANES) {
-    enum judge_inside inside = is_inside_below(all, at, depth);
-    return inside == JUDGE_INSIDE    ? JUDGE_CLEAR
-           : inside == JUDGE_OUTSIDE ? JUDGE_BLOCKED
-                                     : JUDGE_UNSURE;
-  }
+  if (source->cut == JUDGE_CUT_OF_PLANES)
+    return common_line_exists(all, at, depth, beside);
   struct judge_point3 across =
       point3_unit(point3_cross(all->removed.plane[source->plane].normal,
                                point3_sub(edge->p[1], edge->p[0])));
-  enum judge_inside one =
-      is_inside_below(all, point3_along(at, beside, across), depth);
-  enum judge_inside two =
-      is_inside_below(all, point3_along(at, -beside, across), depth);
+  enum judge_inside one = is_in_cut_face(
+      all, source->plane, point3_along(at, beside, across), depth);
+  enum judge_inside two = is_in_cut_face(
+      all, source->plane, point3_along(at, -beside, across), depth);
   return one != two && one != JUDGE_PERHAPS_INSIDE &&
                  two != JUDGE_PERHAPS_INSIDE
              ? JUDGE_CLEAR
