@@ -583,11 +583,25 @@ def check_names(names: Iterable[str]) -> None:
             raise TypeError(f"there is no option {name!r}{hint}")
 
 
+def check_sheet(given: Mapping[str, Any]) -> None:
+    """Raises TypeError for options that a sheet of views does not have, and for
+    those that only a sheet has."""
+    if "sheet" in given or "views" in given:
+        for name in ("view", "azimuth", "elevation", "camera", "fov"):
+            if name in given:
+                raise TypeError(f"{name} is not for a sheet: its views say all of it")
+        return
+    for name in ("view_names", "hidden_in"):
+        if given.get(name):
+            raise TypeError(f"{name} is for a sheet: give sheet or views")
+
+
 class Filled:
     """recto_options, as `at`, with what it points to, and its call."""
 
     def __init__(self, given: Mapping[str, Any]) -> None:
         check_names(given)
+        check_sheet(given)
         self.call = Call(given.get("progress"))
         self.at = ffi.new("recto_options *")
         lib.recto_options_init_sized(self.at, ffi.sizeof("recto_options"))

@@ -340,6 +340,11 @@ def test_errors():
                           ({"hidden": ("dashed", 1, 2)}, "dashed")):
         error = raised(ValueError, cube().render, **options)
         assert word in str(error) and "unpack" not in str(error), error
+    for options in ({"sheet": "third", "view": "top"},
+                    {"views": "front,top", "azimuth": 20},
+                    {"view_names": True}, {"hidden_in": {"front": "dashed"}}):
+        error = raised(TypeError, cube().render, **options)
+        assert "sheet" in str(error), error
 
 
 def test_warnings():
