@@ -33,6 +33,7 @@ struct answer {
   double seconds;
   struct measure measure;
   bool ok;
+  bool refused;     /* beyond what the method does: it would take hours */
   enum run_end end; /* of its process */
 };
 
@@ -61,6 +62,7 @@ static void run_setting(struct answer *answer,
     struct trial trial;
     trial_run_request(&trial, scene, options, setting->solver, &request);
     sum += seconds[n++] = trial.solve_s;
+    answer->refused = trial.status == RECTO_ERROR_LIMIT;
     answer->ok = trial.status == RECTO_OK &&
                  (n > 1 || measure_map(&answer->measure, &truth->sheet,
                                        &truth->map, &trial.sheet, &trial.map));
@@ -103,7 +105,7 @@ static const char *const part_name[] = {
     [TRIAL_EDGES] = "lines", [TRIAL_FRAGMENTS] = "faces"};
 
 /* One row; false where an exact method has an error, or any fails but for its
- * time. */
+ * time or as it refuses so much. */
 static bool print_row(FILE *file, const char *scene, enum trial_part part,
                       const struct accuracy_setting *setting,
                       const struct answer *answer) {
@@ -113,10 +115,12 @@ static bool print_row(FILE *file, const char *scene, enum trial_part part,
           setting->knob, setting->value);
   if (!answer->ok) {
     fprintf(file, ",,,,,\n");
-    if (answer->end != RUN_OUT_OF_TIME)
+    bool excused = answer->end == RUN_OUT_OF_TIME ||
+                   (answer->end == RUN_ANSWERED && answer->refused);
+    if (!excused)
       fprintf(stderr, "accuracy: %s, %s: %s %s %s failed\n", scene,
               part_name[part], setting->method, setting->knob, setting->value);
-    return answer->end == RUN_OUT_OF_TIME;
+    return excused;
   }
   double part_share[3] = {m->missing_ink, m->false_ink, 0};
   if (part == TRIAL_FRAGMENTS) {
