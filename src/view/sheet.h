@@ -152,6 +152,11 @@ static inline bool sheet_is_edge_on(const struct sheet *sheet,
   return sheet->triangle_flags[triangle] & SHEET_EDGE_ON;
 }
 
+/* Whether visible fragments of a triangle are requested. */
+static inline bool sheet_is_filled(const struct sheet *sheet, size_t f) {
+  return sheet->triangle.item[f].face >= sheet->first_filled;
+}
+
 /* Is the edge to be drawn, and longer than a point on the page? */
 static inline bool sheet_edge_is_drawn(const struct sheet *sheet, size_t e) {
   const struct sheet_edge *edge = &sheet->edge.item[e];

@@ -134,13 +134,8 @@ end:
   return ok;
 }
 
-/* Whether nothing fills the face of a triangle. */
-static bool is_unfilled(const struct fragments *f, uint32_t triangle) {
-  return f->sheet->triangle.item[triangle].face < f->sheet->first_filled;
-}
-
 bool fragments_add_without_contact(struct fragments *f, uint32_t triangle) {
-  if (is_unfilled(f, triangle))
+  if (!sheet_is_filled(f->sheet, triangle))
     return true;
   f->counts.whole++;
   return keep_piece(f, triangle, NULL);
@@ -151,7 +146,7 @@ bool fragments_add_with_candidates(struct fragments *f, uint32_t triangle,
                                    size_t count, const uint32_t *candidate,
                                    size_t candidate_count) {
   struct geom_convex whole;
-  if ((piece != NULL && count == 0) || is_unfilled(f, triangle))
+  if ((piece != NULL && count == 0) || !sheet_is_filled(f->sheet, triangle))
     return true;
   f->counts.whole += piece == NULL;
   f->counts.cut += piece != NULL;
@@ -174,7 +169,7 @@ static bool add_pieces_with_grid(struct fragments *f, uint32_t triangle,
                                  const struct geom_convex *piece,
                                  size_t count) {
   f->query.found.count = 0;
-  if (is_unfilled(f, triangle))
+  if (!sheet_is_filled(f->sheet, triangle))
     return true;
   if (f->contact &&
       !triangle_grid_find_overlapping(f->grid, triangle, &f->query))

@@ -12,6 +12,10 @@
  * front of its plane or strictly behind it; hence that triangle is nearer as
  * well, and occlusion continues.
  *
+ * Tiles in which T is visible are not listed, neither their triangles nor their
+ * contours: nothing there is in front of T or in contact with it, and a tile
+ * that a contour crosses before or at T is mixed.
+ *
  * Hidden triangles.  They are not tested as occluders.  Where one of them
  * occludes T, so does the nearest triangle there, which is not hidden and
  * overlaps T.

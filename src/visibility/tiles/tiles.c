@@ -226,11 +226,6 @@ static void want_face_tiles(struct tiles_work *work, uint32_t t) {
     }
 }
 
-/* Whether fragments of a triangle are requested. */
-static bool is_filled(const struct sheet *sheet, size_t t) {
-  return sheet->triangle.item[t].face >= sheet->first_filled;
-}
-
 static bool classify_face_range(void *user, struct parallel_range range) {
   struct tiles_work *work = user;
   for (size_t t = range.begin; t < range.end; t++) {
@@ -239,7 +234,7 @@ static bool classify_face_range(void *user, struct parallel_range range) {
     enum map_state state = MAP_MIXED;
     if (sheet_is_edge_on(work->sheet, t))
       state = MAP_HIDDEN;
-    else if (is_filled(work->sheet, t))
+    else if (sheet_is_filled(work->sheet, t))
       state = state_of_face(work, (uint32_t)t);
     work->face_state[t] = (uint8_t)state;
   }
@@ -256,7 +251,7 @@ static bool classify_faces(struct tiles_work *work) {
                        classify_face_range, work))
     return false;
   for (size_t t = 0; t < n; t++) {
-    if (work->face_state[t] != MAP_MIXED || !is_filled(work->sheet, t))
+    if (work->face_state[t] != MAP_MIXED || !sheet_is_filled(work->sheet, t))
       continue;
     if (!ARRAY_PUSH(&work->face, (uint32_t)t))
       return false;
