@@ -6,6 +6,9 @@
  * Source  [Appel1967] decides visibility edge by edge as well.
  */
 #include "visibility/brute/brute.h"
+
+#include <inttypes.h>
+
 #include "visibility/fragments/fragments.h"
 #include "visibility/intersection/intersection.h"
 #include "visibility/predicate/edge_intervals.h"
@@ -15,7 +18,7 @@
 
 /* The most pairs of lines and triangles, and of triangles.  Those that overlap
  * take about 100 ns each, so that all of them take about an hour at most. */
-static const size_t PAIRS_MAX = 50000000000;
+static const uint64_t PAIRS_MAX = UINT64_C(50000000000);
 
 static recto_status check_pairs(size_t count, const char *what, size_t faces,
                                 recto_error *error) {
@@ -23,7 +26,7 @@ static recto_status check_pairs(size_t count, const char *what, size_t faces,
     return RECTO_OK;
   return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
                    "too much for brute: %zu %s against %zu triangles are more "
-                   "than %zu pairs; -m auto has no such limit",
+                   "than %" PRIu64 " pairs; -m auto has no such limit",
                    count, what, faces, PAIRS_MAX);
 }
 
