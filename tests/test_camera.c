@@ -13,6 +13,7 @@
 #include "tests/scenes/scenes.h"
 #include "view/camera_aim.h"
 #include "view/camera_axes.h"
+#include "view/project.h"
 
 /* ---- Means --------------------------------------------------------------- */
 
@@ -157,6 +158,28 @@ static void named_views_are_exact(void **state) {
     camera = aim(&scene, &options);
     assert_axis(camera.back, n->back_z[0], n->back_z[1], n->back_z[2]);
     assert_axis(camera.up, n->up_z[0], n->up_z[1], n->up_z[2]);
+  }
+  scene_fini(&scene);
+}
+
+/* What is projected is found again to a few units of the grid. */
+static void grid_points_have_their_view_points(void **state) {
+  (void)state;
+  struct scene scene;
+  fill_box(&scene);
+  recto_options options = plain_options();
+  for (int fov = 0; fov <= 120; fov += 60) {
+    options.camera.fov_deg = fov;
+    struct camera camera = aim(&scene, &options);
+    struct projection projection = projection_of(&camera);
+    assert_true(camera.perspective == (fov > 0));
+    for (size_t i = 0; i < scene.point.count; i++) {
+      struct view_point p = camera_view(&camera, &scene.point.item[i]);
+      struct view_point q =
+          unproject_point(&projection, project_point(&projection, p));
+      assert_true(hypot(hypot(p.x - q.x, p.y - q.y), p.d - q.d) <
+                  1e-6 * camera.size);
+    }
   }
   scene_fini(&scene);
 }
@@ -900,6 +923,7 @@ static void a_failed_allocation_is_reported(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(named_views_are_exact),
+      cmocka_unit_test(grid_points_have_their_view_points),
       cmocka_unit_test(any_up_along_an_axis_gives_exact_frames),
       cmocka_unit_test(frames_are_orthonormal_and_right_handed),
       cmocka_unit_test(frames_of_extreme_numbers_are_orthonormal),
