@@ -2,13 +2,13 @@
 # from the truth.
 EXTRA_PROGRAMS += %D%/bench %D%/dense %D%/zraster %D%/accuracy %D%/chart \
   %D%/order %D%/hard %D%/peers/scene %D%/turns
-%C%_bench_SOURCES = %D%/bench.c %D%/model.c %D%/model.h %D%/box.c \
-  %D%/box.h %D%/table.c %D%/table.h
+%C%_bench_SOURCES = %D%/bench.c %D%/model.c %D%/model.h \
+  %D%/table.c %D%/table.h
 %C%_bench_LDADD = tests/scenes/libscenes.la librecto_core.la
-%C%_dense_SOURCES = %D%/dense.c %D%/model.c %D%/model.h %D%/box.c \
-  %D%/box.h %D%/table.c %D%/table.h
+%C%_dense_SOURCES = %D%/dense.c %D%/model.c %D%/model.h \
+  %D%/table.c %D%/table.h
 %C%_dense_LDADD = tests/scenes/libscenes.la librecto_core.la -lm
-%C%_zraster_SOURCES = %D%/zraster.c %D%/box.c %D%/box.h
+%C%_zraster_SOURCES = %D%/zraster.c
 %C%_zraster_LDADD = librecto_core.la -lm
 %C%_accuracy_SOURCES = %D%/accuracy.c %D%/accuracy.h \
   %D%/accuracy_scenes.c %D%/accuracy_methods.c %D%/table.c %D%/table.h

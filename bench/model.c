@@ -5,8 +5,8 @@
 #include <stdlib.h>
 
 #include "base/stream.h"
-#include "bench/box.h"
 #include "scene/read.h"
+#include "tests/scenes/box.h"
 #include "tests/scenes/subdivide.h"
 #include "tests/scenes/write_obj.h"
 

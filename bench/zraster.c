@@ -11,9 +11,9 @@
 
 #include "base/clock.h"
 #include "base/report.h"
-#include "bench/box.h"
 #include "scene/read.h"
 #include "scene/scene.h"
+#include "tests/scenes/box.h"
 
 enum { side = 4096 };
 

@@ -6,23 +6,8 @@
 
 #include "api/handle.h"
 #include "scene/self_intersection.h"
+#include "tests/scenes/box.h"
 #include "view/triangulate.h"
-
-static double diagonal_of(const struct scene *scene) {
-  double low[3] = {INFINITY, INFINITY, INFINITY};
-  double high[3] = {-INFINITY, -INFINITY, -INFINITY}, diagonal = 0;
-  for (size_t i = 0; i < scene->point.count; i++) {
-    const struct scene_point *p = &scene->point.item[i];
-    const double at[3] = {p->x, p->y, p->z};
-    for (int k = 0; k < 3; k++) {
-      low[k] = fmin(low[k], at[k]);
-      high[k] = fmax(high[k], at[k]);
-    }
-  }
-  for (int k = 0; k < 3; k++)
-    diagonal = hypot(diagonal, high[k] - low[k]);
-  return diagonal;
-}
 
 /* Corners of a face at one position have one index. */
 static bool has_corner_twice(const uint32_t *corner, size_t count) {
@@ -106,7 +91,7 @@ static bool is_eye_clear(const recto_camera_options *camera, double diagonal) {
 bool is_judgeable(const recto_scene *scene, const recto_options *options) {
   if (options->mesh.cut_count == 0 && !options->camera.has_section)
     return true;
-  double diagonal = diagonal_of(&scene->scene);
+  double middle[3], diagonal = 2 * box_measure(&scene->scene, middle);
   for (size_t i = 0; i < options->mesh.cut_count; i++)
     if (!is_plane_clear(&scene->scene, &options->mesh.cut[i], diagonal))
       return false;

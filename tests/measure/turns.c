@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tests/scenes/box.h"
+
 /* ---- Scenes and cameras -------------------------------------------------- */
 
 #define FILL(name, call)                                                       \
@@ -33,20 +35,9 @@ const struct scenes_entry turn_scenes[TURN_SCENES] = {
 static void choose_eye(const struct scene *scene,
                        recto_camera_options *camera) {
   static const double direction[3] = {0.6, -0.62, 0.5};
-  double low[3] = {INFINITY, INFINITY, INFINITY};
-  double high[3] = {-INFINITY, -INFINITY, -INFINITY}, size = 0;
-  for (size_t i = 0; i < scene->point.count; i++) {
-    const struct scene_point *p = &scene->point.item[i];
-    const double at[3] = {p->x, p->y, p->z};
-    for (int k = 0; k < 3; k++) {
-      low[k] = fmin(low[k], at[k]);
-      high[k] = fmax(high[k], at[k]);
-    }
-  }
-  for (int k = 0; k < 3; k++)
-    size = hypot(size, high[k] - low[k]);
+  double middle[3], size = 2 * box_measure(scene, middle);
   for (int k = 0; k < 3; k++) {
-    camera->target[k] = (low[k] + high[k]) / 2;
+    camera->target[k] = middle[k];
     camera->eye[k] = camera->target[k] + 1.5 * size * direction[k];
   }
   camera->kind = RECTO_CAMERA_EYE;

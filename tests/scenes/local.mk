@@ -18,7 +18,7 @@ check_LTLIBRARIES += %D%/libscenes.la
   %D%/piercing.c \
   %D%/exact.h %D%/pipeline.c %D%/pipeline.h \
   %D%/random.h \
-  %D%/scenes.h \
+  %D%/scenes.h %D%/box.h \
   %D%/small.c \
   %D%/solids.c \
   %D%/stacks.c \

@@ -1,9 +1,14 @@
-/* box.c - the box of all points of a scene. */
-#include "bench/box.h"
+/* box.h - the box of all points of a scene. */
+#ifndef TESTS_SCENES_BOX_H
+#define TESTS_SCENES_BOX_H
 
 #include <math.h>
 
-double box_measure(const struct scene *scene, double middle[3]) {
+#include "scene/scene.h"
+
+/* middle  gets that of the box
+ * Returns half its diagonal. */
+static inline double box_measure(const struct scene *scene, double middle[3]) {
   double low[3] = {INFINITY, INFINITY, INFINITY};
   double high[3] = {-INFINITY, -INFINITY, -INFINITY};
   for (size_t i = 0; i < scene->point.count; i++) {
@@ -18,3 +23,5 @@ double box_measure(const struct scene *scene, double middle[3]) {
     middle[k] = (low[k] + high[k]) / 2;
   return hypot(hypot(high[0] - low[0], high[1] - low[1]), high[2] - low[2]) / 2;
 }
+
+#endif
