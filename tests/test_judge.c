@@ -48,18 +48,20 @@ static void open_page(struct page *page) {
                    " stroke=\"#000\">\n");
 }
 
-/* Draws a straight line between two spots, in the design's own words: a point
- * at camera coordinates (x, y, -d) falls on W/2 + s x/d, H/2 + s y/d. */
-static void draw_line(struct page *page, struct vector a, struct vector b) {
-  struct judge_point2 at[2];
+/* The image of a point, in the design's own words: one at camera coordinates
+ * (x, y, -d) falls on W/2 + s x/d, H/2 + s y/d. */
+static struct judge_point2 image_of(const struct page *page, struct vector p) {
   const double *m = page->camera.matrix;
-  const struct vector end[2] = {a, b};
-  for (int i = 0; i < 2; i++) {
-    struct vector p = end[i];
-    double d = m[8] * p.x + m[9] * p.y + m[10] * p.z + m[11];
-    at[i].x = (m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3]) / d;
-    at[i].y = (m[4] * p.x + m[5] * p.y + m[6] * p.z + m[7]) / d;
-  }
+  struct judge_point3 eye = page->camera.eye;
+  double x = p.x - eye.x, y = p.y - eye.y, z = p.z - eye.z;
+  double d = m[8] * x + m[9] * y + m[10] * z + m[11];
+  return (struct judge_point2){(m[0] * x + m[1] * y + m[2] * z + m[3]) / d,
+                               (m[4] * x + m[5] * y + m[6] * z + m[7]) / d};
+}
+
+/* Draws a straight line between the images of two points. */
+static void draw_line(struct page *page, struct vector a, struct vector b) {
+  const struct judge_point2 at[2] = {image_of(page, a), image_of(page, b)};
   char line[120];
   snprintf(line, sizeof line, "<path d=\"M%.3f %.3fL%.3f %.3f\"/>\n", at[0].x,
            100 - at[0].y, at[1].x, 100 - at[1].y);
@@ -207,16 +209,11 @@ static void half_an_edge_is_half_missing(void **state) {
   draw_line(&page, corner_of(6), vector_of(0, 1, 1));
   struct judge_verdict verdict = judge_page(&page, &scene, RECTO_EDGES_DEFAULT);
   /* The half that is missing, by the judge's own sampling. */
-  const double *m = page.camera.matrix;
-  double x[2], y[2];
-  for (int i = 0; i < 2; i++) {
-    double d = m[8] * i + m[9] + m[10] + m[11];
-    x[i] = (m[0] * i + m[1] + m[2] + m[3]) / d;
-    y[i] = (m[4] * i + m[5] + m[6] + m[7]) / d;
-  }
+  struct judge_point2 a = image_of(&page, vector_of(0, 1, 1)),
+                      b = image_of(&page, vector_of(1, 1, 1));
   double missing_mm = 0.02 * (double)verdict.missing.samples;
   assert_int_equal(verdict.false_ink.samples, 0);
-  assert_true(fabs(missing_mm - hypot(x[1] - x[0], y[1] - y[0])) < 0.1);
+  assert_true(fabs(missing_mm - hypot(b.x - a.x, b.y - a.y)) < 0.1);
   scene_fini(&scene);
 }
 
@@ -272,8 +269,11 @@ static void a_matrix_says_the_same_as_a_camera(void **state) {
   struct judge_camera again;
   double matrix[12];
   look_from(&page, 5, 6, 4);
-  for (int i = 0; i < 12; i++)
-    matrix[i] = 3 * page.camera.matrix[i];
+  for (int i = 0; i < 12; i++) {
+    const double *row = page.camera.matrix + i - i % 4;
+    matrix[i] = i % 4 < 3 ? 3 * row[i % 4]
+                          : -3 * (row[0] * 5 + row[1] * 6 + row[2] * 4);
+  }
   judge_camera_matrix(&again, matrix, 100, 100);
   assert_true(again.perspective);
   assert_true(fabs(again.eye.x - 5) < 1e-9);

@@ -15,6 +15,7 @@
 
 #include "api/judge_input.h"
 #include "base/sentence.h"
+#include "base/tolerance.h"
 #include "ink/ink.h"
 
 /* ---- The strokes --------------------------------------------------------- */
@@ -177,7 +178,7 @@ static recto_status judge_own_drawing(const struct verify *verify,
   const recto_options *o = verify->options;
   struct judge_camera camera = judge_input_camera(input, verify->camera, o);
   struct judge_options options = judge_input_options(input, verify->camera, o);
-  camera.depth_step = 1 / verify->sheet->z_scale;
+  camera.depth_contact = TOLERANCE_CONTACT_GRID_UNITS / verify->sheet->z_scale;
   options.samples = (size_t)o->verify;
   options.ink_distance_mm += ink_deviation_mm(o);
   options.lateral_mm += ink_deviation_mm(o);

@@ -145,7 +145,7 @@
  *             triangle's width.
  * Users       view/layout_clipping.c,
  *             visibility/predicate/contact.c,
- *             visibility/intersection/edge_crossing.c
+ *             visibility/intersection/edge_crossing.c, api/verify.c
  * Ten times   faces 0.15 um apart on paper count as touching. */
 #define TOLERANCE_CONTACT_GRID_UNITS 16
 
@@ -245,7 +245,7 @@
  * Unit        share of the near distance
  * Derivation  doubles place a point of the near plane within 1e-15 of it; this
  *             is well above, and far below what is seen.
- * Users       judge/camera.c, judge/edge_list.c
+ * Users       judge/camera.c
  * Ten times   nothing that could be seen. */
 #define TOLERANCE_JUDGE_NEAR_SHARE 1e-9
 
@@ -259,6 +259,14 @@
  * Users       judge/judge.c, judge/winding.c
  * Ten times   lines within a micrometre of a cut are left open. */
 #define TOLERANCE_JUDGE_CUT_SHARE 1e-9
+
+/* The judge has no image of an edge nearer to the eye than this.
+ * Unit        share of the distances of its ends from the eye
+ * Derivation  8 roundings of a double; nearer than that, its depth may be wrong
+ *             in sign.
+ * Users       judge/edge_list.c
+ * Ten times   nothing that could be seen. */
+#define TOLERANCE_JUDGE_EYE_SHARE 0x1p-50
 
 /* The judge clips edges whose images reach farther than this from the page, as
  * they do beside the eye.

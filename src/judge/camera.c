@@ -4,7 +4,7 @@
 #include "base/tolerance.h"
 #include "judge/camera.h"
 
-/* Fills one row of the matrix: (direction, offset). */
+/* Fills one row of the matrix: (direction, value at the eye). */
 static void set_row(double row[4], struct judge_point3 direction,
                     double offset) {
   row[0] = direction.x;
@@ -35,22 +35,39 @@ void judge_camera_axes(struct judge_camera *camera, const double right[3],
     struct judge_point3 row = point3_along(zero, s, point3_of(axis[k]));
     if (perspective)
       row = point3_along(row, middle_mm[k], ahead);
-    set_row(camera->matrix + 4 * k, row,
-            (perspective ? 0 : middle_mm[k]) - point3_dot(row, camera->eye));
+    set_row(camera->matrix + 4 * k, row, perspective ? 0 : middle_mm[k]);
   }
   if (perspective)
-    set_row(camera->matrix + 8, ahead, -point3_dot(ahead, camera->eye));
+    set_row(camera->matrix + 8, ahead, 0);
   else
     set_row(camera->matrix + 8, zero, 1);
 }
 
-static double apply_row(const double row[4], struct judge_point3 p) {
-  return row[0] * p.x + row[1] * p.y + row[2] * p.z + row[3];
+static double apply_row(const double row[4], struct judge_point3 v) {
+  return row[0] * v.x + row[1] * v.y + row[2] * v.z;
+}
+
+/* By the offset from the eye, exact near it: the products of a position
+ * there are as large as those of the eye, and cancel but for their rounding. */
+struct judge_homogeneous judge_homogeneous_of(const struct judge_camera *camera,
+                                              struct judge_point3 p) {
+  const double *m = camera->matrix;
+  struct judge_homogeneous h =
+      judge_homogeneous_along(camera, point3_sub(p, camera->eye));
+  return (struct judge_homogeneous){h.x + m[3], h.y + m[7], h.w + m[11]};
+}
+
+struct judge_homogeneous
+judge_homogeneous_along(const struct judge_camera *camera,
+                        struct judge_point3 v) {
+  const double *m = camera->matrix;
+  return (struct judge_homogeneous){apply_row(m, v), apply_row(m + 4, v),
+                                    apply_row(m + 8, v)};
 }
 
 double judge_homogeneous_w(const struct judge_camera *camera,
                            struct judge_point3 p) {
-  return apply_row(camera->matrix + 8, p);
+  return judge_homogeneous_of(camera, p).w;
 }
 
 double judge_view_depth(const struct judge_camera *camera,
@@ -67,7 +84,7 @@ double judge_near_tolerance(const struct judge_camera *camera) {
     return 0;
   double unit = camera->perspective ? camera->near_d * camera->near_d : 1;
   return fabs(camera->near_d) * TOLERANCE_JUDGE_NEAR_SHARE +
-         4 * camera->depth_step * unit;
+         4 * camera->depth_contact * unit;
 }
 
 double judge_near(const struct judge_camera *camera) {
@@ -76,9 +93,8 @@ double judge_near(const struct judge_camera *camera) {
 
 struct judge_point2 judge_project(const struct judge_camera *camera,
                                   struct judge_point3 p) {
-  double depth = judge_homogeneous_w(camera, p);
-  return (struct judge_point2){apply_row(camera->matrix, p) / depth,
-                               apply_row(camera->matrix + 4, p) / depth};
+  struct judge_homogeneous h = judge_homogeneous_of(camera, p);
+  return (struct judge_point2){h.x / h.w, h.y / h.w};
 }
 
 /* With P's image at m(P) / d(P), a step v that keeps the depth moves the image

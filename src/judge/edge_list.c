@@ -5,26 +5,51 @@
 #include "base/tolerance.h"
 #include "judge/camera.h"
 
-/* Clips a segment in front of the eye to TOLERANCE_JUDGE_IMAGE_MM about the
- * page's origin; false where nothing is left.  Coordinates times depth are
- * linear in space. */
-static bool clip_far_image(const struct judge_camera *camera,
-                           struct judge_point3 end[2]) {
-  for (int side = 0; side < 4; side++) {
-    double where[2];
-    for (int k = 0; k < 2; k++) {
-      struct judge_point2 at = judge_project(camera, end[k]);
-      double along = side / 2 == 0 ? at.x : at.y;
-      where[k] = (TOLERANCE_JUDGE_IMAGE_MM + (side % 2 == 0 ? along : -along)) *
-                 judge_homogeneous_w(camera, end[k]);
-    }
-    if (where[0] < 0 && where[1] < 0)
-      return false;
-    if (where[0] < 0 || where[1] < 0)
-      end[where[0] < 0 ? 0 : 1] = point3_along(
-          end[0], where[0] / (where[0] - where[1]), point3_sub(end[1], end[0]));
-  }
-  return true;
+/* A segment by its end that is farther in front of the eye.  The image of that
+ * end and the direction from there are accurate, so that the line that they
+ * make is, however near to the eye it is clipped. */
+struct ray_to_eye {
+  struct judge_point3 origin, along; /* origin + t along, t 0 to 1 */
+  struct judge_homogeneous from, by; /* their homogeneous coordinates */
+};
+
+static struct judge_point2 image_on(const struct ray_to_eye *ray, double t) {
+  struct judge_point2 at = {ray->from.x / ray->from.w,
+                            ray->from.y / ray->from.w};
+  double part = t / (ray->from.w + t * ray->by.w);
+  return (struct judge_point2){at.x + part * (ray->by.x - at.x * ray->by.w),
+                               at.y + part * (ray->by.y - at.y * ray->by.w)};
+}
+
+/* Keeps of t[0] to t[1] where a function is not negative that is `value` at 0
+ * and grows by `growth`. */
+static void keep_positive(double value, double growth, double t[2]) {
+  double root = -value / growth;
+  if (growth > 0)
+    t[0] = fmax(t[0], root);
+  else if (growth < 0)
+    t[1] = fmin(t[1], root);
+  else if (value < 0)
+    t[1] = -1;
+}
+
+/* Clips to what is `least` in front of the eye or farther, and whose image is
+ * within TOLERANCE_JUDGE_IMAGE_MM of the page's origin.  Returns false where
+ * nothing is left. */
+static bool clip_ray(const struct ray_to_eye *ray, double depth, double slope,
+                     double least, double t[2]) {
+  const double limit = TOLERANCE_JUDGE_IMAGE_MM;
+  const double from[2] = {ray->from.x, ray->from.y};
+  const double by[2] = {ray->by.x, ray->by.y};
+  t[0] = 0;
+  t[1] = 1;
+  if (isfinite(least))
+    keep_positive(depth - least, slope, t);
+  for (int k = 0; k < 2; k++)
+    for (int sign = -1; sign <= 1; sign += 2)
+      keep_positive(limit * ray->from.w + sign * from[k],
+                    limit * ray->by.w + sign * by[k], t);
+  return t[0] < t[1];
 }
 
 bool judge_edges_add_whole(struct judge_edges *edges,
@@ -32,24 +57,29 @@ bool judge_edges_add_whole(struct judge_edges *edges,
                            struct judge_point3 a, struct judge_point3 b,
                            const struct judge_source *source) {
   double da = judge_view_depth(camera, a), db = judge_view_depth(camera, b);
-  double least = judge_near(camera);
-  /* A point behind the eye has no image, one just in front of it no accurate
-   * one. */
-  if (camera->perspective)
-    least = fmax(least, TOLERANCE_JUDGE_NEAR_SHARE * (fabs(da) + fabs(db)));
-  if (da <= least && db <= least)
+  double least = judge_near(camera), t[2];
+  if (camera->perspective) /* where rounding may be all that there is */
+    least = fmax(least, TOLERANCE_JUDGE_EYE_SHARE * (fabs(da) + fabs(db)));
+  bool swap = db > da;
+  struct ray_to_eye ray = {swap ? b : a,
+                           swap ? point3_sub(a, b) : point3_sub(b, a)};
+  ray.from = judge_homogeneous_of(camera, ray.origin);
+  ray.by = judge_homogeneous_along(camera, ray.along);
+  if (fmax(da, db) <= least ||
+      !clip_ray(&ray, fmax(da, db), fmin(da, db) - fmax(da, db), least, t))
     return true;
-  struct judge_point3 cut =
-      point3_along(a, (least - da) / (db - da), point3_sub(b, a));
-  struct judge_point3 end[2] = {da < least ? cut : a, db < least ? cut : b};
-  if (!clip_far_image(camera, end))
-    return true;
-  struct judge_edge edge = {
-      {end[0], end[1]},
-      {judge_project(camera, end[0]), judge_project(camera, end[1])},
-      {judge_homogeneous_w(camera, end[0]),
-       judge_homogeneous_w(camera, end[1])},
-      *source};
+  struct judge_edge edge = {.source = *source};
+  for (int k = 0; k < 2; k++) {
+    double at = t[swap ? 1 - k : k];
+    bool clipped = at > 0 && at < 1;
+    edge.p[k] = clipped  ? point3_along(ray.origin, at, ray.along)
+                : k == 0 ? a
+                         : b;
+    edge.at[k] =
+        clipped ? image_on(&ray, at) : judge_project(camera, edge.p[k]);
+    edge.depth[k] = clipped ? ray.from.w + at * ray.by.w
+                            : judge_homogeneous_w(camera, edge.p[k]);
+  }
   return ARRAY_PUSH(&edges->edge, edge);
 }
 

@@ -359,10 +359,22 @@ static bool add_shared(struct intersection_finder *finder, uint32_t other,
                          &source);
 }
 
-static bool are_nearly_parallel(const struct judge_triangle *s,
+/* Whether rounding may move the line in which two triangles intersect by more
+ * than the ray offset.  Where the eye is so near to the scene that few depths
+ * are left for what is far from it, it does so at larger angles, too. */
+static bool are_nearly_parallel(const struct intersection_finder *finder,
+                                const struct judge_triangle *s,
                                 const struct judge_triangle *t) {
-  return point3_length(point3_cross(s->normal, t->normal)) <
-         TOLERANCE_JUDGE_PARALLEL;
+  const struct judge_camera *camera = finder->camera;
+  double sine = point3_length(point3_cross(s->normal, t->normal));
+  bool nearly = sine < TOLERANCE_JUDGE_PARALLEL;
+  for (int k = 0; camera->perspective && !nearly && k < 3; k++) {
+    double depth = judge_homogeneous_w(camera, s->p[k]);
+    double along = camera->depth_contact * depth * depth;
+    double all = judge_rounding_at(camera, finder->ray_offset_mm, s->p[k]);
+    nearly = depth > 0 && sine * (all - along) < along;
+  }
+  return nearly;
 }
 
 /* Adds the overlap of two triangles' cuts by each other's planes; both are on
@@ -391,7 +403,7 @@ static bool add_common(struct intersection_finder *finder,
                          judge_rounding_at(camera, finder->ray_offset_mm, b));
   double contact = fmax(one->contact, two->contact);
   bool sure =
-      !one->open && !two->open && !are_nearly_parallel(one, two) &&
+      !one->open && !two->open && !are_nearly_parallel(finder, one, two) &&
       (contact <= rounding ||
        !(is_clipped(camera, one) || is_clipped(camera, two))) &&
       least_overshoot(camera, one, two) > 10 * fmax(two->contact, rounding) &&
@@ -508,7 +520,7 @@ static bool intersect_with(void *user, uint32_t other) {
   if (cs.count == 2 && ct.count == 2 &&
       !add_common(finder, &cs, &ct, point3_unit(along), other))
     return false;
-  return !are_nearly_parallel(s, t) || add_near(finder, other);
+  return !are_nearly_parallel(finder, s, t) || add_near(finder, other);
 }
 
 bool judge_edges_add_intersections(struct judge_edges *edges,

@@ -62,7 +62,7 @@ double judge_rounding_at(const struct judge_camera *camera,
   double depth = judge_homogeneous_w(camera, at);
   double offset =
       point3_length(point3_sub(judge_shift(camera, at, ray_offset_mm, 0), at));
-  return offset + camera->depth_step * depth * depth;
+  return offset + camera->depth_contact * depth * depth;
 }
 
 static void find_sampled_ends(const struct judge_sampler *sampler,

@@ -6,13 +6,12 @@
 
 #include "judge/camera.h"
 
-/* Fills one row of the matrix: (direction, offset). */
-static void set_row(double row[4], struct judge_point3 direction,
-                    double offset) {
+/* Fills one row of the matrix, which is 0 at the eye. */
+static void set_row(double row[4], struct judge_point3 direction) {
   row[0] = direction.x;
   row[1] = direction.y;
   row[2] = direction.z;
-  row[3] = offset;
+  row[3] = 0;
 }
 
 void judge_camera_look(struct judge_camera *camera, struct judge_point3 eye,
@@ -31,9 +30,9 @@ void judge_camera_look(struct judge_camera *camera, struct judge_point3 eye,
       point3_along(point3_along(zero, s, right), width_mm / 2, ahead);
   struct judge_point3 y =
       point3_along(point3_along(zero, s, above), height_mm / 2, ahead);
-  set_row(camera->matrix, x, -point3_dot(x, eye));
-  set_row(camera->matrix + 4, y, -point3_dot(y, eye));
-  set_row(camera->matrix + 8, ahead, -point3_dot(ahead, eye));
+  set_row(camera->matrix, x);
+  set_row(camera->matrix + 4, y);
+  set_row(camera->matrix + 8, ahead);
   camera->perspective = true;
   camera->eye = eye;
   camera->back = point3_along(zero, -1, ahead);
@@ -65,6 +64,8 @@ void judge_camera_matrix(struct judge_camera *camera, const double matrix[12],
     camera->matrix[i] = matrix[i] * scale;
   if (camera->perspective) {
     camera->eye = common_point(camera->matrix);
+    for (int i = 0; i < 3; i++)
+      camera->matrix[4 * i + 3] = 0;
     camera->back = point3_unit(judge_point3_of(-third.x, -third.y, -third.z));
   } else {
     camera->near_d = -INFINITY;
