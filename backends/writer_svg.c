@@ -277,12 +277,14 @@ static void close_nesting(const struct svg *svg, struct svg_nesting *open) {
   open->group = DRAWING_NONE;
 }
 
-/* Writes id="PREFIXlayer1" and, of a group in it, id="PREFIXlayer1-group"; the
- * layer of fills is named so.  A view's begin with its name: "front-layer1". */
+/* Writes id="PREFIXlayer1" and, of a group in it, id="PREFIXlayer1-group"; that
+ * of a pen's hidden lines is hidden1, and the layer of fills is named so.  A
+ * view's begin with its name: "front-layer1". */
 static void write_layer_id(const struct svg *svg, uint32_t layer,
                            const char *group) {
   unsigned pen = svg->drawing->layer.item[layer].pen;
   const char *view = svg->drawing->layer.item[layer].view;
+  bool hidden = svg->drawing->layer.item[layer].hidden;
   struct stream *out = svg->out;
   stream_text(out, " id=\"");
   if (svg->options->id_prefix != NULL)
@@ -291,7 +293,7 @@ static void write_layer_id(const struct svg *svg, uint32_t layer,
     stream_text(out, view);
     stream_text(out, "-");
   }
-  stream_text(out, pen > 0 ? "layer" : "fills");
+  stream_text(out, pen == 0 ? "fills" : hidden ? "hidden" : "layer");
   if (pen > 0)
     stream_int(out, pen);
   if (group != NULL) {

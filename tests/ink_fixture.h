@@ -16,6 +16,7 @@ struct ink_fixture {
   struct drawing drawing;
   ARRAY(uint8_t) state; /* of the edges */
   uint32_t side;        /* edge that all sides of fragments are pieces of */
+  bool by_pens;         /* the drawing is for a plotter */
 };
 
 /* Uses of pens, for the options. */

@@ -114,6 +114,96 @@ static void empty_drawing_has_its_first_layer(void **state) {
   ink_fixture_end(&k);
 }
 
+/* Two groups, each on a pen, with a hidden and a visible line. */
+static void draw_two_pens(struct ink_fixture *k, bool by_pens) {
+  ink_fixture_start(k);
+  k->options.ink.pens = 2;
+  k->options.ink.hidden = RECTO_HIDDEN_DASHED;
+  k->by_pens = by_pens;
+  uint32_t wheel = ink_fixture_group(k, "wheel");
+  for (uint32_t i = 0; i < 4; i++) {
+    uint32_t edge = ink_fixture_line(k, 10, 10 + i, 50, 10 + i, CREASE);
+    k->sheet.edge.item[edge].group = i / 2 * wheel;
+    if (i % 2 == 1)
+      ink_fixture_hide(k, edge);
+  }
+  ink_fixture_draw(k);
+}
+
+static void hidden_lines_lie_below_those_of_all_pens(void **state) {
+  struct ink_fixture k;
+  (void)state;
+  draw_two_pens(&k, false);
+  assert_int_equal(k.drawing.layer.count, 4);
+  assert_layer(&k, 0, 1, "1 hidden");
+  assert_layer(&k, 1, 2, "2 hidden");
+  assert_layer(&k, 2, 1, "1 thing");
+  assert_layer(&k, 3, 2, "2 wheel");
+  for (size_t i = 0; i < k.drawing.stroke.count; i++) {
+    const struct drawing_stroke *stroke = &k.drawing.stroke.item[i];
+    assert_int_equal(stroke->layer, (stroke->hidden ? 0 : 2) + stroke->group);
+    assert_int_equal(k.drawing.layer.item[stroke->layer].hidden,
+                     stroke->hidden);
+  }
+  ink_fixture_end(&k);
+}
+
+static void a_plotter_takes_each_pen_once(void **state) {
+  struct ink_fixture k;
+  (void)state;
+  draw_two_pens(&k, true);
+  assert_int_equal(k.drawing.layer.count, 2);
+  assert_layer(&k, 0, 1, "1 thing");
+  assert_layer(&k, 1, 2, "2 wheel");
+  ink_fixture_end(&k);
+}
+
+/* With ids the strokes of a group are together, and a line of one group may be
+ * hidden where another has visible ones. */
+static void hidden_lines_of_groups_lie_below(void **state) {
+  (void)state;
+  for (int ids = 0; ids < 2; ids++) {
+    struct ink_fixture k;
+    ink_fixture_start(&k);
+    k.options.ink.hidden = RECTO_HIDDEN_DASHED;
+    k.options.ink.order = ids ? RECTO_ORDER_NONE : RECTO_ORDER_NEAR;
+    k.options.ink.ids = ids;
+    ink_fixture_group(&k, "wheel");
+    ink_fixture_line(&k, 10, 10, 50, 10, CREASE);
+    uint32_t edge = ink_fixture_line(&k, 10, 20, 50, 20, CREASE);
+    k.sheet.edge.item[edge].group = 1;
+    ink_fixture_hide(&k, edge);
+    ink_fixture_draw(&k);
+    assert_int_equal(k.drawing.layer.count, 1 + ids);
+    assert_layer(&k, 0, 1, ids ? "1 hidden" : "1 visible");
+    bool below = true; /* only hidden strokes so far */
+    for (size_t i = 0; i < k.drawing.stroke.count; i++) {
+      below &= k.drawing.stroke.item[i].hidden;
+      assert_int_equal(k.drawing.stroke.item[i].hidden, below);
+    }
+    assert_false(below);
+    ink_fixture_end(&k);
+  }
+}
+
+static void labels_end_with_a_whole_name(void **state) {
+  struct ink_fixture k;
+  (void)state;
+  ink_fixture_start(&k);
+  k.options.ink.pens = 2;
+  for (int i = 0; i < 19; i++)
+    ink_fixture_group(&k, (const char *[]){"gear", "axle"}[i % 2]);
+  for (char name[] = "wheel_a"; name[6] < 'u'; name[6]++) {
+    uint32_t group = ink_fixture_group(&k, name);
+    uint32_t edge = ink_fixture_line(&k, 1, name[6], 5, name[6], CREASE);
+    k.sheet.edge.item[edge].group = group;
+  }
+  ink_fixture_draw(&k);
+  assert_layer(&k, 0, 1, "1 thing, axle, wheel_b, wheel_d, wheel_f, ...");
+  assert_layer(&k, 1, 2, "2 gear, wheel_a, wheel_c, wheel_e, wheel_g, ...");
+  ink_fixture_end(&k);
+}
+
 static void long_names_are_cut_between_characters(void **state) {
   (void)state;
   for (int pad = 0; pad < 4; pad++) {
@@ -128,9 +218,9 @@ static void long_names_are_cut_between_characters(void **state) {
     k.sheet.edge.item[edge].group = ink_fixture_group(&k, name);
     ink_fixture_draw(&k);
     const char *label = k.drawing.layer.item[0].label;
-    assert_in_range(strlen(label), 44,
-                    sizeof k.drawing.layer.item[0].label - 1);
+    assert_in_range(strlen(label), 44, 47);
     assert_int_equal((strlen(label) - 2 - (size_t)pad) % 3, 0);
+    assert_string_equal(label + strlen(label) - 3, "...");
     ink_fixture_end(&k);
   }
 }
@@ -711,6 +801,10 @@ int main(void) {
       cmocka_unit_test(empty_layers_are_left_out_and_pens_keep_their_numbers),
       cmocka_unit_test(empty_drawing_has_its_first_layer),
       cmocka_unit_test(long_names_are_cut_between_characters),
+      cmocka_unit_test(hidden_lines_lie_below_those_of_all_pens),
+      cmocka_unit_test(a_plotter_takes_each_pen_once),
+      cmocka_unit_test(hidden_lines_of_groups_lie_below),
+      cmocka_unit_test(labels_end_with_a_whole_name),
       cmocka_unit_test(digits_of_names_are_no_digits_of_labels),
       cmocka_unit_test(group_without_name_has_a_label),
       cmocka_unit_test(fragments_become_fills_with_their_holes),

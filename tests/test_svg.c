@@ -26,7 +26,8 @@ static int set_up(void **state) {
   drawing_init(&fixture.drawing);
   fixture.drawing.width_mm = 200;
   fixture.drawing.height_mm = 100;
-  struct drawing_layer layer = {1, "1 visible", 0x000000, 0.3, NULL};
+  struct drawing_layer layer = {
+      .pen = 1, .label = "1 visible", .colour = 0x000000, .width_mm = 0.3};
   assert_true(ARRAY_PUSH(&fixture.drawing.layer, layer));
   *state = &fixture;
   return 0;
@@ -239,7 +240,8 @@ static void polylines_are_drawn_on_request(void **state) {
 
 static void strokes_stand_in_their_layers(void **state) {
   struct fixture *f = *state;
-  struct drawing_layer layer = {2, "2 hidden", 0x3366CC, 0.18, NULL};
+  struct drawing_layer layer = {
+      .pen = 2, .label = "2 hidden", .colour = 0x3366CC, .width_mm = 0.18};
   assert_true(ARRAY_PUSH(&f->drawing.layer, layer));
   add_stroke(f, (double[]){1, 100, 2, 100}, 2, false)->layer = 1;
   add_stroke(f, (double[]){3, 100, 4, 100}, 2, false)->layer = 0;
@@ -443,7 +445,8 @@ static void length_counts_the_closing_side(void **state) {
 
 static void travel_goes_layer_by_layer(void **state) {
   struct fixture *f = *state;
-  struct drawing_layer layer = {2, "2 hidden", 0, 0.3, NULL};
+  struct drawing_layer layer = {
+      .pen = 2, .label = "2 hidden", .colour = 0, .width_mm = 0.3};
   assert_true(ARRAY_PUSH(&f->drawing.layer, layer));
   add_stroke(f, (double[]){10, 0, 20, 0}, 2, false)->layer = 1;
   add_stroke(f, (double[]){0, 5, 0, 7, 1, 7}, 3, true);

@@ -60,12 +60,14 @@ labels() {
 }
 
 # vpype_reads NAME - by vpype's rule, which takes all digits of a label as the
-# layer's number, each layer has a number of its own: that of its pen, with
-# which the label also opens, or for fills one that no pen has.
+# layer's number and puts layers of one number together, each pen has a number of
+# its own, with which its labels also open, also that of its hidden lines; fills
+# have one that no pen has.
 vpype_reads() {
   labels "$1" >labels
-  test -s labels && test -z "$(tr -cd '0-9\n' <labels | sort | uniq -d)" &&
-    ! grep -qvE '^%?[0-9]+ [^0-9]*$' labels
+  test -s labels && ! grep -qvE '^%?[0-9]+ [^0-9]*$' labels &&
+    test -z "$(grep -vE '^[0-9]+ hidden$' labels | tr -cd '0-9\n' |
+      sort | uniq -d)"
 }
 
 ids_end_with_pens() {
@@ -106,13 +108,14 @@ shown_otherwise() {
 claim "lines are drawn" draw lines castle
 claim "hidden lines too" draw hidden castle --hidden layer
 claim "pens and ids" draw pens gears --pens 2 --ids
+claim "dashed lines of several pens" draw dashed gears --pens 2 --hidden dashed
 claim "pens by class" draw classes castle \
   --pen-for crease=3,silhouette=2,hidden=4 --hidden layer \
   --pen-width 2=0.8mm --pen-colour 3=#c00
 claim "painted faces" draw painted gears --fill paint --seam 0.1
 claim "shaded faces, no line" draw shaded castle --fill shade --seam 0.3 -e none \
   --fill-light 0
-names="lines hidden pens classes painted shaded"
+names="lines hidden pens dashed classes painted shaded"
 
 if command -v xmllint >/dev/null; then
   for name in $names; do
@@ -124,13 +127,14 @@ if command -v xmllint >/dev/null; then
   claim "each pen has a layer" has_layers pens 2
   claim "its label opens with the pen" labels_open_with lines 1
   claim "hidden lines lie below" labels_open_with hidden "2 1"
+  claim "dashed ones below those of all pens" labels_open_with dashed "1 2 1 2"
   claim "fills lie below all" labels_open_with painted "%2 1"
   claim "pens come in order" labels_open_with pens "1 2"
   claim "pens of classes too" labels_open_with classes "4 1 2 3"
   draw_digits
   claim "digits of names are in no label" labels_open_with digits "%3 1 2"
   claim "an id ends with the pen" ids_end_with_pens
-  for name in lines hidden pens classes painted digits; do
+  for name in lines hidden pens dashed classes painted digits; do
     claim "$name: vpype reads each layer's number" vpype_reads "$name"
   done
 else

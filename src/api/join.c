@@ -10,6 +10,7 @@
 #include "api/captions.h"
 #include "api/handle.h"
 #include "api/options.h"
+#include "api/output_format.h"
 #include "api/part_check.h"
 #include "api/result.h"
 #include "api/shares.h"
@@ -90,6 +91,7 @@ static recto_status ink_join(struct join *join, recto_error *error) {
     pens_warn_unused(&pens, o);
   pens_fini(&pens);
   double cpu = clock_cpu();
+  join->made->drawing.by_pens = output_is_by_pens(o);
   if (status == RECTO_OK)
     status = ink_draw(&join->made->drawing, &joined->sheet, &joined->scene,
                       &joined->map, o, error);

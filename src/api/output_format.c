@@ -65,6 +65,12 @@ static void fit_margin(recto_options *o, const struct writer *writer) {
     o->page.margin_mm = needed;
 }
 
+bool output_is_by_pens(const recto_options *options) {
+  const char *format = options->output.format;
+  const struct writer *writer = format != NULL ? writer_by_name(format) : NULL;
+  return writer != NULL && writer->by_pens;
+}
+
 /* Whether a drawing looks as if it were for a plotter: it has hatching, or
  * several pens. */
 static bool suggests_plotter(const recto_options *o) {

@@ -13,6 +13,9 @@ const struct writer *output_writer(const char *path, const char *format);
 recto_status output_no_writer(const char *path, const char *format,
                               recto_error *error);
 
+/* Whether the options' format is one for plotters. */
+bool output_is_by_pens(const recto_options *options);
+
 struct writer_options output_writer_options(const recto_options *options);
 
 /* Errors  RECTO_ERROR_UNSUPPORTED: no writer has that format, or the path's

@@ -13,6 +13,7 @@
 #include "api/clip_warning.h"
 #include "api/group_numbers.h"
 #include "api/handle.h"
+#include "api/output_format.h"
 #include "api/render.h"
 #include "api/result.h"
 #include "api/shares.h"
@@ -300,6 +301,7 @@ static recto_status ink(struct render *render, recto_error *error) {
   if (!needs_fragments(render) && render->options->verify == 0 &&
       !sheet_drop_triangles(&render->sheet))
     return error_memory(error);
+  render->drawing->by_pens = output_is_by_pens(render->options);
   return ink_draw(render->drawing, &render->sheet, render->prepared->scene,
                   &render->map, render->options, error);
 }

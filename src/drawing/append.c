@@ -139,6 +139,7 @@ recto_status drawing_append(struct drawing *drawing,
   drawing->seam_mm = other->seam_mm;
   memcpy(drawing->weight, other->weight, sizeof drawing->weight);
   drawing->weighted = other->weighted;
+  drawing->by_pens = other->by_pens;
   drawing->ids = other->ids;
   append_counts(&drawing->counts, &other->counts);
   return append_layers(drawing, other, view) &&

@@ -48,10 +48,11 @@ struct drawing_loop {
 /* Layers are drawn in their order; within a layer, fills before strokes. */
 struct drawing_layer {
   unsigned pen;    /* counts from 1; 0: a layer of fills without a pen */
-  char label[48];  /* such as "1 visible": the pen's number, then a name */
+  char label[64];  /* such as "1 visible": the pen's number, then a name */
   uint32_t colour; /* of its strokes, 0xRRGGBB */
   double width_mm;
   const char *view; /* of a sheet: the view's name, a literal; NULL: none */
+  bool hidden;      /* the hidden lines of a pen that draws others as well */
 };
 
 /* The numbers of a face and of an edge within their group, or DRAWING_NONE. */
@@ -80,6 +81,9 @@ struct drawing {
    * indexed by the number of the class's bit.  0 stands for 1. */
   double weight[RECTO_EDGE_CLASS_COUNT];
   bool weighted; /* they differ; the strokes of a class are consecutive then */
+  /* Set before it is drawn: it is for a plotter, which takes one pen after the
+   * other, and where it does not matter what lies below. */
+  bool by_pens;
   ARRAY(struct drawing_layer) layer;
   ARRAY(struct drawing_stroke) stroke; /* in drawing order within a layer */
   ARRAY(struct drawing_fill) fill;

@@ -14,6 +14,9 @@
 #define BLACK 0x000000u
 #define GREY 0x808080u /* of hidden lines on a screen */
 
+/* The size of a label of names; on sheets the view's name is put into it. */
+enum { LABEL_SIZE = 48 };
+
 /* Appends as much of `text` without its digits as fits, without splitting a
  * UTF-8 sequence. */
 static void append_text(char label[], size_t size, const char *text) {
@@ -33,13 +36,29 @@ static void append_text(char label[], size_t size, const char *text) {
 
 struct label {
   struct drawing_layer *layer;
-  bool first;
+  bool first, full;
 };
 
+/* Adds a word.  Where it does not fit, three points stand for it and for all
+ * that follow; of a first word they stand for its end. */
 static void add_word(struct label *label, const char *word) {
-  append_text(label->layer->label, sizeof label->layer->label,
-              label->first ? " " : ", ");
-  append_text(label->layer->label, sizeof label->layer->label, word);
+  static const char rest[] = ", ...";
+  char *text = label->layer->label;
+  size_t used = strlen(text);
+  if (label->full)
+    return;
+  append_text(text, LABEL_SIZE - 3, label->first ? " " : ", ");
+  append_text(text, LABEL_SIZE, word);
+  label->full = strlen(text) + sizeof rest > LABEL_SIZE;
+  if (label->full && label->first) {
+    text[used] = '\0';
+    append_text(text, LABEL_SIZE - 3, " ");
+    append_text(text, LABEL_SIZE - 3, word);
+    append_text(text, LABEL_SIZE, "...");
+  } else if (label->full) {
+    text[used] = '\0';
+    append_text(text, LABEL_SIZE, rest);
+  }
   label->first = false;
 }
 
@@ -53,38 +72,11 @@ static void add_groups(struct label *label, const struct pens *pens,
   }
 }
 
-/* "2 crease, wheel, axle": the pen's number, then what it draws. */
-static void label_pen(struct drawing_layer *layer, const struct pens *pens,
-                      const struct scene *scene, const recto_options *options) {
-  struct label label = {layer, true};
-  uint32_t pen = layer->pen - 1;
-  bool has_rest = options->ink.pens <= 1 && pen == 0;
-  if (has_rest)
-    add_word(&label, "visible");
-  for (unsigned i = 0; !has_rest && i < RECTO_EDGE_CLASS_COUNT; i++)
-    if (pens->of_class[i] == pen && pens_is_drawn(options, i))
-      add_word(&label, recto_edge_class_name((recto_edge_class)(1u << i)));
-  if ((pens->of_hidden == pen && options->ink.hidden != RECTO_HIDDEN_NONE) ||
-      (pens->of_hidden == PENS_NONE && pen == pens->count))
-    add_word(&label, "hidden");
-  if (pens->of_hatch == pen && options->ink.fill == RECTO_FILL_HATCH)
-    add_word(&label, "hatch");
-  if (!has_rest)
-    add_groups(&label, pens, scene);
-  if (label.first)
-    add_word(&label, "unnamed");
-}
-
-static bool add_layer(struct drawing *drawing, const struct pens *pens,
-                      uint32_t usual_colour) {
-  uint32_t pen = (uint32_t)drawing->layer.count;
-  bool own = pen < pens->own_count && pens->own[pen].has_colour;
-  struct drawing_layer layer = {.pen = pen + 1,
-                                .colour =
-                                    own ? pens->own[pen].colour : usual_colour,
-                                .width_mm = pens_width_mm(pens, pen)};
-  (void)snprintf(layer.label, sizeof layer.label, "%u", layer.pen);
-  return ARRAY_PUSH(&drawing->layer, layer);
+/* Whether the pen is the one for hidden lines. */
+static bool draws_hidden(const struct pens *pens, uint32_t pen,
+                         const recto_options *options) {
+  return (pens->of_hidden == pen && options->ink.hidden != RECTO_HIDDEN_NONE) ||
+         (pens->of_hidden == PENS_NONE && pen == pens->count);
 }
 
 /* Whether only hidden lines are drawn with the pen. */
@@ -97,16 +89,68 @@ static bool is_for_hidden(const struct pens *pens, uint32_t pen) {
   return alone || pen == pens->count;
 }
 
+/* "2 crease, wheel, axle": the pen's number, then what it draws.
+ * hidden_lies_apart  hidden lines of the pen have a layer of their own */
+static void label_pen(struct drawing_layer *layer, const struct pens *pens,
+                      const struct scene *scene, const recto_options *options,
+                      bool hidden_lies_apart) {
+  struct label label = {.layer = layer, .first = true};
+  uint32_t pen = layer->pen - 1;
+  bool has_rest = options->ink.pens <= 1 && pen == 0;
+  if (has_rest)
+    add_word(&label, "visible");
+  for (unsigned i = 0; !has_rest && i < RECTO_EDGE_CLASS_COUNT; i++)
+    if (pens->of_class[i] == pen && pens_is_drawn(options, i))
+      add_word(&label, recto_edge_class_name((recto_edge_class)(1u << i)));
+  if (draws_hidden(pens, pen, options) &&
+      (!hidden_lies_apart || is_for_hidden(pens, pen)))
+    add_word(&label, "hidden");
+  if (pens->of_hatch == pen && options->ink.fill == RECTO_FILL_HATCH)
+    add_word(&label, "hatch");
+  if (!has_rest)
+    add_groups(&label, pens, scene);
+  if (label.first)
+    add_word(&label, "unnamed");
+}
+
+static bool add_layer(struct drawing *drawing, const struct pens *pens,
+                      uint32_t pen, uint32_t usual_colour) {
+  bool own = pen < pens->own_count && pens->own[pen].has_colour;
+  struct drawing_layer layer = {.pen = pen + 1,
+                                .colour =
+                                    own ? pens->own[pen].colour : usual_colour,
+                                .width_mm = pens_width_mm(pens, pen)};
+  (void)snprintf(layer.label, sizeof layer.label, "%u", layer.pen);
+  return ARRAY_PUSH(&drawing->layer, layer);
+}
+
+/* Adds a layer for the hidden lines of each of the first `count` pens that
+ * draws others too. */
+static bool add_hidden_layers(struct drawing *drawing, const struct pens *pens,
+                              uint32_t count) {
+  for (uint32_t pen = 0; pen < count; pen++) {
+    if (!add_layer(drawing, pens, pen, BLACK))
+      return false;
+    struct drawing_layer *layer = &drawing->layer.item[count + pen];
+    append_text(layer->label, sizeof layer->label, " hidden");
+    layer->hidden = !is_for_hidden(pens, pen);
+  }
+  return true;
+}
+
 bool layers_add(struct drawing *drawing, const struct pens *pens,
                 const struct scene *scene, const recto_options *options) {
   bool one_more =
       options->ink.hidden == RECTO_HIDDEN_LAYER && pens->of_hidden == PENS_NONE;
-  for (uint32_t pen = 0; pen < pens->count + one_more; pen++) {
-    if (!add_layer(drawing, pens, is_for_hidden(pens, pen) ? GREY : BLACK))
+  uint32_t count = pens->count + one_more;
+  bool apart = !drawing->by_pens && (count > 1 || options->ink.ids) &&
+               options->ink.hidden != RECTO_HIDDEN_NONE;
+  for (uint32_t pen = 0; pen < count; pen++) {
+    if (!add_layer(drawing, pens, pen, is_for_hidden(pens, pen) ? GREY : BLACK))
       return false;
-    label_pen(&drawing->layer.item[pen], pens, scene, options);
+    label_pen(&drawing->layer.item[pen], pens, scene, options, apart);
   }
-  return true;
+  return !apart || add_hidden_layers(drawing, pens, count);
 }
 
 /* ---- Packing ------------------------------------------------------------- */
@@ -133,6 +177,7 @@ static bool add_fill_layer(struct drawing *drawing) {
     if (drawing->layer.item[i].pen > greatest)
       greatest = drawing->layer.item[i].pen;
   layer.pen = 0;
+  layer.hidden = false;
   (void)snprintf(layer.label, sizeof layer.label, "%%%u fills", greatest + 1);
   if (drawing->stroke.count == 0) {
     drawing->layer.item[0] = layer;
@@ -146,6 +191,18 @@ static bool add_fill_layer(struct drawing *drawing) {
   for (size_t i = 0; i < drawing->stroke.count; i++)
     drawing->stroke.item[i].layer++;
   return true;
+}
+
+/* Moves hidden strokes to the layers for those of their pens, where there are
+ * such layers. */
+static void move_hidden_apart(struct drawing *drawing) {
+  size_t pens = drawing->layer.count / 2;
+  for (size_t i = 0; i < drawing->stroke.count; i++) {
+    struct drawing_stroke *stroke = &drawing->stroke.item[i];
+    if (stroke->hidden && pens + stroke->layer < drawing->layer.count &&
+        drawing->layer.item[pens + stroke->layer].hidden)
+      stroke->layer += (uint32_t)pens;
+  }
 }
 
 /* Moves the layers that have nothing but hidden lines below the others, and
@@ -188,13 +245,16 @@ static bool arrange_layers(struct drawing *drawing) {
   return layer != NULL;
 }
 
-/* With ids the strokes of a group are consecutive within a layer. */
+/* With ids the strokes of a group are consecutive within a layer.  Hidden ones
+ * are first. */
 static int compare_layers(const void *first, const void *second, void *user) {
   const struct drawing_stroke *a = first, *b = second;
   const struct drawing *drawing = user;
   if (a->layer != b->layer)
     return a->layer > b->layer ? 1 : -1;
-  return drawing->ids ? (a->group > b->group) - (a->group < b->group) : 0;
+  if (drawing->ids && a->group != b->group)
+    return a->group > b->group ? 1 : -1;
+  return drawing->by_pens ? 0 : b->hidden - a->hidden;
 }
 
 /* With several weights the strokes of a class are consecutive: first hidden
@@ -227,7 +287,15 @@ static bool has_weights(const struct drawing *drawing) {
   return any;
 }
 
+static bool has_hidden(const struct drawing *drawing) {
+  for (size_t i = 0; i < drawing->stroke.count; i++)
+    if (drawing->stroke.item[i].hidden)
+      return true;
+  return false;
+}
+
 bool layers_pack(struct drawing *drawing) {
+  move_hidden_apart(drawing);
   if (!arrange_layers(drawing) ||
       (drawing->fill.count > 0 && !add_fill_layer(drawing)))
     return false;
@@ -236,7 +304,8 @@ bool layers_pack(struct drawing *drawing) {
       !sort_stable(drawing->fill.item, drawing->fill.count,
                    sizeof *drawing->fill.item, compare_fills, NULL))
     return false;
-  if (drawing->layer.count < 2 && !drawing->weighted && !drawing->ids)
+  if (drawing->layer.count < 2 && !drawing->weighted && !drawing->ids &&
+      (drawing->by_pens || !has_hidden(drawing)))
     return true;
   return sort_stable(
       drawing->stroke.item, drawing->stroke.count, sizeof *drawing->stroke.item,

@@ -235,11 +235,12 @@ static struct drawing_point pen_after(const struct drawing *drawing,
 
 /* Whether strokes are ordered together: those of a layer, with ids of a group
  * in it, but not of different widths, as heavy lines are drawn last, nor hidden
- * ones with others. */
+ * ones with others but for a plotter. */
 static bool may_mix(const struct drawing *drawing,
                     const struct drawing_stroke *a,
                     const struct drawing_stroke *b) {
   return a->layer == b->layer && (!drawing->ids || a->group == b->group) &&
+         (drawing->by_pens || a->hidden == b->hidden) &&
          (!drawing->weighted ||
           (a->hidden == b->hidden && a->edge_class == b->edge_class));
 }
