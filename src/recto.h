@@ -620,8 +620,11 @@ void recto_scene_destroy(recto_scene *scene);
 
 /* Reads a model file and adds it to `scene`.  Warnings go to the options'
  * warning function; colours, which OBJ has in its material libraries, are read
- * where the options' fill is RECTO_FILL_PAINT; `options` may be NULL.
- * path    "-" is standard input, which needs a format
+ * where the options' fill is RECTO_FILL_PAINT; `options` may be NULL.  A file
+ * has groups of its own: what is in none is in one that is called as the file
+ * without folder and extension, and where a group that is there already has a
+ * name, the file's is called "FILE/NAME", or has a point and a number behind.
+ * path    "-" is standard input, which needs a format; its group is "default"
  * format  format name such as "obj"; NULL: by the path's extension
  * Errors  RECTO_ERROR_IO: it cannot be read; RECTO_ERROR_FORMAT: it is broken
  *         or cut short; RECTO_ERROR_UNSUPPORTED: there is no reader for it;
@@ -634,8 +637,9 @@ RECTO_USE_RESULT recto_status recto_scene_read(recto_scene *scene,
 
 /* Reads the bytes of a model file from memory and adds it to `scene`.
  * format  format name such as "obj"; NULL: by the name's extension
- * name    for messages; beside a file of that name the material libraries of an
- *         OBJ file are looked for; NULL: they are not read
+ * name    for messages, and for groups, like that of a file; beside a file of
+ *         that name the material libraries of an OBJ file are looked for; NULL:
+ *         they are not read
  * Errors  as of recto_scene_read; the scene is then as it was */
 RECTO_USE_RESULT recto_status recto_scene_read_memory(
     recto_scene *scene, const void *bytes, size_t count, const char *format,

@@ -95,6 +95,43 @@ static void a_name_is_one_group(void **state) {
   assert_int_equal(r->scene.current_group, 12);
 }
 
+/* Two faces, one before the file names a group, and one in `group`. */
+static void read_file_with_group(struct reading *r, const char *path,
+                                 const char *group) {
+  char text[100];
+  int length =
+      snprintf(text, sizeof text,
+               "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\ng %s\nf 1 2 3\n", group);
+  assert_int_equal(scene_read_memory(&r->scene, text, (size_t)length, path,
+                                     "obj", NULL, NULL),
+                   RECTO_OK);
+}
+
+/* A part that is read before the others does not become one with them, and what
+ * has no name in a file is called as the file. */
+static void files_have_groups_of_their_own(void **state) {
+  static const char *const row[][4] = {
+      /* path, group; names of both faces' groups */
+      {"parts/left.obj", "wheel", "left", "wheel"},
+      {"right.obj.gz", "wheel", "right", "right/wheel"},
+      {"other/left.obj", "left", "left.2", "left.2"},
+      {"right.stl", "wheel", "right.2", "right/wheel.2"},
+      {".obj", "right/wheel", ".obj", ".obj/right/wheel"},
+      {"-", "left", "default", "left.3"},
+      {"/dev/stdin", "x", "default.2", "x"},
+      {"", "y", "default.3", "y"},
+      {"B\xfctte", "\xfc", "B\xc3\xbctte", "\xc3\xbc"},
+      {"B\xfctte", "\xfc", "B\xc3\xbctte.2", "B\xc3\xbctte/\xc3\xbc"}};
+  struct reading *r = *state;
+  for (uint32_t i = 0; i < sizeof row / sizeof *row; i++) {
+    read_file_with_group(r, row[i][0], row[i][1]);
+    for (uint32_t k = 0; k < 2; k++) {
+      uint32_t group = r->scene.face_group.item[2 * i + k];
+      assert_string_equal(r->scene.group.item[group].name, row[i][2 + k]);
+    }
+  }
+}
+
 static void clean(const char *name, const char *expected) {
   char to[200];
   size_t length = name_clean(name, strlen(name), to);
@@ -557,6 +594,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       T(a_face_without_a_group_gets_one),
       T(a_name_is_one_group),
+      T(files_have_groups_of_their_own),
       T(names_become_clean_utf_8),
       T(a_sound_face_is_kept_as_it_is),
       T(repeated_corners_are_left_out),

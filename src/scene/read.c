@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/input.h"
+#include "base/path.h"
 #include "base/word.h"
 
 /* ---- The reader ---------------------------------------------------------- */
@@ -53,6 +54,20 @@ static void find_extension(const char *path, char to[EXTENSION_SIZE]) {
   size_t rest = copy_extension(name, strlen(name), to);
   if (word_is_among(to, "gz", false))
     (void)copy_extension(name, rest, to);
+}
+
+/* The stem of a file's name, which is the path's last part without its
+ * extensions; none where the path names no file.  Returns its length. */
+static size_t find_stem(const char *path, const char **stem) {
+  char extension[EXTENSION_SIZE];
+  const char *slash = strrchr(path, '/');
+  *stem = slash != NULL ? slash + 1 : path;
+  if (strcmp(path, "-") == 0 || path_descriptor(path) >= 0)
+    return 0;
+  size_t length = copy_extension(*stem, strlen(*stem), extension);
+  return word_is_among(extension, "gz", false)
+             ? copy_extension(*stem, length, extension)
+             : length;
 }
 
 /* The reader of a file, and in *format what it was chosen by; NULL where there
@@ -107,9 +122,13 @@ static recto_status read_input(struct scene *scene, const struct reader *reader,
       scene_note_file(scene, input) ? RECTO_OK : error_memory(error);
   if (status == RECTO_OK && input->count == 0)
     status = error_set(error, RECTO_ERROR_FORMAT, path, 1, "the file is empty");
+  const char *stem;
+  size_t stem_length = find_stem(path, &stem);
+  scene_begin_file(scene, stem, stem_length);
   if (status == RECTO_OK)
     status = reader->read(scene, input->bytes, input->count, path, format,
                           diagnostics, error);
+  scene_end_file(scene);
   if (status == RECTO_OK && scene->precision.count == before.precisions)
     status = scene_leave_precision(scene, before.points, error);
   if (status != RECTO_OK) {

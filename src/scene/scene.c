@@ -7,6 +7,7 @@
 #include "scene/scene.h"
 
 #include <float.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/sort.h"
@@ -102,23 +103,67 @@ static bool add_group(struct scene *scene, char *name, uint32_t *slot) {
   return true;
 }
 
+void scene_begin_file(struct scene *scene, const char *stem, size_t length) {
+  scene->file_stem = stem;
+  scene->file_stem_length = length;
+  scene->groups_before_file = scene->group.count;
+}
+
+void scene_end_file(struct scene *scene) {
+  scene_begin_file(scene, NULL, 0);
+  scene->groups_before_file = 0;
+}
+
+/* What a name takes besides itself and the file's stem. */
+enum { NUMBER_SIZE = 24 };
+
+/* Whether a group that another file began has the name of that slot. */
+static bool is_taken(const struct scene *scene, const uint32_t *slot) {
+  return *slot != 0 && *slot <= scene->groups_before_file;
+}
+
+/* Cleans a name, and tells it apart from the names of other files' groups.
+ * text  room for twice the lengths of the name and the stem, and NUMBER_SIZE
+ * Returns the slot of the name, NUL-terminated in `text`. */
+static uint32_t *find_own_slot(const struct scene *scene, const char *name,
+                               size_t length, char *text) {
+  const char *stem = scene->file_stem;
+  size_t stem_length = scene->file_stem_length;
+  bool has_other_stem = stem_length > 0 && !(stem_length == length &&
+                                             memcmp(stem, name, length) == 0);
+  size_t used = name_clean(name, length, text);
+  uint32_t *slot = find_slot(scene, text, used);
+  if (has_other_stem && is_taken(scene, slot)) {
+    used = name_clean(stem, stem_length, text);
+    text[used++] = '/';
+    used += name_clean(name, length, text + used);
+    slot = find_slot(scene, text, used);
+  }
+  text[used] = '\0';
+  for (unsigned number = 2; is_taken(scene, slot); number++) {
+    (void)snprintf(text + used, NUMBER_SIZE, ".%u", number);
+    slot = find_slot(scene, text, strlen(text));
+  }
+  return slot;
+}
+
 recto_status scene_use_group(struct scene *scene, const char *name,
                              size_t length, recto_error *error) {
   if (length == 0) {
-    name = "default";
-    length = strlen(name);
+    name = scene->file_stem_length > 0 ? scene->file_stem : "default";
+    length =
+        scene->file_stem_length > 0 ? scene->file_stem_length : strlen(name);
   }
-  if (length > PTRDIFF_MAX / 2 - 1 || !grow_slots(scene))
+  if (length > PTRDIFF_MAX / 4 || !grow_slots(scene))
     return error_memory(error);
-  char *clean = mem_alloc(2 * length + 1, 1);
-  if (clean == NULL)
+  size_t size = 2 * (length + scene->file_stem_length) + NUMBER_SIZE;
+  char *text = mem_alloc(size, 1);
+  if (text == NULL)
     return error_memory(error);
-  length = name_clean(name, length, clean);
-  clean[length] = '\0';
-  uint32_t *slot = find_slot(scene, clean, length);
-  bool added = !*slot && add_group(scene, clean, slot);
+  uint32_t *slot = find_own_slot(scene, name, length, text);
+  bool added = !*slot && add_group(scene, text, slot);
   if (!added)
-    mem_free(clean);
+    mem_free(text);
   if (!*slot)
     return error_memory(error);
   scene->current_group = *slot - 1;

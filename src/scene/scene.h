@@ -67,6 +67,10 @@ struct scene {
   uint32_t current_group;          /* what scene_add_* add to */
   uint32_t *group_slot;            /* finds groups by name: see scene.c */
   size_t group_slot_count;
+  /* While a file is read: its name without folder and extension, lent, and how
+   * many groups there were before. */
+  const char *file_stem;
+  size_t file_stem_length, groups_before_file;
   double up[3];       /* what the format means by up */
   double unit_mm;     /* of a unit, as all files say that were read; 0: one does
                          not, or they differ */
@@ -107,8 +111,17 @@ static inline bool scene_groups_differ(const struct scene *scene, uint32_t a,
  * out. */
 USE_RESULT bool scene_note_file(struct scene *scene, const struct input *input);
 
+/* What is added up to scene_end_file is of a file, and in groups of its own:
+ * where a group of another one has the name, this is "STEM/name", or has a
+ * point and a number behind.  What has no name is called as the file.
+ * stem  the file's name without folder and extension, `length` bytes that stay
+ *       there; none: it has no name */
+void scene_begin_file(struct scene *scene, const char *stem, size_t length);
+void scene_end_file(struct scene *scene);
+
 /* Makes the group of that name the current one, adding it where it is new.
- * name  of `length` bytes, need not be NUL-terminated; none: "default" */
+ * name  of `length` bytes, need not be NUL-terminated; none: that of the file,
+ *       else "default" */
 USE_RESULT recto_status scene_use_group(struct scene *scene, const char *name,
                                         size_t length, recto_error *error);
 
