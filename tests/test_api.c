@@ -901,6 +901,29 @@ static void every_allocation_may_fail(void **state) {
   unlink(path_of("svg"));
 }
 
+/* SVG that has hatching, or several pens, is for a plotter. */
+static void svg_for_a_plotter_has_short_travel_too(void **state) {
+  (void)state;
+  static const recto_pen_use use = {
+      .lines = RECTO_LINES_OF_CLASS, .edge_class = RECTO_EDGE_CREASE, .pen = 2};
+  for (int what = 0; what < 8; what++) {
+    recto_options o;
+    recto_options_init(&o);
+    o.output.format = what == 7 ? "pdf" : "svg";
+    o.ink.fill = what == 0 || what == 7 ? RECTO_FILL_HATCH : RECTO_FILL_NONE;
+    o.mesh.cut_count = what == 1 || what == 6;
+    o.mesh.cut_fill = what == 6 ? RECTO_CUT_FILL_NONE : RECTO_CUT_FILL_HATCH;
+    o.camera.has_section = what == 2;
+    o.ink.pens = what == 3 ? 2 : 1;
+    o.ink.pen_use = &use;
+    o.ink.pen_use_count = what == 4;
+    o.ink.hidden = what == 5 ? RECTO_HIDDEN_LAYER : RECTO_HIDDEN_DASHED;
+    assert_int_equal(options_adapt(&o, NULL), RECTO_OK);
+    assert_int_equal(o.ink.order,
+                     what < 6 ? RECTO_ORDER_NEAR : RECTO_ORDER_AUTO);
+  }
+}
+
 static void plotter_travel_is_short_by_default(void **state) {
   (void)state;
   static const struct {
@@ -983,6 +1006,7 @@ int main(void) {
       cmocka_unit_test(progress_rises_and_may_cancel_at_every_step),
       cmocka_unit_test(every_allocation_may_fail),
       cmocka_unit_test(plotter_travel_is_short_by_default),
+      cmocka_unit_test(svg_for_a_plotter_has_short_travel_too),
       cmocka_unit_test(a_plotter_gets_the_margin_that_it_needs),
       cmocka_unit_test(every_write_may_fail),
   };

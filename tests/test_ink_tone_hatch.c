@@ -295,6 +295,77 @@ static void draw_ball(struct pipeline *p, unsigned n, recto_options *options) {
   scene_fini(&scene);
 }
 
+enum { STRIPS = 6 }; /* 15 degrees each */
+
+/* A flat square to the eye, of two triangles, `width` wide, which goes over into
+ * a fillet of quadrangles on its right; 2 high. */
+static void build_filleted_flat(struct scene *scene, double width) {
+  const double radius = 0.3;
+  for (int top = 0; top < 2; top++) {
+    build_point(scene, -width, 2 * top - 1, 0);
+    for (int i = 0; i <= STRIPS; i++) {
+      double angle = pi() / 2 * i / STRIPS;
+      build_point(scene, radius * sin(angle), 2 * top - 1,
+                  radius * (cos(angle) - 1));
+    }
+  }
+  const uint32_t up = STRIPS + 2;
+  build_triangle(scene, 0, 1, up);
+  build_triangle(scene, 1, up + 1, up);
+  for (uint32_t i = 1; i <= STRIPS; i++)
+    build_quad(scene, i, i + 1, up + i + 1, up + i);
+}
+
+/* The tones of a flat so many strips wide and its fillet. */
+static void find_tones(struct tones *tones, struct scene *scene,
+                       double strips) {
+  struct pipeline p;
+  recto_options options;
+  recto_options_init(&options);
+  scene_init(scene);
+  build_group(scene, "part");
+  build_filleted_flat(scene, strips * 0.6 * sin(pi() / 4 / STRIPS));
+  options.page.width_mm = options.page.height_mm = 100;
+  options.camera.azimuth_deg = options.camera.elevation_deg = 0;
+  options.camera.up[1] = 1;
+  options.ink.fill = RECTO_FILL_HATCH;
+  light_for_tone(&options, 0.2);
+  pipeline_run(&p, scene, &options, &solver_tiles);
+  assert_int_equal(p.status, RECTO_OK);
+  assert_true(tones_init(tones, &p.sheet, scene, &options));
+  pipeline_fini(&p);
+}
+
+static void flats_beside_fillets_have_one_tone(void **state) {
+  struct scene scene;
+  struct tones tones;
+  (void)state;
+  find_tones(&tones, &scene, 4);
+  for (uint32_t f = 0; f < 2 + STRIPS; f++) {
+    struct tone tone = tones_of_face(&tones, f);
+    assert_int_equal(tone.uniform, f < 2);
+    assert_true(f >= 2 || fabs(tone.max - 0.2) < 1.0 / TONE_STEPS);
+  }
+  /* The fillet begins with it; its corners 0 and 3 are the flat's. */
+  const float *corner = tones.corner + scene.face_start.item[2];
+  assert_true(fabs(corner[0] - 0.2) < 1e-6 && fabs(corner[3] - 0.2) < 1e-6);
+  assert_true(fabs(corner[1] - 0.2) > 0.01);
+  tones_fini(&tones);
+  scene_fini(&scene);
+}
+
+/* What is as wide as the strips beside it is a strip of a curved surface. */
+static void facets_are_no_flats(void **state) {
+  struct scene scene;
+  struct tones tones;
+  (void)state;
+  find_tones(&tones, &scene, 1);
+  for (uint32_t f = 0; f < 2 + STRIPS; f++)
+    assert_false(tones_of_face(&tones, f).uniform);
+  tones_fini(&tones);
+  scene_fini(&scene);
+}
+
 static double length_of(const struct drawing *d, size_t s) {
   const struct drawing_point *p = d->point.item + d->stroke.item[s].point;
   return hypot(p[1].x - p[0].x, p[1].y - p[0].y);
@@ -409,6 +480,8 @@ int main(void) {
       cmocka_unit_test(each_pen_hatches_its_groups),
       cmocka_unit_test(lines_over_a_ball_cover_the_share_of_its_tone),
       cmocka_unit_test(lines_run_over_many_faces),
+      cmocka_unit_test(flats_beside_fillets_have_one_tone),
+      cmocka_unit_test(facets_are_no_flats),
       cmocka_unit_test(every_scene_is_hatched_on_its_page),
       cmocka_unit_test(hatching_fails_cleanly_when_memory_runs_out),
   };

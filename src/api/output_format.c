@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/path.h"
+#include "ink/cut_hatch.h"
 
 const struct writer *output_writer(const char *path, const char *format) {
   if (format != NULL)
@@ -72,10 +73,11 @@ bool output_is_by_pens(const recto_options *options) {
 }
 
 /* Whether a drawing looks as if it were for a plotter: it has hatching, or
- * several pens. */
+ * several pens; cut faces are hatched too. */
 static bool suggests_plotter(const recto_options *o) {
-  return o->ink.fill == RECTO_FILL_HATCH || o->ink.pens > 1 ||
-         o->ink.pen_use_count > 0 || o->ink.hidden == RECTO_HIDDEN_LAYER;
+  return o->ink.fill == RECTO_FILL_HATCH || cut_hatch_is_drawn(o) ||
+         o->ink.pens > 1 || o->ink.pen_use_count > 0 ||
+         o->ink.hidden == RECTO_HIDDEN_LAYER;
 }
 
 recto_status options_adapt(recto_options *options, recto_error *error) {

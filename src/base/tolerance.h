@@ -291,6 +291,16 @@
  * Ten times   shallow curved surfaces get hatching of one density. */
 #define TOLERANCE_TONE (1.0 / 512)
 
+/* Faces are coplanar where the sine of the angle between their normals is no
+ * more, and corners of a face where they are no farther from its plane, in
+ * square roots of twice its area.
+ * Unit        1
+ * Derivation  brightness changes by no more than the angle to the light, in
+ *             radians: faces of one plane differ by less than TOLERANCE_TONE.
+ * Users       ink/hatch/planar_regions.c
+ * Ten times   facets of finely divided curved surfaces become one plane. */
+#define TOLERANCE_COPLANAR (1.0 / 1024)
+
 /* Runs of tone hatching, and gaps in it, that only the tone limits are noise
  * where they are shorter.
  * Unit        pen widths

@@ -21,6 +21,7 @@ librecto_core_la_SOURCES += \
   %D%/hatch/hatch_regions.c %D%/hatch/hatch_regions.h \
   %D%/hatch/hatch_runs.c %D%/hatch/hatch_runs.h \
   %D%/hatch/inset.c %D%/hatch/inset.h \
+  %D%/hatch/planar_regions.c %D%/hatch/planar_regions.h \
   %D%/hatch/tone.c %D%/hatch/tone.h \
   %D%/hatch/tone_hatch.c \
   %D%/lines/chain.c \

@@ -3,10 +3,13 @@
  * Phases
  *   1 normals   of the faces, with lengths proportional to their areas
  *   2 joins     corners of faces that meet at a smooth edge are united into
- *               sets, and the faces into smooth regions (disjoint sets)
- *   3 corners   the normal of a set is the sum of the normals of its faces; its
- *               angle to the light gives the tone
- *   4 regions   uniform regions get the middle of their tones */
+ *               sets, and the faces into smooth regions (disjoint sets), of
+ *               which some are flat (planar_regions.h)
+ *   3 corners   the normal of a set is the sum of the normals of its faces, of
+ *               the flat ones alone where there are such; its angle to the
+ *               light gives the tone
+ *   4 regions   uniform regions get the middle of their tones, and flat ones
+ *               the tone of their plane */
 #include "ink/hatch/tone.h"
 
 #include <math.h>
@@ -15,10 +18,14 @@
 #include "base/union_find.h"
 #include "base/tolerance.h"
 #include "ink/fill/light.h"
+#include "ink/hatch/planar_regions.h"
 #include "scene/edge_classes.h"
 #include "scene/newell_normal.h"
 #include "view/project.h"
 #include "view/vector.h"
+
+/* The side of a square, in pens, in which one sees whether hatching is even. */
+#define EVEN_PENS 16
 
 struct tone_normal {
   double xyz[3];
@@ -33,7 +40,11 @@ struct tone_work {
   struct tone_normal *sum;  /* of each set of corners, at its root */
   uint32_t *corner_root;    /* disjoint sets of corners */
   uint32_t *face_root;      /* disjoint sets of faces: smooth regions */
-  uint32_t *first_use;      /* of each edge: the corner where the first of its
+  struct planar_regions planar;
+  double least_flat_area;               /* mm^2 */
+  const struct drawing_point *position; /* of each corner, on the page */
+  bool *beside_flat;   /* of each set of corners, at its root */
+  uint32_t *first_use; /* of each edge: the corner where the first of its
                                two faces leaves along it, and this face */
   uint32_t *first_face;
   uint8_t *class_masks; /* of each edge */
@@ -42,19 +53,29 @@ struct tone_work {
 
 /* ---- 2 Joins ------------------------------------------------------------- */
 
-/* Joins faces f and g, and their corners at the smooth edge they share.  The
- * edge starts at corner a of f and, in the opposite direction, at corner b of
- * g. */
+/* What is done for two faces f and g at the smooth edge they share.  It starts
+ * at corner a of f and, in the opposite direction, at corner b of g. */
+typedef void at_smooth_edge(struct tone_work *w, uint32_t f, uint32_t a,
+                            uint32_t g, uint32_t b);
+
+/* Joins the faces, and their corners. */
 static void join_faces(struct tone_work *w, uint32_t f, uint32_t a, uint32_t g,
                        uint32_t b) {
+  planar_regions_join(&w->planar, f, w->face[f].xyz, g, w->face[g].xyz);
   union_find_join(w->face_root, f, g);
   union_find_join(w->corner_root, a, scene_next_corner(w->scene, g, b));
   union_find_join(w->corner_root, scene_next_corner(w->scene, f, a), b);
 }
 
-/* Joins faces and corners at all smooth edges, in time linear in the number of
- * corners. */
-static void join_smooth_edges(struct tone_work *w) {
+static void compare_at_edge(struct tone_work *w, uint32_t f, uint32_t a,
+                            uint32_t g, uint32_t b) {
+  (void)a;
+  (void)b;
+  planar_regions_compare(&w->planar, f, g);
+}
+
+/* Visits all smooth edges, in time linear in the number of corners. */
+static void visit_smooth_edges(struct tone_work *w, at_smooth_edge *visit) {
   const struct topology *topology = w->sheet->topology;
   for (size_t e = 0; e < topology->edge.count; e++)
     w->first_use[e] = SCENE_NONE;
@@ -70,31 +91,74 @@ static void join_smooth_edges(struct tone_work *w) {
         w->first_use[e] = c;
         w->first_face[e] = f;
       } else if (w->first_face[e] != f) {
-        join_faces(w, f, c, w->first_face[e], w->first_use[e]);
+        visit(w, f, c, w->first_face[e], w->first_use[e]);
       }
     }
 }
 
+/* The area of a face on the page, mm^2; 0 where it is not all before the near
+ * plane. */
+static double page_area(const struct tone_work *w, uint32_t face) {
+  const uint32_t *start = &w->scene->face_start.item[face];
+  const struct drawing_point *p = w->position, *o = &p[start[0]];
+  double twice = 0;
+  for (uint32_t c = start[0] + 1; c + 1 < start[1]; c++)
+    twice += (p[c].x - o->x) * (p[c + 1].y - o->y) -
+             (p[c].y - o->y) * (p[c + 1].x - o->x);
+  return isfinite(twice) ? fabs(twice) / 2 : 0;
+}
+
+static void join_smooth_edges(struct tone_work *w) {
+  visit_smooth_edges(w, join_faces);
+  for (uint32_t f = 0; f < scene_face_count(w->scene) && poll_at(f); f++)
+    planar_regions_measure(&w->planar, w->scene, f, w->face[f].xyz,
+                           page_area(w, f));
+  visit_smooth_edges(w, compare_at_edge);
+}
+
 /* ---- 3 Corners ----------------------------------------------------------- */
 
-/* Sums the face normals of each set of corners, weighted by area. */
+/* The region of a flat face, or NULL. */
+static const struct planar_region *flat_of(const struct tone_work *w,
+                                           uint32_t face) {
+  return planar_regions_flat(&w->planar, face, w->least_flat_area);
+}
+
+/* Marks the sets with corners of flat faces. */
+static void mark_beside_flat(struct tone_work *w) {
+  for (uint32_t f = 0; f < scene_face_count(w->scene) && poll_at(f); f++)
+    for (uint32_t c = w->scene->face_start.item[f];
+         c < w->scene->face_start.item[f + 1] && flat_of(w, f) != NULL; c++)
+      w->beside_flat[union_find_root(w->corner_root, c)] = true;
+}
+
+/* Sums the face normals of each set of corners, weighted by area: where a flat
+ * face goes over into a curved surface, this begins with the flat's normal. */
 static void sum_normals(struct tone_work *w) {
   for (uint32_t f = 0; f < scene_face_count(w->scene) && poll_at(f); f++)
     for (uint32_t c = w->scene->face_start.item[f];
          c < w->scene->face_start.item[f + 1]; c++) {
-      double *sum = w->sum[union_find_root(w->corner_root, c)].xyz;
+      uint32_t root = union_find_root(w->corner_root, c);
+      if (w->beside_flat[root] && flat_of(w, f) == NULL)
+        continue;
       for (int k = 0; k < 3; k++)
-        sum[k] += w->face[f].xyz[k];
+        w->sum[root].xyz[k] += w->face[f].xyz[k];
     }
 }
 
 /* away  the face is seen from its back: its normal is reversed */
-static float tone_of_corner(struct tone_work *w, uint32_t corner, bool away) {
-  struct tone_normal n = w->sum[union_find_root(w->corner_root, corner)];
-  for (int k = 0; away && k < 3; k++)
-    n.xyz[k] = -n.xyz[k];
-  (void)vector_normalise(n.xyz);
-  return (float)(1 - light_brightness(n.xyz, &w->light));
+static double tone_of_normal(const struct tone_work *w, const double normal[3],
+                             bool away) {
+  double n[3];
+  for (int k = 0; k < 3; k++)
+    n[k] = away ? -normal[k] : normal[k];
+  (void)vector_normalise(n);
+  return 1 - light_brightness(n, &w->light);
+}
+
+static bool is_away(const struct tone_work *w, uint32_t face) {
+  return light_is_turned_away(w->scene, face, &w->sheet->camera,
+                              w->face[face].xyz);
 }
 
 /* The projection of a corner; NaN in front of the near plane. */
@@ -111,18 +175,22 @@ static struct drawing_point project_corner(const struct tone_work *w,
                                 camera->middle_mm[1] + s * v.y};
 }
 
-/* Sets the tone and the position of all corners, and the extreme tones of all
- * regions. */
+static void set_positions(struct tone_work *w, struct tones *tones) {
+  for (uint32_t c = 0; c < w->scene->corner.count && poll_at(c); c++)
+    tones->position[c] = project_corner(w, c);
+  w->position = tones->position;
+}
+
+/* Sets the tone of all corners, and the extreme tones of all regions. */
 static void set_corners(struct tone_work *w, struct tones *tones) {
   for (uint32_t f = 0; f < scene_face_count(w->scene) && poll_at(f); f++) {
     uint32_t region = union_find_root(w->face_root, f);
-    bool away =
-        light_is_turned_away(w->scene, f, &w->sheet->camera, w->face[f].xyz);
+    bool away = is_away(w, f);
     for (uint32_t c = w->scene->face_start.item[f];
          c < w->scene->face_start.item[f + 1]; c++) {
-      float tone = tone_of_corner(w, c, away);
+      const double *normal = w->sum[union_find_root(w->corner_root, c)].xyz;
+      float tone = (float)tone_of_normal(w, normal, away);
       tones->corner[c] = tone;
-      tones->position[c] = project_corner(w, c);
       w->min[region] = fminf(w->min[region], tone);
       w->max[region] = fmaxf(w->max[region], tone);
     }
@@ -131,18 +199,23 @@ static void set_corners(struct tone_work *w, struct tones *tones) {
 
 /* ---- 4 Regions ----------------------------------------------------------- */
 
-/* Finds the uniform regions and gives all their corners one tone. */
+/* Finds the uniform regions and the flat ones, and gives all corners of each
+ * one tone. */
 static void set_regions(struct tone_work *w, struct tones *tones) {
   for (uint32_t f = 0; f < scene_face_count(w->scene) && poll_at(f); f++) {
+    const struct planar_region *flat = flat_of(w, f);
     uint32_t region = union_find_root(w->face_root, f);
     double min = w->min[region], max = w->max[region];
-    tones->uniform[f] = max - min < TOLERANCE_TONE;
+    bool is_even = max - min < TOLERANCE_TONE;
+    tones->uniform[f] = is_even || flat != NULL;
     if (!tones->uniform[f])
       continue;
-    double mean = round((min + max) / 2 * TONE_STEPS) / TONE_STEPS;
+    double tone = is_even ? (min + max) / 2
+                          : tone_of_normal(w, flat->normal, is_away(w, f));
+    double rounded = round(tone * TONE_STEPS) / TONE_STEPS;
     for (uint32_t c = w->scene->face_start.item[f];
          c < w->scene->face_start.item[f + 1]; c++)
-      tones->corner[c] = (float)mean;
+      tones->corner[c] = (float)rounded;
   }
 }
 
@@ -164,9 +237,12 @@ static bool prepare_tone_work(struct tone_work *w) {
   w->class_masks = mem_alloc(edges, sizeof *w->class_masks);
   w->min = mem_alloc(faces, sizeof *w->min);
   w->max = mem_alloc(faces, sizeof *w->max);
-  if (w->face == NULL || w->sum == NULL || w->corner_root == NULL ||
-      w->face_root == NULL || w->first_use == NULL || w->first_face == NULL ||
-      w->class_masks == NULL || w->min == NULL || w->max == NULL ||
+  w->beside_flat = mem_calloc(corners, sizeof *w->beside_flat);
+  bool ok = planar_regions_init(&w->planar, w->scene);
+  if (!ok || w->beside_flat == NULL || w->face == NULL || w->sum == NULL ||
+      w->corner_root == NULL || w->face_root == NULL || w->first_use == NULL ||
+      w->first_face == NULL || w->class_masks == NULL || w->min == NULL ||
+      w->max == NULL ||
       (edges > 0 && !topology_class_masks(w->sheet->topology, w->scene,
                                           w->crease_deg, w->class_masks)))
     return false;
@@ -190,6 +266,8 @@ static void release_tone_work(struct tone_work *w) {
   mem_free(w->class_masks);
   mem_free(w->min);
   mem_free(w->max);
+  mem_free(w->beside_flat);
+  planar_regions_fini(&w->planar);
 }
 
 bool tones_init(struct tones *tones, const struct sheet *sheet,
@@ -197,6 +275,7 @@ bool tones_init(struct tones *tones, const struct sheet *sheet,
   struct tone_work w = {
       .scene = scene, .sheet = sheet, .crease_deg = options->mesh.crease_deg};
   w.light = light_of(&sheet->camera, options);
+  w.least_flat_area = pow(EVEN_PENS * options->ink.pen_mm, 2);
   *tones = (struct tones){.scene = scene};
   tones->corner = mem_alloc(scene->corner.count, sizeof *tones->corner);
   tones->position = mem_alloc(scene->corner.count, sizeof *tones->position);
@@ -204,8 +283,10 @@ bool tones_init(struct tones *tones, const struct sheet *sheet,
   bool ok = tones->corner != NULL && tones->position != NULL &&
             tones->uniform != NULL && prepare_tone_work(&w);
   if (ok) {
+    set_positions(&w, tones);
     if (sheet->topology != NULL && sheet->topology->corner_edge != NULL)
       join_smooth_edges(&w);
+    mark_beside_flat(&w);
     sum_normals(&w);
     set_corners(&w, tones);
     set_regions(&w, tones);
