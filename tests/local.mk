@@ -19,6 +19,9 @@ unit_tests += %D%/test_cut
 unit_tests += %D%/test_cut_drawings
 %C%_test_cut_drawings_SOURCES = %D%/test_cut_drawings.c
 
+unit_tests += %D%/test_rounded_warning
+%C%_test_rounded_warning_SOURCES = %D%/test_rounded_warning.c
+
 unit_tests += %D%/test_svg
 %C%_test_svg_SOURCES = %D%/test_svg.c
 

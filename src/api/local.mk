@@ -26,6 +26,7 @@ librecto_core_la_SOURCES += \
   %D%/render_multiview.c %D%/render_multiview.h \
   %D%/preparation.c %D%/preparation.h \
   %D%/result.c %D%/result.h %D%/result_edges.c %D%/result_faces.c \
+  %D%/rounded_warning.c %D%/rounded_warning.h \
   %D%/scene.c \
   %D%/sized.c %D%/sized.h \
   %D%/shares.c %D%/shares.h \

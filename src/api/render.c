@@ -16,6 +16,7 @@
 #include "api/output_format.h"
 #include "api/render.h"
 #include "api/result.h"
+#include "api/rounded_warning.h"
 #include "api/shares.h"
 #include "api/stats.h"
 #include "base/clock.h"
@@ -489,7 +490,8 @@ static recto_status run_and_report(struct render *render, recto_error *error) {
         (render->drawing->ids &&
          !group_numbers_set(render->drawing, scene,
                             &render->prepared->welded.scene,
-                            render->sheet.topology)))
+                            render->sheet.topology)) ||
+        !rounded_warn(render->drawing, scene, render->options))
       status = error_memory(error);
     number_elements(render->drawing, scene);
     stats_add_seconds(render->report, "render_cpu_s", clock_cpu() - cpu);

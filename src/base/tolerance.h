@@ -297,7 +297,7 @@
  * Unit        1
  * Derivation  brightness changes by no more than the angle to the light, in
  *             radians: faces of one plane differ by less than TOLERANCE_TONE.
- * Users       ink/hatch/planar_regions.c
+ * Users       ink/planar_regions.c
  * Ten times   facets of finely divided curved surfaces become one plane. */
 #define TOLERANCE_COPLANAR (1.0 / 1024)
 

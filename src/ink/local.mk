@@ -6,6 +6,7 @@ librecto_core_la_SOURCES += \
   %D%/shading.c %D%/shading.h \
   %D%/pens.c %D%/pens.h \
   %D%/pens_warn_unused.c \
+  %D%/planar_regions.c %D%/planar_regions.h \
   %D%/curve/clearance.c %D%/curve/clearance.h \
   %D%/curve/cubic_fit.c %D%/curve/cubic_fit.h \
   %D%/curve/curve_samples.c %D%/curve/curve_samples.h \
@@ -21,7 +22,6 @@ librecto_core_la_SOURCES += \
   %D%/hatch/hatch_regions.c %D%/hatch/hatch_regions.h \
   %D%/hatch/hatch_runs.c %D%/hatch/hatch_runs.h \
   %D%/hatch/inset.c %D%/hatch/inset.h \
-  %D%/hatch/planar_regions.c %D%/hatch/planar_regions.h \
   %D%/hatch/tone.c %D%/hatch/tone.h \
   %D%/hatch/tone_hatch.c \
   %D%/lines/chain.c \

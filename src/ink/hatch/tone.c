@@ -18,7 +18,7 @@
 #include "base/union_find.h"
 #include "base/tolerance.h"
 #include "ink/fill/light.h"
-#include "ink/hatch/planar_regions.h"
+#include "ink/planar_regions.h"
 #include "scene/edge_classes.h"
 #include "scene/newell_normal.h"
 #include "view/project.h"
@@ -71,7 +71,7 @@ static void compare_at_edge(struct tone_work *w, uint32_t f, uint32_t a,
                             uint32_t g, uint32_t b) {
   (void)a;
   (void)b;
-  planar_regions_compare(&w->planar, f, g);
+  (void)planar_regions_compare(&w->planar, f, g);
 }
 
 /* Visits all smooth edges, in time linear in the number of corners. */

@@ -6,8 +6,8 @@
  * meets it at a smooth edge, and not small on the page: the facets of a curved
  * surface are about as large as their neighbours, triangles of a scan are alone
  * in their planes, or small. */
-#ifndef INK_HATCH_PLANAR_REGIONS_H
-#define INK_HATCH_PLANAR_REGIONS_H
+#ifndef INK_PLANAR_REGIONS_H
+#define INK_PLANAR_REGIONS_H
 
 #include "scene/scene.h"
 
@@ -43,9 +43,13 @@ void planar_regions_measure(struct planar_regions *regions,
                             const double normal[3], double page_area);
 
 /* Decides by the smooth edge at which two faces meet, once all are measured,
- * which of their regions is not flat. */
-void planar_regions_compare(struct planar_regions *regions, uint32_t f,
+ * which of their regions is not flat.  False where they are of one. */
+bool planar_regions_compare(struct planar_regions *regions, uint32_t f,
                             uint32_t g);
+
+/* The face that represents the region of a face. */
+uint32_t planar_regions_root(const struct planar_regions *regions,
+                             uint32_t face);
 
 /* The region of a face if it is flat, once all are compared; else NULL.
  * least_area  on the page, mm^2 */

@@ -1,5 +1,5 @@
 /* planar_regions.c - tells flat faces of smooth surfaces from facets. */
-#include "ink/hatch/planar_regions.h"
+#include "ink/planar_regions.h"
 
 #include "base/tolerance.h"
 #include "base/union_find.h"
@@ -73,17 +73,23 @@ void planar_regions_measure(struct planar_regions *regions,
                     is_planar(scene, face, normal);
 }
 
-void planar_regions_compare(struct planar_regions *regions, uint32_t f,
+bool planar_regions_compare(struct planar_regions *regions, uint32_t f,
                             uint32_t g) {
   struct planar_region *a = &regions->region[union_find_root(regions->set, f)];
   struct planar_region *b = &regions->region[union_find_root(regions->set, g)];
   if (a == b)
-    return;
+    return false;
   double a_area = vector_length(a->normal), b_area = vector_length(b->normal);
   if (!(a_area >= FLAT_RATIO * b_area))
     a->is_flat = false;
   if (!(b_area >= FLAT_RATIO * a_area))
     b->is_flat = false;
+  return true;
+}
+
+uint32_t planar_regions_root(const struct planar_regions *regions,
+                             uint32_t face) {
+  return union_find_root(regions->set, face);
 }
 
 const struct planar_region *

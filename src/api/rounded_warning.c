@@ -1,0 +1,153 @@
+/* rounded_warning.c - warns of parts whose edges are rounded, of which lines
+ * show little. */
+#include "api/rounded_warning.h"
+
+#include <math.h>
+
+#include "base/poll.h"
+#include "ink/planar_regions.h"
+#include "scene/edge_classes.h"
+#include "scene/newell_normal.h"
+#include "scene/topology.h"
+#include "view/vector.h"
+
+/* So many times larger than the mean is a large face; facets of a curved
+ * surface are about as large as each other. */
+#define LARGE_FACE 2.0
+
+/* Flats with rounded edges that are such a share of all faces are what the part
+ * is made of. */
+#define LARGE_SHARE 0.25
+
+/* Whether outlines are longer than all other visible lines. */
+static bool is_mostly_outlines(const struct drawing *drawing) {
+  double outlines = 0, others = 0;
+  for (size_t i = 0; i < drawing->stroke.count && poll_at(i); i++) {
+    const struct drawing_stroke *stroke = &drawing->stroke.item[i];
+    if (!stroke->hidden)
+      *(stroke->edge_class == RECTO_EDGE_SILHOUETTE ? &outlines : &others) +=
+          drawing_stroke_mm(drawing, stroke);
+  }
+  return outlines > others;
+}
+
+struct rounded {
+  const struct scene *scene;
+  struct topology topology;
+  struct planar_regions planar;
+  double (*normal)[3]; /* of each face */
+  uint8_t *class_mask; /* of each edge */
+  bool *is_smooth;     /* of each region, at its root: it meets another at a
+                          smooth edge */
+};
+
+static bool set_normals(struct rounded *r) {
+  uint32_t faces = scene_face_count(r->scene);
+  r->normal = mem_alloc(faces, sizeof *r->normal);
+  for (uint32_t f = 0; r->normal != NULL && f < faces && poll_at(f); f++)
+    newell_normal_of_face(r->scene, f, r->normal[f]);
+  return r->normal != NULL;
+}
+
+/* Whether large faces are a large share of all. */
+static bool has_large_faces(const struct rounded *r) {
+  uint32_t faces = scene_face_count(r->scene);
+  double all = 0, large = 0;
+  for (uint32_t f = 0; f < faces; f++)
+    all += vector_length(r->normal[f]);
+  for (uint32_t f = 0; f < faces; f++) {
+    double area = vector_length(r->normal[f]);
+    large += area * faces > LARGE_FACE * all ? area : 0;
+  }
+  return large > LARGE_SHARE * all;
+}
+
+/* The faces at edge e if it is smooth. */
+static bool faces_at(const struct rounded *r, size_t e, uint32_t face[2]) {
+  const struct topology_edge *edge = &r->topology.edge.item[e];
+  face[0] = edge->first;
+  face[1] = edge->second;
+  return edge->uses == 2 && !edge->same_way && face[0] != face[1] &&
+         (r->class_mask[e] & RECTO_EDGE_CREASE) == 0;
+}
+
+/* Finds the flats, and which of them meet others at smooth edges. */
+static void find_flats(struct rounded *r) {
+  uint32_t face[2];
+  size_t edges = r->topology.edge.count;
+  for (size_t e = 0; e < edges && poll_at(e); e++)
+    if (faces_at(r, e, face))
+      planar_regions_join(&r->planar, face[0], r->normal[face[0]], face[1],
+                          r->normal[face[1]]);
+  for (uint32_t f = 0; f < scene_face_count(r->scene) && poll_at(f); f++)
+    planar_regions_measure(&r->planar, r->scene, f, r->normal[f], 0);
+  for (size_t e = 0; e < edges && poll_at(e); e++)
+    if (faces_at(r, e, face) &&
+        planar_regions_compare(&r->planar, face[0], face[1]))
+      for (int k = 0; k < 2; k++)
+        r->is_smooth[planar_regions_root(&r->planar, face[k])] = true;
+}
+
+/* Whether flats that smooth edges surround are a large share of all faces. */
+static bool has_rounded_flats(const struct rounded *r) {
+  double flat = 0, all = 0;
+  for (uint32_t f = 0; f < scene_face_count(r->scene) && poll_at(f); f++) {
+    double area = vector_length(r->normal[f]);
+    all += area;
+    if (planar_regions_flat(&r->planar, f, 0) != NULL &&
+        r->is_smooth[planar_regions_root(&r->planar, f)])
+      flat += area;
+  }
+  return flat > LARGE_SHARE * all;
+}
+
+/* Prepares what find_flats needs; false when memory ran out. */
+static bool prepare_flats(struct rounded *r, double crease_deg) {
+  if (topology_init(&r->topology, r->scene, NULL) != RECTO_OK ||
+      !planar_regions_init(&r->planar, r->scene))
+    return false;
+  r->class_mask = mem_alloc(r->topology.edge.count, 1);
+  r->is_smooth = mem_calloc(scene_face_count(r->scene), sizeof *r->is_smooth);
+  return r->class_mask != NULL && r->is_smooth != NULL &&
+         topology_class_masks(&r->topology, r->scene, crease_deg,
+                              r->class_mask);
+}
+
+/* Sets *found; false when memory ran out. */
+static bool find_rounded_flats(const struct scene *scene, double crease_deg,
+                               bool *found) {
+  struct rounded r = {.scene = scene};
+  bool ok = set_normals(&r);
+  *found = ok && has_large_faces(&r);
+  if (*found) {
+    ok = prepare_flats(&r, crease_deg);
+    if (ok)
+      find_flats(&r);
+    *found = ok && has_rounded_flats(&r);
+  }
+  topology_fini(&r.topology);
+  planar_regions_fini(&r.planar);
+  mem_free(r.normal);
+  mem_free(r.class_mask);
+  mem_free(r.is_smooth);
+  return ok;
+}
+
+bool rounded_warn(const struct drawing *drawing, const struct scene *scene,
+                  const recto_options *options) {
+  const unsigned shown = RECTO_EDGE_CREASE | RECTO_EDGE_SILHOUETTE;
+  bool found = false;
+  if (options->warning == NULL || options->ink.fill != RECTO_FILL_NONE ||
+      (options->ink.edges & shown) != shown ||
+      (options->ink.edges & RECTO_EDGE_SMOOTH) != 0 || scene->cut != NULL ||
+      !is_mostly_outlines(drawing))
+    return true;
+  if (!find_rounded_flats(scene, options->mesh.crease_deg, &found))
+    return false;
+  if (found)
+    options->warning(
+        options->user, "", 0,
+        "flat faces go over into rounded edges, where no line is drawn: "
+        "--fill shade, or --fill hatch with --light, shows the form");
+  return true;
+}
