@@ -230,6 +230,23 @@ static bool write_fill(struct svg *svg, uint32_t index, bool seam) {
   return true;
 }
 
+/* Writes the beginning of an element of a class, up to the end of the class's
+ * name; with a prefix of ids the class also has a name with that, by which one
+ * of several drawings is styled. */
+static void write_class(const struct svg *svg, const char *element,
+                        const char *name) {
+  const char *prefix = svg->options->id_prefix;
+  stream_text(svg->out, "<");
+  stream_text(svg->out, element);
+  stream_text(svg->out, " class=\"");
+  stream_text(svg->out, name);
+  if (prefix != NULL && *prefix != '\0') {
+    stream_text(svg->out, " ");
+    stream_text(svg->out, prefix);
+    stream_text(svg->out, name);
+  }
+}
+
 /* Writes the strokes that close the seams of a layer's fills.  They come before
  * all fills of the layer, so that they do not paint over any of them. */
 static bool write_seams(struct svg *svg, uint32_t layer) {
@@ -241,7 +258,8 @@ static bool write_seams(struct svg *svg, uint32_t layer) {
     if (stream_status(svg->out) != RECTO_OK)
       break;
     if (!open) {
-      stream_text(svg->out, "<g class=\"seam\" stroke-width=\"");
+      write_class(svg, "g", "seam");
+      stream_text(svg->out, "\" stroke-width=\"");
       write_length(svg, drawing->seam_mm);
       stream_text(svg->out, "\">\n");
       open = true;
@@ -333,8 +351,7 @@ static void open_class(const struct svg *svg, struct svg_nesting *open,
       open->width_mm == width_mm)
     return;
   close_class(svg, open);
-  stream_text(svg->out, "<g class=\"");
-  stream_text(svg->out, name);
+  write_class(svg, "g", name);
   if (width_mm != svg->drawing->layer.item[open->layer].width_mm) {
     stream_text(svg->out, "\" stroke-width=\"");
     write_length(svg, width_mm);
@@ -408,7 +425,8 @@ static void write_element(const struct svg *svg, const char *name,
 /* box  x, y, width, height */
 static void write_background(const struct svg *svg, const double box[4]) {
   static const char *const side[] = {"x", "y", "width", "height"};
-  stream_text(svg->out, "<rect class=\"background\" fill=\"");
+  write_class(svg, "rect", "background");
+  stream_text(svg->out, "\" fill=\"");
   svg_write_colour(svg->out, svg->options->background_colour);
   for (int i = 0; i < 4; i++) {
     stream_text(svg->out, "\" ");

@@ -119,9 +119,18 @@ claim "no two elements have one id, also of names alike" are_unique
 have_prefix() {
   run 0 four.obj --ids --hidden layer --fill paint -o with.svg --id-prefix fig-1. &&
     test "$(ids with.svg | grep -vc '^ id="fig-1\.')" = 0 &&
-    sed 's/id="fig-1\./id="/' with.svg | cmp - four.svg
+    sed 's/id="fig-1\./id="/; s/ fig-1\.[a-z]*"/"/' with.svg | cmp - four.svg
+}
+classes_have_prefix() {
+  for class in fill hidden crease silhouette border; do
+    grep -q "<g class=\"$class" four.svg || continue
+    grep -q "<g class=\"$class fig-1.$class\"" with.svg || return 1
+    ! grep -q "<g class=\"$class\"" with.svg || return 1
+  done
+  run 0 four.obj --hidden layer --check with.svg
 }
 claim "a prefix begins all ids and changes nothing else" have_prefix
+claim "but that a class has a name with it too" classes_have_prefix
 while read -r prefix; do
   claim "the prefix $prefix is refused" refuses "the prefix of ids must begin" \
     cube.obj -o no.svg --id-prefix "$prefix"

@@ -65,6 +65,17 @@ else
   skip "pages and pictures have dashes" "built without cairo"
 fi
 
+for wrong in crease,-crease crease,crease -crease,crease crease,all -crease,all; do
+  claim "--edges $wrong is refused" refuses "each once" cube.obj -o no.svg \
+    --edges="$wrong"
+done
+dashes_of_one_view() {
+  run 0 cube.obj --sheet first --hidden none --hidden-in front=dashed \
+    --dash hidden=chain --pen-for hidden=2 -o sheet.svg && silent &&
+    run 0 cube.obj --sheet first --hidden none --dash hidden=chain -o sheet.svg &&
+    grep -q "dashes are for hidden lines" err
+}
+claim "hidden lines of one view are enough for dashes and pens" dashes_of_one_view
 while read -r wrong; do
   claim "--dash $wrong is refused" \
     refuses "--dash: expected classes or hidden" cube.obj -o no.svg \

@@ -55,6 +55,25 @@ stays_on_page() {
   run 0 cube.obj --turntable 7 --elevation 30 --fov 50 -o 'q%d.svg' && silent
 }
 claim "and stay on the page in perspective" stays_on_page
+cropped_frames_have_one_size() {
+  local i
+  run 0 post.obj --turntable 5 --elevation 20 --tight --path polyline -o 'c%d.svg' &&
+    silent && run 0 post.obj --turntable 5 --elevation 20 --path polyline -o 'w%d.svg' ||
+    return 1
+  grep -ho 'viewBox="[^"]*"' c?.svg | sort -u >boxes
+  test "$(cat boxes)" = 'viewBox="0 0 190.6 190.6"' || { say "$(cat boxes)" && false; }
+  # As large as on the whole page, and nothing is clipped.
+  for i in 0 1 2 3 4; do
+    test "$(widest "c$i.svg")" = "$(widest "w$i.svg")" || return 1
+  done
+}
+widest() {
+  sed -n 's/.*points="\([^"]*\)".*/\1/p' "$1" | tr ' ' '\n' | cut -d, -f1 |
+    sort -g | sed -n '1p;$p' | paste -sd' ' | awk '{ printf "%.2f\n", $2 - $1 }'
+}
+claim "cropped frames are of one size, and as large" cropped_frames_have_one_size
+claim "they are not where they do not fill the page" refuses 'crops the frames' \
+  cube.obj --turntable 3 --tight --scale 1:1 -o 'no%d.svg'
 keeps_true_scale() {
   run 0 cube.obj --turntable 2 --view front --scale 10:1 -o 's%d.svg' &&
     run 0 cube.obj --view front --scale 10:1 -o s.svg && cmp s.svg s0.svg

@@ -67,7 +67,7 @@ done <<'END_OF_ROWS'
 --fov 20|a.svg --view top|a.svg -c 5,4,3|named views and for --no-fit; --fit
 --fov 20|a.svg -c 5,4,3 --no-fit|a.svg -c 5,4,3 --scale 1:2|named views and for --no-fit; --scale
 --cut-fill solid|a.svg --cut z=1|a.svg|--cut and --section; a run without --cut
---cut-hatch default=30|a.svg --section 1|a.svg|--cut and --section; a run without --cut
+--cut-hatch wedge=30|a.svg --section 1|a.svg|--cut and --section; a run without --cut
 --unit m|a.svg --scale 1:2|a.svg|true scale; --fit
 --scale 1:2|a.svg|a.svg --no-fit|true scale; --no-fit
 --crease 20|a.svg|a.svg -e silhouette|edges of the classes crease and smooth, fills and smooth contours; this --edges
@@ -82,7 +82,7 @@ done <<'END_OF_ROWS'
 --simplify 1|a.svg|a.svg -e none --fill hatch|lines; --edges none
 --curves 1|a.svg|a.svg -e none --fill hatch|lines; --edges none
 --pen 1|a.svg -e none --fill hatch|a.svg -e none --fill paint|lines and hatching; --edges none
---pens 2|a.svg|a.svg -e none --fill paint|lines and hatching; --edges none
+--pens 1|a.svg|a.svg -e none --fill paint|lines and hatching; --edges none
 --pen-for hatch=2|a.svg --fill hatch|a.svg -e none --fill paint|lines and hatching; --edges none
 --pen-width 1=1|a.hpgl|a.svg -e none --fill paint|lines and hatching; --edges none
 --pen-color 1=00f|a.svg|a.hpgl|svg, pdf, eps, ps and png; hpgl
@@ -113,6 +113,8 @@ done <<'END_OF_ROWS'
 --frames 0-1|a%d.svg --turntable 3|a.svg|--turntable; a run without --turntable
 --resume|a.recto --part 1/2|a.svg|--part; a run without --part
 --velocity-up 3|a.svg --stats|a.hpgl|the time in --stats; a run without --stats
+--portrait|a.svg|a.svg --page 90x90|pages that are not square; a square one
+--landscape|a.svg|a.svg --page 90x90|pages that are not square; a square one
 --tight|a.svg|a.hpgl|svg, pdf, eps, ps and png; hpgl
 --dpi 30|a.png|a.pdf|png; pdf
 END_OF_ROWS

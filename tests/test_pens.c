@@ -278,6 +278,78 @@ static void weights_of_classes_not_drawn_are_reported(void **state) {
   }
 }
 
+static void dashes_of_lines_not_drawn_are_reported(void **state) {
+  static const struct {
+    recto_dash dash;
+    recto_hidden hidden;
+    const char *said; /* NULL: nothing is */
+  } row[] = {
+      {{.lines = RECTO_LINES_HIDDEN, .count = 2, .length = {3, 1}},
+       RECTO_HIDDEN_NONE,
+       "dashes are for hidden lines, which are not requested"},
+      {{.lines = RECTO_LINES_HIDDEN, .count = 2, .length = {3, 1}},
+       RECTO_HIDDEN_LAYER,
+       NULL},
+      {{.lines = RECTO_LINES_OF_CLASS,
+        .edge_class = SILHOUETTE,
+        .count = 2,
+        .length = {3, 1}},
+       RECTO_HIDDEN_NONE,
+       "dashes are for silhouette lines, which are not requested"},
+      {{.lines = RECTO_LINES_OF_CLASS,
+        .edge_class = CREASE,
+        .count = 2,
+        .length = {3, 1}},
+       RECTO_HIDDEN_NONE,
+       NULL},
+  };
+  (void)state;
+  for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+    struct ink_fixture k;
+    start_scene(&k);
+    k.options.ink.dash = &row[i].dash;
+    k.options.ink.dash_count = 1;
+    k.options.ink.hidden = row[i].hidden;
+    k.options.ink.edges = CREASE;
+    assert_told(&k, row[i].said);
+    ink_fixture_end(&k);
+  }
+}
+
+/* The scene has two groups. */
+static void pens_past_the_last_group_are_reported(void **state) {
+  static const recto_pen_use use = CLASS_ON(CREASE, 3);
+  (void)state;
+  for (int pens = 1; pens <= 4; pens++) {
+    struct ink_fixture k;
+    start_scene(&k);
+    k.options.ink.pens = pens;
+    assert_told(&k, pens == 3 ? "3 pens for the groups of a model that has 2: "
+                                "the others draw nothing"
+                    : pens == 4 ? "4 pens"
+                                : NULL);
+    ink_fixture_use(&k, &use, 1);
+    assert_told(&k, NULL);
+    ink_fixture_end(&k);
+  }
+}
+
+/* With a layer of their own hidden lines lie apart from visible ones also where
+ * one pen draws both. */
+static void hidden_lines_of_one_pen_have_their_layer(void **state) {
+  static const recto_pen_use use = HIDDEN_ON(1);
+  struct ink_fixture k;
+  (void)state;
+  start_scene(&k);
+  k.options.ink.hidden = RECTO_HIDDEN_LAYER;
+  ink_fixture_use(&k, &use, 1);
+  ink_fixture_draw(&k);
+  assert_int_equal(k.drawing.layer.count, 2);
+  assert_string_equal(k.drawing.layer.item[0].label, "1 hidden");
+  assert_string_equal(k.drawing.layer.item[1].label, "1 visible");
+  ink_fixture_end(&k);
+}
+
 static void fills_lie_below_the_lines_of_all_pens(void **state) {
   static const double flat[] = {0, 0, 0, 1, 0, 0, 1, 1, 0};
   static const double outline[] = {10, 10, 90, 10, 90, 80};
@@ -418,6 +490,9 @@ int main(void) {
       cmocka_unit_test(layers_do_not_name_classes_not_requested),
       cmocka_unit_test(unused_pens_are_reported),
       cmocka_unit_test(weights_of_classes_not_drawn_are_reported),
+      cmocka_unit_test(dashes_of_lines_not_drawn_are_reported),
+      cmocka_unit_test(pens_past_the_last_group_are_reported),
+      cmocka_unit_test(hidden_lines_of_one_pen_have_their_layer),
       cmocka_unit_test(fills_lie_below_the_lines_of_all_pens),
       cmocka_unit_test(half_the_strokes_own_pen_is_the_shortest),
       cmocka_unit_test(strokes_of_pens_that_meet_are_not_joined),

@@ -110,17 +110,6 @@ void captions_write_scale(char text[CAPTIONS_SCALE_SIZE], double scale) {
     (void)snprintf(text, CAPTIONS_SCALE_SIZE, "%.*s:%d", length, number, other);
 }
 
-/* Whether any view has hidden lines. */
-static bool has_hidden_lines(const recto_options *o,
-                             const struct multiview *views) {
-  for (size_t i = 0; i < views->count; i++) {
-    const recto_sheet_view *view = views->view[i].asked;
-    if ((view->has_hidden ? view->hidden : o->ink.hidden) != RECTO_HIDDEN_NONE)
-      return true;
-  }
-  return false;
-}
-
 /* "Visible lines: front, top and left in first-angle projection, 1:2."  One
  * view by the camera is described as without a sheet. */
 static void describe_sheet(struct sentence *words, const recto_options *o,
@@ -129,7 +118,7 @@ static void describe_sheet(struct sentence *words, const recto_options *o,
     describe_view(words, o);
     return;
   }
-  say_contents(words, o, has_hidden_lines(o, views));
+  say_contents(words, o, multiview_has_hidden(views, o));
   if (words->length == 0)
     sentence_add(words, "Nothing");
   for (size_t i = 0; i < views->count; i++)

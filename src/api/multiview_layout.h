@@ -63,4 +63,16 @@ static inline bool multiview_has_title(const recto_options *options) {
   return options->output.title != NULL && *options->output.title != '\0';
 }
 
+/* Whether any view has hidden lines. */
+static inline bool multiview_has_hidden(const struct multiview *views,
+                                        const recto_options *options) {
+  for (size_t i = 0; i < views->count; i++) {
+    const recto_sheet_view *view = views->view[i].asked;
+    if ((view->has_hidden ? view->hidden : options->ink.hidden) !=
+        RECTO_HIDDEN_NONE)
+      return true;
+  }
+  return false;
+}
+
 #endif

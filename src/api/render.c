@@ -465,8 +465,11 @@ static recto_status check_pens(const struct render *render,
   struct pens pens;
   recto_status status =
       pens_init(&pens, &render->model->scene, render->options, error);
+  recto_options asked = *render->options;
+  if (render->request->others_hide && asked.ink.hidden == RECTO_HIDDEN_NONE)
+    asked.ink.hidden = RECTO_HIDDEN_DASHED;
   if (status == RECTO_OK)
-    pens_warn_unused(&pens, render->options);
+    pens_warn_unused(&pens, &asked);
   if (status == RECTO_OK)
     status = cut_hatch_check(&render->model->scene, render->options, error);
   pens_fini(&pens);

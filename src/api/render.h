@@ -10,6 +10,7 @@ struct render_request {
   const struct preparation *prepared; /* taken where it serves; NULL: none */
   double shift_mm[2]; /* of the drawing from where the options place it */
   bool may_be_empty;  /* there is no warning of that */
+  bool others_hide;   /* other views have hidden lines, for which pens are */
 };
 
 /* Draws a view.

@@ -172,13 +172,15 @@ static recto_status clip_detail(struct multiview_work *work, size_t index,
 static recto_status draw_views(struct multiview_work *work,
                                recto_error *error) {
   recto_status status = RECTO_OK;
+  bool hide = multiview_has_hidden(&work->views, work->options);
   for (size_t i = 0; i < count_parts(work) && status == RECTO_OK; i++) {
     recto_options of_view;
     struct view_calls calls;
     struct render_request request = {.scene = work->scene,
                                      .options = &of_view,
                                      .prepared = work->prepared,
-                                     .may_be_empty = true};
+                                     .may_be_empty = true,
+                                     .others_hide = hide};
     multiview_options(&work->views, i, work->options, &of_view,
                       request.shift_mm);
     divide_work(&calls, work, i, &of_view);

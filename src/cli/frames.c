@@ -1,6 +1,7 @@
 /* frames.c - the directions and the paths of several drawings in one run. */
 #include "cli/frames.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -19,6 +20,25 @@ int frames_past(const struct arguments *a) {
   return some ? a->past_frame : frames_count(a);
 }
 
+/* The frames of a turntable are cropped alike, to the square about the sphere
+ * that fills the page, with room for the widest lines. */
+static void crop_to_sphere(recto_options *options) {
+  recto_page_options *page = &options->page;
+  double side = fmin(page->width_mm, page->height_mm);
+  double margin = page->margin_mm >= 0 ? page->margin_mm
+                                       : fmin(RECTO_USUAL_MARGIN_MM, side / 4);
+  double pen = options->ink.pen_mm, weight = 2; /* of silhouettes */
+  for (size_t i = 0; i < options->ink.pen_count; i++)
+    pen = fmax(pen, options->ink.pen[i].width_mm);
+  for (size_t i = 0; i < options->ink.weight_count; i++)
+    weight = fmax(weight, options->ink.weight[i].weight);
+  if (!(side > 2 * margin))
+    return;
+  page->margin_mm = pen * weight / 2;
+  page->width_mm = page->height_mm = side - 2 * margin + pen * weight;
+  options->output.tight = false;
+}
+
 void frame_options(const struct arguments *a, int frame,
                    recto_options *options) {
   *options = a->options;
@@ -26,6 +46,8 @@ void frame_options(const struct arguments *a, int frame,
     options->camera.azimuth_deg += 360.0 * frame / a->turntable;
     if (options->camera.fit == RECTO_FIT_PAGE)
       options->camera.fit = RECTO_FIT_SPHERE;
+    if (options->output.tight && options->camera.fit == RECTO_FIT_SPHERE)
+      crop_to_sphere(options);
   } else if (a->view_count > 1) {
     options->camera.azimuth_deg = a->view[frame].azimuth_deg;
     options->camera.elevation_deg = a->view[frame].elevation_deg;

@@ -24,7 +24,7 @@ enum {
   WARNOCK_PIXELS,
   SMOOTH_CONTOURS
 };
-enum { SVG = 40, HPGL, PNG, PDF, POSTSCRIPT };
+enum { SVG = 40, HPGL, PNG, PDF, POSTSCRIPT, OBLONG_PAGE };
 enum {
   STATS = 48,
   CHECK,
@@ -97,6 +97,8 @@ static uint64_t find_requests(const struct arguments *a) {
     bits |= BIT(TURNTABLE);
   if (a->parts > 0)
     bits |= BIT(PART);
+  if (o->page.width_mm != o->page.height_mm)
+    bits |= BIT(OBLONG_PAGE);
   return bits;
 }
 
@@ -163,6 +165,8 @@ static const struct {
                        BIT(SVG) | BIT(PNG) | VECTOR_PAGES | BIT(BY_CHECK)},
     /* A drawing that is checked brings its page, unless that was cropped. */
     [USED_BY_PAGE] = {"drawings and --tight", ~BIT(BY_CHECK)},
+    [USED_BY_OBLONG_PAGE] = {"pages that are not square",
+                             BIT(OBLONG_PAGE) | BIT(BY_CHECK)},
     [USED_BY_PNG] = {"png", BIT(PNG)},
     [USED_BY_PLOTTER] = {"hpgl and --stats", BIT(HPGL) | BIT(STATS)},
     [USED_BY_STATS] = {"the time in --stats", BIT(STATS)},
@@ -203,7 +207,8 @@ static const char *name_instead(const struct arguments *a, uint64_t bits) {
     return fill[a->options.ink.fill];
   if (bits & FITS)
     return fit[a->options.camera.fit];
-  return bits & BIT(NO_LIGHT)    ? "hatching by --light"
+  return bits & BIT(OBLONG_PAGE) ? "a square one"
+         : bits & BIT(NO_LIGHT)  ? "hatching by --light"
          : bits & BIT(STATS)     ? "a run without --stats"
          : bits & BIT(CUT)       ? "a run without --cut"
          : bits & BIT(PART)      ? "a run without --part"

@@ -170,6 +170,11 @@ static bool settle_camera(struct arguments *a, char message[MESSAGE_SIZE]) {
     wrong = "--camera and --view, --azimuth or --elevation exclude each other";
   else if (a->eye_given && a->turntable > 0)
     wrong = "--camera and --turntable exclude each other";
+  else if (a->turntable > 0 && a->options.output.tight &&
+           a->options.camera.fit != RECTO_FIT_PAGE)
+    wrong =
+        "--tight crops the frames of --turntable alike only where they fill "
+        "the page: leave out --scale and --no-fit, or --tight";
   else if (a->turntable > 0 && a->view_count > 1)
     wrong = "--turntable takes one --view to begin with";
   else if (a->view_count > 1 && a->direction_given)

@@ -194,15 +194,19 @@ unsigned value_edge_class(const char *name) {
 bool value_edges(const char *text, unsigned *edges) {
   /* A list that begins by leaving out leaves out of the default. */
   unsigned mask = *text == '-' ? RECTO_EDGES_DEFAULT : RECTO_EDGES_NONE;
+  unsigned named = 0;
+  const char *begin = text;
   if (strcmp(text, "none") != 0)
     for (;;) {
       bool without = *text == '-';
+      bool may_be_all = text == begin && !without;
       text += without;
       size_t length = strcspn(text, ",");
-      bool all = length == 3 && memcmp(text, "all", 3) == 0;
+      bool all = may_be_all && length == 3 && memcmp(text, "all", 3) == 0;
       unsigned found = all ? RECTO_EDGES_ALL : find_class(text, length);
-      if (found == 0)
+      if (found == 0 || (named & found) != 0)
         return false;
+      named |= all ? 0 : found;
       mask = without ? mask & ~found : mask | found;
       text += length;
       if (*text == '\0')

@@ -143,7 +143,9 @@ bool layers_add(struct drawing *drawing, const struct pens *pens,
   bool one_more =
       options->ink.hidden == RECTO_HIDDEN_LAYER && pens->of_hidden == PENS_NONE;
   uint32_t count = pens->count + one_more;
-  bool apart = !drawing->by_pens && (count > 1 || options->ink.ids) &&
+  bool apart = !drawing->by_pens &&
+               (count > 1 || options->ink.ids ||
+                options->ink.hidden == RECTO_HIDDEN_LAYER) &&
                options->ink.hidden != RECTO_HIDDEN_NONE;
   for (uint32_t pen = 0; pen < count; pen++) {
     if (!add_layer(drawing, pens, pen, is_for_hidden(pens, pen) ? GREY : BLACK))

@@ -1,4 +1,5 @@
-/* pens_warn_unused.c - warns about pens and weights that have nothing to draw.
+/* pens_warn_unused.c - warns about pens, weights and dashes that have nothing
+ * to draw.
  *
  * Whatever is visible, they would draw nothing.  It is no error, because
  * scripts give the same pens for every drawing. */
@@ -61,9 +62,37 @@ static void warn_unused_looks(const struct pens *pens,
         first + 1, others);
 }
 
+static void warn_unused_dashes(const recto_options *options) {
+  for (size_t i = 0; i < options->ink.dash_count; i++) {
+    const recto_dash *dash = &options->ink.dash[i];
+    bool of_hidden = dash->lines == RECTO_LINES_HIDDEN;
+    if (of_hidden ? options->ink.hidden == RECTO_HIDDEN_NONE
+                  : (options->ink.edges & dash->edge_class) == 0)
+      warn_of_pen(options, "dashes are for %s lines, which are not requested",
+                  of_hidden ? "hidden"
+                            : recto_edge_class_name(dash->edge_class));
+  }
+}
+
+/* Pens that groups are assigned to in turn, of which there are not as many. */
+static void warn_idle_pens(const struct pens *pens,
+                           const recto_options *options) {
+  size_t groups = pens->group_count;
+  if (options->ink.pens > 1 && (size_t)options->ink.pens > groups &&
+      groups > 0 && options->ink.pen_use_count == 0)
+    warn_of_pen(options,
+                groups == 1 ? "%d pens for the groups of a model that has %zu: "
+                              "pen 1 draws all"
+                            : "%d pens for the groups of a model that has %zu: "
+                              "the others draw nothing",
+                options->ink.pens, groups);
+}
+
 void pens_warn_unused(const struct pens *pens, const recto_options *options) {
   if (!options->warning)
     return;
+  warn_idle_pens(pens, options);
+  warn_unused_dashes(options);
   if (pens->of_hidden != PENS_NONE && options->ink.hidden == RECTO_HIDDEN_NONE)
     warn_of_pen(options, "pen %u is for hidden lines, which are not requested",
                 pens->of_hidden + 1);
