@@ -729,6 +729,18 @@ RECTO_USE_RESULT recto_status recto_scene_render(const recto_scene *scene,
                                                  recto_drawing **drawing,
                                                  recto_error *error);
 
+/* Reads a model for recto_scene_write_part and recto_scene_has_part alone.  An
+ * OBJ file that is not compressed is not held, where it is the only one of the
+ * scene: they read it themselves, its faces block by block, and hold its points
+ * and what meets the window; their options say what is warned of.  To all other
+ * functions the scene is then empty, and nothing may be added to it.  Anything
+ * else is read as by recto_scene_read.
+ * Errors   as of recto_scene_read; of a file that is not held they come from
+ *          the functions that read it */
+RECTO_USE_RESULT recto_status recto_scene_read_for_parts(
+    recto_scene *scene, const char *path, const char *format,
+    const recto_options *options, recto_error *error);
+
 /* The most parts of a drawing. */
 #define RECTO_PARTS_MAX 4096
 
@@ -753,6 +765,7 @@ RECTO_USE_RESULT recto_status recto_scene_write_part(
 
 /* Sets *is_there to whether a file is the very part that
  * recto_scene_write_part would write there, whole, and need not be made again.
+ * Warns of nothing.
  * Errors  those of it, but for the solver's */
 RECTO_USE_RESULT recto_status recto_scene_has_part(
     const recto_scene *scene, const recto_options *options, unsigned number,

@@ -264,6 +264,12 @@ unit_tests += %D%/test_text
 %C%_test_text_SOURCES = %D%/test_text.c
 unit_tests += %D%/test_multiview
 %C%_test_multiview_SOURCES = %D%/test_multiview.c
+unit_tests += %D%/test_read_passes
+%C%_test_read_passes_SOURCES = %D%/test_read_passes.c %D%/reading.c \
+  %D%/reading.h %D%/temporary.c %D%/temporary.h
+unit_tests += %D%/test_parts_read
+%C%_test_parts_read_SOURCES = %D%/test_parts_read.c %D%/temporary.c \
+  %D%/temporary.h
 unit_tests += %D%/test_parts
 %C%_test_parts_SOURCES = %D%/test_parts.c %D%/temporary.c %D%/temporary.h
 %C%_test_parts_LDADD = %D%/scenes/libscenes.la $(LDADD)

@@ -12,8 +12,10 @@ struct recto_scene {
   struct scene scene;
   unsigned long fault[SCENE_FAULT_COUNT]; /* of everything added so far */
   double read_cpu, read_wall;             /* seconds spent on reading files */
-  char *path; /* of the only file that was read; NULL: none or several were */
-  bool read_before;             /* a file was read */
+  char *path;   /* of the only file that was read; NULL: none or several were */
+  char *format; /* of that file, as it was named; NULL: by extension */
+  bool is_deferred; /* that file is to be read by parts, in passes */
+  bool read_before; /* a file was read */
   struct preparation *prepared; /* recto_scene_prepare; NULL: not prepared */
 };
 

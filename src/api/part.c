@@ -3,7 +3,11 @@
  * Phases
  *   check    whether the parts can be joined exactly
  *   aim      the camera, at the whole scene; the windows of the page
- *   keep     the faces that meet the part's window, as a scene of their own
+ *   pick     the faces that may matter to the part, in a pass over the model;
+ *            of one that is not held, only this tells which points are used:
+ *            where others than were taken for it, the camera is aimed again
+ *   keep     the faces that meet the part's window, as a scene of their own;
+ *            the model is then dropped
  *   solve    that scene, on the page grid of the whole
  *   collect  what lies in the window; write */
 #include <limits.h>
@@ -22,7 +26,9 @@
 #include "parts/part_file.h"
 #include "scene/weld_near.h"
 #include "view/camera_aim.h"
+#include "view/rescale.h"
 #include "view/layout.h"
+#include "view/project.h"
 #include "view/used.h"
 #include "visibility/solver.h"
 
@@ -30,9 +36,11 @@
 struct part_work {
   const recto_scene *model;
   const recto_options *options;
+  struct scene read; /* of a model that is not held: its points and groups */
+  struct diagnostics diagnostics;
+  struct face_pick pick;
   struct camera camera; /* aimed at the whole scene */
-  uint8_t *used;        /* one a point of it */
-  struct page_place *place;
+  struct part_scene_request request;
   double weld; /* the most that welding could join */
   struct part part;
   struct part_scene scene;
@@ -47,21 +55,17 @@ static void part_work_fini(struct part_work *work) {
   topology_fini(&work->topology);
   part_scene_fini(&work->scene);
   part_fini(&work->part);
-  mem_free(work->place);
-  mem_free(work->used);
+  face_pick_fini(&work->pick);
+  read_passes_close(work->pick.source.passes);
+  scene_fini(&work->read);
 }
 
 /* ---- What all parts have in common --------------------------------------- */
 
-static uint64_t hash_ids(uint64_t hash, const uint32_t *id, size_t count) {
-  hash = hash_add(hash, count);
-  for (size_t i = 0; i + 1 < count; i += 2)
-    hash = hash_add(hash, (uint64_t)id[i] << 32 | id[i + 1]);
-  return count % 2 ? hash_add(hash, id[count - 1]) : hash;
-}
-
-/* A hash of the scene's geometry and groups. */
-static uint64_t hash_scene(const struct scene *scene) {
+/* A hash of the model's geometry and groups, when its faces were passed
+ * over. */
+static uint64_t hash_model(const struct face_pick *pick) {
+  const struct scene *scene = pick->source.scene;
   uint64_t hash = 0;
   for (size_t p = 0; p < scene->point.count; p++) {
     const struct scene_point *at = &scene->point.item[p];
@@ -69,30 +73,23 @@ static uint64_t hash_scene(const struct scene *scene) {
     hash = hash_add_double(hash, at->y);
     hash = hash_add_double(hash, at->z);
   }
-  hash = hash_ids(hash, scene->corner.item, scene->corner.count);
-  hash = hash_ids(hash, scene->face_start.item, scene->face_start.count);
-  hash = hash_ids(hash, scene->face_group.item, scene->face_group.count);
-  hash = hash_ids(hash, scene->face_skipped.item, scene->face_skipped.count);
-  hash = hash_ids(hash, scene->wire_corner.item, scene->wire_corner.count);
-  hash = hash_ids(hash, scene->wire_start.item, scene->wire_start.count);
-  return hash_ids(hash, scene->wire_group.item, scene->wire_group.count);
+  return hash_add(hash_add(hash, pick->face_hash), pick->wire_hash);
 }
 
-static bool copy_names(struct part_common *common, const recto_scene *model) {
-  const char *path = model->path != NULL ? model->path : "";
+static bool copy_names(struct part_common *common, const char *path,
+                       const struct scene *scene) {
   const char *slash = strrchr(path, '/');
   common->path = mem_copy_text(slash != NULL ? slash + 1 : path);
-  for (size_t g = 0; common->path != NULL && g < model->scene.group.count;
-       g++) {
-    struct scene_group own = model->scene.group.item[g];
+  for (size_t g = 0; common->path != NULL && g < scene->group.count; g++) {
+    struct scene_group own = scene->group.item[g];
     own.name = mem_copy_text(own.name != NULL ? own.name : "");
     if (own.name == NULL || !ARRAY_PUSH(&common->group, own)) {
       mem_free(own.name);
       return false;
     }
   }
-  for (size_t r = 0; r < model->scene.precision.count; r++) {
-    struct precision_range own = model->scene.precision.item[r];
+  for (size_t r = 0; r < scene->precision.count; r++) {
+    struct precision_range own = scene->precision.item[r];
     size_t last = common->precision.count;
     if (last > 0 &&
         common->precision.item[last - 1].first_point == own.first_point)
@@ -103,11 +100,10 @@ static bool copy_names(struct part_common *common, const recto_scene *model) {
   return common->path != NULL;
 }
 
-static recto_status make_common(struct part_work *work, uint32_t count,
-                                recto_error *error) {
+static recto_status make_common(struct part_work *work, recto_error *error) {
   const recto_options *o = work->options;
   struct part_common *common = &work->part.common;
-  common->parts = count;
+  const char *path = work->model->path != NULL ? work->model->path : "";
   common->edges = o->ink.edges;
   common->has_fragments = o->ink.fill != RECTO_FILL_NONE;
   common->has_hidden = o->ink.hidden != RECTO_HIDDEN_NONE;
@@ -119,58 +115,37 @@ static recto_status make_common(struct part_work *work, uint32_t count,
   memcpy(common->eye, o->camera.eye, sizeof common->eye);
   common->fov_deg = o->camera.fov_deg;
   uint64_t sum;
-  if (!copy_names(common, work->model))
+  if (!copy_names(common, path, work->pick.source.scene))
     return error_memory(error);
   recto_status status = part_file_checksum_common(common, &sum, error);
-  common->id = hash_add(hash_scene(&work->model->scene), sum);
+  common->id = hash_add(hash_model(&work->pick), sum);
   common->id = hash_add_double(common->id, o->mesh.weld);
   return status;
 }
 
-/* ---- Phases -------------------------------------------------------------- */
+/* ---- The camera and the window ------------------------------------------- */
 
-/* Aims the camera, and finds where the points lie. */
-static recto_status aim_part(struct part_work *work, uint32_t count,
+/* Aims the camera.
+ * used  one a point */
+static recto_status aim_part(struct part_work *work, const uint8_t *used,
                              recto_error *error) {
-  const struct scene *scene = &work->model->scene;
-  struct rescaled rescaled;
-  recto_status status = rescale(&rescaled, scene, error);
-  if (status != RECTO_OK)
-    return status;
-  bool is_extreme = rescaled.exponent != 0;
-  rescale_fini(&rescaled);
-  if (is_extreme)
+  const struct scene *scene = work->pick.source.scene;
+  if (rescale_is_wanted(scene, used))
     return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
                      "a scene of extreme size cannot be drawn in parts");
-  status = camera_aim(&work->camera, scene, work->options, error);
+  recto_status status =
+      camera_aim_at_used(&work->camera, scene, used, work->options, error);
   if (status != RECTO_OK)
     return status;
   if (!work->camera.all_on_page)
     return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
                      "what the page or the near plane may clip cannot be drawn "
                      "in parts: let the drawing fill the page");
-  work->used = used_points(scene, NULL);
-  if (work->used != NULL)
-    work->place = page_places(&work->camera, scene, work->used);
-  if (work->place == NULL)
-    return error_memory(error);
   const recto_mesh_options *mesh = &work->options->mesh;
   const struct weld_request weld = {mesh->weld,
                                     precision_of_bits(mesh->coordinate_bits)};
   work->weld = weld_near_length_most(scene, &weld);
-  return make_common(work, count, error);
-}
-
-static recto_status choose_window(struct part_work *work, recto_error *error) {
-  uint32_t count = work->part.common.parts;
-  struct part_window *window = mem_alloc(count, sizeof *window);
-  bool ok = window != NULL &&
-            page_windows_make(&work->camera, work->place, work->used,
-                              work->model->scene.point.count, count, window);
-  if (ok)
-    work->part.window = window[work->part.index];
-  mem_free(window);
-  return ok ? RECTO_OK : error_memory(error);
+  return RECTO_OK;
 }
 
 /* How far beyond the window, in grid units, something may matter within it:
@@ -183,13 +158,146 @@ static int64_t margin_of_window(const struct camera *camera) {
   return 64 + (int64_t)(4 * units < most ? ceil(4 * units) : most);
 }
 
+/* How far beyond the window faces are picked that may be needed: some times the
+ * distance of points that cover the page evenly. */
+static int64_t reach_of_window(const struct camera *camera, size_t points) {
+  enum { TIMES = 12 };
+  const struct projection projection = projection_of(camera);
+  double area = 4 * projection.half[0] * projection.half[1];
+  double reach = TIMES * sqrt(area / (double)points);
+  return reach < SHEET_XY_MAX ? (int64_t)reach : SHEET_XY_MAX;
+}
+
+/* Chooses the window, and what is picked for it. */
+static recto_status aim_pick(struct part_work *work, recto_error *error) {
+  const struct scene *scene = work->pick.source.scene;
+  uint32_t count = work->part.common.parts;
+  struct page_place *place = page_places(&work->camera, scene);
+  struct part_window *window = mem_alloc(count, sizeof *window);
+  bool ok = place != NULL && window != NULL &&
+            page_windows_make(&work->camera, place, scene->point.count, count,
+                              window);
+  if (ok) {
+    work->part.window = window[work->part.index];
+    work->request = (struct part_scene_request){
+        .camera = &work->camera,
+        .window = work->part.window,
+        .margin = margin_of_window(&work->camera),
+        .reach = reach_of_window(&work->camera, scene->point.count),
+        .fragments = work->options->ink.fill != RECTO_FILL_NONE};
+    ok = part_scene_aim(&work->pick, &work->request, place);
+  }
+  mem_free(window);
+  mem_free(place);
+  return ok ? RECTO_OK : error_memory(error);
+}
+
+/* ---- The model ----------------------------------------------------------- */
+
+/* Opens the model, whose points are then known. */
+static recto_status open_model(struct part_work *work, recto_error *error) {
+  const recto_scene *model = work->model;
+  struct face_source *source = &work->pick.source;
+  source->scene = &model->scene;
+  scene_init(&work->read);
+  if (!model->is_deferred)
+    return RECTO_OK;
+  if (model->scene.point.count > 0)
+    return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                     "a model that was read for parts is not alone in its "
+                     "scene");
+  work->diagnostics = (struct diagnostics){.file = model->path,
+                                           .warning = work->options->warning,
+                                           .user = work->options->user};
+  work->read.needs_colours = work->options->ink.fill == RECTO_FILL_PAINT;
+  recto_status status =
+      read_passes_open(&source->passes, model->path, model->format, 0, error);
+  if (status == RECTO_OK && source->passes == NULL)
+    return error_set(error, RECTO_ERROR_IO, model->path, 0,
+                     "cannot be read any more as it was when it was opened");
+  source->scene = &work->read;
+  return status == RECTO_OK ? read_passes_points(source->passes, &work->read,
+                                                 &work->diagnostics, error)
+                            : status;
+}
+
+/* Sets which points are used, as the last pass found; returns whether that is
+ * new. */
+static bool take_used(const struct part_work *work, uint8_t *used) {
+  bool is_new = false;
+  for (size_t p = 0; p < work->pick.source.scene->point.count; p++) {
+    is_new = is_new || (used[p] != 0) != face_pick_uses(&work->pick, p);
+    used[p] = face_pick_uses(&work->pick, p);
+  }
+  return is_new;
+}
+
+/* Aims the camera by what is known to be used, and picks faces.
+ * used   one a point
+ * picks  faces are picked, else the model is only looked at */
+static recto_status aim_and_pick(struct part_work *work, const uint8_t *used,
+                                 bool picks, recto_error *error) {
+  recto_status status = aim_part(work, used, error);
+  if (status == RECTO_OK && picks)
+    status = aim_pick(work, error);
+  return status == RECTO_OK ? face_pick_pass(&work->pick, error) : status;
+}
+
+/* The same where a pass is needed to know what is used, and what seems to be is
+ * taken for it at first. */
+static recto_status guess_and_pick(struct part_work *work, uint8_t *used,
+                                   bool picks, recto_error *error) {
+  read_passes_guess_used(work->pick.source.passes, used);
+  recto_status guessed = aim_part(work, used, error);
+  if (guessed == RECTO_OK && picks)
+    guessed = aim_pick(work, error);
+  const struct camera guess = work->camera;
+  recto_error of_pass;
+  recto_status status = face_pick_pass(&work->pick, &of_pass);
+  if (status != RECTO_OK && error != NULL)
+    *error = of_pass;
+  if (status != RECTO_OK || !take_used(work, used))
+    return status != RECTO_OK ? status : guessed;
+  status = aim_part(work, used, error);
+  bool is_same = guessed == RECTO_OK && status == RECTO_OK &&
+                 memcmp(&guess, &work->camera, sizeof guess) == 0;
+  return status != RECTO_OK || is_same ? status
+                                       : aim_and_pick(work, used, picks, error);
+}
+
+/* Reads the model so far as the part needs it. */
+static recto_status survey_model(struct part_work *work, bool picks,
+                                 recto_error *error) {
+  recto_status status = open_model(work, error);
+  if (status != RECTO_OK)
+    return status;
+  const struct scene *scene = work->pick.source.scene;
+  bool is_held = work->pick.source.passes == NULL;
+  uint8_t *used =
+      is_held ? used_points(scene, NULL) : mem_alloc(scene->point.count, 1);
+  if (used == NULL)
+    return error_memory(error);
+  status = is_held ? aim_and_pick(work, used, picks, error)
+                   : guess_and_pick(work, used, picks, error);
+  mem_free(used);
+  return status == RECTO_OK ? make_common(work, error) : status;
+}
+
+/* Frees what the part needs no more of its model. */
+static void drop_model(struct part_work *work) {
+  read_passes_close(work->pick.source.passes);
+  work->pick.source.passes = NULL;
+  ARRAY_FREE(&work->read.point);
+  face_pick_fini(&work->pick);
+}
+
+/* ---- Phases -------------------------------------------------------------- */
+
 static recto_status keep_part(struct part_work *work, recto_error *error) {
-  const struct part_scene_request request = {work->part.window,
-                                             margin_of_window(&work->camera),
-                                             work->part.common.has_fragments};
   bool may_weld = false;
-  recto_status status = part_scene_make(&work->scene, &work->model->scene,
-                                        work->place, &request, error);
+  recto_status status =
+      part_scene_make(&work->scene, &work->pick, &work->request, error);
+  drop_model(work);
   if (status == RECTO_OK)
     status = topology_init(&work->topology, &work->scene.scene, error);
   if (status == RECTO_OK && !part_scene_may_weld(&work->scene, &work->topology,
@@ -229,7 +337,6 @@ static recto_status solve_part_scene(struct part_work *work,
 static recto_status collect_part(struct part_work *work, recto_error *error) {
   const struct part_sources sources = {.scene = &work->scene,
                                        .topology = &work->topology,
-                                       .place = work->place,
                                        .sheet = &work->sheet,
                                        .map = &work->map};
   return part_collect(&work->part, &sources, error);
@@ -238,7 +345,7 @@ static recto_status collect_part(struct part_work *work, recto_error *error) {
 /* Writes the part, unless that would replace the model. */
 static recto_status save_part(struct part_work *work, const char *path,
                               recto_error *error) {
-  const struct scene *scene = &work->model->scene;
+  const struct scene *scene = work->pick.source.scene;
   struct byte_array bytes = {.item = NULL};
   struct stream *stream = NULL;
   recto_status status = part_file_make(&work->part, &bytes, error);
@@ -279,6 +386,7 @@ static recto_status begin_part(struct part_work *work, recto_options *own,
     status = part_check_solve(own, error);
   *work = (struct part_work){.model = scene, .options = own};
   work->part.index = number - 1;
+  work->part.common.parts = count;
   return status;
 }
 
@@ -293,10 +401,13 @@ recto_status recto_scene_write_part(const recto_scene *scene,
       begin_part(&work, &own, scene, options, number, count, path, error);
   if (status != RECTO_OK)
     return status;
-  shares_open_poll(&poll, &own, SHARE_SOLVE, "part");
-  status = aim_part(&work, count, error);
-  if (status == RECTO_OK)
-    status = choose_window(&work, error);
+  double share[SHARE_STAGES + 1];
+  shares_plan(share, &own);
+  shares_open_poll(&poll, &own, SHARE_READ, "read");
+  status = survey_model(&work, true, error);
+  if (status == RECTO_OK &&
+      !poll_stage(share[SHARE_TOPOLOGY], share[SHARE_SOLVE + 1], "part"))
+    status = error_cancelled(error);
   if (status == RECTO_OK)
     status = keep_part(&work, error);
   if (status == RECTO_OK && scene_face_count(&work.scene.scene) +
@@ -329,11 +440,12 @@ recto_status recto_scene_has_part(const recto_scene *scene,
       begin_part(&work, &own, scene, options, number, count, path, error);
   if (status != RECTO_OK)
     return status;
-  shares_open_poll(&poll, &own, SHARE_CAMERA, "part");
+  own.warning = NULL;
+  shares_open_poll(&poll, &own, SHARE_READ, "read");
   if (input_load(&input, path, NULL) == RECTO_OK &&
       part_file_parse(&part, input.bytes, input.count, path, NULL) ==
           RECTO_OK) {
-    status = aim_part(&work, count, error);
+    status = survey_model(&work, false, error);
     *is_there = status == RECTO_OK && part.index == work.part.index &&
                 part.common.id == work.part.common.id;
     part_fini(&part);

@@ -10,6 +10,7 @@
 #include "base/report.h"
 #include "scene/limit.h"
 #include "scene/read.h"
+#include "scene/read_passes.h"
 
 recto_status recto_scene_create(recto_scene **scene, recto_error *error) {
   if (scene == NULL)
@@ -27,6 +28,7 @@ void recto_scene_destroy(recto_scene *scene) {
   scene_forget_preparation(scene);
   scene_fini(&scene->scene);
   mem_free(scene->path);
+  mem_free(scene->format);
   mem_free(scene);
 }
 
@@ -123,6 +125,37 @@ recto_status recto_scene_read(recto_scene *scene, const char *path,
   if (scene == NULL || path == NULL)
     return error_null(error, scene == NULL ? "the scene" : "the path");
   return read_model(scene, NULL, 0, path, format, options, error);
+}
+
+recto_status recto_scene_read_for_parts(recto_scene *scene, const char *path,
+                                        const char *format,
+                                        const recto_options *options,
+                                        recto_error *error) {
+  struct read_passes *passes = NULL;
+  if (scene == NULL || path == NULL)
+    return error_null(error, scene == NULL ? "the scene" : "the path");
+  if (!scene->read_before && scene->scene.point.count == 0) {
+    recto_status status = read_passes_open(&passes, path, format, 0, error);
+    if (status != RECTO_OK)
+      return status;
+  }
+  if (passes == NULL)
+    return recto_scene_read(scene, path, format, options, error);
+  char *kept = mem_copy_text(path);
+  char *named = format != NULL ? mem_copy_text(format) : NULL;
+  if (kept == NULL || (format != NULL && named == NULL) ||
+      !ARRAY_PUSH(&scene->scene.file, read_passes_file(passes))) {
+    read_passes_close(passes);
+    mem_free(kept);
+    mem_free(named);
+    return error_memory(error);
+  }
+  read_passes_close(passes);
+  scene_forget_preparation(scene);
+  scene->is_deferred = true;
+  scene->format = named;
+  keep_path(scene, kept);
+  return RECTO_OK;
 }
 
 recto_status recto_scene_read_memory(recto_scene *scene, const void *bytes,

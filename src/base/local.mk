@@ -8,6 +8,7 @@ librecto_core_la_SOURCES += \
   %D%/gzip.c %D%/gzip.h \
   %D%/hash.h \
   %D%/input.c %D%/input.h \
+  %D%/line_blocks.c %D%/line_blocks.h \
   %D%/memory.c %D%/memory.h \
   %D%/number.c %D%/number.h \
   %D%/number_format.c \

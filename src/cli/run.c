@@ -289,7 +289,10 @@ static recto_status draw_part(const struct arguments *arguments,
   bool is_there = false;
   options.output.format = arguments->format != NULL ? arguments->format : "svg";
   recto_status status = recto_scene_create(&scene, error);
-  if (status == RECTO_OK)
+  if (status == RECTO_OK && arguments->model_count == 1)
+    status = recto_scene_read_for_parts(scene, arguments->model[0],
+                                        arguments->from, &options, error);
+  else if (status == RECTO_OK)
     status = read_models(arguments, scene, error);
   if (status == RECTO_OK)
     status = recto_scene_try_output(scene, arguments->output, NULL, error);

@@ -1,6 +1,8 @@
 # src/parts/local.mk - the sources of this layer.
 librecto_core_la_SOURCES += \
   %D%/byte_codec.c %D%/byte_codec.h \
+  %D%/face_pick.c %D%/face_pick.h \
+  %D%/face_source.c %D%/face_source.h \
   %D%/may_weld.c \
   %D%/page_windows.c %D%/page_windows.h \
   %D%/part.c %D%/part.h \
@@ -8,4 +10,5 @@ librecto_core_la_SOURCES += \
   %D%/part_file.c %D%/part_file.h \
   %D%/part_join.c %D%/part_join.h \
   %D%/part_merge.c %D%/part_merge.h \
-  %D%/part_scene.c %D%/part_scene.h
+  %D%/part_scene.c %D%/part_scene.h \
+  %D%/place_set.c %D%/place_set.h

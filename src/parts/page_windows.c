@@ -11,27 +11,27 @@ enum { RASTER = 512 }; /* cells a side */
 struct place_work {
   const struct camera *camera;
   const struct scene *scene;
-  const uint8_t *used;
   struct page_place *place;
 };
 
 static bool place_range(void *user, struct parallel_range range) {
   const struct place_work *work = user;
-  const struct projection projection = projection_of(work->camera);
+  const struct camera *camera = work->camera;
+  const struct projection projection = projection_of(camera);
   for (size_t p = range.begin; p < range.end; p++) {
-    struct geom_point at = {0, 0, 0};
-    if (work->used[p])
-      at = project_point(
-          &projection, camera_view(work->camera, &work->scene->point.item[p]));
+    struct view_point view = camera_view(camera, &work->scene->point.item[p]);
+    /* What is used lies in this range. */
+    view.d = clamp(view.d, camera->d_min, camera->d_max);
+    struct geom_point at = project_point(&projection, view);
     work->place[p] = (struct page_place){{at.x, at.y}};
   }
   return true;
 }
 
 struct page_place *page_places(const struct camera *camera,
-                               const struct scene *scene, const uint8_t *used) {
+                               const struct scene *scene) {
   size_t count = scene->point.count;
-  struct place_work work = {camera, scene, used,
+  struct place_work work = {camera, scene,
                             mem_alloc(count, sizeof *work.place)};
   if (work.place != NULL &&
       !parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
@@ -145,9 +145,8 @@ static void divide_all(struct window_work *work, uint32_t count,
 }
 
 bool page_windows_make(const struct camera *camera,
-                       const struct page_place *place, const uint8_t *used,
-                       size_t points, uint32_t count,
-                       struct part_window *window) {
+                       const struct page_place *place, size_t points,
+                       uint32_t count, struct part_window *window) {
   struct window_work *work = mem_calloc(1, sizeof *work);
   if (work == NULL)
     return false;
@@ -160,9 +159,8 @@ bool page_windows_make(const struct camera *camera,
   uint32_t *sum = mem_calloc(corners, sizeof *sum);
   work->weight = sum;
   for (size_t p = 0; sum != NULL && p < points; p++)
-    if (used[p])
-      sum[corner_of(cell_of(work, place[p].at[0], 0) + 1,
-                    cell_of(work, place[p].at[1], 1) + 1)]++;
+    sum[corner_of(cell_of(work, place[p].at[0], 0) + 1,
+                  cell_of(work, place[p].at[1], 1) + 1)]++;
   for (size_t c = RASTER + 2; sum != NULL && c < corners; c++)
     sum[c] += c % (RASTER + 1) != 0
                   ? sum[c - 1] + sum[c - RASTER - 1] - sum[c - RASTER - 2]

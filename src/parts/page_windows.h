@@ -12,22 +12,23 @@ struct page_place {
   int32_t at[2];
 };
 
-/* Projects all points, of which those that are not used get some place inside.
+/* Projects all points of a scene that the camera sees as a whole; one that no
+ * face uses gets some place.
  * Returns NULL when memory ran out or the caller cancelled. */
 struct page_place *page_places(const struct camera *camera,
-                               const struct scene *scene, const uint8_t *used);
+                               const struct scene *scene);
 
-/* Divides the plane into `count` windows with about as many of the used points
- * in each: the page is halved across its longer side, and each half again.
- * Cuts lie on a raster of the page, so where very many points share a cell some
- * windows are empty (low above high).  Windows touch along their borders; those
- * at the page's border extend beyond it.
+/* Divides the plane into `count` windows with about as many points in each: the
+ * page is halved across its longer side, and each half again.  Cuts lie on a
+ * raster of the page, so where very many points share a cell some windows are
+ * empty (low above high).  Windows touch along their borders; those at the
+ * page's border extend beyond it.
  * Source  [Crow1984] for the sums
+ * place   of so many points
  * window  room for `count`
  * Returns false when memory ran out. */
 USE_RESULT bool page_windows_make(const struct camera *camera,
-                                  const struct page_place *place,
-                                  const uint8_t *used, size_t points,
+                                  const struct page_place *place, size_t points,
                                   uint32_t count, struct part_window *window);
 
 /* Whether the window is the one of all that a place belongs to: its lower

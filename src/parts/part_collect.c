@@ -179,9 +179,9 @@ static bool is_owned(const struct collection *c, uint32_t face) {
   int32_t low[2] = {INT32_MAX, INT32_MAX};
   for (uint32_t i = scene->face_start.item[face];
        i < scene->face_start.item[face + 1]; i++) {
-    uint32_t point = c->from->scene->point_number[scene->corner.item[i]];
+    uint32_t point = scene->corner.item[i];
     for (int k = 0; k < 2; k++) {
-      int32_t at = c->from->place[point].at[k];
+      int32_t at = c->from->scene->place[point].at[k];
       low[k] = at < low[k] ? at : low[k];
     }
   }

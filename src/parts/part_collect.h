@@ -8,7 +8,6 @@
 struct part_sources {
   const struct part_scene *scene;
   const struct topology *topology; /* of it */
-  const struct page_place *place;  /* of the model's points */
   const struct sheet *sheet;
   const struct map *map; /* with side lines, if it has fragments */
 };

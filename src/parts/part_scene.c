@@ -2,50 +2,40 @@
  * own.
  *
  * Phases
- *   box    the window's box, with those of the faces that it owns
- *   keep   the faces whose boxes meet it; the places of their corners
- *   ring   the faces with a corner at such a place
- *   copy   those faces, in order, and their points */
+ *   pick   faces about the window, in a pass over the model: more than are
+ *          needed, as only they tell how many these are
+ *   local  their points, and where these lie on the page
+ *   box    the window's, with those of the faces that it owns; where it goes
+ *          beyond what was picked, those in it are picked anew
+ *   keep   the faces whose boxes meet it
+ *   ring   the faces with a corner at the place of one of theirs; where such
+ *          corners lie beyond what was picked, picked anew
+ *   trim   the others are dropped */
 #include "parts/part_scene.h"
 
 #include <string.h>
 
-#include "base/hash.h"
 #include "base/poll.h"
-
-/* A set of places in the scene: a table of point numbers + 1 by linear
- * probing. */
-struct place_set {
-  const struct scene_point *point;
-  uint32_t *slot;
-  size_t mask;
-};
 
 enum { LEFT_OUT, OF_RING, KEPT };
 
 struct part_scene_work {
   struct part_scene *part;
-  const struct scene *whole;
-  const struct page_place *place;
+  struct face_pick *pick;
   const struct part_scene_request *request;
-  struct part_window box; /* what meets it is kept */
-  uint8_t *face_state;    /* one a face of the model */
-  uint8_t *wire_state;
-  uint8_t *outcode;     /* one a point: against the current box */
+  struct part_window picked; /* what meets it was picked */
+  struct part_window box;    /* what meets it is kept */
+  uint8_t *face_state;
   uint8_t *corner_kept; /* one a point: a corner of a kept face */
-  uint8_t *used;        /* one a point of the model */
-  uint32_t *local;      /* point of the model -> of the part */
+  recto_error *error;
 };
 
 /* ---- Boxes --------------------------------------------------------------- */
 
-struct element_box {
-  int32_t low[2], high[2];
-};
-
-static struct element_box box_of(const struct page_place *place,
+/* The box of so many corners. */
+static struct part_window box_of(const struct page_place *place,
                                  const uint32_t *corner, uint32_t count) {
-  struct element_box box;
+  struct part_window box;
   for (int k = 0; k < 2; k++) {
     box.low[k] = box.high[k] = place[corner[0]].at[k];
     for (uint32_t c = 1; c < count; c++) {
@@ -57,12 +47,12 @@ static struct element_box box_of(const struct page_place *place,
   return box;
 }
 
-static struct element_box box_of_face(const struct part_scene_work *work,
+static struct part_window box_of_face(const struct part_scene *part,
                                       uint32_t face) {
-  const struct scene *whole = work->whole;
-  uint32_t start = whole->face_start.item[face];
-  return box_of(work->place, whole->corner.item + start,
-                whole->face_start.item[face + 1] - start);
+  const struct scene *scene = &part->scene;
+  uint32_t start = scene->face_start.item[face];
+  return box_of(part->place, scene->corner.item + start,
+                scene->face_start.item[face + 1] - start);
 }
 
 static int32_t limit_to_sheet(int64_t at) {
@@ -71,180 +61,75 @@ static int32_t limit_to_sheet(int64_t at) {
                              : (int32_t)at;
 }
 
-/* ---- Faces that are kept ------------------------------------------------- */
+static bool is_empty(const struct part_window *box) {
+  return box->low[0] > box->high[0];
+}
 
-/* On which sides of the box a place lies, a bit each: a Cohen-Sutherland
- * outcode. */
-static uint8_t outcode_of(const struct part_window *box,
-                          const struct page_place *place) {
-  unsigned code = 0;
+/* The box with so much more on each side; an empty one stays so. */
+static struct part_window widen_window(const struct part_window *box,
+                                       int64_t by) {
+  struct part_window wide = *box;
+  for (int k = 0; k < 2 && !is_empty(box); k++) {
+    wide.low[k] = limit_to_sheet(box->low[k] - by);
+    wide.high[k] = limit_to_sheet(box->high[k] + by);
+  }
+  return wide;
+}
+
+/* Whether one box lies within another. */
+static bool window_is_within(const struct part_window *box,
+                             const struct part_window *other) {
   for (int k = 0; k < 2; k++)
-    code |= (unsigned)(place->at[k] < box->low[k]) << 2 * k |
-            (unsigned)(place->at[k] > box->high[k]) << (2 * k + 1);
-  return (uint8_t)code;
+    if (box->low[k] < other->low[k] || box->high[k] > other->high[k])
+      return false;
+  return true;
 }
 
-static void set_outcodes(const struct part_scene_work *work,
-                         const struct part_window *box) {
-  for (size_t p = 0; p < work->whole->point.count; p++)
-    work->outcode[p] = outcode_of(box, &work->place[p]);
-}
-
-/* Whether the bounding box of a face meets the box of the outcodes: unless all
- * corners lie beyond one of its sides. */
-static inline bool face_meets_box(const struct part_scene_work *work,
-                                  uint32_t face) {
-  const struct scene *whole = work->whole;
-  unsigned all = 0xf;
-  for (uint32_t c = whole->face_start.item[face];
-       c < whole->face_start.item[face + 1]; c++)
-    all &= work->outcode[whole->corner.item[c]];
-  return all == 0;
-}
-
-/* Sets the box: that of the window, and where fragments are wanted of the faces
- * that it owns, with the margin. */
-static void set_kept_box(struct part_scene_work *work) {
-  const struct part_window *window = &work->request->window;
-  work->box = *window;
-  if (work->request->fragments)
-    set_outcodes(work, window);
-  for (uint32_t f = 0; work->request->fragments &&
-                       f < scene_face_count(work->whole) && poll_at(f);
-       f++) {
-    if (!face_meets_box(work, f))
-      continue;
-    struct element_box box = box_of_face(work, f);
-    for (int k = 0; k < 2 && page_window_owns(window, box.low); k++)
-      if (work->box.high[k] < box.high[k])
-        work->box.high[k] = box.high[k];
-  }
-  for (int k = 0; k < 2 && window->low[0] <= window->high[0]; k++) {
-    work->box.low[k] = limit_to_sheet(work->box.low[k] - work->request->margin);
-    work->box.high[k] =
-        limit_to_sheet(work->box.high[k] + work->request->margin);
+static void include_in_box(struct part_window *box,
+                           const struct part_window *other) {
+  for (int k = 0; k < 2; k++) {
+    box->low[k] = other->low[k] < box->low[k] ? other->low[k] : box->low[k];
+    box->high[k] =
+        other->high[k] > box->high[k] ? other->high[k] : box->high[k];
   }
 }
 
-static void keep_faces(struct part_scene_work *work) {
-  const struct scene *whole = work->whole;
-  set_outcodes(work, &work->box);
-  for (uint32_t f = 0; f < scene_face_count(whole) && poll_at(f); f++) {
-    if (!face_meets_box(work, f))
-      continue;
-    work->face_state[f] = KEPT;
-    for (uint32_t c = whole->face_start.item[f];
-         c < whole->face_start.item[f + 1]; c++)
-      work->corner_kept[whole->corner.item[c]] = 1;
-  }
+static struct part_window first_box(const struct part_scene_request *request) {
+  return widen_window(&request->window, request->margin + request->reach);
 }
 
-/* A polyline is kept as a whole where one of its segments meets the box. */
-static void keep_wires(struct part_scene_work *work) {
-  const struct scene *whole = work->whole;
-  for (uint32_t w = 0; w < scene_wire_count(whole); w++)
-    for (uint32_t c = whole->wire_start.item[w];
-         c + 1 < whole->wire_start.item[w + 1] && !work->wire_state[w]; c++) {
-      struct element_box box =
-          box_of(work->place, whole->wire_corner.item + c, 2);
-      work->wire_state[w] =
-          part_window_meets(&work->box, box.low, box.high) ? KEPT : LEFT_OUT;
-    }
+bool part_scene_aim(struct face_pick *pick,
+                    const struct part_scene_request *request,
+                    const struct page_place *place) {
+  const struct part_window box = first_box(request);
+  return face_pick_aim(pick, &box, place);
 }
 
-/* ---- Their ring ---------------------------------------------------------- */
+/* ---- Local points -------------------------------------------------------- */
 
-static uint64_t hash_of_position(const struct scene_point *p) {
-  uint64_t hash = hash_add_double(0, p->x + 0.0); /* -0 becomes 0 */
-  hash = hash_add_double(hash_add_double(hash, p->y + 0.0), p->z + 0.0);
-  return hash * HASH_GOLDEN >> 20;
+static void mark_corners(uint32_t *local, const uint32_t *corner,
+                         size_t count) {
+  for (size_t c = 0; c < count; c++)
+    local[corner[c]] = 1;
 }
 
-/* The slot of a place, or the free one where it belongs. */
-static size_t find_position(const struct place_set *set,
-                            const struct scene_point *p) {
-  size_t k = (size_t)hash_of_position(p) & set->mask;
-  for (; set->slot[k] != 0; k = (k + 1) & set->mask) {
-    const struct scene_point *q = &set->point[set->slot[k] - 1];
-    if (p->x == q->x && p->y == q->y && p->z == q->z)
-      break;
-  }
-  return k;
+static void renumber_corners(const uint32_t *local, uint32_t *corner,
+                             size_t count) {
+  for (size_t c = 0; c < count; c++)
+    corner[c] = local[corner[c]];
 }
 
-static bool make_place_set(struct place_set *set,
-                           const struct part_scene_work *work) {
-  size_t count = 0, slots = 16;
-  for (size_t p = 0; p < work->whole->point.count; p++)
-    count += work->corner_kept[p];
-  while (slots < 2 * count)
-    slots *= 2;
-  *set = (struct place_set){work->whole->point.item,
-                            mem_calloc(slots, sizeof *set->slot), slots - 1};
-  for (size_t p = 0; set->slot != NULL && p < work->whole->point.count; p++)
-    if (work->corner_kept[p]) {
-      size_t k = find_position(set, &set->point[p]);
-      if (set->slot[k] == 0)
-        set->slot[k] = (uint32_t)p + 1;
-    }
-  return set->slot != NULL;
-}
-
-/* Whether a point lies at the place of a kept corner.
- * known  one a point: 0: not yet looked up; 1: no; 2: yes */
-static bool is_at_kept(const struct part_scene_work *work,
-                       const struct place_set *set, uint8_t *known,
-                       uint32_t point) {
-  if (work->corner_kept[point])
-    return true;
-  if (known[point] == 0) {
-    size_t k = find_position(set, &set->point[point]);
-    known[point] = set->slot[k] != 0 ? 2 : 1;
-  }
-  return known[point] == 2;
-}
-
-static bool add_ring(struct part_scene_work *work) {
-  const struct scene *whole = work->whole;
-  struct place_set set;
-  uint8_t *known = mem_calloc(whole->point.count, 1);
-  bool ok = make_place_set(&set, work) && known != NULL;
-  for (uint32_t f = 0; ok && f < scene_face_count(whole) && poll_at(f); f++)
-    for (uint32_t c = whole->face_start.item[f];
-         c < whole->face_start.item[f + 1] && work->face_state[f] == LEFT_OUT;
-         c++)
-      if (is_at_kept(work, &set, known, whole->corner.item[c]))
-        work->face_state[f] = OF_RING;
-  mem_free(set.slot);
-  mem_free(known);
-  return ok;
-}
-
-/* ---- Copying ------------------------------------------------------------- */
-
-static void mark_used(uint8_t *used, const uint32_t *corner, uint32_t start,
-                      uint32_t end) {
-  for (uint32_t c = start; c < end; c++)
-    used[corner[c]] = 1;
-}
-
-/* Numbers the points of the part, and copies them and their precision. */
-static bool copy_kept_points(struct part_scene_work *work) {
-  const struct scene *whole = work->whole;
-  struct scene *scene = &work->part->scene;
+/* Copies the points that are marked, and their precision.
+ * local  of each point of the model: 1 where it is marked; becomes its number
+ *        in the part */
+static bool copy_picked_points(struct part_scene *part,
+                               const struct scene *whole, uint32_t *local) {
+  struct scene *scene = &part->scene;
   size_t count = 0, range = 0;
-  for (uint32_t f = 0; f < scene_face_count(whole); f++)
-    if (work->face_state[f] != LEFT_OUT)
-      mark_used(work->used, whole->corner.item, whole->face_start.item[f],
-                whole->face_start.item[f + 1]);
-  for (uint32_t w = 0; w < scene_wire_count(whole); w++)
-    if (work->wire_state[w] != LEFT_OUT)
-      mark_used(work->used, whole->wire_corner.item, whole->wire_start.item[w],
-                whole->wire_start.item[w + 1]);
   for (size_t p = 0; p < whole->point.count; p++)
-    count += work->used[p];
-  work->part->point_number = mem_alloc(count, sizeof *work->local);
-  if (work->part->point_number == NULL || !ARRAY_RESERVE(&scene->point, count))
+    count += local[p];
+  part->point_number = mem_alloc(count, sizeof *part->point_number);
+  if (part->point_number == NULL || !ARRAY_RESERVE(&scene->point, count))
     return false;
   for (size_t p = 0; p < whole->point.count; p++) {
     for (; range < whole->precision.count &&
@@ -259,120 +144,292 @@ static bool copy_kept_points(struct part_scene_work *work) {
       else if (!ARRAY_PUSH(&scene->precision, own))
         return false;
     }
-    if (!work->used[p])
+    if (local[p] == 0)
       continue;
-    work->local[p] = (uint32_t)scene->point.count;
-    work->part->point_number[scene->point.count] = (uint32_t)p;
+    local[p] = (uint32_t)scene->point.count;
+    part->point_number[scene->point.count] = (uint32_t)p;
     scene->point.item[scene->point.count++] = whole->point.item[p];
   }
   return true;
 }
 
-static bool copy_kept_faces(struct part_scene_work *work) {
-  const struct scene *whole = work->whole;
-  struct part_scene *part = work->part;
-  struct scene *scene = &part->scene;
-  size_t count = 0, corners = 0, at = 0, skipped = 0;
-  for (uint32_t f = 0; f < scene_face_count(whole); f++)
-    if (work->face_state[f] != LEFT_OUT) {
-      count++;
-      corners += whole->face_start.item[f + 1] - whole->face_start.item[f];
-    }
-  part->face_number = mem_alloc(count, sizeof *part->face_number);
-  part->is_kept = mem_alloc(count, 1);
-  if (part->face_number == NULL || part->is_kept == NULL ||
-      !ARRAY_RESERVE(&scene->corner, corners) ||
-      !ARRAY_RESERVE(&scene->face_start, count + 1) ||
-      !ARRAY_RESERVE(&scene->face_group, count))
-    return false;
-  if (count > 0)
-    scene->face_start.item[scene->face_start.count++] = 0;
-  for (uint32_t f = 0; f < scene_face_count(whole); f++) {
-    while (skipped < whole->face_skipped.count &&
-           whole->face_skipped.item[skipped] <= f)
-      skipped++;
-    if (work->face_state[f] == LEFT_OUT)
-      continue;
-    part->is_kept[at] = work->face_state[f] == KEPT;
-    part->face_number[at++] = f + (uint32_t)skipped;
-    for (uint32_t c = whole->face_start.item[f];
-         c < whole->face_start.item[f + 1]; c++)
-      scene->corner.item[scene->corner.count++] =
-          work->local[whole->corner.item[c]];
-    scene->face_start.item[scene->face_start.count++] =
-        (uint32_t)scene->corner.count;
-    scene->face_group.item[scene->face_group.count++] =
-        whole->face_group.item[f];
-  }
-  return true;
-}
-
-static bool copy_kept_wires(struct part_scene_work *work) {
-  const struct scene *whole = work->whole;
-  struct part_scene *part = work->part;
-  struct scene *scene = &part->scene;
-  part->wire_number =
-      mem_alloc(scene_wire_count(whole), sizeof *part->wire_number);
-  if (part->wire_number == NULL)
-    return false;
-  for (uint32_t w = 0; w < scene_wire_count(whole); w++) {
-    if (work->wire_state[w] == LEFT_OUT)
-      continue;
-    if (scene->wire_start.count == 0 && !ARRAY_PUSH(&scene->wire_start, 0))
-      return false;
-    for (uint32_t c = whole->wire_start.item[w];
-         c < whole->wire_start.item[w + 1]; c++)
-      if (!ARRAY_PUSH(&scene->wire_corner,
-                      work->local[whole->wire_corner.item[c]]))
-        return false;
-    part->wire_number[scene->wire_group.count] = w;
-    if (!ARRAY_PUSH(&scene->wire_start, (uint32_t)scene->wire_corner.count) ||
-        !ARRAY_PUSH(&scene->wire_group, whole->wire_group.item[w]))
-      return false;
-  }
-  return true;
-}
-
-static bool make_all(struct part_scene_work *work) {
-  const struct scene *whole = work->whole;
-  struct scene *scene = &work->part->scene;
-  scene_init(scene);
+static void set_scene(struct scene *scene, const struct scene *whole) {
   memcpy(scene->up, whole->up, sizeof scene->up);
   scene->unit_mm = whole->unit_mm;
   scene->group.item = whole->group.item;
   scene->group.count = whole->group.count;
-  work->face_state = mem_calloc(scene_face_count(whole), 1);
-  work->wire_state = mem_calloc(scene_wire_count(whole), 1);
-  work->outcode = mem_alloc(whole->point.count, 1);
-  work->corner_kept = mem_calloc(whole->point.count, 1);
-  work->used = mem_calloc(whole->point.count, 1);
-  work->local = mem_alloc(whole->point.count, sizeof *work->local);
-  if (work->face_state == NULL || work->wire_state == NULL ||
-      work->outcode == NULL || work->corner_kept == NULL ||
-      work->used == NULL || work->local == NULL)
-    return false;
-  set_kept_box(work);
-  keep_faces(work);
-  keep_wires(work);
-  return add_ring(work) && copy_kept_points(work) && copy_kept_faces(work) &&
-         copy_kept_wires(work) && !poll_is_cancelled();
 }
 
-recto_status part_scene_make(struct part_scene *part, const struct scene *whole,
-                             const struct page_place *place,
+/* Makes the part's scene of all that was picked, in place of what it was. */
+static recto_status make_local(struct part_scene_work *work) {
+  const struct scene *whole = work->pick->source.scene;
+  struct part_scene *part = work->part;
+  struct picked *picked = &work->pick->picked;
+  part_scene_fini(part);
+  part->scene = picked->scene;
+  part->face_number = picked->face_number.item;
+  part->wire_number = picked->wire_number.item;
+  *picked = (struct picked){.face_number = {NULL, 0, 0}};
+  struct scene *scene = &part->scene;
+  set_scene(scene, whole);
+  uint32_t *local = mem_calloc(whole->point.count, sizeof *local);
+  bool ok = local != NULL;
+  if (ok) {
+    mark_corners(local, scene->corner.item, scene->corner.count);
+    mark_corners(local, scene->wire_corner.item, scene->wire_corner.count);
+    ok = copy_picked_points(part, whole, local);
+  }
+  if (ok) {
+    renumber_corners(local, scene->corner.item, scene->corner.count);
+    renumber_corners(local, scene->wire_corner.item, scene->wire_corner.count);
+  }
+  mem_free(local);
+  part->place = ok ? page_places(work->request->camera, scene) : NULL;
+  mem_free(work->face_state);
+  mem_free(work->corner_kept);
+  work->face_state = mem_calloc(scene_face_count(scene), 1);
+  work->corner_kept = mem_calloc(scene->point.count, 1);
+  return part->place != NULL && work->face_state != NULL &&
+                 work->corner_kept != NULL
+             ? RECTO_OK
+             : error_memory(work->error);
+}
+
+/* Passes over the model again.
+ * kept  as face_pick.kept */
+static recto_status pick_again(struct part_scene_work *work,
+                               struct place_set *kept) {
+  struct face_pick *pick = work->pick;
+  const struct scene *whole = pick->source.scene;
+  struct page_place *place = page_places(work->request->camera, whole);
+  bool ok = place != NULL && face_pick_aim(pick, &work->box, place);
+  mem_free(place);
+  if (!ok)
+    return error_memory(work->error);
+  pick->kept = kept;
+  recto_status status = face_pick_pass(pick, work->error);
+  pick->kept = NULL;
+  work->picked = work->box;
+  return status;
+}
+
+/* ---- Faces that are kept ------------------------------------------------- */
+
+/* Sets the box: that of the window, and where fragments are wanted of the faces
+ * that it owns, with the margin. */
+static void set_kept_box(struct part_scene_work *work) {
+  const struct part_window *window = &work->request->window;
+  const struct part_scene *part = work->part;
+  work->box = *window;
+  for (uint32_t f = 0; work->request->fragments &&
+                       f < scene_face_count(&part->scene) && poll_at(f);
+       f++) {
+    struct part_window box = box_of_face(part, f);
+    if (page_window_owns(window, box.low))
+      include_in_box(&work->box, &box);
+  }
+  work->box = widen_window(&work->box, work->request->margin);
+}
+
+/* Keeps the faces that meet the box; returns the box of all of these. */
+static struct part_window keep_faces(struct part_scene_work *work) {
+  const struct scene *scene = &work->part->scene;
+  struct part_window all = work->box;
+  for (uint32_t f = 0; f < scene_face_count(scene) && poll_at(f); f++) {
+    struct part_window box = box_of_face(work->part, f);
+    if (!part_window_meets(&work->box, box.low, box.high))
+      continue;
+    work->face_state[f] = KEPT;
+    include_in_box(&all, &box);
+    for (uint32_t c = scene->face_start.item[f];
+         c < scene->face_start.item[f + 1]; c++)
+      work->corner_kept[scene->corner.item[c]] = 1;
+  }
+  return all;
+}
+
+/* A polyline is kept as a whole where one of its segments meets the box. */
+static bool wire_is_kept(const struct part_scene_work *work, uint32_t wire) {
+  const struct scene *scene = &work->part->scene;
+  for (uint32_t c = scene->wire_start.item[wire];
+       c + 1 < scene->wire_start.item[wire + 1]; c++) {
+    struct part_window box =
+        box_of(work->part->place, scene->wire_corner.item + c, 2);
+    if (part_window_meets(&work->box, box.low, box.high))
+      return true;
+  }
+  return false;
+}
+
+/* ---- Their ring ---------------------------------------------------------- */
+
+/* Adds the ring of the kept faces.
+ * all  their box */
+static recto_status add_ring(struct part_scene_work *work,
+                             const struct part_window *all) {
+  struct part_scene *part = work->part;
+  struct place_set set;
+  recto_status status = RECTO_OK;
+  if (!place_set_init(&set, part->scene.point.item, work->corner_kept,
+                      part->scene.point.count))
+    return error_memory(work->error);
+  bool is_picked = window_is_within(all, &work->picked);
+  if (!is_picked)
+    status = pick_again(work, &set);
+  const struct scene *scene = &part->scene;
+  for (uint32_t f = 0; is_picked && f < scene_face_count(scene) && poll_at(f);
+       f++)
+    for (uint32_t c = scene->face_start.item[f];
+         c < scene->face_start.item[f + 1] && work->face_state[f] == LEFT_OUT;
+         c++) {
+      uint32_t point = scene->corner.item[c];
+      if (work->corner_kept[point] ||
+          place_set_has(&set, &scene->point.item[point]))
+        work->face_state[f] = OF_RING;
+    }
+  place_set_fini(&set);
+  if (is_picked || status != RECTO_OK)
+    return status;
+  status = make_local(work);
+  if (status != RECTO_OK)
+    return status;
+  (void)keep_faces(work);
+  for (uint32_t f = 0; f < scene_face_count(&part->scene); f++)
+    if (work->face_state[f] == LEFT_OUT)
+      work->face_state[f] = OF_RING;
+  return RECTO_OK;
+}
+
+/* ---- Dropping the others ------------------------------------------------- */
+
+static void trim_faces(struct part_scene_work *work, uint8_t *used) {
+  struct part_scene *part = work->part;
+  struct scene *scene = &part->scene;
+  uint32_t faces = scene_face_count(scene), kept = 0, corners = 0;
+  for (uint32_t f = 0; f < faces; f++) {
+    uint32_t start = scene->face_start.item[f];
+    uint32_t count = scene->face_start.item[f + 1] - start;
+    if (work->face_state[f] == LEFT_OUT)
+      continue;
+    for (uint32_t i = 0; i < count; i++) {
+      used[scene->corner.item[start + i]] = 1;
+      scene->corner.item[corners + i] = scene->corner.item[start + i];
+    }
+    part->is_kept[kept] = work->face_state[f] == KEPT;
+    part->face_number[kept] = part->face_number[f];
+    scene->face_group.item[kept] = scene->face_group.item[f];
+    scene->face_start.item[kept++] = corners;
+    corners += count;
+  }
+  if (faces > 0)
+    scene->face_start.item[kept] = corners;
+  scene->face_start.count = kept > 0 ? (size_t)kept + 1 : 0;
+  scene->face_group.count = kept;
+  scene->corner.count = corners;
+}
+
+static void trim_wires(struct part_scene_work *work, uint8_t *used) {
+  struct part_scene *part = work->part;
+  struct scene *scene = &part->scene;
+  uint32_t wires = scene_wire_count(scene), kept = 0, corners = 0;
+  for (uint32_t w = 0; w < wires; w++) {
+    uint32_t start = scene->wire_start.item[w];
+    uint32_t count = scene->wire_start.item[w + 1] - start;
+    if (!wire_is_kept(work, w))
+      continue;
+    for (uint32_t i = 0; i < count; i++) {
+      used[scene->wire_corner.item[start + i]] = 1;
+      scene->wire_corner.item[corners + i] = scene->wire_corner.item[start + i];
+    }
+    part->wire_number[kept] = part->wire_number[w];
+    scene->wire_group.item[kept] = scene->wire_group.item[w];
+    scene->wire_start.item[kept++] = corners;
+    corners += count;
+  }
+  if (wires > 0)
+    scene->wire_start.item[kept] = corners;
+  scene->wire_start.count = kept > 0 ? (size_t)kept + 1 : 0;
+  scene->wire_group.count = kept;
+  scene->wire_corner.count = corners;
+}
+
+/* Drops the points that are not used.
+ * local  scratch, one a point */
+static void trim_points(struct part_scene *part, const uint8_t *used,
+                        uint32_t *local) {
+  struct scene *scene = &part->scene;
+  uint32_t kept = 0;
+  size_t range = 0, ranges = 0, last = SCENE_NONE;
+  for (uint32_t p = 0; p < scene->point.count; p++) {
+    for (; range < scene->precision.count &&
+           scene->precision.item[range].first_point <= p;
+         range++) {
+      if (ranges > 0 && last == kept)
+        ranges--;
+      last = kept;
+      scene->precision.item[ranges] = scene->precision.item[range];
+      scene->precision.item[ranges++].first_point = kept;
+    }
+    if (!used[p])
+      continue;
+    local[p] = kept;
+    part->point_number[kept] = part->point_number[p];
+    part->place[kept] = part->place[p];
+    scene->point.item[kept++] = scene->point.item[p];
+  }
+  scene->point.count = kept;
+  scene->precision.count = ranges;
+  renumber_corners(local, scene->corner.item, scene->corner.count);
+  renumber_corners(local, scene->wire_corner.item, scene->wire_corner.count);
+}
+
+static recto_status trim_scene(struct part_scene_work *work) {
+  struct part_scene *part = work->part;
+  uint8_t *used = mem_calloc(part->scene.point.count, 1);
+  uint32_t *local = mem_alloc(part->scene.point.count, sizeof *local);
+  part->is_kept = mem_alloc(scene_face_count(&part->scene), 1);
+  bool ok = used != NULL && local != NULL && part->is_kept != NULL;
+  if (ok) {
+    trim_wires(work, used);
+    trim_faces(work, used);
+    trim_points(part, used, local);
+  }
+  mem_free(used);
+  mem_free(local);
+  return ok && !poll_is_cancelled() ? RECTO_OK : error_memory(work->error);
+}
+
+/* ---- All ----------------------------------------------------------------- */
+
+static recto_status make_part_scene(struct part_scene_work *work) {
+  recto_status status = make_local(work);
+  if (status == RECTO_OK)
+    set_kept_box(work);
+  if (status == RECTO_OK && !window_is_within(&work->box, &work->picked)) {
+    status = pick_again(work, NULL);
+    if (status == RECTO_OK)
+      status = make_local(work);
+  }
+  if (status != RECTO_OK)
+    return status;
+  const struct part_window all = keep_faces(work);
+  status = add_ring(work, &all);
+  return status == RECTO_OK ? trim_scene(work) : status;
+}
+
+recto_status part_scene_make(struct part_scene *part, struct face_pick *pick,
                              const struct part_scene_request *request,
                              recto_error *error) {
-  struct part_scene_work work = {
-      .part = part, .whole = whole, .place = place, .request = request};
+  struct part_scene_work work = {.part = part,
+                                 .pick = pick,
+                                 .request = request,
+                                 .picked = first_box(request),
+                                 .error = error};
   *part = (struct part_scene){.point_number = NULL};
-  bool ok = make_all(&work);
+  recto_status status = make_part_scene(&work);
   mem_free(work.face_state);
-  mem_free(work.wire_state);
-  mem_free(work.outcode);
   mem_free(work.corner_kept);
-  mem_free(work.used);
-  mem_free(work.local);
-  return ok ? RECTO_OK : error_memory(error);
+  return status;
 }
 
 void part_scene_fini(struct part_scene *part) {
@@ -381,6 +438,7 @@ void part_scene_fini(struct part_scene *part) {
   mem_free(part->point_number);
   mem_free(part->face_number);
   mem_free(part->wire_number);
+  mem_free(part->place);
   mem_free(part->is_kept);
   *part = (struct part_scene){.point_number = NULL};
 }

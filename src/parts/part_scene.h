@@ -12,26 +12,37 @@
 #ifndef PARTS_PART_SCENE_H
 #define PARTS_PART_SCENE_H
 
-#include "parts/page_windows.h"
+#include "parts/face_pick.h"
 #include "scene/topology.h"
 
 struct part_scene {
   struct scene scene; /* the groups are borrowed, not owned */
   uint32_t *point_number, *face_number, *wire_number; /* in the model */
+  struct page_place *place;                           /* of each point */
   uint8_t *is_kept; /* one a face: 0: it is only of the ring */
 };
 
 struct part_scene_request {
+  const struct camera *camera; /* of the whole */
   struct part_window window;
   int64_t margin; /* grid units: what lies so close to the window meets it */
+  int64_t reach;  /* grid units: how far beyond faces are picked at first */
   bool fragments;
 };
 
-/* Errors  RECTO_ERROR_MEMORY, _CANCELLED; end with part_scene_fini either
- *         way. */
+/* Aims the pick at the faces that the part is likely to need.
+ * place  of each point of the model
+ * Returns false when memory ran out. */
+USE_RESULT bool part_scene_aim(struct face_pick *pick,
+                               const struct part_scene_request *request,
+                               const struct page_place *place);
+
+/* Makes the part's scene of what was picked after that; where it needs more,
+ * there is another pass over the model.
+ * Errors  RECTO_ERROR_MEMORY, _CANCELLED, those of face_pick_pass; end with
+ *         part_scene_fini either way. */
 USE_RESULT recto_status
-part_scene_make(struct part_scene *part, const struct scene *whole,
-                const struct page_place *place,
+part_scene_make(struct part_scene *part, struct face_pick *pick,
                 const struct part_scene_request *request, recto_error *error);
 void part_scene_fini(struct part_scene *part);
 

@@ -73,7 +73,8 @@ recto_status diagnostics_poll_now(struct diagnostics *diagnostics,
   enum { STEP = 1 << 18 };
   diagnostics->poll_at = at + STEP;
   if (diagnostics->byte_count > 0)
-    poll_set_share((double)(at - diagnostics->bytes) /
+    poll_set_share(((double)diagnostics->bytes_before +
+                    (double)(at - diagnostics->bytes)) /
                    (double)diagnostics->byte_count);
   return poll_now() ? RECTO_OK : error_cancelled(error);
 }

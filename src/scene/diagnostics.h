@@ -26,8 +26,9 @@ struct diagnostics {
   unsigned long count[SCENE_FAULT_COUNT];
   unsigned long settled[SCENE_FAULT_COUNT]; /* count at the last _finish */
   const char *poll_at; /* the first byte at which progress is polled again */
-  const char *bytes;   /* what is read */
-  size_t byte_count;   /* 0: not known */
+  const char *bytes;   /* what is read: all, or a block of it, */
+  size_t bytes_before; /* before which there are so many */
+  size_t byte_count;   /* of all; 0: not known */
 };
 
 /* Polls where reading has come a quarter of a megabyte farther: a few

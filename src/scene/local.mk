@@ -21,6 +21,7 @@ librecto_core_la_SOURCES += \
   %D%/positions.c %D%/positions.h \
   %D%/precision.c %D%/precision.h \
   %D%/read.c %D%/read.h \
+  %D%/read_passes.c %D%/read_passes.h \
   %D%/reader_import.c \
   %D%/reader_mtl.c \
   %D%/reader_obj.c \

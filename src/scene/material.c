@@ -24,6 +24,17 @@ void materials_fini(struct materials *materials) {
   scene_fini(&materials->libraries);
   ARRAY_FREE(&materials->library);
   ARRAY_FREE(&materials->use);
+  arena_fini(&materials->names);
+}
+
+/* Makes the name a copy that the materials own; false when memory ran out. */
+static bool own_name(struct materials *materials, struct material_name *name) {
+  char *copy = arena_alloc(&materials->names, name->length + 1, 1);
+  if (copy == NULL)
+    return false;
+  memcpy(copy, name->start, name->length);
+  name->start = copy;
+  return true;
 }
 
 recto_status materials_add_library(struct materials *materials,
@@ -33,7 +44,7 @@ recto_status materials_add_library(struct materials *materials,
   recto_status status =
       scene_use_group(&materials->libraries, name.start, name.length, error);
   if (status == RECTO_OK && materials->libraries.group.count > before &&
-      !ARRAY_PUSH(&materials->library, name))
+      !(own_name(materials, &name) && ARRAY_PUSH(&materials->library, name)))
     status = error_memory(error);
   return status;
 }
@@ -44,8 +55,11 @@ recto_status materials_add_use(struct materials *materials, uint32_t group,
   while (materials->use.count <= group)
     if (!ARRAY_PUSH(&materials->use, none))
       return error_memory(error);
-  if (materials->use.item[group].length == 0)
-    materials->use.item[group] = name;
+  if (materials->use.item[group].length > 0 || name.length == 0)
+    return RECTO_OK;
+  if (!own_name(materials, &name))
+    return error_memory(error);
+  materials->use.item[group] = name;
   return RECTO_OK;
 }
 

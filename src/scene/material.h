@@ -5,7 +5,7 @@
 
 #include "scene/scene.h"
 
-/* A name in the bytes of the OBJ file. */
+/* A name in an OBJ file. */
 struct material_name {
   const char *start;
   size_t length;
@@ -18,6 +18,7 @@ struct materials {
   struct scene libraries;              /* a group for each that was named */
   ARRAY(struct material_name) library; /* each once, as they came */
   ARRAY(struct material_name) use; /* of each group of the scene; length 0 */
+  struct arena names;              /* which these two lists point to */
 };
 
 void materials_init(struct materials *materials);

@@ -1,10 +1,10 @@
-/* obj_parser.c - how the reader of OBJ passes over the ends of lines and over
- * what is broken. */
+/* obj_parser.c - how the reader of OBJ begins and ends, and passes over the
+ * ends of lines and over what is broken. */
 #include "scene/obj_parser.h"
 
-#include "scene/diagnostics.h"
-
 #include <string.h>
+
+#include "scene/diagnostics.h"
 
 bool obj_pass_continuation(struct obj_parser *p, const char **at) {
   const char *q = *at + 1;
@@ -45,6 +45,74 @@ void obj_finish_statement(struct obj_parser *p) {
   }
 }
 
+size_t obj_count_lines(const char *at, const char *end) {
+  enum { COUNTED = 128 }; /* bytes at once, whose sum is a byte */
+  size_t all = 0;
+  for (; at < end; at += COUNTED) {
+    int bytes = end - at < COUNTED ? (int)(end - at) : COUNTED;
+    uint8_t lines = 0;
+#pragma omp simd reduction(+ : lines)
+    for (int k = 0; k < bytes; k++)
+      lines = (uint8_t)(lines + (at[k] == '\n'));
+    all += lines;
+  }
+  return all;
+}
+
+void obj_skip_lines_without_points(struct obj_parser *p) {
+  if (p->next_v < p->at) {
+    p->next_v = memchr(p->at, 'v', (size_t)(p->end - p->at));
+    if (p->next_v == NULL)
+      p->next_v = p->end;
+  }
+  const char *to = p->next_v;
+  while (to > p->at && to < p->end && to[-1] != '\n')
+    to--;
+  const char *before = to - (to > p->at);
+  before -= before > p->at && before[-1] == '\r';
+  if (to == p->at || (to < p->end && before > p->at && before[-1] == '\\'))
+    return;
+  p->line += obj_count_lines(p->at, to);
+  p->at = to;
+  p->others = true;
+}
+
+/* Makes room for a mark of each point so far. */
+static bool have_marks(struct obj_parser *p) {
+  size_t count = p->mark.count, points = p->scene->point.count;
+  if (count == points)
+    return true;
+  if (!ARRAY_RESERVE(&p->mark, points - count))
+    return false;
+  memset(p->mark.item + count, 0, points - count);
+  p->mark.count = points;
+  return true;
+}
+
+void obj_mark_faces(struct obj_parser *p) {
+  p->others = true;
+  p->mark_failed = p->mark_failed || !have_marks(p);
+  do {
+    const char *at = p->at + 1;
+    while (*at == ' ' && !p->mark_failed) {
+      uint64_t index = 0;
+      const char *stop = digits_gather(++at, p->end, &index);
+      if (stop == at && *at >= '!') /* it is relative, or no number at all */
+        p->mark_failed = true;
+      if (stop == at)
+        continue;
+      if (index - 1 < p->mark.count)
+        p->mark.item[index - 1] = 1;
+      else
+        p->mark_failed = true;
+      at = *stop == '/' ? obj_skip_other_indices(stop) : stop;
+    }
+    p->at = at;
+    obj_skip_line(p, true);
+  } while (p->at < p->end && p->at[0] == 'f' && p->at[1] == ' ' &&
+           !p->mark_failed);
+}
+
 /* ---- What is broken ------------------------------------------------------ */
 
 recto_status obj_check_text(struct obj_parser *p, const char *start,
@@ -68,4 +136,68 @@ recto_status obj_skip_broken(struct obj_parser *p, const char *start,
                     "%s that cannot be parsed, skipped", what);
   obj_skip_line(p, true);
   return RECTO_OK;
+}
+
+/* ---- Files --------------------------------------------------------------- */
+
+void obj_parser_begin(struct obj_parser *p, struct scene *scene,
+                      const char *path, struct diagnostics *diagnostics,
+                      recto_error *error) {
+  *p = (struct obj_parser){.scene = scene,
+                           .line = 1,
+                           .path = path,
+                           .diagnostics = diagnostics,
+                           .error = error,
+                           .first = scene->point.count,
+                           .renamed = true};
+  materials_init(&p->materials);
+}
+
+recto_status obj_parser_open(struct obj_parser *p, const char *bytes,
+                             size_t count) {
+  static const char byte_order_mark[] = "\xef\xbb\xbf";
+  p->at = p->run_end = p->next_v = bytes;
+  p->end = bytes + count;
+  if (strncmp(bytes, byte_order_mark, 3) == 0)
+    p->at += 3;
+  if (memchr(bytes, '\n', count) == NULL && memchr(bytes, '\r', count) != NULL)
+    return error_set(p->error, RECTO_ERROR_FORMAT, p->path, 1,
+                     "its lines end in a carriage return alone; a line feed "
+                     "must end them");
+  return RECTO_OK;
+}
+
+static void replace_bad_obj_points(struct obj_parser *p) {
+  struct scene *scene = p->scene;
+  size_t good = p->first, i = 0;
+  for (; i < p->bad.count && p->bad.item[i] == good; i++)
+    good++;
+  if (good == scene->point.count)
+    good = 0;
+  for (i = 0; i < p->bad.count; i++)
+    scene->point.item[p->bad.item[i]] = scene->point.item[good];
+}
+
+recto_status obj_finish_points(struct obj_parser *p) {
+  replace_bad_obj_points(p);
+  return scene_state_precision(p->scene, p->first,
+                               precision_estimate(&p->sample), p->error);
+}
+
+/* The colour of a group that was there before is not taken back, so nothing
+ * that may fail comes after this. */
+recto_status obj_finish(struct obj_parser *p) {
+  if (!p->known && p->strange)
+    return error_set(p->error, RECTO_ERROR_FORMAT, p->path, p->strange,
+                     "no statement of an OBJ file");
+  return materials_colour(&p->materials, p->scene, p->path, p->diagnostics,
+                          p->error);
+}
+
+void obj_parser_fini(struct obj_parser *p) {
+  materials_fini(&p->materials);
+  ARRAY_FREE(&p->bad);
+  ARRAY_FREE(&p->mark);
+  ARRAY_FREE(&p->corner);
+  ARRAY_FREE(&p->group);
 }

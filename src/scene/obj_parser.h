@@ -30,7 +30,39 @@ struct obj_parser {
   bool renamed; /* since the current group was chosen */
   struct materials materials;
   ARRAY(char) group;
+  bool others;      /* a line that may be no point was passed over */
+  bool marks;       /* points that faces name are marked when passed over */
+  bool mark_failed; /* not of all faces */
+  ARRAY(uint8_t) mark;
+  const char *next_v; /* no letter v lies between `at` and here; may be before
+                         `at` */
 };
+
+/* ---- A file -------------------------------------------------------------- */
+
+/* Sets a parser up for a file whose points are to follow those of the scene;
+ * obj_parser_fini it. */
+void obj_parser_begin(struct obj_parser *p, struct scene *scene,
+                      const char *path, struct diagnostics *diagnostics,
+                      recto_error *error);
+
+/* Hands over the first bytes of the file, whole lines, or all of it; a NUL
+ * stands behind them.
+ * Errors  RECTO_ERROR_FORMAT: its lines have no line feeds */
+USE_RESULT recto_status obj_parser_open(struct obj_parser *p, const char *bytes,
+                                        size_t count);
+
+/* Ends the points of the file, when all were read: states their precision, and
+ * gives those that cannot be used a position: that of another point of the
+ * file, so that the scene grows no larger by them. */
+USE_RESULT recto_status obj_finish_points(struct obj_parser *p);
+
+/* Ends the file: tells one that is not OBJ, and gives the groups colours. */
+USE_RESULT recto_status obj_finish(struct obj_parser *p);
+
+void obj_parser_fini(struct obj_parser *p);
+
+/* ---- Characters ---------------------------------------------------------- */
 
 /* Whether a word may end before this character. */
 static inline bool obj_ends_word(char c) {
@@ -69,6 +101,17 @@ static inline bool obj_is_at_end_of_line(const struct obj_parser *p) {
  * continued. */
 void obj_skip_line(struct obj_parser *p, bool may_continue);
 
+/* How many lines end between two places. */
+size_t obj_count_lines(const char *at, const char *end);
+
+/* From the start of a line over lines without a letter v, and so without
+ * points; stays there where the line after them may continue them. */
+void obj_skip_lines_without_points(struct obj_parser *p);
+
+/* From a face over lines of faces, of which it marks the points that they name;
+ * where their numbers are not plain, it notes that it failed. */
+void obj_mark_faces(struct obj_parser *p);
+
 /* To the line after a statement that was read to its end or to a comment. */
 void obj_finish_statement(struct obj_parser *p);
 
@@ -81,6 +124,13 @@ USE_RESULT recto_status obj_check_text(struct obj_parser *p, const char *start,
  * text; else the statement is just skipped. */
 USE_RESULT recto_status obj_skip_broken(struct obj_parser *p, const char *start,
                                         unsigned long line, const char *what);
+
+/* ---- Statements (reader_obj.c) ------------------------------------------- */
+
+/* Reads what was handed over to its end.
+ * points_only  passes over all statements but points */
+USE_RESULT recto_status obj_read_statements(struct obj_parser *p,
+                                            bool points_only);
 
 /* ---- Runs of plain statements (obj_run.c) -------------------------------- */
 

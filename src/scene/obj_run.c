@@ -154,8 +154,7 @@ static inline const char *read_plain_index(const struct obj_parser *p,
   return at[count] == '/' ? obj_skip_other_indices(at + count) : at + count;
 }
 
-/* Reads "f a b c" to its end; NULL where it is something else, or where a
- * closer look is needed. */
+/* Reads "f a b c" to its end; NULL where it is something else. */
 static inline const char *read_plain_face(const struct obj_parser *p,
                                           const char *start,
                                           uint32_t corner[3]) {
@@ -165,31 +164,52 @@ static inline const char *read_plain_face(const struct obj_parser *p,
     if (at == NULL || at - start > PLAIN_ROOM / 2)
       return NULL;
   }
+  return *at == '\n' ? at + 1 : NULL;
+}
+
+/* Whether a triangle has no fault, without a closer look. */
+static inline bool is_surely_bent(const struct obj_parser *p,
+                                  const uint32_t corner[3]) {
   const struct scene_point *point = p->scene->point.item;
   const struct scene_point *a = &point[corner[0]], *b = &point[corner[1]],
                            *c = &point[corner[2]];
-  bool bent = exact_surely_not_collinear(a->x, a->y, b->x, b->y, c->x, c->y) ||
-              exact_surely_not_collinear(a->y, a->z, b->y, b->z, c->y, c->z);
-  return bent && *at == '\n' ? at + 1 : NULL;
+  return exact_surely_not_collinear(a->x, a->y, b->x, b->y, c->x, c->y) ||
+         exact_surely_not_collinear(a->y, a->z, b->y, b->z, c->y, c->z);
 }
 
-/* Reads the faces of a run. */
+/* Reads the faces of a run.  Their points lie anywhere in memory: those of a
+ * face are looked at when some more were read, and they have been fetched. */
 static bool read_faces(const struct obj_parser *p, struct run *run) {
   struct scene *scene = p->scene;
-  size_t corners = scene->corner.count + 3 * run->before;
+  size_t corners = scene->corner.count + 3 * run->before, read = 0;
   uint32_t *corner = scene->corner.item + corners;
   uint32_t *start =
       scene->face_start.item + scene->face_start.count + run->before;
   uint32_t *group =
       scene->face_group.item + scene->face_group.count + run->before;
-  for (; has_short_statement(p, run, 'f'); run->count++) {
-    const char *past = read_plain_face(p, run->at, &corner[3 * run->count]);
-    if (past == NULL)
+  const char *begin[MEM_PREFETCH_AHEAD]; /* of faces, by number */
+  bool goes_on = true;
+  do {
+    begin[read % MEM_PREFETCH_AHEAD] = run->at;
+    const char *past =
+        goes_on && read < run->most && has_short_statement(p, run, 'f')
+            ? read_plain_face(p, run->at, &corner[3 * read])
+            : NULL;
+    goes_on = past != NULL;
+    for (int k = 0; goes_on && k < 3; k++)
+      MEM_PREFETCH(&scene->point.item[corner[3 * read + (size_t)k]]);
+    read += goes_on;
+    run->at = goes_on ? past : run->at;
+    if (goes_on && read - run->count < MEM_PREFETCH_AHEAD)
+      continue;
+    if (run->count == read || !is_surely_bent(p, &corner[3 * run->count]))
       break;
     start[run->count] = (uint32_t)(corners + 3 * (run->count + 1));
     group[run->count] = scene->current_group;
-    run->at = past;
-  }
+    run->count++;
+  } while (true);
+  if (run->count < read)
+    run->at = begin[run->count % MEM_PREFETCH_AHEAD];
   return true;
 }
 
@@ -224,20 +244,10 @@ struct parts {
 };
 
 static bool count_lines_of_parts(void *user, struct parallel_range range) {
-  enum { COUNTED = 128 }; /* bytes at once, whose sum is a byte */
   const struct parts *parts = user;
-  for (size_t i = range.begin; i < range.end; i++) {
-    struct run *part = &parts->part[i];
-    part->most = 0;
-    for (const char *at = part->at; at < part->end; at += COUNTED) {
-      int bytes = part->end - at < COUNTED ? (int)(part->end - at) : COUNTED;
-      uint8_t lines = 0;
-#pragma omp simd reduction(+ : lines)
-      for (int k = 0; k < bytes; k++)
-        lines = (uint8_t)(lines + (at[k] == '\n'));
-      part->most += lines;
-    }
-  }
+  for (size_t i = range.begin; i < range.end; i++)
+    parts->part[i].most =
+        obj_count_lines(parts->part[i].at, parts->part[i].end);
   return true;
 }
 

@@ -87,6 +87,11 @@ static const struct reader *choose_reader(const char *path,
   return **format ? reader_of_the_rest : NULL;
 }
 
+const struct reader *read_find(const char *path, const char *format) {
+  char extension[EXTENSION_SIZE];
+  return choose_reader(path, extension, &format);
+}
+
 static recto_status refuse_format(const char *path, const char *format,
                                   recto_error *error) {
   const char *others =

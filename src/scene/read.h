@@ -26,6 +26,9 @@ extern const struct reader reader_stl;
 extern const struct reader reader_3mf;
 extern const struct reader reader_import; /* all other formats */
 
+/* The reader of a file, by its format or its extension; NULL: there is none. */
+const struct reader *read_find(const char *path, const char *format);
+
 /* Reads `path` ("-": standard input) and adds it to the scene; the first file
  * of a scene says what up means.
  * format  a reader's name, or NULL: by extension

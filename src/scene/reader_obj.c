@@ -70,33 +70,18 @@ static recto_status read_point(struct obj_parser *p) {
   return add_obj_point(p, xyz, finite);
 }
 
-static recto_status read_statements(struct obj_parser *p, bool points_only);
-
 /* Reads the points of all lines after this one. */
 static recto_status read_points_ahead(struct obj_parser *p) {
   const char *at = p->at;
   unsigned long line = p->line;
   size_t seen = p->seen;
   obj_skip_line(p, true);
-  recto_status status = read_statements(p, true);
+  recto_status status = obj_read_statements(p, true);
   p->at = at;
   p->line = line;
   p->seen = seen;
   p->ahead = true;
   return status;
-}
-
-/* Points that cannot be used still have a position: that of another point of
- * the file, so that the scene grows no larger by them. */
-static void replace_bad_points(struct obj_parser *p) {
-  struct scene *scene = p->scene;
-  size_t good = p->first, i = 0;
-  for (; i < p->bad.count && p->bad.item[i] == good; i++)
-    good++;
-  if (good == scene->point.count)
-    good = 0;
-  for (i = 0; i < p->bad.count; i++)
-    scene->point.item[p->bad.item[i]] = scene->point.item[good];
 }
 
 static bool is_bad(const struct obj_parser *p, uint32_t point) {
@@ -373,7 +358,7 @@ static bool is_ignored(char keyword, char next, bool points_only) {
   return is_other_v || (points_only && !is_point);
 }
 
-static recto_status read_statements(struct obj_parser *p, bool points_only) {
+recto_status obj_read_statements(struct obj_parser *p, bool points_only) {
   recto_status status = RECTO_OK;
   while (status == RECTO_OK) {
     obj_skip_blanks(p);
@@ -383,14 +368,21 @@ static recto_status read_statements(struct obj_parser *p, bool points_only) {
     if (status != RECTO_OK)
       break;
     char keyword = *p->at, next = p->at[1];
-    if (keyword == '\n' || keyword == '#')
+    if (keyword == '\n' || keyword == '#') {
       obj_finish_statement(p);
-    else if (is_ignored(keyword, next, points_only))
+    } else if (points_only && p->marks && !p->mark_failed &&
+               (keyword == 'f' || keyword == 'l') && next == ' ') {
+      obj_mark_faces(p);
+    } else if (is_ignored(keyword, next, points_only)) {
+      p->others = p->others || keyword != 'v';
       obj_skip_line(p, true);
-    else if (obj_ends_word(next))
+      if (points_only)
+        obj_skip_lines_without_points(p);
+    } else if (obj_ends_word(next)) {
       status = read_obj_statement(p, keyword);
-    else
+    } else {
       status = read_unknown(p);
+    }
   }
   return status;
 }
@@ -399,42 +391,17 @@ static recto_status read_obj(struct scene *scene, const char *bytes,
                              size_t count, const char *path, const char *format,
                              struct diagnostics *diagnostics,
                              recto_error *error) {
-  static const char byte_order_mark[] = "\xef\xbb\xbf";
+  struct obj_parser p;
   (void)format;
-  struct obj_parser p = {.scene = scene,
-                         .at = bytes,
-                         .end = bytes + count,
-                         .line = 1,
-                         .run_end = bytes,
-                         .path = path,
-                         .diagnostics = diagnostics,
-                         .error = error,
-                         .first = scene->point.count,
-                         .renamed = true};
-  if (strncmp(bytes, byte_order_mark, 3) == 0)
-    p.at += 3;
-  if (memchr(bytes, '\n', count) == NULL && memchr(bytes, '\r', count) != NULL)
-    return error_set(error, RECTO_ERROR_FORMAT, path, 1,
-                     "its lines end in a carriage return alone; a line feed "
-                     "must end them");
-  materials_init(&p.materials);
-  recto_status status = read_statements(&p, false);
-  if (status == RECTO_OK && !p.known && p.strange)
-    status = error_set(error, RECTO_ERROR_FORMAT, path, p.strange,
-                       "no statement of an OBJ file");
+  obj_parser_begin(&p, scene, path, diagnostics, error);
+  recto_status status = obj_parser_open(&p, bytes, count);
   if (status == RECTO_OK)
-    replace_bad_points(&p);
+    status = obj_read_statements(&p, false);
   if (status == RECTO_OK)
-    status = scene_state_precision(scene, p.first,
-                                   precision_estimate(&p.sample), error);
-  /* The colour of a group that was there before is not taken back, so nothing
-   * that may fail comes after this. */
+    status = obj_finish_points(&p);
   if (status == RECTO_OK)
-    status = materials_colour(&p.materials, scene, path, diagnostics, error);
-  materials_fini(&p.materials);
-  ARRAY_FREE(&p.bad);
-  ARRAY_FREE(&p.corner);
-  ARRAY_FREE(&p.group);
+    status = obj_finish(&p);
+  obj_parser_fini(&p);
   return status;
 }
 

@@ -39,7 +39,8 @@ struct aim {
   const struct scene *scene;
   const recto_options *options;
   recto_error *error;
-  uint8_t *used;        /* one a point */
+  const uint8_t *used;  /* one a point */
+  uint8_t *own_used;    /* the same, where it was found here */
   double centre[3];     /* of the scene's bounding box */
   double target[3];     /* the point looked at */
   double eye[3];        /* of a perspective view, also of one made
@@ -468,8 +469,8 @@ static recto_status aim_and_fit(struct aim *aim) {
   return RECTO_OK;
 }
 
-/* Checks the options, and sets what is used of the scene; that is to be freed
- * in any case. */
+/* Checks the options, and finds what is used of the scene where that is not
+ * known; it is to be freed in any case. */
 static recto_status begin_aim(struct aim *aim) {
   memset(aim->camera, 0, sizeof *aim->camera);
   recto_status status = check_page(aim);
@@ -477,19 +478,30 @@ static recto_status begin_aim(struct aim *aim) {
     status = check_view(aim);
   if (status != RECTO_OK)
     return status;
-  aim->used = used_points(aim->scene, NULL);
+  if (aim->used == NULL)
+    aim->used = aim->own_used = used_points(aim->scene, NULL);
   return aim->used != NULL ? RECTO_OK : error_memory(aim->error);
+}
+
+recto_status camera_aim_at_used(struct camera *camera,
+                                const struct scene *scene, const uint8_t *used,
+                                const recto_options *options,
+                                recto_error *error) {
+  struct aim aim = {.camera = camera,
+                    .scene = scene,
+                    .options = options,
+                    .error = error,
+                    .used = used};
+  recto_status status = begin_aim(&aim);
+  if (status == RECTO_OK)
+    status = aim_and_fit(&aim);
+  mem_free(aim.own_used);
+  return status;
 }
 
 recto_status camera_aim(struct camera *camera, const struct scene *scene,
                         const recto_options *options, recto_error *error) {
-  struct aim aim = {
-      .camera = camera, .scene = scene, .options = options, .error = error};
-  recto_status status = begin_aim(&aim);
-  if (status == RECTO_OK)
-    status = aim_and_fit(&aim);
-  mem_free(aim.used);
-  return status;
+  return camera_aim_at_used(camera, scene, NULL, options, error);
 }
 
 recto_status camera_find_section(struct camera_section *section,
@@ -510,6 +522,6 @@ recto_status camera_find_section(struct camera_section *section,
     section->offset = vector_dot(camera.back, camera.eye) - depth;
     memcpy(section->target, aim.target, sizeof aim.target);
   }
-  mem_free(aim.used);
+  mem_free(aim.own_used);
   return status;
 }

@@ -31,4 +31,12 @@ USE_RESULT recto_status camera_aim(struct camera *camera,
                                    const recto_options *options,
                                    recto_error *error);
 
+/* The same for a scene whose used points are known already: see used.h.  Faces
+ * and polylines of the scene count only where the near plane clips it. */
+USE_RESULT recto_status camera_aim_at_used(struct camera *camera,
+                                           const struct scene *scene,
+                                           const uint8_t *used,
+                                           const recto_options *options,
+                                           recto_error *error);
+
 #endif

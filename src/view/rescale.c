@@ -53,6 +53,15 @@ static int choose_exponent(const struct scene *scene) {
                       : exponent - LARGEST_EXPONENT;
 }
 
+bool rescale_is_wanted(const struct scene *scene, const uint8_t *used) {
+  const double largest_kept = ldexp(1, LARGEST_EXPONENT);
+  double largest = 0;
+  for (size_t p = 0; p < scene->point.count; p++)
+    if (used[p] && largest_of(&scene->point.item[p]) > largest)
+      largest = largest_of(&scene->point.item[p]);
+  return largest != 0 && (largest < 1 / largest_kept || largest > largest_kept);
+}
+
 /* ---- Scaling ------------------------------------------------------------- */
 
 static recto_status scale_points(struct rescaled *rescaled,

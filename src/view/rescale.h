@@ -18,6 +18,9 @@ struct rescaled {
  * Errors  RECTO_ERROR_MEMORY */
 USE_RESULT recto_status rescale(struct rescaled *rescaled,
                                 const struct scene *scene, recto_error *error);
+/* Whether that would change anything, where it is known which points faces and
+ * polylines use: see used.h. */
+bool rescale_is_wanted(const struct scene *scene, const uint8_t *used);
 void rescale_fini(struct rescaled *rescaled);
 
 /* Scales the lengths of options in the same way.

@@ -1,0 +1,195 @@
+/* face_pick.c - picks faces of a model in a pass over all of them.
+ *
+ * Performance  Corners are all over the points, so all that is asked of a point
+ * lies in one byte. */
+#include "parts/face_pick.h"
+
+#include "base/hash.h"
+#include "base/poll.h"
+#include "scene/limit.h"
+
+enum point_flag {
+  OUTCODE = 0xf, /* on which sides of the box it lies, a bit each, as
+                    Cohen and Sutherland have them */
+  USED = 0x10,   /* a face or a polyline has it */
+  NOT_KEPT = 0x20,
+  AT_KEPT = 0x40 /* neither of the two: it was not looked up yet */
+};
+
+static uint8_t outcode_of(const struct part_window *box,
+                          const struct page_place *place) {
+  unsigned code = 0;
+  for (int k = 0; k < 2; k++)
+    code |= (unsigned)(place->at[k] < box->low[k]) << 2 * k |
+            (unsigned)(place->at[k] > box->high[k]) << (2 * k + 1);
+  return (uint8_t)code;
+}
+
+/* Makes room for the flags; false when memory ran out. */
+static bool have_flags(struct face_pick *pick) {
+  if (pick->flag == NULL)
+    pick->flag = mem_calloc(pick->source.scene->point.count, 1);
+  return pick->flag != NULL;
+}
+
+bool face_pick_aim(struct face_pick *pick, const struct part_window *box,
+                   const struct page_place *place) {
+  if (!have_flags(pick))
+    return false;
+  for (size_t p = 0; p < pick->source.scene->point.count; p++)
+    pick->flag[p] = outcode_of(box, &place[p]);
+  pick->picks = true;
+  return true;
+}
+
+bool face_pick_uses(const struct face_pick *pick, size_t point) {
+  return (pick->flag[point] & USED) != 0;
+}
+
+/* ---- Blocks -------------------------------------------------------------- */
+
+static uint64_t hash_corners(uint64_t hash, const uint32_t *corner,
+                             uint32_t count) {
+  for (uint32_t i = 0; i + 1 < count; i += 2)
+    hash = hash_add(hash, (uint64_t)corner[i] << 32 | corner[i + 1]);
+  return hash_add(hash,
+                  (uint64_t)count << 32 | (count % 2 ? corner[count - 1] : 0));
+}
+
+static bool is_at_kept(const struct face_pick *pick, uint32_t point) {
+  uint8_t *flag = &pick->flag[point];
+  if ((*flag & (NOT_KEPT | AT_KEPT)) == 0)
+    *flag |= place_set_has(pick->kept, &pick->source.scene->point.item[point])
+                 ? AT_KEPT
+                 : NOT_KEPT;
+  return (*flag & AT_KEPT) != 0;
+}
+
+/* Whether the face is wanted; its points are marked as used. */
+static bool face_is_picked(const struct face_pick *pick, const uint32_t *corner,
+                           uint32_t count) {
+  unsigned beyond = OUTCODE; /* sides beyond which all corners lie */
+  for (uint32_t i = 0; i < count; i++) {
+    uint8_t *flag = &pick->flag[corner[i]];
+    beyond &= *flag;
+    *flag |= USED;
+  }
+  bool picked = beyond == 0;
+  for (uint32_t i = 0; i < count && !picked && pick->kept != NULL; i++)
+    picked = is_at_kept(pick, corner[i]);
+  return picked && pick->picks;
+}
+
+static bool wire_is_picked(const struct face_pick *pick, const uint32_t *corner,
+                           uint32_t count) {
+  bool picked = false;
+  for (uint32_t i = 0; i < count; i++) {
+    picked = picked || (i > 0 && (pick->flag[corner[i]] &
+                                  pick->flag[corner[i - 1]] & OUTCODE) == 0);
+    pick->flag[corner[i]] |= USED;
+  }
+  return picked && pick->picks;
+}
+
+static bool pick_face(struct picked *picked, const struct scene *from,
+                      uint32_t face, uint32_t number) {
+  struct scene *to = &picked->scene;
+  uint32_t start = from->face_start.item[face];
+  if (to->face_start.count == 0 && !ARRAY_PUSH(&to->face_start, 0))
+    return false;
+  for (uint32_t i = start; i < from->face_start.item[face + 1]; i++)
+    if (!ARRAY_PUSH(&to->corner, from->corner.item[i]))
+      return false;
+  return ARRAY_PUSH(&to->face_start, (uint32_t)to->corner.count) &&
+         ARRAY_PUSH(&to->face_group, from->face_group.item[face]) &&
+         ARRAY_PUSH(&picked->face_number, number);
+}
+
+static bool pick_wire(struct picked *picked, const struct scene *from,
+                      uint32_t wire, uint32_t number) {
+  struct scene *to = &picked->scene;
+  if (to->wire_start.count == 0 && !ARRAY_PUSH(&to->wire_start, 0))
+    return false;
+  for (uint32_t i = from->wire_start.item[wire];
+       i < from->wire_start.item[wire + 1]; i++)
+    if (!ARRAY_PUSH(&to->wire_corner, from->wire_corner.item[i]))
+      return false;
+  return ARRAY_PUSH(&to->wire_start, (uint32_t)to->wire_corner.count) &&
+         ARRAY_PUSH(&to->wire_group, from->wire_group.item[wire]) &&
+         ARRAY_PUSH(&picked->wire_number, number);
+}
+
+static recto_status take_faces(struct face_pick *pick,
+                               const struct face_block *block,
+                               recto_error *error) {
+  const struct scene *scene = block->scene;
+  uint32_t skipped = 0;
+  for (uint32_t f = 0; f < scene_face_count(scene); f++) {
+    uint32_t start = scene->face_start.item[f];
+    uint32_t count = scene->face_start.item[f + 1] - start;
+    const uint32_t *corner = scene->corner.item + start;
+    while (skipped < scene->face_skipped.count &&
+           scene->face_skipped.item[skipped] <= f)
+      skipped++;
+    uint32_t number = block->face + f + skipped;
+    pick->face_hash = hash_add(pick->face_hash, (uint64_t)number << 32 |
+                                                    scene->face_group.item[f]);
+    pick->face_hash = hash_corners(pick->face_hash, corner, count);
+    if (face_is_picked(pick, corner, count)) {
+      if (count > SCENE_LIMIT - pick->picked.scene.corner.count)
+        return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
+                         "the part has more than 2^31 corners");
+      if (!pick_face(&pick->picked, scene, f, number))
+        return error_memory(error);
+    }
+    if (!poll_at(f))
+      return error_cancelled(error);
+  }
+  return RECTO_OK;
+}
+
+static recto_status take_wires(struct face_pick *pick,
+                               const struct face_block *block,
+                               recto_error *error) {
+  const struct scene *scene = block->scene;
+  for (uint32_t w = 0; w < scene_wire_count(scene); w++) {
+    uint32_t start = scene->wire_start.item[w];
+    uint32_t count = scene->wire_start.item[w + 1] - start;
+    const uint32_t *corner = scene->wire_corner.item + start;
+    pick->wire_hash = hash_add(pick->wire_hash, scene->wire_group.item[w]);
+    pick->wire_hash = hash_corners(pick->wire_hash, corner, count);
+    if (wire_is_picked(pick, corner, count) &&
+        !pick_wire(&pick->picked, scene, w, block->wire + w))
+      return error_memory(error);
+  }
+  return RECTO_OK;
+}
+
+static recto_status take_faces_and_wires(void *user,
+                                         const struct face_block *block,
+                                         recto_error *error) {
+  recto_status status = take_faces(user, block, error);
+  return status == RECTO_OK ? take_wires(user, block, error) : status;
+}
+
+recto_status face_pick_pass(struct face_pick *pick, recto_error *error) {
+  if (!have_flags(pick))
+    return error_memory(error);
+  picked_fini(&pick->picked);
+  pick->face_hash = pick->wire_hash = 0;
+  for (size_t p = 0; p < pick->source.scene->point.count; p++)
+    pick->flag[p] &= OUTCODE;
+  return face_source_pass(&pick->source, take_faces_and_wires, pick, error);
+}
+
+void picked_fini(struct picked *picked) {
+  scene_fini(&picked->scene);
+  ARRAY_FREE(&picked->face_number);
+  ARRAY_FREE(&picked->wire_number);
+}
+
+void face_pick_fini(struct face_pick *pick) {
+  picked_fini(&pick->picked);
+  mem_free(pick->flag);
+  pick->flag = NULL;
+}

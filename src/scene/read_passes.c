@@ -1,0 +1,191 @@
+/* read_passes.c - an OBJ file that is read in passes.
+ *
+ * A face may name a point that comes after it, so all points are read first;
+ * the passes over faces then begin at the block with the first statement that
+ * is none of a point.  It is the same parser that reads a file at once: between
+ * two blocks it is handed the next one. */
+#include "scene/read_passes.h"
+
+#include <string.h>
+
+#include "base/line_blocks.h"
+#include "scene/obj_parser.h"
+#include "scene/read.h"
+
+enum { BLOCK_BYTES = 1 << 22 };
+
+struct read_passes {
+  struct line_blocks blocks;
+  struct obj_parser parser;
+  const char *path;
+  struct diagnostics *diagnostics;
+  struct diagnostics silent; /* of the passes after the first */
+  bool knows_faces;          /* they have been read once */
+  /* Where the first block begins that has anything but points. */
+  off_t faces_at;
+  unsigned long faces_line;
+  size_t faces_seen;
+  ARRAY(char) name[NAME_COUNT]; /* current names, of earlier blocks */
+};
+
+recto_status read_passes_open(struct read_passes **passes, const char *path,
+                              const char *format, size_t least,
+                              recto_error *error) {
+  struct line_blocks blocks;
+  *passes = NULL;
+  if (read_find(path, format) != &reader_obj ||
+      !line_blocks_open(&blocks, path, least > 0 ? least : BLOCK_BYTES))
+    return RECTO_OK;
+  *passes = mem_calloc(1, sizeof **passes);
+  if (*passes == NULL) {
+    line_blocks_close(&blocks);
+    return error_memory(error);
+  }
+  (*passes)->blocks = blocks;
+  (*passes)->path = path;
+  return RECTO_OK;
+}
+
+struct file_identity read_passes_file(const struct read_passes *passes) {
+  return passes->blocks.file;
+}
+
+/* Copies the current names, which lie in the block. */
+static recto_status keep_names(struct read_passes *passes) {
+  struct obj_parser *p = &passes->parser;
+  for (int i = 0; i < NAME_COUNT; i++) {
+    struct material_name *name = &p->name[i];
+    if (name->length == 0 || name->start == passes->name[i].item)
+      continue;
+    passes->name[i].count = 0;
+    if (!ARRAY_RESERVE(&passes->name[i], name->length))
+      return error_memory(p->error);
+    memcpy(passes->name[i].item, name->start, name->length);
+    name->start = passes->name[i].item;
+  }
+  return RECTO_OK;
+}
+
+/* Hands the block to the parser. */
+static recto_status enter_block(struct read_passes *passes) {
+  const struct line_blocks *blocks = &passes->blocks;
+  struct obj_parser *p = &passes->parser;
+  struct diagnostics *diagnostics = p->diagnostics;
+  if (diagnostics != NULL) {
+    diagnostics->bytes = diagnostics->poll_at = blocks->bytes;
+    diagnostics->bytes_before = (size_t)blocks->begin;
+    diagnostics->byte_count = (size_t)blocks->size;
+  }
+  if (blocks->begin == 0)
+    return obj_parser_open(p, blocks->bytes, blocks->count);
+  p->at = p->run_end = p->next_v = blocks->bytes;
+  p->end = blocks->bytes + blocks->count;
+  return RECTO_OK;
+}
+
+/* ---- Points -------------------------------------------------------------- */
+
+static recto_status read_point_blocks(struct read_passes *passes,
+                                      recto_error *error) {
+  struct obj_parser *p = &passes->parser;
+  for (;;) {
+    recto_status status = line_blocks_next(&passes->blocks, error);
+    if (status == RECTO_OK && passes->blocks.size == 0)
+      status = error_set(error, RECTO_ERROR_FORMAT, passes->path, 1,
+                         "the file is empty");
+    if (status != RECTO_OK || passes->blocks.count == 0)
+      return status;
+    if (!p->others) {
+      passes->faces_at = passes->blocks.begin;
+      passes->faces_line = p->line;
+      passes->faces_seen = p->seen;
+    }
+    status = enter_block(passes);
+    if (status == RECTO_OK)
+      status = obj_read_statements(p, true);
+    if (status != RECTO_OK)
+      return status;
+  }
+}
+
+recto_status read_passes_points(struct read_passes *passes, struct scene *scene,
+                                struct diagnostics *diagnostics,
+                                recto_error *error) {
+  struct obj_parser *p = &passes->parser;
+  passes->diagnostics = diagnostics;
+  obj_parser_begin(p, scene, passes->path, diagnostics, error);
+  p->marks = true;
+  if (!ARRAY_PUSH(&scene->file, passes->blocks.file))
+    return error_memory(error);
+  memcpy(scene->up, reader_obj.up, sizeof scene->up);
+  line_blocks_seek(&passes->blocks, 0);
+  recto_status status = read_point_blocks(passes, error);
+  return status == RECTO_OK ? obj_finish_points(p) : status;
+}
+
+void read_passes_guess_used(const struct read_passes *passes, uint8_t *used) {
+  const struct obj_parser *p = &passes->parser;
+  for (size_t i = 0; i < p->scene->point.count; i++)
+    used[i] = p->mark_failed || (i < p->mark.count && p->mark.item[i] != 0);
+}
+
+/* ---- Faces --------------------------------------------------------------- */
+
+static void drop_elements(struct scene *scene) {
+  scene->face_start.count = scene->corner.count = scene->face_group.count =
+      scene->face_skipped.count = 0;
+  scene->wire_start.count = scene->wire_corner.count = scene->wire_group.count =
+      0;
+}
+
+static void begin_faces(struct read_passes *passes, recto_error *error) {
+  struct obj_parser *p = &passes->parser;
+  p->ahead = true;
+  p->seen = passes->faces_seen;
+  p->line = passes->faces_line;
+  p->renamed = true;
+  p->error = error;
+  memset(p->name, 0, sizeof p->name);
+  p->diagnostics = passes->knows_faces ? &passes->silent : passes->diagnostics;
+  passes->silent = (struct diagnostics){.file = passes->path};
+  line_blocks_seek(&passes->blocks, passes->faces_at);
+}
+
+recto_status read_passes_faces(struct read_passes *passes,
+                               read_passes_take *take, void *user,
+                               recto_error *error) {
+  struct obj_parser *p = &passes->parser;
+  recto_status status = RECTO_OK;
+  ARRAY_FREE(&p->mark);
+  begin_faces(passes, error);
+  while (status == RECTO_OK) {
+    status = line_blocks_next(&passes->blocks, error);
+    if (status == RECTO_OK && passes->blocks.count == 0)
+      break;
+    if (status == RECTO_OK)
+      status = enter_block(passes);
+    if (status == RECTO_OK)
+      status = obj_read_statements(p, false);
+    if (status == RECTO_OK)
+      status = take(user, p->scene, error);
+    drop_elements(p->scene);
+    if (status == RECTO_OK)
+      status = keep_names(passes);
+  }
+  if (status == RECTO_OK && !passes->knows_faces) {
+    passes->knows_faces = true;
+    status = obj_finish(p);
+    diagnostics_finish(passes->diagnostics);
+  }
+  return status;
+}
+
+void read_passes_close(struct read_passes *passes) {
+  if (passes == NULL)
+    return;
+  line_blocks_close(&passes->blocks);
+  obj_parser_fini(&passes->parser);
+  for (int i = 0; i < NAME_COUNT; i++)
+    ARRAY_FREE(&passes->name[i]);
+  mem_free(passes);
+}
