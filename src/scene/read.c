@@ -70,6 +70,12 @@ static size_t find_stem(const char *path, const char **stem) {
              : length;
 }
 
+void read_begin_file(struct scene *scene, const char *path) {
+  const char *stem;
+  size_t length = find_stem(path, &stem);
+  scene_begin_file(scene, stem, length);
+}
+
 /* The reader of a file, and in *format what it was chosen by; NULL where there
  * is none.
  * extension  room for what is chosen by where *format is NULL */
@@ -127,9 +133,7 @@ static recto_status read_input(struct scene *scene, const struct reader *reader,
       scene_note_file(scene, input) ? RECTO_OK : error_memory(error);
   if (status == RECTO_OK && input->count == 0)
     status = error_set(error, RECTO_ERROR_FORMAT, path, 1, "the file is empty");
-  const char *stem;
-  size_t stem_length = find_stem(path, &stem);
-  scene_begin_file(scene, stem, stem_length);
+  read_begin_file(scene, path);
   if (status == RECTO_OK)
     status = reader->read(scene, input->bytes, input->count, path, format,
                           diagnostics, error);

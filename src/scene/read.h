@@ -29,6 +29,9 @@ extern const struct reader reader_import; /* all other formats */
 /* The reader of a file, by its format or its extension; NULL: there is none. */
 const struct reader *read_find(const char *path, const char *format);
 
+/* Begins a file of that path, which stays there, as scene_begin_file does. */
+void read_begin_file(struct scene *scene, const char *path);
+
 /* Reads `path` ("-": standard input) and adds it to the scene; the first file
  * of a scene says what up means.
  * format  a reader's name, or NULL: by extension

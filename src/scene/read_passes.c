@@ -118,6 +118,7 @@ recto_status read_passes_points(struct read_passes *passes, struct scene *scene,
   if (!ARRAY_PUSH(&scene->file, passes->blocks.file))
     return error_memory(error);
   memcpy(scene->up, reader_obj.up, sizeof scene->up);
+  read_begin_file(scene, passes->path);
   line_blocks_seek(&passes->blocks, 0);
   recto_status status = read_point_blocks(passes, error);
   return status == RECTO_OK ? obj_finish_points(p) : status;
