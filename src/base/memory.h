@@ -18,14 +18,21 @@ void *mem_resize(void *block, size_t count, size_t size);
 void mem_free(void *block);
 char *mem_copy_text(const char *text);
 
-/* Fetches into the cache what will be read soon.  A macro: compilers remove
- * calls of a function that does no more. */
+/* Fetches into the cache what will be read soon. */
 #if defined __GNUC__
 #define MEM_PREFETCH(address) __builtin_prefetch(address)
 #else
 #define MEM_PREFETCH(address) ((void)(address))
 #endif
-#define MEM_PREFETCH_AHEAD 8 /* elements between a prefetch and the use */
+#define MEM_PREFETCH_AHEAD 16 /* elements between a prefetch and the use */
+
+/* Of a function that does no more: compilers remove calls of one that they have
+ * not inlined before. */
+#if defined(__GNUC__)
+#define MEM_PREFETCH_INLINE static inline __attribute__((always_inline))
+#else
+#define MEM_PREFETCH_INLINE static inline
+#endif
 
 /* For tests: the n-th allocation from now (1-based) fails, once; 0 switches
  * this off. */

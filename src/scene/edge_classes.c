@@ -11,6 +11,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "base/sort.h"
 #include "base/union_find.h"
@@ -206,9 +207,19 @@ struct crease_work {
   uint8_t *class_masks; /* one an edge */
 };
 
+/* The first three corners of a face. */
+MEM_PREFETCH_INLINE void prefetch_corners(const struct scene *scene,
+                                          size_t face) {
+  const uint32_t *corner = scene->corner.item + scene->face_start.item[face];
+  for (int k = 0; k < 3; k++)
+    MEM_PREFETCH(&scene->point.item[corner[k]]);
+}
+
 static bool find_normal_directions(void *user, struct parallel_range range) {
   const struct crease_work *work = user;
   for (size_t f = range.begin; f < range.end; f++) {
+    if (f + MEM_PREFETCH_AHEAD < range.end)
+      prefetch_corners(work->scene, f + MEM_PREFETCH_AHEAD);
     struct face_normal n = normal_of_face(work->scene, (uint32_t)f);
     double scale = n.square > 0 ? DIRECTION_ONE / sqrt(n.square) : 0;
     work->direction[f] = (struct crease_direction){
@@ -245,6 +256,8 @@ static bool find_masks(void *user, struct parallel_range range) {
   const struct crease_work *work = user;
   for (size_t e = range.begin; e < range.end; e++) {
     const struct topology_edge *edge = &work->topology->edge.item[e];
+    if (e + MEM_PREFETCH_AHEAD < range.end)
+      MEM_PREFETCH(&work->direction[edge[MEM_PREFETCH_AHEAD].second]);
     unsigned mask = plain_class_mask(edge, work->scene);
     if (edge->uses == 2 && exceeds_crease_angle(work, edge))
       mask |= RECTO_EDGE_CREASE;

@@ -13,6 +13,7 @@
 
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/poll.h"
 #include "scene/side_iterator.h"
 
@@ -151,6 +152,22 @@ static bool add_edge_of_side(struct edge_range *range,
   return true;
 }
 
+/* Fetches the start of the list of a point whose side comes later, and the
+ * first edge there of one that comes sooner. */
+MEM_PREFETCH_INLINE void prefetch_list(const struct edge_range *range,
+                                       uint32_t corner) {
+  const struct scene *scene = range->scene;
+  const uint32_t *point = scene->corner.item + corner;
+  if (corner + 2 * MEM_PREFETCH_AHEAD >= scene->corner.count)
+    return;
+  MEM_PREFETCH(&range->head[point[2 * MEM_PREFETCH_AHEAD]]);
+  uint32_t e = range->head[point[MEM_PREFETCH_AHEAD]];
+  if (e < range->edge.count) {
+    MEM_PREFETCH(&range->edge.item[e]);
+    MEM_PREFETCH(&range->next[e]);
+  }
+}
+
 static bool number_edges(struct edge_range *range) {
   for (struct side_iterator it = iterate_sides(range->scene, range->weld,
                                                range->face, range->end_face);
@@ -158,6 +175,7 @@ static bool number_edges(struct edge_range *range) {
     uint32_t e;
     if (!poll_at(it.corner))
       return false;
+    prefetch_list(range, it.corner);
     if (is_new(range, &it, &e)) {
       if (!add_edge_of_side(range, &it))
         return false;

@@ -11,6 +11,7 @@
 #include <stdatomic.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "base/sort.h"
 #include "view/layout_clipping.h"
@@ -70,6 +71,7 @@ static inline uint32_t add_unclipped_faces(const struct layout *layout,
                                            struct layout_triangle_sink *to,
                                            struct face_range *range,
                                            uint32_t face, uint32_t end) {
+  enum { AHEAD = 3 * MEM_PREFETCH_AHEAD };
   const struct scene *scene = layout->scene;
   const uint32_t *start = scene->face_start.item, *own = scene->corner.item;
   const uint32_t *weld = layout->topology->weld, *map = layout->point_map;
@@ -77,8 +79,13 @@ static inline uint32_t add_unclipped_faces(const struct layout *layout,
   const uint32_t first_edge = range != NULL ? range->first_edge : 0;
   struct layout_triangle_sink sink = *to; /* in registers */
   uint8_t *sides = layout->sides;
+  const size_t corners = scene->corner.count;
   for (; face < end && sink.remaining > 0; face++) {
     uint32_t c = start[face], corner[3];
+    for (uint32_t k = c; k < c + 3 && k + 2 * AHEAD < corners; k++) {
+      MEM_PREFETCH(&map[own[k + 2 * AHEAD]]);
+      MEM_PREFETCH(&sink.point[map[own[k + AHEAD]]]);
+    }
     if (start[face + 1] - c != 3 || !find_welded_corners(corner, own + c, weld))
       break;
     const uint32_t point[3] = {map[corner[0]], map[corner[1]], map[corner[2]]};

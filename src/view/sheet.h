@@ -19,6 +19,7 @@
 #ifndef VIEW_SHEET_H
 #define VIEW_SHEET_H
 
+#include "base/memory.h"
 #include "geom/predicate.h"
 #include "scene/topology.h"
 #include "view/camera.h"
@@ -162,6 +163,15 @@ static inline bool sheet_edge_is_drawn(const struct sheet *sheet, size_t e) {
   const struct sheet_edge *edge = &sheet->edge.item[e];
   struct geom_segment s = sheet_ends(sheet, edge->point);
   return edge->edge_class != 0 && (s.p.x != s.q.x || s.p.y != s.q.y);
+}
+
+/* Fetches what sheet_corners reads of a triangle. */
+MEM_PREFETCH_INLINE void sheet_prefetch_corners(const struct sheet *sheet,
+                                                size_t triangle) {
+  const uint32_t *p = sheet->triangle.item[triangle].point;
+  MEM_PREFETCH(&sheet->point.item[p[0]]);
+  MEM_PREFETCH(&sheet->point.item[p[1]]);
+  MEM_PREFETCH(&sheet->point.item[p[2]]);
 }
 
 static inline struct geom_triangle sheet_corners(const struct sheet *sheet,

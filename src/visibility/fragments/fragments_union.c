@@ -109,6 +109,8 @@ static bool find_outlines(void *user, struct parallel_range range) {
   const struct fragment_piece *piece = f->piece.item;
   for (size_t i = next_face(f, range.begin), n; i < range.end; i += n) {
     n = count_pieces(&piece[i], f->piece.count - i);
+    if (i + MEM_PREFETCH_AHEAD < f->piece.count)
+      sheet_prefetch_corners(f->sheet, piece[i + MEM_PREFETCH_AHEAD].triangle);
     if (!face_union_has_outline(&work->face[range.worker], &piece[i], n,
                                 &work->has_outline[i]))
       return false;

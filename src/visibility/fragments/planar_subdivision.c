@@ -260,6 +260,16 @@ static void divide_side(const struct subdivision_work *work, uint32_t fragment,
     push_half_edge(end, half);
 }
 
+/* Fetches the first stretch of a side that comes later: those of consecutive
+ * fragments are. */
+MEM_PREFETCH_INLINE void prefetch_stretch(const struct subdivision_work *work,
+                                          uint32_t side) {
+  uint32_t later = side + MEM_PREFETCH_AHEAD;
+  if (later < work->map->corner.count &&
+      work->start[later] < work->start[later + 1])
+    MEM_PREFETCH(&work->stretch.item[work->along[work->start[later]]]);
+}
+
 /* Adds the half-edges of the fragments of a range. */
 static void divide_fragments(const struct subdivision_work *work,
                              struct parallel_range range,
@@ -270,8 +280,10 @@ static void divide_fragments(const struct subdivision_work *work,
     for (uint32_t l = 0; l < fragment->loops; l++) {
       struct map_loop *loop = &map->loop.item[fragment->loop + l];
       uint32_t first = end->count;
-      for (uint32_t i = 0; i < loop->count; i++)
+      for (uint32_t i = 0; i < loop->count; i++) {
+        prefetch_stretch(work, loop->corner + i);
         divide_side(work, (uint32_t)f, loop->corner + i, end);
+      }
       if (end->half_edge == NULL)
         continue;
       loop->half_edge = first;

@@ -305,8 +305,11 @@ static bool sweep_cell(struct pair_sweep *sweep, const uint32_t *item,
     return sweep_bsp(sweep);
   if (!start_list(sweep, n))
     return false;
-  for (size_t i = 0; i < n; i++)
+  for (size_t i = 0; i < n; i++) {
+    if (i + MEM_PREFETCH_AHEAD < n)
+      sheet_prefetch_corners(sweep->sheet, item[i + MEM_PREFETCH_AHEAD]);
     add_to_list(sweep, item[i], 0);
+  }
   return sweep_list(sweep);
 }
 

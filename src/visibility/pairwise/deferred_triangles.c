@@ -252,14 +252,18 @@ static bool find_near_triangles(struct triangle_solver *solver) {
  * completely. */
 static bool test_candidates(struct triangle_solver *solver) {
   struct occluder_subtraction *subtraction = &solver->subtraction;
+  enum { AHEAD = 4 }; /* lists are short */
   const uint32_t *candidate = solver->query.found.item;
-  if (!progress_step(subtraction->progress, solver->query.found.count))
+  size_t count = solver->query.found.count;
+  if (!progress_step(subtraction->progress, count))
     return false;
-  for (size_t i = 0; i < solver->query.found.count && !subtraction->covered;
-       i++)
+  for (size_t i = 0; i < count && !subtraction->covered; i++) {
+    if (i + AHEAD < count)
+      sheet_prefetch_corners(subtraction->sheet, candidate[i + AHEAD]);
     if (!is_hidden(solver, candidate[i]) &&
         !occluder_subtraction_collect(subtraction, candidate[i]))
       return false;
+  }
   return true;
 }
 

@@ -118,15 +118,30 @@ struct kdop8_range tile_candidates_range(const struct tile_candidates *list,
                               TILE_BUCKET_SHIFT + bits - 6};
 }
 
+/* Fetches a triangle that comes later in the lists, and the corners of one that
+ * comes sooner.
+ * items  of all lists, one after the other */
+MEM_PREFETCH_INLINE void prefetch_triangles(const struct tile_candidates *list,
+                                            const struct sheet *sheet, size_t i,
+                                            size_t items) {
+  const struct sheet_triangle *triangle = sheet->triangle.item;
+  if (i + 2 * MEM_PREFETCH_AHEAD >= items)
+    return;
+  MEM_PREFETCH(&triangle[list->grid.item[i + 2 * MEM_PREFETCH_AHEAD]]);
+  sheet_prefetch_corners(sheet, list->grid.item[i + MEM_PREFETCH_AHEAD]);
+}
+
 /* Computes the keys of a cell's list.  A triangle that is seen edge-on
  * and occludes nothing, gets the key 0, which overlaps next to no query. */
 static void compute_keys(struct tile_candidates *list,
                          const struct sheet *sheet, int x, int y, size_t from,
                          size_t to) {
   struct kdop8_range range = tile_candidates_range(list, x, y);
+  const size_t items = list->grid.start[triangle_grid_cell_count(&list->grid)];
   for (size_t i = from; i < to; i++) {
     uint32_t t = list->grid.item[i];
     const uint32_t *p = sheet->triangle.item[t].point;
+    prefetch_triangles(list, sheet, i, items);
     struct kdop8 kdop = kdop8_of_point(sheet->point.item[p[0]]);
     kdop8_add(&kdop, sheet->point.item[p[1]]);
     kdop8_add(&kdop, sheet->point.item[p[2]]);

@@ -176,36 +176,67 @@ static struct tile *tiles_of_worker(const struct collection_work *work,
   return work->own[worker];
 }
 
-/* Phase 1: visits the triangles of a range. */
+/* A triangle with all that its tiles need of it. */
+struct collected {
+  struct geom_triangle corners;
+  struct box2 box;
+  struct cell_range cells;
+  int low, high; /* its depth buckets */
+};
+
+/* Reads a triangle, and has the first of its tiles fetched. */
+static inline struct collected collected_of(const struct collection_work *work,
+                                            const struct tile_collection *g,
+                                            size_t t) {
+  const uint32_t *p = work->sheet->triangle.item[t].point;
+  const struct geom_point *point = work->sheet->point.item;
+  struct collected c = {.corners = {{point[p[0]], point[p[1]], point[p[2]]}}};
+  int64_t z0 = c.corners.p[0].z, z1 = c.corners.p[1].z, z2 = c.corners.p[2].z;
+  int64_t least = z0 < z1 ? z0 : z1, most = z0 > z1 ? z0 : z1;
+  c.box = box_of_corners(&c.corners);
+  c.cells = triangle_grid_cells(&g->grid, c.box);
+  c.low = tile_bucket(z2 < least ? z2 : least);
+  c.high = tile_bucket(z2 > most ? z2 : most);
+  MEM_PREFETCH(collection_tile(g, c.cells.x0, c.cells.y0));
+  return c;
+}
+
+static inline void add_collected(const struct collection_work *work,
+                                 const struct tile_collection *g,
+                                 const struct collected *c, size_t t) {
+  work->tiles->footprint[t] = footprint_of(c->cells, c->low, c->high);
+  add_buckets(g, c->cells, bucket_mask(c->low, c->high));
+  if (work->sheet->triangle_flags[t] & SHEET_EDGE_ON)
+    return;
+  if (is_steep(work->sheet, &work->all, (uint32_t)t, &c->corners))
+    add_unsafe(g, c->cells,
+               work->fragments ? UINT8_MAX : (uint8_t)(c->low + 1));
+  else
+    add_to_samples(g, &c->corners, c->box, (uint8_t)(c->low + 1));
+}
+
+/* Phase 1: visits the triangles of a range, block by block: all of a block are
+ * read before the first changes a tile, so that the memory accesses of many
+ * overlap, which where their points and tiles lie far apart is most of the
+ * time. */
 static bool collect_range(void *user, struct parallel_range range) {
+  enum { BLOCK = 64 };
   const struct collection_work *work = user;
   struct tile *own = tiles_of_worker(work, range.worker);
   const struct tile_collection g = collection_of(work->tiles, own);
-  const struct sheet_triangle *triangle = work->sheet->triangle.item;
-  const struct geom_point *point = work->sheet->point.item;
-  const uint8_t *flags = work->sheet->triangle_flags;
-  struct footprint *footprint = work->tiles->footprint;
+  struct collected block[BLOCK];
   if (own == NULL)
     return false;
-  for (size_t t = range.begin; t < range.end; t++) {
-    const uint32_t *p = triangle[t].point;
-    const struct geom_triangle corners = {
-        {point[p[0]], point[p[1]], point[p[2]]}};
-    struct box2 box = box_of_corners(&corners);
-    struct cell_range r = triangle_grid_cells(&g.grid, box);
-    int64_t z0 = corners.p[0].z, z1 = corners.p[1].z, z2 = corners.p[2].z;
-    int64_t least = z0 < z1 ? z0 : z1, most = z0 > z1 ? z0 : z1;
-    int low = tile_bucket(z2 < least ? z2 : least),
-        high = tile_bucket(z2 > most ? z2 : most);
-    (void)poll_at(t);
-    footprint[t] = footprint_of(r, low, high);
-    add_buckets(&g, r, bucket_mask(low, high));
-    if (flags[t] & SHEET_EDGE_ON)
-      continue;
-    if (is_steep(work->sheet, &work->all, (uint32_t)t, &corners))
-      add_unsafe(&g, r, work->fragments ? UINT8_MAX : (uint8_t)(low + 1));
-    else
-      add_to_samples(&g, &corners, box, (uint8_t)(low + 1));
+  for (size_t begin = range.begin; begin < range.end; begin += BLOCK) {
+    size_t end = begin + BLOCK < range.end ? begin + BLOCK : range.end;
+    (void)poll_at(begin);
+    for (size_t t = begin; t < end; t++) {
+      if (t + MEM_PREFETCH_AHEAD < range.end)
+        sheet_prefetch_corners(work->sheet, t + MEM_PREFETCH_AHEAD);
+      block[t - begin] = collected_of(work, &g, t);
+    }
+    for (size_t t = begin; t < end; t++)
+      add_collected(work, &g, &block[t - begin], t);
   }
   return true;
 }

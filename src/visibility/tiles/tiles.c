@@ -115,12 +115,12 @@ static enum map_state state_along(struct tiles_work *work, struct geom_point p,
   return state < 0 ? MAP_MIXED : (enum map_state)state;
 }
 
-/* The state on which all tiles of a range agree, or MAP_MIXED, between the
- * depths z_low and z_high. */
+/* The state on which all tiles of a range agree, or MAP_MIXED, from one depth
+ * bucket to another. */
 static enum map_state state_in_range(const struct tile_classification *tiles,
-                                     struct cell_range r, int64_t z_low,
-                                     int64_t z_high, bool wire) {
-  int low = tile_bucket(z_low), high = tile_bucket(z_high), state = -1;
+                                     struct cell_range r, int low, int high,
+                                     bool wire) {
+  int state = -1;
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++) {
       size_t i = (size_t)y * (size_t)tiles->grid.columns + (size_t)x;
@@ -141,8 +141,9 @@ static enum map_state state_of_edge(struct tiles_work *work,
       triangle_grid_cells(&work->tiles.grid, box2_of_segment(p, q));
   if (r.x1 - r.x0 + r.y1 - r.y0 > 2)
     return state_along(work, p, q, wire, false);
-  enum map_state state = state_in_range(&work->tiles, r, p.z < q.z ? p.z : q.z,
-                                        p.z > q.z ? p.z : q.z, wire);
+  enum map_state state =
+      state_in_range(&work->tiles, r, tile_bucket(p.z < q.z ? p.z : q.z),
+                     tile_bucket(p.z > q.z ? p.z : q.z), wire);
   return state == MAP_MIXED && r.x0 < r.x1 && r.y0 < r.y1
              ? state_along(work, p, q, wire, false)
              : state;
@@ -160,6 +161,10 @@ static bool classify_edge_range(void *user, struct parallel_range range) {
   const struct sheet *sheet = work->tiles->sheet;
   for (size_t e = work->from + range.begin; e < work->from + range.end; e++) {
     const struct sheet_edge *edge = &sheet->edge.item[e];
+    if (e + MEM_PREFETCH_AHEAD < sheet->edge.count) {
+      MEM_PREFETCH(&sheet->point.item[edge[MEM_PREFETCH_AHEAD].point[0]]);
+      MEM_PREFETCH(&sheet->point.item[edge[MEM_PREFETCH_AHEAD].point[1]]);
+    }
     struct geom_segment s = sheet_ends(sheet, edge->point);
     bool wire = edge->triangle[0] == SHEET_NONE ||
                 edge->edge_class == RECTO_EDGE_INTERSECTION;
@@ -199,29 +204,24 @@ static bool classify_edges(struct tiles_work *work, size_t from,
 
 /* The state of a triangle: that on which all tiles of its bounding box agree,
  * or MAP_MIXED. */
-static enum map_state state_of_face(const struct tiles_work *work, uint32_t t) {
-  const struct sheet *sheet = work->sheet;
-  int64_t low, high;
-  geom_depth_range(sheet_corners(sheet, t).p, &low, &high);
+static enum map_state state_of_face(const struct tiles_work *work, size_t t) {
+  struct footprint print = work->tiles.footprint[t];
   return state_in_range(
-      &work->tiles,
-      triangle_grid_cells(&work->tiles.grid, box2_of_triangle(sheet, t)), low,
-      high, false);
+      &work->tiles, footprint_cells(&work->tiles.grid, work->sheet, t, print),
+      print.low, print.high, false);
 }
 
 /* Marks the tiles of a triangle's bounding box as wanted, but for those in
  * which it is visible: nothing there occludes it or is in contact with it. */
 static void want_face_tiles(struct tiles_work *work, uint32_t t) {
-  const struct sheet *sheet = work->sheet;
   const struct triangle_grid *grid = &work->tiles.grid;
-  struct cell_range r = triangle_grid_cells(grid, box2_of_triangle(sheet, t));
-  int64_t low, high;
-  geom_depth_range(sheet_corners(sheet, t).p, &low, &high);
+  struct footprint print = work->tiles.footprint[t];
+  struct cell_range r = footprint_cells(grid, work->sheet, t, print);
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++) {
       size_t i = triangle_grid_index(grid, x, y);
-      if (state_in_tile(&work->tiles.tile[i], tile_bucket(low),
-                        tile_bucket(high), false) != MAP_VISIBLE)
+      if (state_in_tile(&work->tiles.tile[i], print.low, print.high, false) !=
+          MAP_VISIBLE)
         work->wanted[i] = 1;
     }
 }
@@ -235,7 +235,7 @@ static bool classify_face_range(void *user, struct parallel_range range) {
     if (sheet_is_edge_on(work->sheet, t))
       state = MAP_HIDDEN;
     else if (sheet_is_filled(work->sheet, t))
-      state = state_of_face(work, (uint32_t)t);
+      state = state_of_face(work, t);
     work->face_state[t] = (uint8_t)state;
   }
   return true;
