@@ -847,6 +847,33 @@ static void corners_that_stay_are_shared(void **state) {
   scene_fini(&c.scene);
 }
 
+/* Points that a cut makes are no less precise than those of the scene: what
+ * counts as contact follows from that.  Where a precision is stated for all of
+ * these, that of points without one is of no effect. */
+static void points_that_are_made_are_as_precise_as_the_scene(void **state) {
+  (void)state;
+  const struct precision stated = {0, 0x1p-40}, unstated = {0, 0x1p-10};
+  const struct cut_plane plane = plane_of(1, 0, 0, 0.5);
+  for (int known = 0; known < 2; known++) {
+    struct cutting c;
+    scene_init(&c.scene);
+    add_cube(&c.scene, 0, 1, false);
+    if (known)
+      assert_int_equal(scene_state_precision(&c.scene, 0, stated, NULL),
+                       RECTO_OK);
+    assert_int_equal(topology_init(&c.topology, &c.scene, NULL), RECTO_OK);
+    assert_int_equal(
+        cut_scene(&c.cut, &c.scene, &c.topology, unstated, &plane, 1, &c.error),
+        RECTO_OK);
+    struct precision made =
+        scene_point_precision(&c.cut.scene, c.cut.made.first_point, unstated);
+    assert_true(made.relative == (known ? stated : unstated).relative);
+    topology_fini(&c.topology);
+    cut_fini(&c.cut);
+    scene_fini(&c.scene);
+  }
+}
+
 /* A triangle with a side in two of three planes: its line in one of them ends
  * where another one begins, and nothing goes on there. */
 static void a_line_that_ends_where_planes_meet_is_open(void **state) {
@@ -1075,6 +1102,7 @@ int main(void) {
       cmocka_unit_test(an_edge_in_the_plane_keeps_its_class),
       cmocka_unit_test(a_face_keeps_a_corner_that_goes),
       cmocka_unit_test(corners_that_stay_are_shared),
+      cmocka_unit_test(points_that_are_made_are_as_precise_as_the_scene),
       cmocka_unit_test(a_line_that_ends_where_planes_meet_is_open),
       cmocka_unit_test(polygons_that_run_over_themselves_are_cut),
       cmocka_unit_test(faces_that_share_an_edge_in_pieces_are_closed),

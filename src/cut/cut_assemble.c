@@ -282,6 +282,12 @@ static bool add_cut_points(struct assembly *a, uint8_t *planes) {
   return true;
 }
 
+static struct precision coarser_precision(struct precision a,
+                                          struct precision b) {
+  return (struct precision){fmax(a.absolute, b.absolute),
+                            fmax(a.relative, b.relative)};
+}
+
 /* Points that were made are rounded as those of the scene are, or as the grid
  * is. */
 static bool add_precisions(struct assembly *a, struct precision unstated) {
@@ -289,17 +295,17 @@ static bool add_precisions(struct assembly *a, struct precision unstated) {
   double unit = a->cutter->points.unit;
   struct precision most = {unit, 0};
   size_t count = from->precision.count;
-  for (size_t i = 0; i <= count; i++) {
-    struct precision own = unstated;
-    if (i < count) {
-      const struct precision_range *range = &from->precision.item[i];
-      if (!ARRAY_PUSH(&a->scene->precision, *range))
-        return false;
-      own = range->stated ? range->precision : unstated;
-    }
-    most.absolute = fmax(most.absolute, own.absolute);
-    most.relative = fmax(most.relative, own.relative);
+  bool all_stated = count > 0 && from->precision.item[0].first_point == 0;
+  for (size_t i = 0; i < count; i++) {
+    const struct precision_range *range = &from->precision.item[i];
+    if (!ARRAY_PUSH(&a->scene->precision, *range))
+      return false;
+    all_stated &= range->stated;
+    if (range->stated)
+      most = coarser_precision(most, range->precision);
   }
+  if (!all_stated)
+    most = coarser_precision(most, unstated);
   if (count == 1 && from->precision.item[0].stated &&
       from->precision.item[0].precision.absolute >= unit)
     return true;
