@@ -61,8 +61,8 @@ bool judge_edges_add_whole(struct judge_edges *edges,
   if (camera->perspective) /* where rounding may be all that there is */
     least = fmax(least, TOLERANCE_JUDGE_EYE_SHARE * (fabs(da) + fabs(db)));
   bool swap = db > da;
-  struct ray_to_eye ray = {swap ? b : a,
-                           swap ? point3_sub(a, b) : point3_sub(b, a)};
+  struct ray_to_eye ray = {.origin = swap ? b : a,
+                           .along = swap ? point3_sub(a, b) : point3_sub(b, a)};
   ray.from = judge_homogeneous_of(camera, ray.origin);
   ray.by = judge_homogeneous_along(camera, ray.along);
   if (fmax(da, db) <= least ||
