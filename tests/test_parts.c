@@ -77,12 +77,18 @@ static bool compare_parts(void *const *state, const recto_scene *scene,
   return true;
 }
 
-/* Lines, hidden lines dashed, fills, hatching. */
+/* Lines, hidden lines dashed, fills, hatching, lines behind one face. */
+enum { MODES = 5 };
+
 static void set_mode(recto_options *options, int mode) {
-  static const recto_fill fill[] = {RECTO_FILL_NONE, RECTO_FILL_NONE,
-                                    RECTO_FILL_SHADE, RECTO_FILL_HATCH};
+  static const recto_fill fill[MODES] = {RECTO_FILL_NONE, RECTO_FILL_NONE,
+                                         RECTO_FILL_SHADE, RECTO_FILL_HATCH,
+                                         RECTO_FILL_NONE};
   options->ink.fill = fill[mode];
-  options->ink.hidden = mode == 1 ? RECTO_HIDDEN_DASHED : RECTO_HIDDEN_NONE;
+  options->ink.hidden = mode == 1   ? RECTO_HIDDEN_DASHED
+                        : mode == 4 ? RECTO_HIDDEN_LAYER
+                                    : RECTO_HIDDEN_NONE;
+  options->ink.hidden_by_max = mode == 4;
   options->ink.light[0] = options->ink.light[1] = options->ink.light[2] = 0;
 }
 
@@ -106,7 +112,7 @@ static void joined_parts_are_the_drawing(void **state) {
     options.camera.section = 0;
     if (scene_face_count(&scene->scene) > FACES_OF_ALL_COUNTS)
       counts = 1;
-    for (int mode = 0; mode < 4 && in_parts; mode++)
+    for (int mode = 0; mode < MODES && in_parts; mode++)
       for (size_t i = 0; i < counts && in_parts; i++) {
         set_mode(&options, mode);
         in_parts = compare_parts(state, scene, &options, count[i], entry->name);
@@ -280,6 +286,11 @@ static void what_parts_do_not_have_is_refused(void **state) {
   other.ink.hidden = RECTO_HIDDEN_LAYER;
   assert_int_equal(join_all(state, &other, 2, &drawing, &error),
                    RECTO_ERROR_UNSUPPORTED);
+  assert_int_equal(write_parts(state, scene, &other, 2, NULL), RECTO_OK);
+  other.ink.hidden_by_max = 2;
+  assert_int_equal(join_all(state, &other, 2, &drawing, &error),
+                   RECTO_ERROR_UNSUPPORTED);
+  assert_non_null(strstr(error.text, "--hidden=2"));
   other = options;
   other.ink.ids = true;
   assert_int_equal(join_all(state, &other, 2, &drawing, &error),
@@ -301,6 +312,25 @@ static void what_parts_do_not_have_is_refused(void **state) {
   assert_int_equal(recto_scene_write_part(scene, &options, 1,
                                           RECTO_PARTS_MAX + 1, "x", &error),
                    RECTO_ERROR_ARGUMENT);
+  recto_scene_destroy(scene);
+}
+
+static void a_limit_of_hiding_faces_may_be_left_out(void **state) {
+  recto_options options;
+  recto_scene *scene = make_parts(state, &options);
+  recto_drawing *whole, *joined;
+  options.ink.hidden = RECTO_HIDDEN_LAYER;
+  options.ink.hidden_by_max = 1;
+  assert_int_equal(write_parts(state, scene, &options, 2, NULL), RECTO_OK);
+  options.ink.hidden_by_max = 0;
+  assert_int_equal(recto_scene_render(scene, &options, &whole, NULL), RECTO_OK);
+  assert_int_equal(join_all(state, &options, 2, &joined, NULL), RECTO_OK);
+  char *a = svg_text_of(whole, &options), *b = svg_text_of(joined, &options);
+  assert_string_equal(a, b);
+  free(a);
+  free(b);
+  recto_drawing_destroy(whole);
+  recto_drawing_destroy(joined);
   recto_scene_destroy(scene);
 }
 
@@ -366,6 +396,7 @@ int main(void) {
       IN_FOLDER(damage_with_a_right_checksum_does_no_harm),
       IN_FOLDER(a_whole_part_of_the_drawing_is_there),
       IN_FOLDER(what_parts_do_not_have_is_refused),
+      IN_FOLDER(a_limit_of_hiding_faces_may_be_left_out),
       IN_FOLDER(what_runs_out_of_memory_says_so)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -27,6 +27,7 @@ struct join {
   const char *const *path;
   struct part *part;
   size_t parts;
+  size_t bytes; /* of all their files */
   recto_options options;
   struct part_join join;
   recto_drawing *made;
@@ -44,6 +45,7 @@ static recto_status read_part_file(struct join *join, const char *path,
   /* So that no output replaces it. */
   if (status == RECTO_OK) {
     join->parts++;
+    join->bytes += input.count;
     if (input.is_file && !ARRAY_PUSH(&join->made->file, input.file))
       status = error_memory(error);
   }
@@ -122,6 +124,7 @@ static void report_join(struct join *join) {
   struct report *report = join->made->report;
   const struct part_join *joined = &join->join;
   report_count(report, "join", "parts", joined->all.common.parts);
+  report_count(report, "join", "file_bytes", join->bytes);
   report_count(report, "join", "faces", joined->all.face.count);
   report_count(report, "join", "edges", joined->all.edge.count);
   report_count(report, "join", "intersections", joined->all.crossing.count);

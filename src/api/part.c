@@ -30,6 +30,7 @@
 #include "view/layout.h"
 #include "view/project.h"
 #include "view/used.h"
+#include "visibility/quantitative_invisibility.h"
 #include "visibility/solver.h"
 
 /* The state of one part; zero-initialised is empty. */
@@ -107,6 +108,7 @@ static recto_status make_common(struct part_work *work, recto_error *error) {
   common->edges = o->ink.edges;
   common->has_fragments = o->ink.fill != RECTO_FILL_NONE;
   common->has_hidden = o->ink.hidden != RECTO_HIDDEN_NONE;
+  common->hidden_by_max = part_hidden_by_max(o);
   common->crease_deg = o->mesh.crease_deg;
   common->camera = work->camera;
   common->camera_kind = o->camera.kind;
@@ -330,6 +332,10 @@ static recto_status solve_part_scene(struct part_work *work,
           : solver_by_method(o->solver.method);
   struct report *report = report_create();
   status = solver->solve(&work->sheet, &request, &work->map, report, error);
+  if (status == RECTO_OK && part_hidden_by_max(o) > 0 &&
+      work->map.edge_state != NULL)
+    status = quantitative_invisibility_find(
+        &work->map, &work->sheet, o->ink.hidden_by_max, false, report, error);
   report_destroy(report);
   return status;
 }

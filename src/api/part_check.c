@@ -33,9 +33,13 @@ static const char *name_unsupported(const recto_options *o) {
     return "smooth contours";
   if (o->sheet.arrangement != RECTO_ARRANGEMENT_NONE)
     return "sheets of several views";
-  if (o->ink.hidden != RECTO_HIDDEN_NONE && o->ink.hidden_by_max > 0)
-    return "lines behind a number of faces";
   return NULL;
+}
+
+uint32_t part_hidden_by_max(const recto_options *o) {
+  return o->ink.hidden != RECTO_HIDDEN_NONE && o->ink.hidden_by_max > 0
+             ? (uint32_t)o->ink.hidden_by_max
+             : 0;
 }
 
 recto_status part_check_solve(const recto_options *o, recto_error *error) {
@@ -69,5 +73,11 @@ recto_status part_check_ink(const recto_options *o,
     return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
                      "the parts were made without hidden lines: make them with "
                      "--hidden");
+  uint32_t limit = part_hidden_by_max(o);
+  if (limit != 0 && limit != common->hidden_by_max)
+    return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
+                     "the parts do not know what more than %lu faces hide: "
+                     "make them with --hidden=%lu",
+                     (unsigned long)limit, (unsigned long)limit);
   return RECTO_OK;
 }

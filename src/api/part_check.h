@@ -5,6 +5,9 @@
 #include "base/status.h"
 #include "parts/part.h"
 
+/* The number of faces that a line may be behind to be drawn; 0: any. */
+uint32_t part_hidden_by_max(const recto_options *options);
+
 /* Whether parts that are solved with these options can be joined exactly.
  * Errors  RECTO_ERROR_UNSUPPORTED: the text says what cannot be */
 USE_RESULT recto_status part_check_solve(const recto_options *options,

@@ -3,6 +3,7 @@ librecto_core_la_SOURCES += \
   %D%/byte_codec.c %D%/byte_codec.h \
   %D%/face_pick.c %D%/face_pick.h \
   %D%/face_source.c %D%/face_source.h \
+  %D%/interval_lists.c %D%/interval_lists.h \
   %D%/may_weld.c \
   %D%/page_windows.c %D%/page_windows.h \
   %D%/part.c %D%/part.h \

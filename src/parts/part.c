@@ -12,6 +12,7 @@ void part_fini(struct part *part) {
   ARRAY_FREE(&part->wire);
   ARRAY_FREE(&part->corner);
   ARRAY_FREE(&part->interval);
+  ARRAY_FREE(&part->over_limit);
   ARRAY_FREE(&part->edge);
   ARRAY_FREE(&part->crossing);
   ARRAY_FREE(&part->fragment);

@@ -27,6 +27,7 @@ struct part_common {
   uint32_t edges; /* recto_options.ink.edges */
   bool has_fragments;
   bool has_hidden; /* intersections that are hidden were looked for too */
+  uint32_t hidden_by_max; /* where more faces hide an edge is known; 0: not */
   double crease_deg;
   struct camera camera;
   /* For the description of the drawing: */
@@ -68,10 +69,16 @@ struct part_visibility {
   uint32_t interval, count; /* MAP_MIXED: its visible intervals */
 };
 
+/* Where more faces than the limit hide an edge, in part.over_limit. */
+struct part_over_limit {
+  uint32_t interval, count;
+};
+
 struct part_edge {
   struct part_edge_key key;
   uint16_t edge_class; /* never 0 */
   struct part_visibility visibility;
+  struct part_over_limit over_limit;
 };
 
 /* A triangle: number `place` of those of a face. */
@@ -84,6 +91,7 @@ struct part_crossing {
   struct part_triangle triangle[2]; /* the lower first */
   struct geom_point end[2];
   struct part_visibility visibility;
+  struct part_over_limit over_limit;
 };
 
 int part_crossing_compare(const struct part_crossing *a,
@@ -112,6 +120,7 @@ struct part {
   ARRAY(struct part_element) wire;
   ARRAY(uint32_t) corner;
   ARRAY(struct map_interval) interval;
+  ARRAY(struct map_interval) over_limit;
   ARRAY(struct part_edge) edge;
   ARRAY(struct part_crossing) crossing;
   ARRAY(struct part_fragment) fragment;

@@ -104,10 +104,22 @@ static bool meets_window(const struct collection *c, uint32_t e) {
   return part_window_meets(&c->part->window, low, high);
 }
 
-/* Stores where an edge is visible.
- * mixed  the map's row of it, if it has one */
+/* Goes on to an edge's row in a list of rows; NULL: it has none. */
+static const struct map_mixed *row_of_edge(const struct map_mixed **row,
+                                           const struct map_mixed *end,
+                                           uint32_t e) {
+  while (*row < end && (*row)->edge < e)
+    ++*row;
+  return *row < end && (*row)->edge == e ? *row : NULL;
+}
+
+/* The rows of the current edge in the map; NULL: it has none. */
+struct edge_rows {
+  const struct map_mixed *mixed, *over_limit;
+};
+
 static bool store_visibility(struct collection *c, uint32_t e,
-                             const struct map_mixed *mixed,
+                             const struct edge_rows *rows,
                              struct part_visibility *to) {
   const struct map *map = c->from->map;
   *to = (struct part_visibility){e < map->edge_count ? map->edge_state[e]
@@ -115,11 +127,25 @@ static bool store_visibility(struct collection *c, uint32_t e,
                                  (uint32_t)c->part->interval.count, 0};
   if (to->state != MAP_MIXED)
     return true;
-  for (uint32_t i = 0; i < mixed->count; i++)
+  for (uint32_t i = 0; i < rows->mixed->count; i++)
     if (!ARRAY_PUSH(&c->part->interval,
-                    map->interval.item[mixed->interval + i]))
+                    map->interval.item[rows->mixed->interval + i]))
       return false;
-  to->count = mixed->count;
+  to->count = rows->mixed->count;
+  return true;
+}
+
+static bool store_over_limit(struct collection *c, const struct edge_rows *rows,
+                             struct part_over_limit *to) {
+  *to = (struct part_over_limit){(uint32_t)c->part->over_limit.count, 0};
+  if (rows->over_limit == NULL)
+    return true;
+  to->count = rows->over_limit->count;
+  for (uint32_t i = 0; i < to->count; i++)
+    if (!ARRAY_PUSH(&c->part->over_limit,
+                    c->from->map->over_limit_interval
+                        .item[rows->over_limit->interval + i]))
+      return false;
   return true;
 }
 
@@ -131,7 +157,7 @@ static struct part_triangle part_triangle_of(const struct collection *c,
 }
 
 static bool store_crossing(struct collection *c, uint32_t e,
-                           const struct map_mixed *mixed) {
+                           const struct edge_rows *rows) {
   const struct sheet *sheet = c->from->sheet;
   const struct sheet_edge *edge = &sheet->edge.item[e];
   struct part_crossing crossing = {.triangle = {{0, 0}, {0, 0}}};
@@ -140,32 +166,36 @@ static bool store_crossing(struct collection *c, uint32_t e,
     crossing.end[k] = sheet->point.item[edge->point[k]];
     c->face_needed[sheet->triangle.item[edge->triangle[k]].face] = 1;
   }
-  return store_visibility(c, e, mixed, &crossing.visibility) &&
+  return store_visibility(c, e, rows, &crossing.visibility) &&
+         store_over_limit(c, rows, &crossing.over_limit) &&
          ARRAY_PUSH(&c->part->crossing, crossing);
 }
 
 static bool collect_edges(struct collection *c) {
   const struct sheet *sheet = c->from->sheet;
   const struct map *map = c->from->map;
-  const struct map_mixed *mixed = map->mixed.item;
+  const struct map_mixed *mixed = map->mixed.item, *over = map->over_limit.item;
   const struct map_mixed *end = ARRAY_AT(&map->mixed, map->mixed.count);
+  const struct map_mixed *over_end =
+      ARRAY_AT(&map->over_limit, map->over_limit.count);
   for (uint32_t e = 0; map->edge_state != NULL && e < sheet->edge.count; e++) {
     const struct sheet_edge *edge = &sheet->edge.item[e];
-    while (mixed < end && mixed->edge < e)
-      mixed++;
+    const struct edge_rows rows = {row_of_edge(&mixed, end, e),
+                                   row_of_edge(&over, over_end, e)};
     if (!poll_at(e))
       return false;
     if (edge->edge_class == 0 || !meets_window(c, e))
       continue;
     if (is_intersection(edge)) {
-      if (!store_crossing(c, e, mixed))
+      if (!store_crossing(c, e, &rows))
         return false;
       continue;
     }
     struct part_edge own = {.key = key_of(c, e),
                             .edge_class = edge->edge_class};
     need_edge(c, e);
-    if (!store_visibility(c, e, mixed, &own.visibility) ||
+    if (!store_visibility(c, e, &rows, &own.visibility) ||
+        !store_over_limit(c, &rows, &own.over_limit) ||
         !ARRAY_PUSH(&c->part->edge, own))
       return false;
   }

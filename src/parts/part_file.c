@@ -1,6 +1,7 @@
 /* part_file.c - writes and reads parts, by one description of the format. */
 #include "parts/part_file.h"
 
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -9,7 +10,7 @@
 #include "scene/limit.h"
 
 static const unsigned char magic[8] = {'r', 'e', 'c', 't', 'o', 'p', 't', '\n'};
-enum { FORMAT_VERSION = 1, SUM_SIZE = 8, HEAD_SIZE = 8 + 4 + 8 };
+enum { FORMAT_VERSION = 2, SUM_SIZE = 8, HEAD_SIZE = 8 + 4 + 8 };
 
 /* Sizes of items, at least, in bytes. */
 enum {
@@ -121,6 +122,7 @@ static void code_common(struct byte_codec *codec, struct part_common *common) {
   byte_codec_u32(codec, &common->edges);
   byte_codec_bool(codec, &common->has_fragments);
   byte_codec_bool(codec, &common->has_hidden);
+  byte_codec_u32(codec, &common->hidden_by_max);
   code_doubles(codec, &common->crease_deg, 1);
   code_camera(codec, &common->camera);
   byte_codec_u32(codec, &common->camera_kind);
@@ -133,6 +135,8 @@ static void code_common(struct byte_codec *codec, struct part_common *common) {
   code_precisions(codec, common);
   require(codec, common->parts > 0 && common->parts <= PAGE_WINDOWS_MAX &&
                      common->edges <= RECTO_EDGES_ALL &&
+                     common->hidden_by_max <= INT_MAX &&
+                     (common->has_hidden || common->hidden_by_max == 0) &&
                      common->crease_deg >= 0 && common->crease_deg <= 180 &&
                      common->camera_kind <= RECTO_CAMERA_EYE &&
                      common->fov_deg >= 0 && common->fov_deg <= 179);
@@ -190,15 +194,40 @@ static void code_elements(struct byte_codec *codec, struct part *part) {
     code_element(codec, part, &part->wire.item[w], w == 0, 2);
 }
 
+static void code_interval(struct byte_codec *codec,
+                          struct map_interval *interval) {
+  byte_codec_ratio(codec, &interval->t0);
+  byte_codec_ratio(codec, &interval->t1);
+  require(codec,
+          !codec->failed && ratio_compare(interval->t0, interval->t1) < 0);
+}
+
 static void code_intervals(struct byte_codec *codec, struct part *part) {
   CODE_COUNT(codec, &part->interval, INTERVAL_SIZE);
-  for (size_t i = 0; i < part->interval.count && !codec->failed; i++) {
-    struct map_interval *interval = &part->interval.item[i];
-    byte_codec_ratio(codec, &interval->t0);
-    byte_codec_ratio(codec, &interval->t1);
-    require(codec,
-            !codec->failed && ratio_compare(interval->t0, interval->t1) < 0);
-  }
+  for (size_t i = 0; i < part->interval.count && !codec->failed; i++)
+    code_interval(codec, &part->interval.item[i]);
+  if (part->common.hidden_by_max == 0)
+    return;
+  CODE_COUNT(codec, &part->over_limit, INTERVAL_SIZE);
+  for (size_t i = 0; i < part->over_limit.count && !codec->failed; i++)
+    code_interval(codec, &part->over_limit.item[i]);
+}
+
+/* Those over the limit likewise, where there is one. */
+static void code_over_limit(struct byte_codec *codec, const struct part *part,
+                            struct part_over_limit *over, size_t *next) {
+  if (!codec->writes)
+    *over = (struct part_over_limit){(uint32_t)*next, 0};
+  if (part->common.hidden_by_max == 0)
+    return;
+  byte_codec_u32(codec, &over->count);
+  if (codec->writes)
+    return;
+  require(codec, over->count <= part->over_limit.count - *next);
+  *next += codec->failed ? 0 : over->count;
+  const struct map_interval *interval = part->over_limit.item;
+  for (size_t i = over->interval + 1u; i < *next; i++)
+    require(codec, ratio_compare(interval[i - 1].t1, interval[i].t0) < 0);
 }
 
 /* The intervals of edges follow one another.
@@ -236,13 +265,14 @@ static bool is_one_class(unsigned edge_class) {
 }
 
 static void code_edges(struct byte_codec *codec, struct part *part) {
-  size_t next = 0;
+  size_t next = 0, next_over = 0;
   CODE_COUNT(codec, &part->edge, EDGE_SIZE - 4);
   for (size_t e = 0; e < part->edge.count && !codec->failed; e++) {
     struct part_edge *edge = &part->edge.item[e];
     code_key(codec, &edge->key);
     byte_codec_u16(codec, &edge->edge_class);
     code_visibility(codec, part, &edge->visibility, &next);
+    code_over_limit(codec, part, &edge->over_limit, &next_over);
     bool is_wire = edge->key.kind == PART_EDGE_OF_WIRE;
     require(codec,
             is_one_class(edge->edge_class) &&
@@ -266,6 +296,7 @@ static void code_edges(struct byte_codec *codec, struct part *part) {
         *end = (struct geom_point){(int32_t)xyz[0], (int32_t)xyz[1], xyz[2]};
     }
     code_visibility(codec, part, &crossing->visibility, &next);
+    code_over_limit(codec, part, &crossing->over_limit, &next_over);
     require(codec, crossing->triangle[0].face < crossing->triangle[1].face);
   }
 }

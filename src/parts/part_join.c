@@ -29,6 +29,7 @@ struct join_work {
   ARRAY(uint32_t) fold;     /* the sheet's folds, by face */
   ARRAY(uint32_t) wire;     /* the edges of polylines, by polyline */
   struct part_visibility *visibility; /* of each sheet edge */
+  struct part_over_limit *over_limit;
   struct number_index points, faces;
   recto_error *error;
 };
@@ -276,7 +277,9 @@ static recto_status set_classes(struct join_work *work) {
   const struct part *all = work->all;
   work->visibility = mem_calloc(sheet->edge.count + all->crossing.count,
                                 sizeof *work->visibility);
-  if (work->visibility == NULL)
+  work->over_limit = mem_calloc(sheet->edge.count + all->crossing.count,
+                                sizeof *work->over_limit);
+  if (work->visibility == NULL || work->over_limit == NULL)
     return error_memory(work->error);
   for (size_t e = 0; e < sheet->edge.count; e++)
     if (sheet->edge.item[e].edge_class != RECTO_EDGE_WIRE)
@@ -288,6 +291,7 @@ static recto_status set_classes(struct join_work *work) {
       return misfit(work);
     sheet->edge.item[e].edge_class = from->edge_class;
     work->visibility[e] = from->visibility;
+    work->over_limit[e] = from->over_limit;
   }
   return RECTO_OK;
 }
@@ -350,9 +354,12 @@ static void note_crossings(struct join_work *work, size_t first,
         0};
     size_t i = 0;
     LOWER_BOUND(i, 0, count, compare_joined(&joined[i], &sought, NULL) < 0);
-    if (i < count && compare_joined(&joined[i], &sought, NULL) == 0)
-      work->visibility[e] =
-          work->all->crossing.item[joined[i].number].visibility;
+    if (i == count || compare_joined(&joined[i], &sought, NULL) != 0)
+      continue;
+    const struct part_crossing *from =
+        &work->all->crossing.item[joined[i].number];
+    work->visibility[e] = from->visibility;
+    work->over_limit[e] = from->over_limit;
   }
 }
 
@@ -376,7 +383,20 @@ static recto_status add_joined_crossings(struct join_work *work) {
   return status;
 }
 
-static bool set_states(struct join_work *work) {
+/* Stores where more faces than the limit hide an edge. */
+static bool set_over_limit(struct join_work *work, uint32_t e) {
+  struct map *map = &work->join->map;
+  const struct part_over_limit *over = &work->over_limit[e];
+  const struct map_mixed row = {e, (uint32_t)map->over_limit_interval.count,
+                                over->count};
+  for (uint32_t i = 0; i < over->count; i++)
+    if (!ARRAY_PUSH(&map->over_limit_interval,
+                    work->all->over_limit.item[over->interval + i]))
+      return false;
+  return over->count == 0 || ARRAY_PUSH(&map->over_limit, row);
+}
+
+static bool set_states(struct join_work *work, bool with_limit) {
   struct map *map = &work->join->map;
   const struct sheet *sheet = &work->join->sheet;
   const struct part *all = work->all;
@@ -387,7 +407,7 @@ static bool set_states(struct join_work *work) {
     struct map_mixed mixed = {e, (uint32_t)map->interval.count,
                               visibility->count};
     map->edge_state[e] = visibility->state;
-    if (!poll_at(e))
+    if (!poll_at(e) || (with_limit && !set_over_limit(work, e)))
       return false;
     if (visibility->state != MAP_MIXED)
       continue;
@@ -481,7 +501,7 @@ static recto_status make_join(struct join_work *work,
   if (status == RECTO_OK)
     status = add_joined_crossings(work);
   if (status == RECTO_OK && join->all.common.edges != RECTO_EDGES_NONE &&
-      !set_states(work))
+      !set_states(work, options->ink.hidden_by_max > 0))
     status = error_memory(work->error);
   return status == RECTO_OK ? add_joined_fragments(work) : status;
 }
@@ -495,6 +515,7 @@ recto_status part_join_make(struct part_join *join,
   mem_free(work.sheet_edge);
   mem_free(work.first_triangle);
   mem_free(work.visibility);
+  mem_free(work.over_limit);
   ARRAY_FREE(&work.fold);
   ARRAY_FREE(&work.wire);
   return status;

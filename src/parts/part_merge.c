@@ -8,6 +8,7 @@
 
 #include "base/poll.h"
 #include "base/sort.h"
+#include "parts/interval_lists.h"
 #include "scene/limit.h"
 
 /* ---- Is it one drawing? -------------------------------------------------- */
@@ -16,7 +17,9 @@ static bool is_same_drawing(const struct part_common *a,
                             const struct part_common *b) {
   return a->id == b->id && a->parts == b->parts && a->edges == b->edges &&
          a->has_fragments == b->has_fragments &&
-         a->has_hidden == b->has_hidden && a->group.count == b->group.count;
+         a->has_hidden == b->has_hidden &&
+         a->hidden_by_max == b->hidden_by_max &&
+         a->group.count == b->group.count;
 }
 
 static recto_status report_missing(const struct part *part, size_t count,
@@ -78,9 +81,8 @@ struct merge_work {
   const char *const *path;
   size_t parts;
   origin_list order;
-  struct part_visibility visibility;  /* of the current edge, */
-  ARRAY(struct map_interval) visible; /* and its intervals, */
-  ARRAY(struct map_interval) left;    /* and scratch */
+  struct interval_list visible, over_limit; /* of the current edge */
+  struct interval_list scratch;
   recto_error *error;
 };
 
@@ -252,57 +254,40 @@ static recto_status merge_elements(struct merge_work *work, bool wires) {
 
 /* ---- Visible intervals --------------------------------------------------- */
 
-static struct ratio lesser(struct ratio a, struct ratio b) {
-  return ratio_compare(a, b) <= 0 ? a : b;
-}
-
-static struct ratio greater(struct ratio a, struct ratio b) {
-  return ratio_compare(a, b) >= 0 ? a : b;
-}
-
-/* Makes `visible` the intersection of itself with other intervals. */
-static bool intersect_intervals(struct merge_work *work,
-                                const struct map_interval *other,
-                                size_t count) {
-  size_t i = 0, k = 0;
-  work->left.count = 0;
-  while (i < work->visible.count && k < count) {
-    const struct map_interval *own = &work->visible.item[i];
-    struct map_interval both = {greater(own->t0, other[k].t0),
-                                lesser(own->t1, other[k].t1)};
-    if (ratio_compare(both.t0, both.t1) < 0 && !ARRAY_PUSH(&work->left, both))
-      return false;
-    if (ratio_compare(own->t1, other[k].t1) <= 0)
-      i++;
-    else
-      k++;
-  }
-  work->visible.count = 0;
-  return APPEND(&work->visible, &work->left);
-}
-
 static const struct map_interval whole_edge = {{0, 1}, {1, 1}};
 
 /* Begins with an edge that is visible all along. */
 static bool start_visibility(struct merge_work *work) {
-  work->visible.count = 0;
+  work->visible.count = work->over_limit.count = 0;
   return ARRAY_PUSH(&work->visible, whole_edge);
 }
 
 /* Removes what a part says to be hidden. */
 static bool hide_by_part(struct merge_work *work, const struct part *part,
-                         const struct part_visibility *visibility) {
+                         const struct part_visibility *visibility,
+                         const struct part_over_limit *over) {
   if (visibility->state == MAP_HIDDEN)
     work->visible.count = 0;
-  return visibility->state != MAP_MIXED ||
-         intersect_intervals(work, part->interval.item + visibility->interval,
-                             visibility->count);
+  return (visibility->state != MAP_MIXED ||
+          interval_list_intersect(&work->visible,
+                                  part->interval.item + visibility->interval,
+                                  visibility->count, &work->scratch)) &&
+         (over->count == 0 ||
+          interval_list_unite(&work->over_limit,
+                              part->over_limit.item + over->interval,
+                              over->count, &work->scratch));
 }
 
 /* Stores what is left. */
 static bool finish_visibility(struct merge_work *work,
-                              struct part_visibility *to) {
+                              struct part_visibility *to,
+                              struct part_over_limit *over) {
   struct part *all = work->all;
+  *over = (struct part_over_limit){(uint32_t)all->over_limit.count,
+                                   (uint32_t)work->over_limit.count};
+  if (all->over_limit.count + work->over_limit.count >= UINT32_MAX ||
+      !APPEND(&all->over_limit, &work->over_limit))
+    return false;
   const struct map_interval *first = work->visible.item;
   bool is_whole = work->visible.count == 1 && first->t0.num == 0 &&
                   first->t1.num == first->t1.den;
@@ -329,9 +314,10 @@ static recto_status merge_edges(struct merge_work *work) {
         break;
       if (other->edge_class != edge.edge_class)
         return contradiction(work, at);
-      ok = hide_by_part(work, &work->part[at.part], &other->visibility);
+      ok = hide_by_part(work, &work->part[at.part], &other->visibility,
+                        &other->over_limit);
     }
-    if (!ok || !finish_visibility(work, &edge.visibility) ||
+    if (!ok || !finish_visibility(work, &edge.visibility, &edge.over_limit) ||
         !ARRAY_PUSH(&all->edge, edge))
       return error_memory(work->error);
   }
@@ -353,8 +339,8 @@ static bool clip_to_range(struct map_interval *range, int32_t p, int32_t q,
     enter = -enter;
     leave = -leave;
   }
-  range->t0 = greater(range->t0, ratio_of(enter, d));
-  range->t1 = lesser(range->t1, ratio_of(leave, d));
+  range->t0 = interval_greater(range->t0, ratio_of(enter, d));
+  range->t1 = interval_lesser(range->t1, ratio_of(leave, d));
   return ratio_compare(range->t0, range->t1) < 0;
 }
 
@@ -373,7 +359,7 @@ static bool hide_in_window(struct merge_work *work,
     rest[count++] = (struct map_interval){whole_edge.t0, hidden.t0};
   if (hidden.t1.num < hidden.t1.den)
     rest[count++] = (struct map_interval){hidden.t1, whole_edge.t1};
-  return intersect_intervals(work, rest, count);
+  return interval_list_intersect(&work->visible, rest, count, &work->scratch);
 }
 
 static recto_status merge_crossings(struct merge_work *work) {
@@ -390,11 +376,12 @@ static recto_status merge_crossings(struct merge_work *work) {
       if (part_crossing_compare(&own, other) != 0)
         break;
       lists[at.part] = 1;
-      ok = hide_by_part(work, &work->part[at.part], &other->visibility);
+      ok = hide_by_part(work, &work->part[at.part], &other->visibility,
+                        &other->over_limit);
     }
     for (size_t p = 0; ok && p < work->parts; p++)
       ok = lists[p] || hide_in_window(work, &own, &work->part[p].window);
-    if (!ok || !finish_visibility(work, &own.visibility) ||
+    if (!ok || !finish_visibility(work, &own.visibility, &own.over_limit) ||
         !ARRAY_PUSH(&all->crossing, own)) {
       status = error_memory(work->error);
       break;
@@ -502,7 +489,8 @@ recto_status part_merge(struct part *all, struct part *part,
   mem_free(counts);
   ARRAY_FREE(&work.order);
   ARRAY_FREE(&work.visible);
-  ARRAY_FREE(&work.left);
+  ARRAY_FREE(&work.over_limit);
+  ARRAY_FREE(&work.scratch);
   all->common = part->common;
   part->common = (struct part_common){.path = NULL};
   for (size_t i = 0; i < count; i++)

@@ -108,7 +108,8 @@ struct map {
   ARRAY(struct map_half_edge) half_edge; /* loop by loop, in order */
 
   /* The lines of the sides (fragments/planar_subdivision.h), one a corner; kept
-   * only where `keeps_side_lines` is set before the map is made. */
+   * only where `keeps_side_lines` is set before the map is made, and then in
+   * place of the half-edges. */
   bool keeps_side_lines;
   ARRAY(uint64_t) side_line;
 };

@@ -258,7 +258,8 @@ bool fragments_finish(struct fragments *fragments, struct map *map) {
   struct union_work work = {.fragments = fragments, .map = map};
   int workers = parallel_workers(fragments->piece.count, PIECES_IN_RANGE);
   bool ok = unite(&work, workers) &&
-            planar_subdivision_store(&work.lines, fragments->sheet, map);
+            (map->keeps_side_lines ||
+             planar_subdivision_store(&work.lines, fragments->sheet, map));
   if (ok && map->keeps_side_lines) {
     map->side_line.item = work.lines.item;
     map->side_line.count = work.lines.count;
