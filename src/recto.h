@@ -462,8 +462,9 @@ typedef struct recto_ink_options {
   bool ids;   /* one source for each stroke, written with it */
   bool exact; /* visible lines as they are: no crease is dropped because an
                      end is free, nor a line within half a pen of longer ones,
-                     and no gap of less is closed; nor are they where
-                     min_stroke_mm is 0 */
+                     and no gap of less is closed, nor thin loops of smooth
+                     contours left out; nor are they where min_stroke_mm is
+                     0 */
   /* Whether `ambient` and `fill_light` below are given; 0.3 and 0.5 else. */
   bool has_ambient, has_fill_light;
   char unused[4];          /* 0 */

@@ -285,13 +285,17 @@ static recto_status find_invisibility(struct render *render,
 static recto_status add_smooth_contours(struct render *render,
                                         recto_error *error) {
   const recto_options *options = render->options;
+  const struct smooth_contours_options how = {
+      .crease_deg = options->mesh.crease_deg,
+      .hidden_max = options->ink.hidden == RECTO_HIDDEN_NONE
+                        ? 0
+                        : options->ink.hidden_by_max,
+      .exact = options->ink.exact || options->ink.min_stroke_mm == 0};
   struct smooth_contours_counts counts;
   if (!draws_smooth_contours(render))
     return RECTO_OK;
   recto_status status = smooth_contours_add(
-      &render->sheet, &render->map, &render->topology, options->mesh.crease_deg,
-      options->ink.hidden == RECTO_HIDDEN_NONE ? 0 : options->ink.hidden_by_max,
-      &counts, error);
+      &render->sheet, &render->map, &render->topology, how, &counts, error);
   report_count(render->report, "contours", "segments", counts.segments);
   report_count(render->report, "contours", "curves", counts.curves);
   report_count(render->report, "contours", "pieces", counts.pieces);

@@ -31,6 +31,7 @@ librecto_core_la_SOURCES += \
   %D%/culling/potentially_visible.c %D%/culling/potentially_visible.h \
   %D%/contour/contour_curves.c %D%/contour/contour_curves.h \
   %D%/contour/corner_moves.c %D%/contour/corner_moves.h \
+  %D%/contour/curve_pieces.c %D%/contour/curve_pieces.h \
   %D%/contour/drawn_outlines.c %D%/contour/drawn_outlines.h \
   %D%/contour/facing.c %D%/contour/facing.h \
   %D%/contour/fit_fragments.c %D%/contour/fit_fragments.h \
@@ -39,7 +40,9 @@ librecto_core_la_SOURCES += \
   %D%/contour/loop_changes.c %D%/contour/loop_changes.h \
   %D%/contour/outline_gaps.c %D%/contour/outline_gaps.h \
   %D%/contour/page_crossings.c %D%/contour/page_crossings.h \
+  %D%/contour/part_size.c %D%/contour/part_size.h \
   %D%/contour/segment_grid.c %D%/contour/segment_grid.h \
+  %D%/contour/thin_loops.c %D%/contour/thin_loops.h \
   %D%/contour/zero_creases.c %D%/contour/zero_finder.h \
   %D%/contour/zero_segments.h \
   %D%/contour/zero_set.c %D%/contour/zero_set.h \

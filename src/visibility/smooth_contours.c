@@ -10,11 +10,13 @@
 #include "base/poll.h"
 #include "base/sort.h"
 #include "view/clip.h"
+#include "visibility/contour/curve_pieces.h"
 #include "visibility/contour/fit_fragments.h"
 #include "visibility/contour/fit_outline.h"
 #include "visibility/contour/line_ends.h"
 #include "visibility/contour/outline_gaps.h"
 #include "visibility/contour/page_crossings.h"
+#include "visibility/contour/thin_loops.h"
 #include "visibility/index/triangle_grid.h"
 
 /* Visibility is sampled off the surface, by so many heights of the triangles
@@ -28,29 +30,16 @@
  * to either side of one. */
 enum { SAMPLES_MAX = 31, HEIGHT_REACH = 5 };
 
-/* A piece that is not longer, between two that are alike, is like them. */
-enum { SHORT_SEGMENTS = 3 };
-
-/* A part of a curve between two places. */
-struct contour_piece {
-  struct contour_cut from, to;
-  uint32_t samples, visible; /* points of it that were tested, and those seen */
-  uint32_t occluders;        /* the sum of those that hide them */
-  bool is_visible;
-  int side; /* of the surface on which the line of sight passes: 1: the outer
-               one, as normals have it; -1: the other one */
-};
-
 struct contour_pieces {
   struct sheet *sheet;
   struct map *map;
-  const struct zero_set *set;
+  const struct topology *topology;
+  struct zero_set *set;
   struct contour_curves *curves;
   struct projection projection;
   struct triangle_grid grid;
   struct triangle_grid_query query;
-  double crease_deg;
-  int hidden_max;
+  struct smooth_contours_options options;
   ARRAY(struct contour_piece) piece; /* of the current curve */
   uint64_t piece_count;
 };
@@ -132,15 +121,13 @@ static int count_occluders_at(struct contour_pieces *c,
 
 /* ---- Pieces -------------------------------------------------------------- */
 
-static double position(struct contour_cut cut) { return cut.step + cut.t; }
-
 /* The side of the surface on which the line of sight passes a piece: the outer
  * one, as normals have it, unless the surface bends into the line there; then
  * its other side is seen, or nothing. */
 static int side_of_piece(const struct contour_pieces *c,
                          const struct contour_piece *piece) {
   int64_t sum = 0;
-  for (uint32_t i = piece->from.step; position(piece->to) > i; i++)
+  for (uint32_t i = piece->from.step; contour_position(piece->to) > i; i++)
     sum += contour_curves_segment(c->curves, i)->radial < 0 ? -1 : 1;
   return sum < 0 ? -1 : 1;
 }
@@ -148,7 +135,7 @@ static int side_of_piece(const struct contour_pieces *c,
 static bool sample_piece(struct contour_pieces *c,
                          const struct contour_curve *curve,
                          struct contour_piece *piece) {
-  double from = position(piece->from), to = position(piece->to);
+  double from = contour_position(piece->from), to = contour_position(piece->to);
   double last = (double)curve->step + curve->count - 1;
   piece->side = side_of_piece(c, piece);
   uint32_t samples = (uint32_t)fmin(ceil(to - from), SAMPLES_MAX) | 1;
@@ -217,7 +204,7 @@ static bool add_edges(struct contour_pieces *c,
                       const struct contour_piece *piece, uint32_t *point) {
   struct sheet *sheet = c->sheet;
   struct contour_cut at = piece->from;
-  while (position(at) < position(piece->to)) {
+  while (contour_position(at) < contour_position(piece->to)) {
     struct contour_cut next = {.step = at.step + 1};
     if (at.step == piece->to.step)
       next = piece->to;
@@ -247,8 +234,9 @@ static bool add_edges(struct contour_pieces *c,
 /* Whether more triangles hide a piece than are requested. */
 static bool is_too_deep(const struct contour_pieces *c,
                         const struct contour_piece *piece) {
-  return c->hidden_max > 0 && !piece->is_visible &&
-         piece->occluders > (uint64_t)c->hidden_max * piece->samples;
+  int most = c->options.hidden_max;
+  return most > 0 && !piece->is_visible &&
+         piece->occluders > (uint64_t)most * piece->samples;
 }
 
 /* ---- Curves -------------------------------------------------------------- */
@@ -261,12 +249,12 @@ static bool divide(struct contour_pieces *c, const struct contour_curve *curve,
   struct contour_cut from = {.step = curve->step};
   bool begins_with_cut = false;
   c->piece.count = 0;
-  while (position(from) < end) {
+  while (contour_position(from) < end) {
     struct contour_piece made = {.from = from, .to = {.step = end}};
     if (*cut < c->curves->cut.count && all[*cut].step < end)
       made.to = all[(*cut)++];
     from = made.to;
-    if (position(made.from) == position(made.to))
+    if (contour_position(made.from) == contour_position(made.to))
       begins_with_cut = true;
     else if (!sample_piece(c, curve, &made) || !ARRAY_PUSH(&c->piece, made))
       return false;
@@ -285,39 +273,16 @@ static bool divide(struct contour_pieces *c, const struct contour_curve *curve,
   return true;
 }
 
-static bool runs_along_crease(const struct contour_pieces *c,
-                              const struct contour_piece *piece) {
-  return contour_curves_segment(c->curves, piece->from.step)->along_crease;
-}
-
-/* Makes short pieces like the two beside them, if these are alike; not where
- * both ends are crossings or creases, which are known to be some. */
-static void absorb_short_pieces(struct contour_pieces *c,
-                                const struct contour_curve *curve) {
-  size_t count = c->piece.count;
-  for (size_t i = 0; i < count; i++) {
-    struct contour_piece *piece = &c->piece.item[i];
-    if ((!curve->closed && (i == 0 || i + 1 == count)) || count < 3 ||
-        runs_along_crease(c, piece) ||
-        position(piece->to) - position(piece->from) > SHORT_SEGMENTS)
-      continue;
-    const struct contour_piece *before =
-        &c->piece.item[(i + count - 1) % count];
-    const struct contour_piece *after = &c->piece.item[(i + 1) % count];
-    bool from_is_known = piece->from.crossing || runs_along_crease(c, before);
-    bool to_is_known = piece->to.crossing || runs_along_crease(c, after);
-    if (before->is_visible == after->is_visible &&
-        !(from_is_known && to_is_known))
-      piece->is_visible = before->is_visible;
-  }
-}
-
 static bool add_curve(struct contour_pieces *c,
                       const struct contour_curve *curve, size_t *cut) {
   uint32_t point = SHEET_NONE;
   if (!divide(c, curve, cut))
     return false;
-  absorb_short_pieces(c, curve);
+  struct curve_pieces pieces = {c->curves, curve, c->piece.item,
+                                c->piece.count};
+  curve_pieces_absorb_short(&pieces);
+  if (!c->options.exact)
+    curve_pieces_absorb_runs(&pieces, &c->sheet->camera);
   for (size_t i = 0; i < c->piece.count; i++) {
     const struct contour_piece *piece = &c->piece.item[i];
     if (point == SHEET_NONE && !point_at(c, piece->from, &point))
@@ -353,7 +318,9 @@ static bool add_pieces(struct contour_pieces *c) {
   uint32_t first_point = (uint32_t)c->sheet->point.count;
   if (c->set->outline.count == 0 && c->set->segment.count == 0)
     return true;
-  bool ok = contour_curves_join(c->curves, c->set, c->crease_deg) &&
+  bool ok = contour_curves_join(c->curves, c->set, c->options.crease_deg) &&
+            (c->options.exact ||
+             thin_loops_remove(c->curves, c->set, c->sheet, c->topology)) &&
             contour_curves_cut_at_cusps(c->curves) &&
             page_crossings_cut(c->curves, c->sheet) &&
             contour_curves_sort_cuts(c->curves) &&
@@ -392,7 +359,7 @@ static bool end_at_contours(const struct sheet *sheet, struct map *map,
 
 recto_status smooth_contours_add(struct sheet *sheet, struct map *map,
                                  const struct topology *topology,
-                                 double crease_deg, int hidden_max,
+                                 struct smooth_contours_options options,
                                  struct smooth_contours_counts *counts,
                                  recto_error *error) {
   uint32_t first = (uint32_t)sheet->edge.count;
@@ -400,17 +367,17 @@ recto_status smooth_contours_add(struct sheet *sheet, struct map *map,
   struct zero_set set = {.node = {0}};
   struct contour_curves curves = {.set = &set};
   recto_status status =
-      facing_init(&facing, sheet, topology, crease_deg, error);
+      facing_init(&facing, sheet, topology, options.crease_deg, error);
   if (status == RECTO_OK)
     status = zero_set_find(&set, &facing, error);
   facing_fini(&facing);
   struct contour_pieces pieces = {.sheet = sheet,
                                   .map = map,
+                                  .topology = topology,
                                   .set = &set,
                                   .curves = &curves,
                                   .projection = projection_of(&sheet->camera),
-                                  .crease_deg = crease_deg,
-                                  .hidden_max = hidden_max};
+                                  .options = options};
   if (status == RECTO_OK &&
       !(add_pieces(&pieces) && end_at_contours(sheet, map, topology, first)))
     status = error_memory(error);

@@ -10,6 +10,13 @@ struct smooth_contours_counts {
   uint64_t segments, curves, pieces;
 };
 
+struct smooth_contours_options {
+  double crease_deg; /* where normals are split */
+  int hidden_max;    /* hidden pieces that more triangles hide are left out; 0:
+                        none are */
+  bool exact;        /* thin loops stay */
+};
+
 /* Adds the smooth contours to a solved sheet as edges of the class silhouette,
  * each visible or hidden from end to end.
  *
@@ -19,15 +26,13 @@ struct smooth_contours_counts {
  * little off the surface, so that the triangles about them do not decide.
  * Visible fragments are made to end at the visible pieces (fit_fragments.h).
  * topology     of the sheet's scene, with its corners
- * crease_deg   where normals are split
- * hidden_max   hidden pieces that more triangles hide are left out; 0: none are
  * map          of the sheet; its edges are known
  * Errors       RECTO_ERROR_MEMORY, RECTO_ERROR_CANCELLED.
  * Cost         linear in the mesh; near linear in the contours
  * Source       doc/decisions/0039 */
 USE_RESULT recto_status smooth_contours_add(
     struct sheet *sheet, struct map *map, const struct topology *topology,
-    double crease_deg, int hidden_max, struct smooth_contours_counts *counts,
-    recto_error *error);
+    struct smooth_contours_options options,
+    struct smooth_contours_counts *counts, recto_error *error);
 
 #endif

@@ -188,10 +188,11 @@ bool contour_curves_cut_at_cusps(struct contour_curves *curves) {
       uint32_t step = curve->step + (uint32_t)i;
       bool concave = is_concave(curves, curve, i);
       bool crease = contour_curves_segment(curves, step)->along_crease;
+      bool left_out = contour_curves_node(curves, step)->is_cut;
       if (!crease && !crease_before && concave != before)
         step = turning_step(curves, curve, i);
       struct contour_cut cut = {.step = step};
-      if ((crease || crease_before || concave != before) &&
+      if ((crease || crease_before || left_out || concave != before) &&
           !ARRAY_PUSH(&curves->cut, cut))
         return false;
       before = concave;

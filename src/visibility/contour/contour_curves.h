@@ -63,4 +63,14 @@ contour_curves_segment(const struct contour_curves *curves, size_t step) {
   return &curves->set->segment.item[curves->step.item[step].segment];
 }
 
+/* The height on the page of the triangle of a segment that starts at a node,
+ * grid units. */
+static inline double contour_height(const struct camera *camera,
+                                    const struct contour_node *node,
+                                    const struct contour_segment *segment) {
+  double height = segment->height * camera->s * SHEET_UNITS_PER_MM;
+  const struct scene_point at = {node->at[0], node->at[1], node->at[2]};
+  return camera->perspective ? height / camera_view(camera, &at).d : height;
+}
+
 #endif

@@ -4,6 +4,9 @@
  * Phases
  *   1 move the corners of the fragments' outline onto drawn ones
  *   2 put points of these into its sides
+ *   3 put points of them also into the other sides of the fragments that this
+ *     has turned over: they lay between such a side and the mesh's outline,
+ *     beyond the drawn one
  * Beyond a side of the outline there is no fragment, so that its shape is free;
  * a corner is moved with all that are at its place. */
 #include "visibility/contour/fit_outline.h"
@@ -21,6 +24,14 @@
 #define FIT_SPACING 0x1p18
 enum { FIT_SAMPLES_MAX = 4096 };
 
+/* A fragment that is turned over collapses if at most this share of its area is
+ * left. */
+#define COLLAPSED_SHARE 0.25
+
+/* How far sides that two fragments share are moved, at most, grid units: 1 mm.
+ */
+#define SHARED_RADIUS 0x1p20
+
 /* From one place of the page to another one. */
 struct place_move {
   double from[2];
@@ -33,6 +44,7 @@ struct outline_fit {
   const struct drawn_outlines *drawn;
   struct loop_changes changes;
   ARRAY(struct place_move) move;
+  uint8_t *is_turned_over; /* one a fragment */
 };
 
 /* Whether a place is to be moved to another one. */
@@ -121,14 +133,17 @@ static void move_corner(struct outline_fit *f, uint32_t corner) {
 
 /* ---- 2 Sides ------------------------------------------------------------- */
 
-/* Puts places of the drawn outlines into a half-edge where it is off them. */
-static bool bend_half(struct outline_fit *f, uint32_t h) {
-  double a[2], b[2], radius = radius_about(f, h);
+/* Puts places of the drawn outlines within a radius into a half-edge
+ * where it is off them; or into its twin. */
+static bool bend_half(struct outline_fit *f, uint32_t h, double radius,
+                      bool into_twin) {
+  double a[2], b[2];
   ends_of_half(f, h, a, b);
   const double along[2] = {b[0] - a[0], b[1] - a[1]};
   double samples = ceil(hypot(along[0], along[1]) / FIT_SPACING);
   int n = (int)fmin(samples, FIT_SAMPLES_MAX);
-  for (int i = 1; i < n; i++) {
+  for (int k = 1; k < n; k++) {
+    int i = into_twin ? n - k : k;
     const double p[2] = {a[0] + along[0] * i / n, a[1] + along[1] * i / n};
     struct drawn_place to = drawn_outlines_find(f->drawn, p, along, radius);
     struct side_point made = {loop_changes_round(to.at[0]),
@@ -141,11 +156,105 @@ static bool bend_half(struct outline_fit *f, uint32_t h) {
 
 static bool bend_sides(struct outline_fit *f) {
   for (uint32_t h = 0; h < f->map->half_edge.count; h++) {
-    if (!poll_at(h) || (is_on_outline(f, h) && !bend_half(f, h)))
+    if (!poll_at(h) ||
+        (is_on_outline(f, h) && !bend_half(f, h, radius_about(f, h), false)))
       return false;
     f->changes.start[h + 1] = (uint32_t)f->changes.point.count;
   }
   return true;
+}
+
+/* ---- 3 Fragments that are turned over ------------------------------------ */
+
+/* Twice the signed area between a half-edge and the origin. */
+static double area_of_half(const struct outline_fit *f, uint32_t h) {
+  double at[2], end[2], sum = 0;
+  ends_of_half(f, h, at, end);
+  for (uint32_t i = f->changes.start[h]; i < f->changes.start[h + 1]; i++) {
+    const struct side_point *p = &f->changes.point.item[i];
+    sum += at[0] * p->y - at[1] * p->x;
+    at[0] = p->x;
+    at[1] = p->y;
+  }
+  return sum + at[0] * end[1] - at[1] * end[0];
+}
+
+/* Finds the areas of the fragments, doubled. */
+static void find_areas(const struct outline_fit *f, double *area) {
+  memset(area, 0, f->map->fragment.count * sizeof *area);
+  for (uint32_t h = 0; h < f->map->half_edge.count; h++)
+    area[f->map->half_edge.item[h].fragment] += area_of_half(f, h);
+}
+
+/* The half-edge on whose right a fragment is turned over, of one that two
+ * fragments share and its twin; SHEET_NONE. */
+static uint32_t beside_turned_over(const struct outline_fit *f, uint32_t h) {
+  const struct map_half_edge *all = f->map->half_edge.item;
+  uint32_t twin = all[h].twin;
+  if (twin == SHEET_NONE || f->is_turned_over[all[h].fragment] ==
+                                f->is_turned_over[all[twin].fragment])
+    return SHEET_NONE;
+  return f->is_turned_over[all[h].fragment] ? twin : h;
+}
+
+/* Bends the sides that fragments which are turned over share with others.  All
+ * others keep their points.
+ * start, point  those of all half-edges so far */
+static bool bend_shared_sides(struct outline_fit *f, const uint32_t *start,
+                              const struct side_point *point) {
+  struct loop_changes *c = &f->changes;
+  bool ok = true;
+  c->point.count = 0;
+  for (uint32_t h = 0; ok && h < f->map->half_edge.count; h++) {
+    uint32_t inner = beside_turned_over(f, h);
+    for (uint32_t i = start[h]; ok && i < start[h + 1]; i++)
+      ok = ARRAY_PUSH(&c->point, point[i]);
+    if (ok && inner != SHEET_NONE)
+      ok = poll_at(h) &&
+           bend_half(f, inner, fmin(radius_about(f, inner), SHARED_RADIUS),
+                     h != inner);
+    c->start[h + 1] = (uint32_t)c->point.count;
+  }
+  return ok;
+}
+
+/* Bends the sides of fragments that are turned over, where next to nothing is
+ * left of them then.
+ * area  memory for two a fragment */
+static bool collapse_turned_over(struct outline_fit *f, double *area,
+                                 uint32_t *start, struct side_point *point) {
+  size_t fragments = f->map->fragment.count, halves = f->map->half_edge.count;
+  bool ok = true;
+  find_areas(f, area);
+  memcpy(start, f->changes.start, (halves + 1) * sizeof *start);
+  memcpy(point, f->changes.point.item, start[halves] * sizeof *point);
+  for (size_t i = 0; i < fragments; i++)
+    f->is_turned_over[i] = area[i] < 0;
+  for (int round = 0; ok && round < 2; round++) {
+    ok = bend_shared_sides(f, start, point);
+    find_areas(f, area + fragments);
+    for (size_t i = 0; i < fragments; i++)
+      f->is_turned_over[i] =
+          f->is_turned_over[i] &&
+          fabs(area[fragments + i]) <= COLLAPSED_SHARE * -area[i];
+  }
+  return ok;
+}
+
+static bool bend_turned_over(struct outline_fit *f) {
+  size_t fragments = f->map->fragment.count, halves = f->map->half_edge.count;
+  double *area = mem_calloc(fragments, 2 * sizeof *area);
+  uint32_t *start = mem_alloc(halves + 1, sizeof *start);
+  struct side_point *point = mem_alloc(f->changes.point.count, sizeof *point);
+  f->is_turned_over = mem_calloc(fragments, 1);
+  bool ok = area != NULL && start != NULL && point != NULL &&
+            f->is_turned_over != NULL &&
+            collapse_turned_over(f, area, start, point);
+  mem_free(area);
+  mem_free(start);
+  mem_free(point);
+  mem_free(f->is_turned_over);
+  return ok;
 }
 
 bool fit_outline(struct map *map, const struct sheet *sheet,
@@ -154,7 +263,8 @@ bool fit_outline(struct map *map, const struct sheet *sheet,
   bool ok = loop_changes_init(&f.changes, map) && find_place_moves(&f);
   for (uint32_t c = 0; ok && c < map->corner.count; c++)
     move_corner(&f, c);
-  ok = ok && bend_sides(&f) && loop_changes_apply(&f.changes);
+  ok = ok && bend_sides(&f) && bend_turned_over(&f) &&
+       loop_changes_apply(&f.changes);
   loop_changes_fini(&f.changes);
   ARRAY_FREE(&f.move);
   return ok;

@@ -68,7 +68,7 @@ static bool add_along_crease(struct zero_finder *z, uint32_t edge,
   (void)vector_normalise(s.normal);
   s.radial = -vector_dot(beyond, first);
   /* Where the faces themselves fold over, the mesh about it is not uneven. */
-  s.width = sqrt(least / vector_dot(along, along));
+  s.width = s.height = sqrt(least / vector_dot(along, along));
   if ((is_front(f, e->first) == is_front(f, e->second)) == e->same_way)
     s.width *= CREASE_SHARE;
   return zero_finder_add_segment(z, s);

@@ -17,6 +17,7 @@ struct contour_node {
   uint32_t segment[2];    /* the first two that end here; SHEET_NONE */
   uint32_t degree;        /* how many do */
   uint32_t sheet_point;   /* SHEET_NONE: none yet */
+  bool is_cut;            /* a loop of the curve was left out here */
 };
 
 struct contour_segment {
@@ -27,7 +28,9 @@ struct contour_segment {
                           g along the view; negative where the surface's normal
                           curves into the line of sight */
   bool along_crease;
-  double width; /* the triangle's least height, scene units */
+  double height; /* the triangle's least, scene units */
+  double width;  /* how uneven the mesh is about it: by its height; nearly 0 at
+                    a crease at which the faces themselves fold over */
 };
 
 /* The image of an edge at which the mesh itself folds over, with the surface on

@@ -131,7 +131,7 @@ static void describe(const struct facing *f, const uint32_t corner[3],
     longest = fmax(longest, vector_dot(e[k], e[k]));
   }
   vector_cross(e[0], e[1], n);
-  s->width = sqrt(vector_dot(n, n) / longest);
+  s->width = s->height = sqrt(vector_dot(n, n) / longest);
   /* The gradient of g, times the square of n's length, is
    * (g1 - g0) (p2 - p0) x n + (g2 - g0) n x (p1 - p0). */
   vector_cross(n, e[2], to_view[0]);

@@ -1,0 +1,39 @@
+/* curve_pieces.h - the pieces of a contour curve, each of which is visible or
+ * hidden as a whole. */
+#ifndef VISIBILITY_CONTOUR_CURVE_PIECES_H
+#define VISIBILITY_CONTOUR_CURVE_PIECES_H
+
+#include "visibility/contour/contour_curves.h"
+
+/* A part of a curve between two places. */
+struct contour_piece {
+  struct contour_cut from, to;
+  uint32_t samples, visible; /* points of it that were tested, and those seen */
+  uint32_t occluders;        /* the sum of those that hide them */
+  bool is_visible;
+  int side; /* of the surface on which the line of sight passes: 1: the outer
+               one, as normals have it; -1: the other one */
+};
+
+/* All pieces of a curve, in order. */
+struct curve_pieces {
+  const struct contour_curves *curves; /* borrowed, not owned */
+  const struct contour_curve *curve;   /* borrowed, not owned */
+  struct contour_piece *piece;         /* borrowed, not owned */
+  size_t count;
+};
+
+static inline double contour_position(struct contour_cut cut) {
+  return cut.step + cut.t;
+}
+
+/* Makes short pieces like the two beside them, if these are alike; not where
+ * both ends are crossings or creases, which are known to be some. */
+void curve_pieces_absorb_short(struct curve_pieces *pieces);
+
+/* Makes what is hidden, and then what is visible, over less than two heights of
+ * the triangles like what is beside it; not between two crossings. */
+void curve_pieces_absorb_runs(struct curve_pieces *pieces,
+                              const struct camera *camera);
+
+#endif
