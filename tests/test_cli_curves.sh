@@ -31,7 +31,7 @@ claim "the file of a smooth model is three times smaller" \
   draws_smaller 3 --contours smooth
 claim "the file of a mesh's own lines is not larger" draws_smaller 1
 has_as_many_strokes() {
-  grep -q '<path d="M[^"]*C' curves.svg && ! grep -q '<path d="M[^"]*C' lines.svg &&
+  grep -q '<path d="M[^"]*c' curves.svg && ! grep -q '<path d="M[^"]*c' lines.svg &&
     test "$(grep -c '<path' lines.svg)" -eq "$(grep -c '<path' curves.svg)"
 }
 claim "it has as many strokes, some of them with curves" has_as_many_strokes

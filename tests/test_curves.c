@@ -163,6 +163,26 @@ static void ellipse_becomes_a_few_curves(void **state) {
   }
 }
 
+/* By how much a ring of few points is left by its curve. */
+static double deviation_of_ring(bool has_fill) {
+  struct drawing drawing;
+  start(&drawing);
+  add_arc(&drawing, 60, 60, 0, 2 * M_PI, 30, true);
+  if (has_fill)
+    assert_true(ARRAY_PUSH(&drawing.fill, ((struct drawing_fill){.face = 0})));
+  assert_true(curves_fit(&drawing, 1));
+  double deviation = largest_deviation(&drawing, 0);
+  drawing_fini(&drawing);
+  return deviation;
+}
+
+/* Two fifths of a line of 0.3 mm. */
+static void curve_covers_the_border_of_a_fill(void **state) {
+  (void)state;
+  assert_true(deviation_of_ring(false) > 0.2);
+  assert_true(deviation_of_ring(true) <= 0.12);
+}
+
 static void ring_has_no_corner_where_it_begins(void **state) {
   (void)state;
   struct drawing drawing;
@@ -410,6 +430,7 @@ static void running_out_of_memory_is_reported(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(ellipse_becomes_a_few_curves),
+      cmocka_unit_test(curve_covers_the_border_of_a_fill),
       cmocka_unit_test(ring_has_no_corner_where_it_begins),
       cmocka_unit_test(open_arc_keeps_its_ends),
       cmocka_unit_test(polygon_stays_a_polygon),

@@ -35,6 +35,10 @@ enum { SIDES_A_POLL = 1 << 10 };
  * that it is worth while. */
 enum { CURVE_POINTS = 4 };
 
+/* The share of a line's width that lies under its ink whichever way it is
+ * drawn, on either side: less than a half, for what viewers round. */
+#define INK_SHARE 0.4
+
 /* How far about a knot its direction is looked for: after a straight piece, as
  * a multiple of the tolerance; where a ring begins, as a share of it. */
 #define LINE_DIRECTION 16
@@ -42,7 +46,9 @@ enum { CURVE_POINTS = 4 };
 
 struct curves {
   struct drawing *drawing;
-  double tolerance;
+  double whole_tolerance; /* mm, of all strokes, at most */
+  double tolerance;       /* of the current stroke */
+  bool has_areas;         /* fills or hatching, which end at lines */
   struct clearance clearance;
   struct stroke_shape shape; /* of the current stroke */
   struct curve_samples of;   /* of its current part */
@@ -235,6 +241,23 @@ static bool fit_part(struct curves *c, const struct part_ends *ends) {
 
 /* ---- Strokes ------------------------------------------------------------- */
 
+/* Fills and hatching end at the polyline; so that none ends beside the curve's
+ * ink the curve keeps that within its own width. */
+static double tolerance_of_stroke(const struct curves *c,
+                                  const struct drawing_stroke *stroke) {
+  double covered = INK_SHARE * drawing_width_mm(c->drawing, stroke);
+  return c->has_areas && covered > 0 ? fmin(c->whole_tolerance, covered)
+                                     : c->whole_tolerance;
+}
+
+static bool has_areas(const struct drawing *drawing) {
+  bool any = drawing->fill.count > 0;
+  for (size_t i = 0; !any && i < drawing->stroke.count; i++)
+    any = drawing->stroke.item[i].edge_class == 0 &&
+          !drawing->stroke.item[i].text;
+  return any;
+}
+
 /* The vertex where the smooth part that begins at a vertex ends. */
 static size_t find_part_end(const struct stroke_shape *shape, size_t from) {
   const struct stroke_vertex *v = shape->vertex.item;
@@ -309,6 +332,7 @@ static bool fit_stroke(struct curves *c, uint32_t index) {
   const struct drawing_stroke *stroke = &drawing->stroke.item[index];
   struct drawing_curve curve = {(uint32_t)drawing->control.count, 0};
   c->has_curves = false;
+  c->tolerance = tolerance_of_stroke(c, stroke);
   if (stroke->count > 2) {
     if (!stroke_shape_find(&c->shape, drawing->point.item + stroke->point,
                            stroke->count, stroke->closed, c->tolerance))
@@ -340,7 +364,9 @@ static bool poll_sides(struct curves *c, size_t sides) {
 
 bool curves_fit(struct drawing *drawing, double tolerance) {
   tolerance = fmin(tolerance, fmax(drawing->width_mm, drawing->height_mm));
-  struct curves c = {.drawing = drawing, .tolerance = tolerance};
+  struct curves c = {.drawing = drawing,
+                     .whole_tolerance = tolerance,
+                     .has_areas = has_areas(drawing)};
   bool ok =
       clearance_init(&c.clearance, drawing, tolerance / CURVE_CLEARANCE_SHARE,
                      APART_TOLERANCES * tolerance);

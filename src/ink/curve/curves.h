@@ -10,7 +10,8 @@
  * ink, and elsewhere is farther from the other ink than half of what the stroke
  * is: so no two curves cross that did not before.  Corners, and sides too long
  * to be part of a curve within the tolerance, stay.  Strokes of straight sides
- * alone get no curve.
+ * alone get no curve.  Where there are fills or hatching, which end at the
+ * polylines, no curve leaves them by more than two fifths of its line's width.
  * tolerance  mm, > 0
  * Returns false when memory ran out. */
 USE_RESULT bool curves_fit(struct drawing *drawing, double tolerance);
