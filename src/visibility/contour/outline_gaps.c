@@ -16,6 +16,9 @@
 #define INSET (1 / 16.0)
 #define BESIDE 8
 
+/* How far about a sample drawn contours are looked for at first. */
+#define FIRST_REACH (16.0 * TOLERANCE_OUTLINE_UNITS)
+
 /* Contours that turn from an outline by more than 120 degrees are those of
  * another surface beside it. */
 #define TURNED_COSINE (-0.5)
@@ -25,6 +28,7 @@ struct outline_sample {
   struct geom_point at; /* where the outline is drawn, if it is */
   uint32_t point;       /* the sheet's point there; SHEET_NONE: none */
   bool drawn;           /* a contour, or the edge itself, is */
+  double sure;          /* grid units, about it, over which it surely is, too */
 };
 
 struct outline_part {
@@ -68,7 +72,8 @@ static bool list_drawn(struct outline_gaps *g) {
 
 /* The nearest drawn points to one: of all, and of loose ends. */
 struct nearest_contour {
-  double any, loose;    /* distances */
+  double any, loose; /* distances */
+  double end;        /* the square of that of a loose end, wherever it lies */
   struct geom_point at; /* of any */
   struct geom_point loose_at;
   uint32_t loose_point;
@@ -82,8 +87,10 @@ static void try_segment(const struct outline_gaps *g,
                         const double along[2], struct nearest_contour *best) {
   double x = (double)s->q.x - s->p.x, y = (double)s->q.y - s->p.y;
   double px = (double)p.x - s->p.x, py = (double)p.y - s->p.y;
-  double t = fmin(fmax((px * x + py * y) / (x * x + y * y), 0), 1);
-  double distance = hypot(px - t * x, py - t * y);
+  double square = x * x + y * y;
+  double t = min_number(max_number((px * x + py * y) / square, 0), 1);
+  double away_x = px - t * x, away_y = py - t * y;
+  double distance = sqrt(away_x * away_x + away_y * away_y);
   if (s->owner < g->first) {
     unsigned edge_class = g->sheet->edge.item[s->owner].edge_class;
     best->on_edge =
@@ -92,9 +99,15 @@ static void try_segment(const struct outline_gaps *g,
          distance <= TOLERANCE_COINCIDENT_UNITS);
     return;
   }
-  if (x * along[0] + y * along[1] < TURNED_COSINE * hypot(x, y))
+  if (x * along[0] + y * along[1] < TURNED_COSINE * sqrt(square))
     return;
-  uint32_t point = g->sheet->edge.item[s->owner].point[t > 0];
+  const uint32_t *ends = g->sheet->edge.item[s->owner].point;
+  if (g->ends[ends[0] - g->first_point] < 2)
+    best->end = min_number(best->end, px * px + py * py);
+  if (g->ends[ends[1] - g->first_point] < 2)
+    best->end =
+        min_number(best->end, (px - x) * (px - x) + (py - y) * (py - y));
+  uint32_t point = ends[t > 0];
   if ((t == 0 || t == 1) && g->ends[point - g->first_point] < 2) {
     if (distance < best->loose) {
       best->loose = distance;
@@ -113,8 +126,9 @@ static void try_segment(const struct outline_gaps *g,
 static void find_nearest(const struct outline_gaps *g, struct geom_point p,
                          const double along[2], double radius,
                          struct nearest_contour *best) {
-  double reach = ldexp(1, g->grid.cell.shift);
-  *best = (struct nearest_contour){.any = INFINITY, .loose = INFINITY};
+  double reach = fmin(FIRST_REACH, radius);
+  *best = (struct nearest_contour){
+      .any = INFINITY, .loose = INFINITY, .end = INFINITY};
   for (; g->grid.contours > 0; reach *= 2) {
     int32_t by = (int32_t)fmin(reach, radius);
     struct cell_range range = triangle_grid_cells(
@@ -189,9 +203,14 @@ static struct outline_sample look(struct outline_gaps *g,
               : near.any <= near.loose ? near.at
                                        : p,
         .point = at_end && !near.on_edge ? near.loose_point : SHEET_NONE,
-        .drawn = true};
+        .drawn = true,
+        /* Neither distance changes by more than the sample moves. */
+        .sure = fmin(
+            radius - near.any,
+            (fmin(fmin(sqrt(near.end), FIRST_REACH), radius) - near.any) / 2)};
   return (struct outline_sample){
-      point_of_outline(outline->image, (double)k / n), SHEET_NONE, false};
+      .at = point_of_outline(outline->image, (double)k / n),
+      .point = SHEET_NONE};
 }
 
 /* ---- Parts --------------------------------------------------------------- */
@@ -209,6 +228,9 @@ static bool add_open_parts(struct outline_gaps *g,
   struct outline_sample from = look(g, outline, radius, 0, n, &ok);
   struct outline_sample before = from;
   for (uint32_t k = 1; ok && k <= n; k++) {
+    if (before.drawn && before.sure > 2 * TOLERANCE_OUTLINE_UNITS)
+      k += (uint32_t)(before.sure / TOLERANCE_OUTLINE_UNITS) - 2;
+    k = k < n ? k : n;
     struct outline_sample now = look(g, outline, radius, k, n, &ok);
     if (before.drawn)
       from = before;

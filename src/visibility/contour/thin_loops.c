@@ -122,17 +122,26 @@ static bool take_off(struct thin_loops *l, size_t from, double s, double t) {
   return true;
 }
 
+static bool do_boxes_meet(const struct page_segment *a,
+                          const struct page_segment *b) {
+  return box2_min(a->p.x, a->q.x) <= box2_max(b->p.x, b->q.x) &&
+         box2_min(b->p.x, b->q.x) <= box2_max(a->p.x, a->q.x) &&
+         box2_min(a->p.y, a->q.y) <= box2_max(b->p.y, b->q.y) &&
+         box2_min(b->p.y, b->q.y) <= box2_max(a->p.y, a->q.y);
+}
+
 /* Takes off the thin loops that end on the last segment of the stack. */
 static bool take_off_loops(struct thin_loops *l) {
   size_t last = l->step.count - 2, i = last;
   size_t lowest = last > LOOP_SEGMENTS_MAX ? last - LOOP_SEGMENTS_MAX : 0;
   if (lowest < l->lowest)
     lowest = l->lowest;
+  struct page_segment b = stack_image(l, last);
   while (i > lowest + 1) {
-    struct page_segment a = stack_image(l, i - 2), b = stack_image(l, last);
+    struct page_segment a = stack_image(l, i - 2);
     double s, t;
     i--;
-    if (!page_segments_cross(&a, &b, &s, &t))
+    if (!do_boxes_meet(&a, &b) || !page_segments_cross(&a, &b, &s, &t))
       continue;
     if (!is_thin(l, i - 1, last, s)) {
       l->lowest = i;
@@ -141,6 +150,7 @@ static bool take_off_loops(struct thin_loops *l) {
     if (!take_off(l, i - 1, s, t))
       return false;
     last = i;
+    b = stack_image(l, last);
   }
   return true;
 }
