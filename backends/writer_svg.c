@@ -11,6 +11,7 @@
 
 #include "backends/svg_text.h"
 #include "backends/writer.h"
+#include "base/number.h"
 
 /* A point rounded to the last decimal that is written, y down. */
 struct svg_point {
@@ -73,33 +74,46 @@ static void write_point(const struct svg *svg, struct svg_point p,
   stream_number(svg->out, (double)p.y / svg->scale, svg->options->precision);
 }
 
-/* Writes svg->point as path data. */
+/* Writes a step from one point to another, after another number unless it is
+ * the first one of its command; without a 0 before the decimal point. */
+static void write_step(const struct svg *svg, struct svg_point from,
+                       struct svg_point to, bool first) {
+  const int64_t step[2] = {to.x - from.x, to.y - from.y};
+  for (int k = 0; k < 2; k++) {
+    char text[NUMBER_TEXT_SIZE];
+    size_t count = number_format(text, (double)step[k] / svg->scale,
+                                 svg->options->precision);
+    size_t sign = text[0] == '-';
+    if (!(first && k == 0) && sign == 0)
+      stream_text(svg->out, " ");
+    stream_write(svg->out, text, sign);
+    if (count > sign + 1 && text[sign] == '0')
+      sign++;
+    stream_write(svg->out, text + sign, count - sign);
+  }
+}
+
+/* Writes svg->point as path data; relative where others are curves, for a
+ * smaller file. */
 static void write_path_data(const struct svg *svg, bool closed) {
+  bool relative = svg->drawing->curve.count > 0;
   for (size_t i = 0; i < svg->point.count; i++) {
-    stream_text(svg->out, i == 0 ? "M" : "L");
-    write_point(svg, svg->point.item[i], ' ');
+    const struct svg_point *p = &svg->point.item[i];
+    if (i < 2 || !relative)
+      stream_text(svg->out, i == 0 ? "M" : relative ? "l" : "L");
+    if (i > 0 && relative)
+      write_step(svg, p[-1], *p, i == 1);
+    else
+      write_point(svg, *p, ' ');
   }
   if (closed)
     stream_text(svg->out, "Z");
 }
 
-/* Writes a step from one point to another, after another number unless it is
- * the first one of its command. */
-static void write_step(const struct svg *svg, struct svg_point from,
-                       struct svg_point to, bool first) {
-  const int64_t step[2] = {to.x - from.x, to.y - from.y};
-  for (int k = 0; k < 2; k++) {
-    if (!(first && k == 0) && step[k] >= 0)
-      stream_text(svg->out, " ");
-    stream_number(svg->out, (double)step[k] / svg->scale,
-                  svg->options->precision);
-  }
-}
-
 /* Writes a curve as path data, without straight pieces that rounding has
- * reduced to a point.  Its points are relative, which takes a fifth fewer
- * bytes: differences of rounded ones, so that they add up to these.  A command
- * is not repeated. */
+ * reduced to a point.  Its points are relative, which takes fewer bytes:
+ * differences of rounded ones, so that they add up to these.  A command is not
+ * repeated. */
 static void write_curve_data(const struct svg *svg,
                              const struct drawing_curve *curve, bool closed) {
   const struct drawing_point *control =

@@ -48,6 +48,19 @@ claim "it finds polylines along curves right" \
 has_polylines() { grep -q '<polyline' right.svg && ! grep -q 'd="M' right.svg; }
 claim "these have no path" has_polylines
 
+if test -f "${RECTO_MODELS:-/nonexistent}/stanford-bunny.obj"; then
+  ln -sf "$RECTO_MODELS/stanford-bunny.obj" bunny.obj
+  draws_the_bunny_smaller() {
+    run 0 bunny.obj -e silhouette --contours smooth -o lines.svg &&
+      run 0 bunny.obj -e silhouette --contours smooth --curves 0.1 \
+        -o curves.svg &&
+      test "$(wc -c <lines.svg)" -ge $((3 * $(wc -c <curves.svg)))
+  }
+  claim "of the bunny's outlines too" draws_the_bunny_smaller
+else
+  skip "of the bunny's outlines too" "no RECTO_MODELS"
+fi
+
 draws_a_box_as_ever() {
   run 0 cube.obj -o lines.svg && run 0 cube.obj --curves 1 -o curves.svg &&
     cmp lines.svg curves.svg
