@@ -227,7 +227,8 @@ static bool collapse_turned_over(struct outline_fit *f, double *area,
   bool ok = true;
   find_areas(f, area);
   memcpy(start, f->changes.start, (halves + 1) * sizeof *start);
-  memcpy(point, f->changes.point.item, start[halves] * sizeof *point);
+  if (start[halves] > 0)
+    memcpy(point, f->changes.point.item, start[halves] * sizeof *point);
   for (size_t i = 0; i < fragments; i++)
     f->is_turned_over[i] = area[i] < 0;
   for (int round = 0; ok && round < 2; round++) {
