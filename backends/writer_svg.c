@@ -96,7 +96,7 @@ static void write_step(const struct svg *svg, struct svg_point from,
 /* Writes svg->point as path data; relative where others are curves, for a
  * smaller file. */
 static void write_path_data(const struct svg *svg, bool closed) {
-  bool relative = svg->drawing->curve.count > 0;
+  bool relative = svg->drawing->control.count > 0;
   for (size_t i = 0; i < svg->point.count; i++) {
     const struct svg_point *p = &svg->point.item[i];
     if (i < 2 || !relative)
