@@ -377,6 +377,19 @@ static bool are_nearly_parallel(const struct intersection_finder *finder,
   return nearly;
 }
 
+/* Whether a triangle may be seen edge-on, so that what rounding makes of it on
+ * the page may have an area.
+ * rounding  of the drawing, scene units */
+static bool may_be_edge_on(const struct judge_camera *camera,
+                           const struct judge_triangle *t, double rounding) {
+  if (camera->perspective)
+    return fabs(point3_dot(t->normal, point3_sub(camera->eye, t->p[0]))) <=
+           rounding;
+  double most = fmax(point3_length(point3_sub(t->p[1], t->p[0])),
+                     point3_length(point3_sub(t->p[2], t->p[0])));
+  return fabs(point3_dot(t->normal, camera->back)) * most <= rounding;
+}
+
 /* Adds the overlap of two triangles' cuts by each other's planes; both are on
  * the line in which the planes intersect. */
 static bool add_common(struct intersection_finder *finder,
@@ -398,14 +411,17 @@ static bool add_common(struct intersection_finder *finder,
   const struct judge_camera *camera = finder->camera;
   /* It is sure where both triangles extend to either side of the other's plane
    * by far more than contact and rounding, which cannot move it either, and
-   * both triangulations are known. */
+   * both triangulations are known; but without contact a face that is seen
+   * edge-on may hide its own line. */
   double rounding = fmax(judge_rounding_at(camera, finder->ray_offset_mm, a),
                          judge_rounding_at(camera, finder->ray_offset_mm, b));
   double contact = fmax(one->contact, two->contact);
   bool sure =
       !one->open && !two->open && !are_nearly_parallel(finder, one, two) &&
-      (contact <= rounding ||
-       !(is_clipped(camera, one) || is_clipped(camera, two))) &&
+      (contact <= rounding
+           ? !(may_be_edge_on(camera, one, rounding) ||
+               may_be_edge_on(camera, two, rounding))
+           : !(is_clipped(camera, one) || is_clipped(camera, two))) &&
       least_overshoot(camera, one, two) > 10 * fmax(two->contact, rounding) &&
       least_overshoot(camera, two, one) > 10 * fmax(one->contact, rounding);
   const struct judge_source source = {{SCENE_NONE, SCENE_NONE},
