@@ -687,6 +687,25 @@ static void a_sheet_has_no_cut_face_and_is_told_of(void **state) {
   scene_fini(&c.scene);
 }
 
+/* Three steep planes cut a hole into a sheet.  Its rim is closed, but nothing is
+ * inside: the planes meet far above the sheet. */
+static void a_hole_in_a_sheet_has_no_cut_face(void **state) {
+  (void)state;
+  struct cutting c;
+  struct cut_plane plane[3];
+  for (int k = 0; k < 3; k++) {
+    double x = cos(2 * pi * (k + 0.1) / 3), y = sin(2 * pi * (k + 0.1) / 3);
+    plane[k] = plane_of(-x, -y, -0.01, -1.2 - 4.5 * (x + y));
+  }
+  scene_init(&c.scene);
+  add_sheet(&c.scene, 9);
+  assert_int_equal(run_cut(&c, plane, 3), RECTO_OK);
+  assert_true(c.cut.open > 0);
+  assert_int_equal(scene_face_count(&c.cut.scene), c.cut.made.first_face);
+  end_cut(&c);
+  scene_fini(&c.scene);
+}
+
 /* A box without one side, beside one that is whole: only that is filled. */
 static void an_open_box_beside_a_closed_one(void **state) {
   (void)state;
@@ -1095,6 +1114,7 @@ int main(void) {
       cmocka_unit_test(an_octant_is_what_three_cuts_leave),
       cmocka_unit_test(where_solids_overlap_there_is_one_cut_face),
       cmocka_unit_test(a_sheet_has_no_cut_face_and_is_told_of),
+      cmocka_unit_test(a_hole_in_a_sheet_has_no_cut_face),
       cmocka_unit_test(an_open_box_beside_a_closed_one),
       cmocka_unit_test(mixed_winding_and_duplicates_are_filled),
       cmocka_unit_test(planes_that_cut_nothing_or_all_are_errors),

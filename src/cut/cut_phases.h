@@ -72,6 +72,12 @@ static inline uint32_t cut_node_point(const struct cutter *cutter,
 
 USE_RESULT recto_status cut_faces(struct cutter *cutter, recto_error *error);
 USE_RESULT recto_status cut_sections(struct cutter *cutter, recto_error *error);
+/* Opens the lines of a surface that is not closed but goes around the point
+ * that three planes have in common, where that is outside the scene's box.
+ * Sets *open_at to a point of the first, where it is SCENE_NONE.  Returns false
+ * when memory ran out. */
+USE_RESULT bool cut_open_lines_past_tip(struct cutter *cutter,
+                                        uint32_t *open_at);
 USE_RESULT recto_status cut_assemble(struct cutter *cutter,
                                      struct precision unstated,
                                      recto_error *error);
