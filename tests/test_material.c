@@ -117,7 +117,7 @@ static void only_drawings_in_colour_read_libraries(void **state) {
   reading_fini(&r);
 }
 
-static void a_group_of_two_files_keeps_its_first_colour(void **state) {
+static void groups_of_two_files_have_their_own_colours(void **state) {
   struct reading r;
   write_text(state, "a.mtl", "newmtl m\nKd 1 0 0\n");
   read_model(&r, state, "mtllib a.mtl\n" POINTS "usemtl m\n" FACE);
@@ -125,8 +125,9 @@ static void a_group_of_two_files_keeps_its_first_colour(void **state) {
   assert_int_equal(scene_read(&r.scene, temporary_path(state, "m.obj"), NULL,
                               &r.diagnostics, &r.error),
                    RECTO_OK);
-  assert_int_equal(r.scene.group.count, 1);
+  assert_int_equal(r.scene.group.count, 2);
   assert_colour(&r, "m", 0xff0000);
+  assert_colour(&r, "m.2", 0x00ff00);
   reading_fini(&r);
 }
 
@@ -375,8 +376,9 @@ static void running_out_of_memory_leaves_groups_as_they_were(void **state) {
     memory_faults_begin(&faults);
     recto_status status = scene_read(&r.scene, path, NULL, NULL, &r.error);
     memory_faults_end(&faults, status);
-    assert_int_equal(r.scene.group.count, 1);
-    assert_int_equal(r.scene.group.item[0].has_colour, status == RECTO_OK);
+    assert_int_equal(r.scene.group.count, status == RECTO_OK ? 2 : 1);
+    assert_false(r.scene.group.item[0].has_colour);
+    assert_true(status != RECTO_OK || r.scene.group.item[1].has_colour);
     reading_fini(&r);
   }
 }
@@ -391,7 +393,7 @@ int main(void) {
       T(names_of_libraries_may_hold_blanks_or_be_several),
       T(values_beyond_the_range_are_clamped),
       T(only_drawings_in_colour_read_libraries),
-      T(a_group_of_two_files_keeps_its_first_colour),
+      T(groups_of_two_files_have_their_own_colours),
 #ifdef HAVE_ZLIB
       T(a_compressed_library_is_expanded),
       T(where_there_is_no_library_its_compressed_form_is_read),
