@@ -52,9 +52,9 @@ struct writer {
                         struct stream *stream, recto_error *error);
 };
 
-/* The width of seams for a page shown on a screen: 1.5 pixels, which is what
- * closes a hairline, where there are 96 an inch. */
-#define WRITER_SCREEN_SEAM_MM 0.4
+/* The width of seams, in mm, for a page shown on a screen: 1.5 pixels, which is
+ * what closes a hairline, where there are 96 an inch. */
+double writer_screen_seam_mm(const struct writer_options *options);
 
 extern const struct writer writer_svg, writer_hpgl;
 #ifdef HAVE_CAIRO

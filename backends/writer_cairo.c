@@ -468,11 +468,6 @@ static double find_pixel(const struct writer_options *options) {
   return dpi > 0 ? MM_PER_INCH / dpi / STEPS_PER_UNIT : 0;
 }
 
-static double find_page_seam(const struct writer_options *options) {
-  (void)options;
-  return WRITER_SCREEN_SEAM_MM;
-}
-
 /* Two pixels, whatever part of one the border between two fills cuts off. */
 static double find_pixel_seam(const struct writer_options *options) {
   return 2 * STEPS_PER_UNIT * find_pixel(options);
@@ -481,17 +476,17 @@ static double find_pixel_seam(const struct writer_options *options) {
 const struct writer writer_pdf = {.name = "pdf",
                                   .extensions = "pdf",
                                   .unit_mm = find_point,
-                                  .seam_mm = find_page_seam,
+                                  .seam_mm = writer_screen_seam_mm,
                                   .write = write_pdf};
 const struct writer writer_eps = {.name = "eps",
                                   .extensions = "eps",
                                   .unit_mm = find_point,
-                                  .seam_mm = find_page_seam,
+                                  .seam_mm = writer_screen_seam_mm,
                                   .write = write_eps};
 const struct writer writer_ps = {.name = "ps",
                                  .extensions = "ps",
                                  .unit_mm = find_point,
-                                 .seam_mm = find_page_seam,
+                                 .seam_mm = writer_screen_seam_mm,
                                  .write = write_ps};
 const struct writer writer_png = {.name = "png",
                                   .extensions = "png",

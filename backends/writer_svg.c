@@ -522,15 +522,10 @@ static double svg_unit(const struct writer_options *options) {
   return unit;
 }
 
-static double svg_seam(const struct writer_options *options) {
-  (void)options;
-  return WRITER_SCREEN_SEAM_MM;
-}
-
 const struct writer writer_svg = {.name = "svg",
                                   .extensions = "svg",
                                   .compressed = "svgz svg.gz",
                                   .unit_mm = svg_unit,
-                                  .seam_mm = svg_seam,
+                                  .seam_mm = writer_screen_seam_mm,
                                   .has_layers = true,
                                   .write = write_svg};

@@ -44,3 +44,8 @@ bool writer_name_is_compressed(const char *name) {
 bool writer_path_is_compressed(const char *path) {
   return is_compressed(path, true);
 }
+
+double writer_screen_seam_mm(const struct writer_options *options) {
+  (void)options;
+  return 0.4;
+}

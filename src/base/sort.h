@@ -32,6 +32,11 @@ USE_RESULT bool sort_stable(void *item, size_t count, size_t size,
 /* Sorts numbers in ascending order.  False when memory ran out. */
 USE_RESULT bool sort_ids(uint32_t *id, size_t count);
 
+/* <0, 0 or >0, as compare functions return. */
+static inline int compare_numbers(uint32_t a, uint32_t b) {
+  return (a > b) - (a < b);
+}
+
 /* Sets `i`, a size_t, to the first index from `low` to before `high` for which
  * the expression `is_below` of i is false, or to `high`: a lower bound in a
  * sorted array, by binary search. */

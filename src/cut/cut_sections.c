@@ -10,6 +10,7 @@
 
 #include "base/union_find.h"
 #include "cut/cut_phases.h"
+#include "view/vector.h"
 
 /* The axes of a plane's section: u, v, and the one along which it is seen, in
  * the direction of the normal. */
@@ -185,15 +186,6 @@ static bool join_loose_ends(struct cutter *cutter) {
 
 /* ---- The tip ------------------------------------------------------------- */
 
-static void cross_product(const double a[3], const double b[3], double to[3]) {
-  for (int k = 0; k < 3; k++)
-    to[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-}
-
-static double dot_product(const double a[3], const double b[3]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /* Finds the point that three planes have in common.  Returns false when memory
  * ran out. */
 static bool find_tip(struct cutter *cutter) {
@@ -204,9 +196,9 @@ static bool find_tip(struct cutter *cutter) {
   cutter->tip = SCENE_NONE;
   for (int k = 0; k < 3 && cutter->has_tip; k++) {
     double side[3];
-    cross_product(points->plane[(k + 1) % 3].normal,
-                  points->plane[(k + 2) % 3].normal, side);
-    volume = dot_product(points->plane[k].normal, side);
+    vector_cross(points->plane[(k + 1) % 3].normal,
+                 points->plane[(k + 2) % 3].normal, side);
+    volume = vector_dot(points->plane[k].normal, side);
     for (int i = 0; i < 3; i++)
       sum[i] += points->plane[k].offset * side[i];
   }
@@ -253,8 +245,8 @@ static double along_line(const struct cutter *cutter, unsigned plane,
                          unsigned other, const double at[3]) {
   const struct cut_points *points = &cutter->points;
   double line[3];
-  cross_product(points->plane[plane].normal, points->plane[other].normal, line);
-  return dot_product(line, at);
+  vector_cross(points->plane[plane].normal, points->plane[other].normal, line);
+  return vector_dot(line, at);
 }
 
 /* Adds an end of a line, where it is on another plane. */

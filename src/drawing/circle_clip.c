@@ -25,11 +25,6 @@ static bool is_in_circle(const struct drawing_circle *circle,
   return dx * dx + dy * dy <= circle->radius * circle->radius;
 }
 
-static struct drawing_point point_on_segment(struct drawing_point a,
-                                             struct drawing_point b, double t) {
-  return (struct drawing_point){a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
-}
-
 /* The part of a segment in a circle, t from 0 to 1; false: there is none. */
 static bool clip_to_circle(const struct drawing_circle *circle,
                            struct drawing_point a, struct drawing_point b,
@@ -127,10 +122,10 @@ static bool clip_polyline(struct clip *clip,
     }
     if (clip->to.point.count == like.point || t[0] > 0) {
       ok = end_stroke_inside(clip, &like, source) &&
-           ARRAY_PUSH(&clip->to.point, point_on_segment(a, b, t[0]));
+           ARRAY_PUSH(&clip->to.point, drawing_point_between(a, b, t[0]));
     }
     ok = ok && ARRAY_PUSH(&clip->to.point,
-                          t[1] < 1 ? point_on_segment(a, b, t[1]) : b);
+                          t[1] < 1 ? drawing_point_between(a, b, t[1]) : b);
     if (ok && t[1] < 1)
       ok = end_stroke_inside(clip, &like, source);
   }
@@ -276,9 +271,9 @@ static bool divide_loop(struct fill_clip *f,
       continue;
     }
     if (!is_open)
-      ok = begin_part_inside(f, point_on_segment(a, b, t[0]));
-    ok = ok &&
-         ARRAY_PUSH(&f->point, t[1] < 1 ? point_on_segment(a, b, t[1]) : b);
+      ok = begin_part_inside(f, drawing_point_between(a, b, t[0]));
+    ok = ok && ARRAY_PUSH(&f->point,
+                          t[1] < 1 ? drawing_point_between(a, b, t[1]) : b);
     is_open = ok && t[1] >= 1;
     if (ok && !is_open)
       end_part_inside(f);

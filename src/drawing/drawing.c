@@ -38,11 +38,6 @@ double drawing_width_mm(const struct drawing *drawing,
   return width;
 }
 
-double drawing_distance(struct drawing_point a, struct drawing_point b) {
-  double dx = b.x - a.x, dy = b.y - a.y;
-  return sqrt(dx * dx + dy * dy);
-}
-
 double drawing_polyline_mm(const struct drawing_point *point, size_t count,
                            bool closed) {
   double length = 0;

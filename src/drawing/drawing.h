@@ -4,6 +4,8 @@
 #ifndef DRAWING_DRAWING_H
 #define DRAWING_DRAWING_H
 
+#include <math.h>
+
 #include "base/memory.h"
 #include "base/status.h"
 
@@ -112,7 +114,18 @@ void drawing_fini(struct drawing *drawing);
 double drawing_width_mm(const struct drawing *drawing,
                         const struct drawing_stroke *stroke);
 
-double drawing_distance(struct drawing_point a, struct drawing_point b);
+static inline double drawing_distance(struct drawing_point a,
+                                      struct drawing_point b) {
+  double dx = b.x - a.x, dy = b.y - a.y;
+  return sqrt(dx * dx + dy * dy);
+}
+
+/* The point of a segment at the parameter t, from 0 to 1. */
+static inline struct drawing_point drawing_point_between(struct drawing_point a,
+                                                         struct drawing_point b,
+                                                         double t) {
+  return (struct drawing_point){a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
+}
 
 /* The length of a polyline, with the side that closes it if it is closed. */
 double drawing_polyline_mm(const struct drawing_point *point, size_t count,

@@ -28,17 +28,14 @@
 
 /* ---- Points and edges ---------------------------------------------------- */
 
-static int64_t centre(const struct scan_grid *grid, int32_t line) {
-  return grid->y_first + line * grid->y_step + grid->y_step / 2;
-}
-
 /* ceil(a / b), b > 0. */
 static int64_t divide_up(int64_t a, int64_t b) { return a / b + (a % b > 0); }
 
 struct scan_point scan_point_of(const struct scan_grid *grid, int64_t x,
                                 int64_t y) {
   struct scan_point point = {x, y, 0, 0};
-  int64_t line = divide_up(y * grid->den - centre(grid, 0), grid->y_step);
+  int64_t line =
+      divide_up(y * grid->den - scan_centre_y(grid, 0), grid->y_step);
   point.column = (double)(x * grid->den - grid->x_first) / (double)grid->x_step;
   point.line = (int32_t)(line < 0             ? 0
                          : line > grid->lines ? grid->lines
@@ -63,8 +60,9 @@ bool scan_edge_init(struct scan_edge *edge, const struct scan_grid *grid,
                  ((double)(high->y - low->y) * (double)grid->x_step);
   edge->line = grid->down ? high->line - 1 : low->line;
   edge->dy = count - 1;
-  edge->x = low->column +
-            (double)(centre(grid, edge->line) - low->y * grid->den) * slope;
+  edge->x =
+      low->column +
+      (double)(scan_centre_y(grid, edge->line) - low->y * grid->den) * slope;
   edge->dx = (double)grid->y_step * slope;
   if (grid->down)
     edge->dx = -edge->dx;
@@ -84,7 +82,7 @@ static int128 exact_x(const struct scan_edge *edge,
                       const struct scan_grid *grid, int32_t line) {
   return (int128)(edge->x0 * grid->den - grid->x_first) *
              (edge->y1 - edge->y0) +
-         (int128)(centre(grid, line) - edge->y0 * grid->den) *
+         (int128)(scan_centre_y(grid, line) - edge->y0 * grid->den) *
              (edge->x1 - edge->x0);
 }
 

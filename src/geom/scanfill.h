@@ -45,6 +45,12 @@ struct scan_grid {
   bool down;              /* lines are scanned from the last to the first */
 };
 
+/* The centre of a line, in units of 1 / den. */
+static inline int64_t scan_centre_y(const struct scan_grid *grid,
+                                    int32_t line) {
+  return grid->y_first + line * grid->y_step + grid->y_step / 2;
+}
+
 /* A point of the plane, with what is used of it most. */
 struct scan_point {
   int64_t x, y;

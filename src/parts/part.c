@@ -1,6 +1,8 @@
 /* part.c - compares what parts consist of, and frees them. */
 #include "parts/part.h"
 
+#include "base/sort.h"
+
 void part_fini(struct part *part) {
   mem_free(part->common.path);
   for (size_t g = 0; g < part->common.group.count; g++)
@@ -21,22 +23,20 @@ void part_fini(struct part *part) {
   *part = (struct part){0};
 }
 
-static int compare_u32(uint32_t a, uint32_t b) { return (a > b) - (a < b); }
-
 int part_edge_key_compare(struct part_edge_key a, struct part_edge_key b) {
-  int order = compare_u32(a.kind, b.kind);
+  int order = compare_numbers(a.kind, b.kind);
   if (order == 0)
-    order = compare_u32(a.element, b.element);
-  return order != 0 ? order : compare_u32(a.place, b.place);
+    order = compare_numbers(a.element, b.element);
+  return order != 0 ? order : compare_numbers(a.place, b.place);
 }
 
 int part_crossing_compare(const struct part_crossing *a,
                           const struct part_crossing *b) {
   int order = 0;
   for (int k = 0; order == 0 && k < 2; k++) {
-    order = compare_u32(a->triangle[k].face, b->triangle[k].face);
+    order = compare_numbers(a->triangle[k].face, b->triangle[k].face);
     if (order == 0)
-      order = compare_u32(a->triangle[k].place, b->triangle[k].place);
+      order = compare_numbers(a->triangle[k].place, b->triangle[k].place);
   }
   for (int k = 0; order == 0 && k < 2; k++)
     order = geom_compare_points(a->end[k], b->end[k]);

@@ -107,12 +107,8 @@ part_crossing_at(const struct merge_work *work, struct origin at) {
   return &work->part[at.part].crossing.item[at.index];
 }
 
-static int compare_part_numbers(uint32_t a, uint32_t b) {
-  return (a > b) - (a < b);
-}
-
 static int compare_point_origins(const void *a, const void *b, void *user) {
-  return compare_part_numbers(
+  return compare_numbers(
       part_point_at(user, *(const struct origin *)a)->number,
       part_point_at(user, *(const struct origin *)b)->number);
 }
@@ -207,7 +203,7 @@ part_element_at(const struct element_order *order, struct origin at) {
 }
 
 static int compare_element_origins(const void *a, const void *b, void *user) {
-  return compare_part_numbers(
+  return compare_numbers(
       part_element_at(user, *(const struct origin *)a)->number,
       part_element_at(user, *(const struct origin *)b)->number);
 }
@@ -425,8 +421,8 @@ struct face_origin {
 
 static int compare_face_origins(const void *a, const void *b, void *user) {
   (void)user;
-  return compare_part_numbers(((const struct face_origin *)a)->face,
-                              ((const struct face_origin *)b)->face);
+  return compare_numbers(((const struct face_origin *)a)->face,
+                         ((const struct face_origin *)b)->face);
 }
 
 /* The fragments of a face come from one part, in its order. */

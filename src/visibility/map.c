@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "base/sort.h"
+
 void map_init(struct map *map) { memset(map, 0, sizeof *map); }
 
 void map_fini(struct map *map) {
@@ -19,4 +21,15 @@ void map_fini(struct map *map) {
   ARRAY_FREE(&map->half_edge);
   ARRAY_FREE(&map->side_line);
   map_init(map);
+}
+
+static int compare_mixed(const void *a, const void *b, void *user) {
+  const struct map_mixed *p = a, *q = b;
+  (void)user;
+  return compare_numbers(p->edge, q->edge);
+}
+
+bool map_sort_mixed(struct map *map) {
+  return sort_stable(map->mixed.item, map->mixed.count, sizeof *map->mixed.item,
+                     compare_mixed, NULL);
 }

@@ -117,4 +117,7 @@ struct map {
 void map_init(struct map *map);
 void map_fini(struct map *map);
 
+/* Sorts `mixed` by edge.  Returns false when memory ran out. */
+USE_RESULT bool map_sort_mixed(struct map *map);
+
 #endif

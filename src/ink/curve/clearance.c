@@ -21,30 +21,19 @@ struct clearance_piece {
 
 /* ---- Pieces -------------------------------------------------------------- */
 
-static double distance_of_points(struct drawing_point a,
-                                 struct drawing_point b) {
-  double dx = b.x - a.x, dy = b.y - a.y;
-  return sqrt(dx * dx + dy * dy);
-}
-
-static struct drawing_point point_between(struct drawing_point a,
-                                          struct drawing_point b, double t) {
-  return (struct drawing_point){a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
-}
-
 typedef bool visit_piece(void *user, const struct clearance_piece *piece);
 
 static bool cut_stroke_side(struct drawing_point a, struct drawing_point b,
                             double longest, double along, uint32_t stroke,
                             visit_piece *visit, void *user) {
-  double length = distance_of_points(a, b);
+  double length = drawing_distance(a, b);
   uint32_t pieces = (uint32_t)fmax(1, ceil(length / longest));
   bool ok = true;
   for (uint32_t k = 0; ok && k < pieces; k++) {
     struct clearance_piece piece = {
-        .from = point_between(a, b, k / (double)pieces),
-        .to = point_between(a, b, (k + 1) / (double)pieces),
-        .middle = point_between(a, b, (k + 0.5) / pieces),
+        .from = drawing_point_between(a, b, k / (double)pieces),
+        .to = drawing_point_between(a, b, (k + 1) / (double)pieces),
+        .middle = drawing_point_between(a, b, (k + 0.5) / pieces),
         .half = length / pieces / 2,
         .along = along + length * (k + 0.5) / pieces,
         .stroke = stroke};
@@ -67,7 +56,7 @@ static bool cut_strokes(const struct drawing *drawing, double longest,
       struct drawing_point a = point[k], b = point[(k + 1) % stroke->count];
       if (!cut_stroke_side(a, b, longest, along, (uint32_t)i, visit, user))
         return false;
-      along += distance_of_points(a, b);
+      along += drawing_distance(a, b);
     }
   }
   return true;
@@ -155,7 +144,8 @@ static double nearest_parameter(struct drawing_point a, struct drawing_point b,
 static double distance_of_segment(struct drawing_point a,
                                   struct drawing_point b,
                                   struct drawing_point p) {
-  return distance_of_points(point_between(a, b, nearest_parameter(a, b, p)), p);
+  return drawing_distance(
+      drawing_point_between(a, b, nearest_parameter(a, b, p)), p);
 }
 
 /* A search about a part of a stroke. */
@@ -173,9 +163,9 @@ static struct ink_search search_about(const struct clearance_part *part,
   struct ink_search search = {
       .from = part->from.at, .to = part->to.at, .within = within};
   search.middle = part->from;
-  search.middle.at = point_between(search.from, search.to, 0.5);
+  search.middle.at = drawing_point_between(search.from, search.to, 0.5);
   search.middle.along = (part->from.along + part->to.along) / 2;
-  search.half = distance_of_points(search.from, search.to) / 2;
+  search.half = drawing_distance(search.from, search.to) / 2;
   return search;
 }
 
@@ -242,8 +232,10 @@ static void take_nearest(struct ink_search *search,
     take_nearer(search, t, 0);
   take_nearer(search, 0, distance_of_segment(c, d, a));
   take_nearer(search, 1, distance_of_segment(c, d, b));
-  take_nearer(search, at_c, distance_of_points(point_between(a, b, at_c), c));
-  take_nearer(search, at_d, distance_of_points(point_between(a, b, at_d), d));
+  take_nearer(search, at_c,
+              drawing_distance(drawing_point_between(a, b, at_c), c));
+  take_nearer(search, at_d,
+              drawing_distance(drawing_point_between(a, b, at_d), d));
 }
 
 double clearance_of(const struct clearance *c,
@@ -271,15 +263,15 @@ static double find_slope(const struct ink_search *search,
 static void take_slope(struct ink_search *search,
                        const struct clearance_piece *piece) {
   double t = nearest_parameter(piece->from, piece->to, search->from);
-  struct drawing_point foot = point_between(piece->from, piece->to, t);
+  struct drawing_point foot = drawing_point_between(piece->from, piece->to, t);
   double length = 2 * search->half, slope = INFINITY;
-  if (distance_of_points(foot, search->from) > search->touch) {
+  if (drawing_distance(foot, search->from) > search->touch) {
     take_nearest(search, piece);
     return;
   }
-  if (distance_of_points(foot, piece->from) > search->touch)
+  if (drawing_distance(foot, piece->from) > search->touch)
     slope = fmin(slope, find_slope(search, foot, piece->from));
-  if (distance_of_points(foot, piece->to) > search->touch)
+  if (drawing_distance(foot, piece->to) > search->touch)
     slope = fmin(slope, find_slope(search, foot, piece->to));
   search->within = fmin(search->within, slope * length);
 }

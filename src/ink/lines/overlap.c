@@ -15,6 +15,7 @@
 #include <math.h>
 
 #include "base/tolerance.h"
+#include "base/union_find.h"
 
 struct overlap_line {
   struct ink_point from;
@@ -164,15 +165,6 @@ static uint32_t find_breakpoints(struct overlap *o,
 
 /* ---- 3 Owners ------------------------------------------------------------ */
 
-/* The first free slot from `slot` on; halves the path. */
-static uint32_t find_free_slot(uint32_t *next, uint32_t slot) {
-  while (next[slot] != slot) {
-    next[slot] = next[next[slot]];
-    slot = next[slot];
-  }
-  return slot;
-}
-
 static void assign_slots(struct overlap *o, const struct segment_graph *graph,
                          uint32_t count, uint32_t points) {
   for (uint32_t k = 0; k < points; k++) {
@@ -185,8 +177,8 @@ static void assign_slots(struct overlap *o, const struct segment_graph *graph,
   for (uint32_t k = 0; k < count; k++) {
     uint32_t i = o->key[k].value, a = o->slot[2 * i], b = o->slot[2 * i + 1];
     uint32_t low = a < b ? a : b, high = a < b ? b : a;
-    for (uint32_t s = find_free_slot(o->next, low); s < high;
-         s = find_free_slot(o->next, s)) {
+    for (uint32_t s = union_find_root(o->next, low); s < high;
+         s = union_find_root(o->next, s)) {
       o->owner[s] = i;
       o->next[s] = s + 1;
     }

@@ -111,8 +111,6 @@ static float turn_of(struct end_direction d) {
   return d.x < 0 ? 2 - t : d.y < 0 ? 4 + t : t;
 }
 
-static int compare_numbers(uint32_t a, uint32_t b) { return (a > b) - (a < b); }
-
 static int compare_by_style(const void *first, const void *second, void *user) {
   const struct node_end *a = first, *b = second;
   (void)user;

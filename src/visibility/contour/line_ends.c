@@ -155,16 +155,10 @@ static void move_ends(struct map_interval *interval, uint32_t count,
   }
 }
 
-static int compare_mixed_edges(const void *a, const void *b, void *user) {
-  const struct map_mixed *p = a, *q = b;
-  (void)user;
-  return (p->edge > q->edge) - (p->edge < q->edge);
-}
-
 static int compare_line_crossings(const void *a, const void *b, void *user) {
   const struct line_crossing *p = a, *q = b;
   (void)user;
-  return (p->edge > q->edge) - (p->edge < q->edge);
+  return compare_numbers(p->edge, q->edge);
 }
 
 static bool is_unmoved(const struct map_interval *interval) {
@@ -203,8 +197,7 @@ static bool move_all(struct line_ends *l) {
       move_ends(&map->interval.item[own->interval], own->count, &all[i], j - i);
     }
   }
-  return sort_stable(map->mixed.item, map->mixed.count, sizeof *map->mixed.item,
-                     compare_mixed_edges, NULL);
+  return map_sort_mixed(map);
 }
 
 bool line_ends_move(struct map *map, const struct sheet *sheet,

@@ -8,17 +8,13 @@ bool segment_grid_add(struct segment_grid *grid, struct geom_segment segment,
          ARRAY_PUSH(&grid->segment, made);
 }
 
-static struct box2 box_of_segment(const struct page_segment *s) {
-  return (struct box2){box2_min(s->p.x, s->q.x), box2_min(s->p.y, s->q.y),
-                       box2_max(s->p.x, s->q.x), box2_max(s->p.y, s->q.y)};
-}
-
 /* Counts a segment in the lists of the cells that it meets, or stores it. */
 static void list_segment(struct segment_grid *grid, uint32_t segment,
                          bool store) {
   struct triangle_grid *cell = &grid->cell;
   const struct page_segment *s = &grid->segment.item[segment];
-  struct cell_range range = triangle_grid_cells(cell, box_of_segment(s));
+  struct cell_range range =
+      triangle_grid_cells(cell, box2_of_segment(s->p, s->q));
   for (int y = range.y0; y <= range.y1; y++) {
     int x0, x1;
     triangle_grid_row(cell, s->p, s->q, range, y, &x0, &x1);
@@ -36,9 +32,8 @@ bool segment_grid_make(struct segment_grid *grid) {
   struct triangle_grid *cell = &grid->cell;
   struct box2 all = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
   for (size_t i = 0; i < grid->contours; i++) {
-    struct box2 box = box_of_segment(&grid->segment.item[i]);
-    all = (struct box2){box2_min(all.x0, box.x0), box2_min(all.y0, box.y0),
-                        box2_max(all.x1, box.x1), box2_max(all.y1, box.y1)};
+    const struct page_segment *s = &grid->segment.item[i];
+    all = box2_union(all, box2_of_segment(s->p, s->q));
   }
   cell->x0 = all.x0;
   cell->y0 = all.y0;

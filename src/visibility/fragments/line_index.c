@@ -51,10 +51,7 @@ static void choose_shape(struct line_index *index,
         continue;
       b = box2_of_segment(end[0], end[1]);
       length += ((double)b.x1 - b.x0) + ((double)b.y1 - b.y0);
-      box.x0 = box2_min(box.x0, b.x0);
-      box.y0 = box2_min(box.y0, b.y0);
-      box.x1 = box2_max(box.x1, b.x1);
-      box.y1 = box2_max(box.y1, b.y1);
+      box = box2_union(box, b);
     }
   if (box.x0 > box.x1)
     box = (struct box2){0, 0, 0, 0};

@@ -155,15 +155,13 @@ struct duplicate_sides {
   ARRAY(struct duplicate_edge) edge;
 };
 
-static int compare_indices(uint32_t a, uint32_t b) { return (a > b) - (a < b); }
-
 static int compare_triangle_sides(const void *a, const void *b, void *user) {
   const struct duplicate_side *s = a, *t = b;
-  int order = compare_indices(s->point[0], t->point[0]);
+  int order = compare_numbers(s->point[0], t->point[0]);
   (void)user;
   if (order == 0)
-    order = compare_indices(s->point[1], t->point[1]);
-  return order != 0 ? order : compare_indices(s->class, t->class);
+    order = compare_numbers(s->point[1], t->point[1]);
+  return order != 0 ? order : compare_numbers(s->class, t->class);
 }
 
 static int compare_edges(const void *a, const void *b, void *user) {
@@ -178,7 +176,7 @@ static int compare_edges(const void *a, const void *b, void *user) {
   if (order == 0 && e->count != f->count)
     return e->count < f->count ? -1 : 1;
   for (size_t i = 0; i < e->count && order == 0; i++)
-    order = compare_indices(s[i].class, t[i].class);
+    order = compare_numbers(s[i].class, t[i].class);
   return order;
 }
 
@@ -243,9 +241,9 @@ static bool find_edge_classes(struct duplicate_finder *f) {
 static int compare_triangles(const void *a, const void *b, void *user) {
   const struct duplicate_finder *f = user;
   uint32_t s = *(const uint32_t *)a, t = *(const uint32_t *)b;
-  int order = compare_indices(f->class[s], f -> class[t]);
+  int order = compare_numbers(f->class[s], f -> class[t]);
   for (uint32_t k = 0; k < 3 && order == 0; k++)
-    order = compare_indices(f->edge_class[3 * s + k], f->edge_class[3 * t + k]);
+    order = compare_numbers(f->edge_class[3 * s + k], f->edge_class[3 * t + k]);
   return order;
 }
 

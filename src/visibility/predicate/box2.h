@@ -13,35 +13,40 @@ struct box2 {
 static inline int32_t box2_min(int32_t a, int32_t b) { return a < b ? a : b; }
 static inline int32_t box2_max(int32_t a, int32_t b) { return a > b ? a : b; }
 
+static inline struct box2 box2_union(struct box2 a, struct box2 b) {
+  return (struct box2){box2_min(a.x0, b.x0), box2_min(a.y0, b.y0),
+                       box2_max(a.x1, b.x1), box2_max(a.y1, b.y1)};
+}
+
 static inline struct box2 box2_of_segment(struct geom_point p,
                                           struct geom_point q) {
   return (struct box2){box2_min(p.x, q.x), box2_min(p.y, q.y),
                        box2_max(p.x, q.x), box2_max(p.y, q.y)};
 }
 
-static inline struct box2 box2_of_triangle(const struct sheet *sheet,
-                                           uint32_t triangle) {
-  const uint32_t *p = sheet->triangle.item[triangle].point;
-  const struct geom_point *a = &sheet->point.item[p[0]],
-                          *b = &sheet->point.item[p[1]],
-                          *c = &sheet->point.item[p[2]];
+static inline struct box2 box2_of_corners(const struct geom_point *a,
+                                          const struct geom_point *b,
+                                          const struct geom_point *c) {
   return (struct box2){box2_min(a->x, box2_min(b->x, c->x)),
                        box2_min(a->y, box2_min(b->y, c->y)),
                        box2_max(a->x, box2_max(b->x, c->x)),
                        box2_max(a->y, box2_max(b->y, c->y))};
 }
 
+static inline struct box2 box2_of_triangle(const struct sheet *sheet,
+                                           uint32_t triangle) {
+  const uint32_t *p = sheet->triangle.item[triangle].point;
+  const struct geom_point *point = sheet->point.item;
+  return box2_of_corners(&point[p[0]], &point[p[1]], &point[p[2]]);
+}
+
 /* The box of all points, those of wires too: triangles use nearly all.  Of
  * none, it is a point. */
 static inline struct box2 box2_of_sheet(const struct sheet *sheet) {
   struct box2 all = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
-  for (size_t i = 0; i < sheet->point.count; i++) {
-    struct geom_point p = sheet->point.item[i];
-    all.x0 = box2_min(all.x0, p.x);
-    all.y0 = box2_min(all.y0, p.y);
-    all.x1 = box2_max(all.x1, p.x);
-    all.y1 = box2_max(all.y1, p.y);
-  }
+  for (size_t i = 0; i < sheet->point.count; i++)
+    all = box2_union(
+        all, box2_of_segment(sheet->point.item[i], sheet->point.item[i]));
   return sheet->point.count > 0 ? all : (struct box2){0, 0, 0, 0};
 }
 

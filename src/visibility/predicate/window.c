@@ -3,21 +3,13 @@
 
 enum window_class window_box_test(const struct box2 *window,
                                   const struct geom_point *corner, int count) {
-  int32_t x0 = corner[0].x, y0 = corner[0].y, x1 = x0, y1 = y0;
-  for (int k = 1; k < count; k++) {
-    if (corner[k].x < x0)
-      x0 = corner[k].x;
-    if (corner[k].x > x1)
-      x1 = corner[k].x;
-    if (corner[k].y < y0)
-      y0 = corner[k].y;
-    if (corner[k].y > y1)
-      y1 = corner[k].y;
-  }
-  if (x1 < window->x0 || x0 > window->x1 || y1 < window->y0 || y0 > window->y1)
+  struct box2 box = box2_of_segment(corner[0], corner[count - 1]);
+  for (int k = 1; k < count - 1; k++)
+    box = box2_union(box, box2_of_segment(corner[k], corner[k]));
+  if (box2_disjoint(box, *window))
     return WINDOW_DISJOINT;
-  if (x0 >= window->x0 && x1 <= window->x1 && y0 >= window->y0 &&
-      y1 <= window->y1)
+  if (box.x0 >= window->x0 && box.x1 <= window->x1 && box.y0 >= window->y0 &&
+      box.y1 <= window->y1)
     return WINDOW_CONTAINED;
   return WINDOW_INTERSECTING;
 }

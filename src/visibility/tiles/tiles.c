@@ -334,12 +334,6 @@ static bool sort_by_tile(struct tiles_work *work) {
   return true;
 }
 
-static int compare_mixed(const void *a, const void *b, void *user) {
-  const struct map_mixed *p = a, *q = b;
-  (void)user;
-  return (p->edge > q->edge) - (p->edge < q->edge);
-}
-
 static bool solve_edges_tiles(struct tiles_work *work, struct map *map) {
   bool deep = work->culling->count > 0;
   if (deep && !sort_by_tile(work))
@@ -367,9 +361,7 @@ static bool solve_edges_tiles(struct tiles_work *work, struct map *map) {
   }
   mem_free(batches.query);
   mem_free(batches.map);
-  return ok &&
-         (!deep || sort_stable(map->mixed.item, map->mixed.count,
-                               sizeof *map->mixed.item, compare_mixed, NULL));
+  return ok && (!deep || map_sort_mixed(map));
 }
 
 static bool solve_faces(struct tiles_work *work, struct map *map) {

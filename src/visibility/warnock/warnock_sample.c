@@ -41,16 +41,13 @@ static int64_t centre_x(const struct scan_grid *grid, int32_t column) {
   return grid->x_first + column * grid->x_step + grid->x_step / 2;
 }
 
-static int64_t centre_y(const struct scan_grid *grid, int32_t line) {
-  return grid->y_first + line * grid->y_step + grid->y_step / 2;
-}
-
 struct sample_depth warnock_sample_depth(const struct warnock_sample *sample,
                                          uint32_t facet, int32_t column,
                                          int32_t line) {
   const struct scan_grid *grid = &sample->fine.grid;
   const struct depth_plane *plane = &sample->plane[facet];
-  double x = (double)centre_x(grid, column), y = (double)centre_y(grid, line);
+  double x = (double)centre_x(grid, column),
+         y = (double)scan_centre_y(grid, line);
   return (struct sample_depth){depth_plane_at(plane, x, y),
                                depth_plane_error(plane, x, y)};
 }
@@ -75,7 +72,7 @@ bool warnock_sample_covers(const struct warnock_sample *sample, uint32_t facet,
   const struct sheet *sheet = sample->fine.sheet;
   const uint32_t *corner, *side;
   uint32_t count = facet_outline(sample->facets, sheet, facet, &corner, &side);
-  int64_t x = centre_x(grid, column), y = centre_y(grid, line);
+  int64_t x = centre_x(grid, column), y = scan_centre_y(grid, line);
   bool above = false, below = false;
   for (uint32_t k = 0; k < count; k++) {
     struct geom_point p = sheet->point.item[corner[k]];
@@ -101,7 +98,7 @@ bool warnock_sample_columns(const struct warnock_sample *sample, uint32_t facet,
   const struct sheet *sheet = sample->fine.sheet;
   const uint32_t *corner, *side;
   uint32_t count = facet_outline(sample->facets, sheet, facet, &corner, &side);
-  int64_t y = centre_y(grid, line), zero = centre_x(grid, 0);
+  int64_t y = scan_centre_y(grid, line), zero = centre_x(grid, 0);
   *first = *past = 0;
   for (uint32_t k = 0; k < count; k++) {
     struct geom_point p = sheet->point.item[corner[k]];
