@@ -6,6 +6,7 @@
  * planar, triangle by triangle. */
 #include "base/poll.h"
 #include "cut/cut_phases.h"
+#include "geom/predicate.h"
 
 struct cut_loop {
   uint32_t face;
@@ -113,7 +114,8 @@ static bool add_triangle_corner(const struct cutter *cutter,
                                 const struct triangulation_triangle *triangle,
                                 int k, struct cut_loop *part) {
   const struct cut_corner *corner = loop->corner.item;
-  uint32_t from = triangle->corner[k], to = triangle->corner[(k + 1) % 3];
+  uint32_t from = triangle->corner[k],
+           to = triangle->corner[geom_next_corner(k)];
   uint32_t side = triangle->side[k];
   if (!add_corner(part, corner[from].point, CUT_NO_PLANE))
     return false;

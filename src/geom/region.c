@@ -173,17 +173,12 @@ static bool sharper_left(const struct geom_line *in, const struct geom_line *u,
 static struct segment *next_segment(segments *boundary,
                                     const struct segment *in) {
   const struct geom_corner *end = in->forward ? &in->high : &in->low;
-  size_t low = 0, high = boundary->count;
   struct segment *best = NULL;
-  while (low < high) {
-    size_t middle = low + (high - low) / 2;
-    if (geom_corner_compare(segment_start(&boundary->item[middle]), end) < 0)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  for (; low < boundary->count; low++) {
-    struct segment *s = &boundary->item[low];
+  size_t i;
+  LOWER_BOUND(i, 0, boundary->count,
+              geom_corner_compare(segment_start(&boundary->item[i]), end) < 0);
+  for (; i < boundary->count; i++) {
+    struct segment *s = &boundary->item[i];
     if (geom_corner_compare(segment_start(s), end) != 0)
       break;
     if (best == NULL || sharper_left(in->line, s->line, best->line))

@@ -215,18 +215,13 @@ recto_status scene_skip_face(struct scene *scene, recto_error *error) {
 }
 
 uint32_t scene_face_number(const struct scene *scene, uint32_t face) {
-  size_t low = 0, high = scene->face_skipped.count;
+  size_t i;
   if (scene_is_cut_face(scene, face))
     return SCENE_NONE;
   face = scene->cut != NULL ? scene->cut->face[face] : face;
-  while (low < high) {
-    size_t middle = low + (high - low) / 2;
-    if (scene->face_skipped.item[middle] <= face)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return face + (uint32_t)low;
+  LOWER_BOUND(i, 0, scene->face_skipped.count,
+              scene->face_skipped.item[i] <= face);
+  return face + (uint32_t)i;
 }
 
 recto_status scene_add_face(struct scene *scene, const uint32_t *corner,

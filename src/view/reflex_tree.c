@@ -14,6 +14,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "geom/predicate.h"
 #include "scene/exact.h"
 
 enum { LEAF_SIZE = 8, LEVELS = 32 };
@@ -132,7 +133,7 @@ static bool may_meet(const struct reflex_tree_node *box,
       return false;
   }
   for (int k = 0; k < 3; k++)
-    if (is_beyond_side(box, triangle[k], triangle[k == 2 ? 0 : k + 1]))
+    if (is_beyond_side(box, triangle[k], triangle[geom_next_corner(k)]))
       return false;
   return true;
 }

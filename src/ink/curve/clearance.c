@@ -9,6 +9,7 @@
 #include <math.h>
 
 #include "base/poll.h"
+#include "geom/nearest.h"
 
 enum { CELLS_A_SIDE_MAX = 1 << 11 };
 
@@ -136,9 +137,7 @@ static bool is_other(const struct clearance *c,
  * p. */
 static double nearest_parameter(struct drawing_point a, struct drawing_point b,
                                 struct drawing_point p) {
-  double dx = b.x - a.x, dy = b.y - a.y, length2 = dx * dx + dy * dy;
-  double t = length2 > 0 ? ((p.x - a.x) * dx + (p.y - a.y) * dy) / length2 : 0;
-  return fmin(fmax(t, 0), 1);
+  return geom_nearest_parameter(b.x - a.x, b.y - a.y, p.x - a.x, p.y - a.y);
 }
 
 static double distance_of_segment(struct drawing_point a,

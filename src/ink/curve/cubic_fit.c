@@ -8,6 +8,7 @@
 #include <math.h>
 
 #include "base/tolerance.h"
+#include "geom/nearest.h"
 
 /* How often the parameters are improved: more rarely turns a curve that is
  * outside the tolerance into one that is inside. */
@@ -122,8 +123,7 @@ static point blossom(const point p[4], double s, double t, double u) {
 
 static double distance_to_line(point p, point a, point b) {
   point run = point_difference(b, a), off = point_difference(p, a);
-  double length2 = point_dot(run, run);
-  double t = length2 > 0 ? fmin(fmax(point_dot(off, run) / length2, 0), 1) : 0;
+  double t = geom_nearest_parameter(run.x, run.y, off.x, off.y);
   point rest = point_difference(off, point_scaled(run, t));
   return sqrt(point_dot(rest, rest));
 }

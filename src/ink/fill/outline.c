@@ -35,21 +35,15 @@ static bool is_left(const struct outline_segment *in,
 
 /* The unused segment that continues `in`: the leftmost of several, so that
  * loops that touch at a point remain separate loops.  NULL if there is none,
- * which means that the loop is closed.  Binary search for the first segment
- * that starts at the end of `in`. */
+ * which means that the loop is closed. */
 static struct outline_segment *next_piece(struct outline *outline,
                                           const struct outline_segment *in) {
-  size_t low = 0, high = outline->segment.count;
   struct outline_segment *best = NULL;
-  while (low < high) {
-    size_t middle = low + (high - low) / 2;
-    if (compare_points(outline->segment.item[middle].from, in->to) < 0)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  for (; low < outline->segment.count; low++) {
-    struct outline_segment *p = &outline->segment.item[low];
+  size_t i;
+  LOWER_BOUND(i, 0, outline->segment.count,
+              compare_points(outline->segment.item[i].from, in->to) < 0);
+  for (; i < outline->segment.count; i++) {
+    struct outline_segment *p = &outline->segment.item[i];
     if (compare_points(p->from, in->to) != 0)
       break;
     if (!p->used && (best == NULL || is_left(in, p, best)))

@@ -16,6 +16,7 @@
 #include <math.h>
 
 #include "base/poll.h"
+#include "base/sort.h"
 #include "base/tolerance.h"
 #include "ink/cut_hatch.h"
 #include "ink/hatch/hatch.h"
@@ -207,19 +208,15 @@ static bool move_is_allowed(const struct hatch *h,
              : move_is_inside(h, from, to) && move_is_on_ink(h, from, to);
 }
 
-/* The first span from index i on that is of a later line than `line`, or of
- * this line and does not end left of u (binary search). */
-static size_t find_span(const struct hatch *h, size_t i, int64_t line,
+/* The first span from index `from` on that is of a later line than `line`, or
+ * of this line and does not end left of u. */
+static size_t find_span(const struct hatch *h, size_t from, int64_t line,
                         double u) {
-  size_t end = h->lines.span.count;
-  while (i < end) {
-    size_t middle = i + (end - i) / 2;
-    const struct hatch_crossing *c = &h->lines.span.item[middle].right;
-    if (c->line < line || (c->line == line && c->u < u))
-      i = middle + 1;
-    else
-      end = middle;
-  }
+  const struct hatch_span *span = h->lines.span.item;
+  size_t i;
+  LOWER_BOUND(i, from, h->lines.span.count,
+              span[i].right.line < line ||
+                  (span[i].right.line == line && span[i].right.u < u));
   return i;
 }
 

@@ -14,6 +14,7 @@
 #include <math.h>
 
 #include "base/tolerance.h"
+#include "geom/nearest.h"
 #include "scene/angle.h"
 
 #define UNITS_PER_MM 0x1p28
@@ -65,9 +66,8 @@ static struct hatch_point rotated_origin(const struct hatch_lines *lines,
 
 double hatch_lines_distance(struct hatch_point p, struct hatch_point a,
                             struct hatch_point b) {
-  double du = b.u - a.u, dv = b.v - a.v, length2 = du * du + dv * dv;
-  double t = length2 > 0 ? ((p.u - a.u) * du + (p.v - a.v) * dv) / length2 : 0;
-  t = fmin(fmax(t, 0), 1);
+  double du = b.u - a.u, dv = b.v - a.v;
+  double t = geom_nearest_parameter(du, dv, p.u - a.u, p.v - a.v);
   return hypot(p.u - a.u - t * du, p.v - a.v - t * dv);
 }
 

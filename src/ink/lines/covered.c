@@ -18,6 +18,7 @@
 
 #include "base/poll.h"
 #include "base/sort.h"
+#include "geom/nearest.h"
 #include "ink/pens.h"
 
 enum {
@@ -222,9 +223,8 @@ static bool list_sides(struct covering *c) {
 static bool is_near_side(const struct cover_side *side, double x, double y,
                          double near) {
   double dx = (double)side->b.x - side->a.x, dy = (double)side->b.y - side->a.y;
-  double px = x - side->a.x, py = y - side->a.y, square = dx * dx + dy * dy;
-  double t = square > 0 ? (px * dx + py * dy) / square : 0;
-  t = fmin(fmax(t, 0), 1);
+  double px = x - side->a.x, py = y - side->a.y;
+  double t = geom_nearest_parameter(dx, dy, px, py);
   px -= t * dx;
   py -= t * dy;
   return px * px + py * py <= near * near;

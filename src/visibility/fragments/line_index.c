@@ -189,17 +189,10 @@ static void find_index_columns(const struct triangle_grid *shape,
 /* Appends the sides of a cell whose line has that key. */
 static bool find_in_cell(const struct line_index *index, size_t cell,
                          uint32_t key, side_list *found) {
-  uint32_t low = index->start[cell], high = index->start[cell + 1];
-  uint32_t end = high;
-  while (low < high) {
-    uint32_t middle = low + (high - low) / 2;
-    if (index->key[middle] < key)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  for (; low < end && index->key[low] == key; low++)
-    if (!ARRAY_PUSH(found, index->item[low]))
+  size_t i, end = index->start[cell + 1];
+  LOWER_BOUND(i, index->start[cell], end, index->key[i] < key);
+  for (; i < end && index->key[i] == key; i++)
+    if (!ARRAY_PUSH(found, index->item[i]))
       return false;
   return true;
 }

@@ -14,10 +14,11 @@ bool edge_crossings_add(struct edge_crossings *crossings,
                         struct corner_counts cf, uint32_t g,
                         struct corner_counts cg) {
   struct edge_crossing crossing = {
-      {surface_edge_of(sheet, f, (cf.off_plane + 1) % 3),
+      {surface_edge_of(sheet, f, geom_next_corner(cf.off_plane)),
        {g, SHEET_NONE, SHEET_NONE}}};
   if (ends_on_plane(cg))
-    crossing.side[1] = surface_edge_of(sheet, g, (cg.off_plane + 1) % 3);
+    crossing.side[1] =
+        surface_edge_of(sheet, g, geom_next_corner(cg.off_plane));
   if (surface_edge_compare(crossing.side[0], crossing.side[1]) > 0) {
     struct surface_edge swap = crossing.side[0];
     crossing.side[0] = crossing.side[1];

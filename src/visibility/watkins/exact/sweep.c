@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/sort.h"
 #include "visibility/progress.h"
 
 #define EVENT_WORK 8          /* of an event, in the units of progress.h */
@@ -58,18 +59,12 @@ static void find_edges_through(const struct sweep *sweep,
                                const struct sweep_event *event, size_t *low,
                                size_t *high) {
   const uint32_t *active = sweep->active.item;
-  size_t past = sweep->active.count;
-  *low = 0;
-  for (*high = past; *low < *high;) {
-    size_t middle = *low + (*high - *low) / 2;
-    if (sweep_side(&sweep->edge.item[active[middle]], event) > 0)
-      *low = middle + 1;
-    else
-      *high = middle;
-  }
-  while (*high < past &&
-         sweep_side(&sweep->edge.item[active[*high]], event) == 0)
-    (*high)++;
+  size_t i, past = sweep->active.count;
+  LOWER_BOUND(i, 0, past, sweep_side(&sweep->edge.item[active[i]], event) > 0);
+  *low = i;
+  while (i < past && sweep_side(&sweep->edge.item[active[i]], event) == 0)
+    i++;
+  *high = i;
 }
 
 /* Ends the interval after the active edge of that rank at the current height,

@@ -1,0 +1,18 @@
+/* nearest.h - the point of a segment that is nearest to a given one, in
+ * doubles. */
+#ifndef GEOM_NEAREST_H
+#define GEOM_NEAREST_H
+
+#include <math.h>
+
+/* The parameter of that point, from 0 to 1.  The segment goes by (dx, dy), the
+ * given point is at (px, py), both from the segment's first end; 0 for a segment
+ * without length. */
+static inline double geom_nearest_parameter(double dx, double dy, double px,
+                                            double py) {
+  double length2 = dx * dx + dy * dy;
+  double t = length2 > 0 ? (px * dx + py * dy) / length2 : 0;
+  return fmin(fmax(t, 0), 1);
+}
+
+#endif
