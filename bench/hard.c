@@ -21,6 +21,7 @@
 #include "bench/table.h"
 #include "tests/scenes/exact.h"
 #include "tests/scenes/pipeline.h"
+#include "tests/scenes/solver_named.h"
 
 enum { LIMIT_S = 20, ROUNDS = 5, AGAIN_MAX = 400, METHODS_MAX = 12 };
 
@@ -126,8 +127,7 @@ static recto_status solve_timed(struct sheet *sheet,
   return status;
 }
 
-static const struct solver solver_timed = {RECTO_METHOD_AUTO, "auto",
-                                           solve_timed};
+static const struct solver solver_timed = {RECTO_METHOD_AUTO, solve_timed};
 
 /* ---- Measuring ----------------------------------------------------------- */
 
@@ -260,7 +260,7 @@ static void print_heading(void) {
          "%-20s",
          ROUNDS, "scene");
   for (size_t m = 0; m < methods; m++)
-    printf(" %9s", method[m] != NULL ? method[m]->name : "auto");
+    printf(" %9s", method[m] != NULL ? solver_name(method[m]) : "auto");
   printf(" %9s %6s\n", "auto/best", "solver");
 }
 
@@ -273,7 +273,7 @@ static int draw_one(const char *name, const char *method) {
   int k = 0;
   while (k < SCENES && strcmp(hard_scenes[k].name, name) != 0)
     k++;
-  timed = strcmp(method, "auto") == 0 ? NULL : solver_by_name(method);
+  timed = strcmp(method, "auto") == 0 ? NULL : solver_named(method);
   if (k == SCENES || (timed == NULL && strcmp(method, "auto") != 0))
     return 2;
   fill_scene(&hard_scenes[k], false, &scene, &options);

@@ -19,6 +19,7 @@
 #include "exact_fixture/sheet.h"
 #include "scene/read.h"
 #include "tests/scenes/pipeline.h"
+#include "tests/scenes/solver_named.h"
 
 /* Methods with a number of lines or a pitch; those there are are tried. */
 static const char *const by_line[] = {"zbuffer", "scanline-zbuffer", "watkins",
@@ -83,7 +84,7 @@ static void check_errors(const struct scene *scene,
   trial_run(&truth, scene, options, &solver_tiles, 0, TRIAL_BOTH);
   assert_int_equal(truth.status, RECTO_OK);
   for (size_t i = 0; by_line[i] != NULL; i++) {
-    const struct solver *solver = solver_by_name(by_line[i]);
+    const struct solver *solver = solver_named(by_line[i]);
     double area[3], ink[3];
     if (solver == NULL)
       continue;
@@ -164,7 +165,7 @@ static void check_disjoint(const struct scene *scene,
   for (int lines = 20; lines <= 500; lines *= 5) {
     struct trial trial;
     struct measure measure;
-    trial_run(&trial, scene, options, solver_by_name("watkins"), lines,
+    trial_run(&trial, scene, options, solver_named("watkins"), lines,
               TRIAL_FRAGMENTS);
     assert_int_equal(trial.status, RECTO_OK);
     assert_true(measure_map(&measure, &trial.sheet, &trial.map, &trial.sheet,

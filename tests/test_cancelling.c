@@ -11,6 +11,7 @@
 #include "tests/polled.h"
 #include "tests/sheet_fixture.h"
 #include "tests/temporary.h"
+#include "tests/scenes/solver_named.h"
 #include "visibility/solver.h"
 
 struct listener {
@@ -120,7 +121,7 @@ static bool is_heard(const struct solver *solver, struct sheet_fixture *fixture,
   fixture->sheet.edge.count = edges;
   assert_int_equal(status, patience.stopped ? RECTO_ERROR_CANCELLED : RECTO_OK);
   if (patience.longest >= 1)
-    print_message("%s: %.2f s\n", solver->name, patience.longest);
+    print_message("%s: %.2f s\n", solver_name(solver), patience.longest);
   return patience.longest <
          (getenv("RECTO_VALGRIND") != NULL ? 20 : 1) * SILENCE_S;
 }

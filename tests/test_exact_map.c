@@ -1,6 +1,7 @@
 /* test_exact_map.c - the exact solvers on scenes whose answer is known, and
  * against each other on random ones. */
 #include "exact_fixture/sheet.h"
+#include "tests/scenes/solver_named.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -258,7 +259,7 @@ static void solvers_agree_on_random_scenes(void **state) {
     for (int s = 1; s < EXACT_COUNT; s++) {
       random_scene(&other, seed);
       snprintf(what, sizeof what, "seed %u, %s", (unsigned)seed,
-               exact[s]->name);
+               solver_name(exact[s]));
       exact_solve(exact[s], &other, &again, NULL);
       exact_assert_same_map(&map, &again, what);
       map_fini(&again);
@@ -309,7 +310,8 @@ static void check_soup(uint64_t seed, int faces, bool thin) {
     exact_solve(exact[s], &other, &again, report);
     if (exact[s] == &solver_tiles && !thin)
       assert_true(report_get(report, "tiles", "triangles_culled", 0) > 0);
-    exact_assert_visible_same(&map, &first, &again, &other, exact[s]->name);
+    exact_assert_visible_same(&map, &first, &again, &other,
+                              solver_name(exact[s]));
     report_destroy(report);
     map_fini(&again);
     exact_sheet_fini(&other);

@@ -9,6 +9,7 @@
 
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/random.h"
+#include "tests/scenes/solver_named.h"
 
 static const struct solver *const quick[] = {&solver_tiles, &solver_newell,
                                              &solver_warnock, NULL};
@@ -34,7 +35,7 @@ static void agree(struct scene *scene, recto_options *options,
     for (const struct solver *const *s = quick; *s != NULL; s++) {
       char *text = pipeline_draw(scene, options, *s, &length);
       if (strcmp(right, text) != 0)
-        fail_msg("%s by %s, fill %d", what, (*s)->name, fill);
+        fail_msg("%s by %s, fill %d", what, solver_name(*s), fill);
       mem_free(text);
     }
     mem_free(right);

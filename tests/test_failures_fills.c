@@ -12,6 +12,7 @@
 
 #include "backends/writer.h"
 #include "tests/scenes/pipeline.h"
+#include "tests/scenes/solver_named.h"
 
 #define DPI 127.0 /* five pixels a millimetre */
 #define PIXEL_MM 0.2
@@ -185,7 +186,7 @@ static void no_seam_shows_between_fills(void **state) {
     pipeline_fill(&scene, &options, e);
     options.ink.fill = RECTO_FILL_SHADE;
     options.ink.edges = RECTO_EDGES_NONE;
-    pipeline_run(&p, &scene, &options, solver_by_name("tiles"));
+    pipeline_run(&p, &scene, &options, solver_named("tiles"));
     if (p.status == RECTO_OK && p.drawing.fill.count > 0) {
       blacken_page(&p.drawing);
       size_t ignored = 0;

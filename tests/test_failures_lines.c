@@ -12,6 +12,7 @@
 
 #include "tests/scenes/exact.h"
 #include "tests/scenes/pipeline.h"
+#include "tests/scenes/solver_named.h"
 
 /* mm^2 of the fragments of a face. */
 static double area_of(const struct map *map, uint32_t face) {
@@ -53,7 +54,7 @@ static void exact_methods_distinguish_near_sheets(void **state) {
   for (const struct solver *const *s = solvers(); *s != NULL; s++)
     for (double gap = 1e-3; is_exact(*s) && gap > 0.9e-9; gap /= 10)
       if (!(fabs(fighting_share(*s, 0, 0, gap)) < 1e-6))
-        fail_msg("%s at %g: %g", (*s)->name, gap,
+        fail_msg("%s at %g: %g", solver_name(*s), gap,
                  fighting_share(*s, 0, 0, gap));
 }
 
@@ -75,7 +76,8 @@ static void lines_behind_a_near_sheet_are_hidden(void **state) {
       assert_true(
           measure_map(&m, &trial.sheet, &trial.map, &trial.sheet, &trial.map));
       if (!(fabs(m.true_ink / trial.camera.s - 20) < 1e-6))
-        fail_msg("%s at %g: %g", (*s)->name, gap, m.true_ink / trial.camera.s);
+        fail_msg("%s at %g: %g", solver_name(*s), gap,
+                 m.true_ink / trial.camera.s);
       trial_fini(&trial);
       scene_fini(&scene);
     }
@@ -148,7 +150,7 @@ what_is_thinner_than_the_pitch_is_missed_and_only_that(void **state) {
   (void)state;
   fill_bars(&scene, &options, false);
   for (size_t m = 0; m < sizeof name / sizeof *name; m++) {
-    const struct solver *solver = solver_by_name(name[m]);
+    const struct solver *solver = solver_named(name[m]);
     struct trial trial;
     if (solver == NULL)
       continue;
@@ -209,7 +211,7 @@ static void a_near_plane_cuts_away_what_is_nearer(void **state) {
   scenes_view_page(&options, 100, 100);
   options.camera.near_distance = 1000 - 4; /* from the eye */
   for (size_t m = 0; m < sizeof name / sizeof *name; m++) {
-    const struct solver *solver = solver_by_name(name[m]);
+    const struct solver *solver = solver_named(name[m]);
     struct trial trial;
     trial_run(&trial, &scene, &options, solver, is_exact(solver) ? 0 : 100,
               TRIAL_FRAGMENTS);

@@ -10,6 +10,7 @@
 
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/random.h"
+#include "tests/scenes/solver_named.h"
 
 static void fill_needles(struct scene *scene, recto_options *options,
                          enum scenes_needles kind, unsigned n) {
@@ -111,7 +112,7 @@ static void solvers_agree_on_long_lists(void **state) {
     for (size_t i = 0; i < sizeof other / sizeof *other; i++) {
       char *text = pipeline_draw(&scene, &options, other[i], &length);
       if (strcmp(right, text) != 0)
-        fail_msg("kind %d by %s", kind, other[i]->name);
+        fail_msg("kind %d by %s", kind, solver_name(other[i]));
       mem_free(text);
     }
     mem_free(right);
@@ -180,7 +181,7 @@ static void check_soup(unsigned n, const struct solver *const *solver) {
     if (first == NULL)
       first = text;
     else if (strcmp(first, text) != 0)
-      fail_msg("soup of %u by %s", n, (*solver)->name);
+      fail_msg("soup of %u by %s", n, solver_name(*solver));
     if (first != text)
       mem_free(text);
   }

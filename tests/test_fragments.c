@@ -4,6 +4,7 @@
 #include "exact_fixture/oracle.h"
 #include "exact_fixture/scene.h"
 #include "visibility/fragments/occluder_subtraction.h"
+#include "tests/scenes/solver_named.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -51,10 +52,11 @@ static void check_areas(struct sheet *sheet, const char *what) {
     }
     for (size_t f = 0; f < faces; f++)
       if (!exact_is_area(got[f], want[f]))
-        fail_msg("%s, %s: face %zu has area %g, not %g", what, exact[s]->name,
-                 f, got[f].twice / 2, mpq_get_d(want[f]) / 2);
+        fail_msg("%s, %s: face %zu has area %g, not %g", what,
+                 solver_name(exact[s]), f, got[f].twice / 2,
+                 mpq_get_d(want[f]) / 2);
     if (!exact_is_area(sum, covered))
-      fail_msg("%s, %s: the areas do not add up", what, exact[s]->name);
+      fail_msg("%s, %s: the areas do not add up", what, solver_name(exact[s]));
     map_fini(&map);
     free(got);
   }

@@ -14,6 +14,7 @@
 #include "scene/scene.h"
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/random.h"
+#include "tests/scenes/solver_named.h"
 
 /* ---- Merged against not merged ------------------------------------------- */
 
@@ -25,7 +26,7 @@ struct both {
 static bool draw_both(struct both *both, const struct scene *scene,
                       const recto_options *given, const char *method) {
   recto_options options = *given;
-  const struct solver *solver = solver_by_name(method);
+  const struct solver *solver = solver_named(method);
   pipeline_run(&both->merged, scene, &options, solver);
   options.ink.ids = true;
   pipeline_run(&both->apart, scene, &options, solver);
@@ -180,7 +181,7 @@ static void start(struct scene *scene, recto_options *options) {
 
 static void draw(struct pipeline *p, struct scene *scene,
                  const recto_options *options) {
-  pipeline_run(p, scene, options, solver_by_name("tiles"));
+  pipeline_run(p, scene, options, solver_named("tiles"));
   assert_int_equal(p->status, RECTO_OK);
   scene_fini(scene);
 }
@@ -280,7 +281,7 @@ static void fandisk_has_fewer_than_60_polygons(void **state) {
   }
   for (int view = 0; view < 3; view++) {
     options.camera.azimuth_deg = 40 + 100 * view;
-    pipeline_run(&p, &scene, &options, solver_by_name("tiles"));
+    pipeline_run(&p, &scene, &options, solver_named("tiles"));
     assert_int_equal(p.status, RECTO_OK);
     assert_in_range(p.drawing.fill.count, 1, 59);
     pipeline_fini(&p);
@@ -298,7 +299,7 @@ static void merging_fails_cleanly_when_memory_runs_out(void **state) {
   start(&scene, &options);
   scenes_box_on_table(&scene, &options, SCENES_CONTACT_EXACT, 0.1);
   options.mesh.crease_deg = 100;
-  pipeline_run(&p, &scene, &options, solver_by_name("tiles"));
+  pipeline_run(&p, &scene, &options, solver_named("tiles"));
   assert_int_equal(p.status, RECTO_OK);
   pipeline_fail_each_allocation(&p, &scene, &options);
   scene_fini(&scene);

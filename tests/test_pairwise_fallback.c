@@ -16,6 +16,7 @@
 #include "tests/sheet_fixture.h"
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/random.h"
+#include "tests/scenes/solver_named.h"
 
 static const struct solver *const bounded[] = {
     &solver_tiles, &solver_newell, &solver_warnock, &solver_watkins, NULL};
@@ -117,7 +118,7 @@ static void long_lists_are_drawn_as_by_brute(void **state) {
       for (const struct solver *const *s = bounded; *s != NULL; s++) {
         char *text = pipeline_draw(&scene, &options, *s, &length);
         if (strcmp(right, text) != 0)
-          fail_msg("kind %d by %s, fill %d", kind, (*s)->name, fill);
+          fail_msg("kind %d by %s, fill %d", kind, solver_name(*s), fill);
         mem_free(text);
       }
       mem_free(right);
@@ -136,7 +137,7 @@ static int64_t left_over(const struct solver *solver, recto_fill fill,
   options.ink.fill = fill;
   pipeline_run(&pipeline, &scene, &options, solver);
   assert_int_equal(pipeline.status, RECTO_OK);
-  count = report_get(pipeline.report, solver->name, name, 0);
+  count = report_get(pipeline.report, solver_name(solver), name, 0);
   pipeline_fini(&pipeline);
   scene_fini(&scene);
   return count;

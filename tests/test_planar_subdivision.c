@@ -11,6 +11,7 @@
 #include "exact_fixture/sheet.h"
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/random.h"
+#include "tests/scenes/solver_named.h"
 
 static const struct map_corner *origin(const struct map *map, uint32_t half) {
   return &map->corner.item[map->half_edge.item[half].origin];
@@ -205,7 +206,7 @@ static size_t check_scene(const struct scene *scene,
   size_t tested = 0;
   recto_options painted = *options;
   painted.ink.fill = RECTO_FILL_PAINT;
-  pipeline_run(&p, scene, &painted, solver_by_name(method));
+  pipeline_run(&p, scene, &painted, solver_named(method));
   if (p.status == RECTO_OK) {
     assert_loops(&p.map);
     assert_twins(&p.map, exact);
@@ -278,7 +279,7 @@ static void a_side_is_divided_where_its_neighbours_meet(void **state) {
     exact_add_face(&sheet, table, 4, 1024);
     exact_add_face(&sheet, left, 4, 1024);
     exact_add_face(&sheet, right, 4, 1024);
-    exact_solve(solver_by_name(exact_method[m]), &sheet, &map, NULL);
+    exact_solve(solver_named(exact_method[m]), &sheet, &map, NULL);
     assert_int_equal(map.fragment.count, 3);
     assert_int_equal(map.corner.count, 16);
     assert_int_equal(map.half_edge.count, 18);

@@ -363,26 +363,6 @@ static void active_edges_stay_in_order_and_end_in_time(void **state) {
   }
 }
 
-static void change_of_the_active_edges_is_noticed(void **state) {
-  const int64_t pair[] = {4, 2, 40, 2, 40, 20, 4, 20};
-  const int64_t crossing[] = {10, 4, 20, 14, 10, 14, 20, 4};
-  struct scan_grid grid = plain_grid(false);
-  struct scan_table table;
-  bool changed[SIDE] = {false};
-  (void)state;
-  scan_table_init(&table, &grid);
-  assert_true(add_loop(&table, pair, 4, 0));
-  assert_true(add_loop(&table, crossing, 4, 1));
-  assert_true(scan_table_start(&table));
-  while (scan_table_next(&table))
-    changed[table.line] = table.changed;
-  /* Sides of the bow-tie start on line 4, cross at y = 9 and end after 13. */
-  for (int line = 2; line < 20; line++)
-    assert_int_equal(changed[line],
-                     line == 2 || line == 4 || line == 9 || line == 14);
-  scan_table_fini(&table);
-}
-
 /* Many sides from one point that is the centre of a pixel: all have the same
  * x on the first line and differ only in their slopes. */
 static void fan_from_a_centre_is_ordered_by_slope(void **state) {
@@ -404,8 +384,6 @@ static void fan_from_a_centre_is_ordered_by_slope(void **state) {
   for (size_t i = 1; i < FAN; i++)
     assert_true(table.edge.item[table.active[i - 1]].x1 <
                 table.edge.item[table.active[i]].x1);
-  while (scan_table_next(&table))
-    assert_false(table.changed && table.line < 40);
   scan_table_fini(&table);
 }
 
@@ -550,7 +528,6 @@ int main(void) {
       cmocka_unit_test(columns_past_an_edge_exclude_the_one_on_it),
       cmocka_unit_test(neighbours_share_no_pixel_and_leave_none),
       cmocka_unit_test(active_edges_stay_in_order_and_end_in_time),
-      cmocka_unit_test(change_of_the_active_edges_is_noticed),
       cmocka_unit_test(fan_from_a_centre_is_ordered_by_slope),
       cmocka_unit_test(worked_crossings_come_in_steps_of_a_third),
       cmocka_unit_test(triangles_are_split_at_the_middle_vertex),

@@ -12,6 +12,7 @@
 
 #include "tests/polled.h"
 #include "tests/scenes/exact.h"
+#include "tests/scenes/solver_named.h"
 
 static const struct solver *const raster[] = {
     &solver_zbuffer, &solver_scanline_zbuffer, &solver_warnock};
@@ -19,20 +20,16 @@ enum { RASTERS = sizeof raster / sizeof *raster };
 
 /* ---- The table ----------------------------------------------------------- */
 
-static void a_solver_is_found_by_its_method_and_its_name(void **state) {
+static void a_solver_is_found_by_its_method(void **state) {
   int count = 0;
   (void)state;
   for (const struct solver *const *s = solvers(); *s != NULL; s++, count++) {
     assert_ptr_equal(solver_by_method((*s)->method), *s);
-    assert_ptr_equal(solver_by_name((*s)->name), *s);
-    assert_string_equal((*s)->name, recto_method_name((*s)->method));
     assert_true(recto_method_is_available((*s)->method));
     for (const struct solver *const *t = solvers(); t != s; t++)
       assert_true((*t)->method != (*s)->method);
   }
   assert_true(count >= 4);
-  assert_null(solver_by_name("no such method"));
-  assert_null(solver_by_name(""));
   assert_null(solver_by_method(RECTO_METHOD_COUNT));
 }
 
@@ -121,7 +118,7 @@ static void fail_in_turn(const struct solver *solver,
     status = solve(solver, request, make, n, &again);
     if (status == RECTO_OK) {
       if (request->resolution == 0)
-        exact_assert_same_map(&map, &again, solver->name);
+        exact_assert_same_map(&map, &again, solver_name(solver));
       succeeded++;
     } else {
       assert_int_equal(status, RECTO_ERROR_MEMORY);
@@ -292,7 +289,7 @@ static void brute_refuses_what_would_take_hours(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_solver_is_found_by_its_method_and_its_name),
+      cmocka_unit_test(a_solver_is_found_by_its_method),
       cmocka_unit_test(a_request_is_what_the_options_say),
       cmocka_unit_test(running_out_of_memory_is_a_status_and_leaks_nothing),
       cmocka_unit_test(a_cancelled_raster_is_not_polled_again),

@@ -13,6 +13,7 @@
 
 #include "tests/degenerate.h"
 #include "tests/scenes/pipeline.h"
+#include "tests/scenes/solver_named.h"
 
 static recto_status divide_by_box(struct sheet *sheet,
                                   const struct solver_request *request,
@@ -24,7 +25,7 @@ static recto_status divide_by_box(struct sheet *sheet,
 }
 
 static const struct solver warnock_by_box = {RECTO_METHOD_WARNOCK,
-                                             "warnock by box", divide_by_box};
+                                             divide_by_box};
 
 /* The oracle comes first. */
 static const struct solver *const exact[] = {&solver_brute,   &solver_newell,
@@ -68,7 +69,7 @@ static void assert_maps_agree(const struct recipe *recipe, const char *name) {
   solve(exact[0], recipe, &sheet[0], &map[0]);
   for (int s = 1; s < EXACT_COUNT; s++) {
     char what[128];
-    snprintf(what, sizeof what, "%s by %s", name, exact[s]->name);
+    snprintf(what, sizeof what, "%s by %s", name, solver_name(exact[s]));
     solve(exact[s], recipe, &sheet[1], &map[1]);
     exact_assert_same_map(&map[0], &map[1], what);
     map_fini(&map[1]);
@@ -144,7 +145,7 @@ static bool assert_solvers_agree(const struct scene *scene,
   for (int s = 1; s < EXACT_COUNT; s++) {
     char *text = pipeline_draw(scene, options, exact[s], &length);
     assert_same_text(text, length, first, first_length, name, view,
-                     exact[s]->name);
+                     solver_name(exact[s]));
     mem_free(text);
   }
   mem_free(first);
@@ -245,7 +246,7 @@ static void bytes_do_not_depend_on_the_threads(void **state) {
         options.solver.threads = threads[t];
         text = pipeline_draw(&scene, &options, exact[s], &length);
         assert_same_text(text, length, one, one_length, names[i], view,
-                         exact[s]->name);
+                         solver_name(exact[s]));
         mem_free(text);
       }
       mem_free(one);

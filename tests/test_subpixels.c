@@ -13,6 +13,7 @@
 #include "base/report.h"
 #include "visibility/solver.h"
 #include "visibility/raster/subpixels.h"
+#include "tests/scenes/solver_named.h"
 
 static const struct solver *const both[] = {&solver_zbuffer,
                                             &solver_scanline_zbuffer};
@@ -42,7 +43,7 @@ static void averaged_pixels_are_those_of_warnock(void **state) {
     solve(&solver_warnock, &scene, &request, &want, NULL);
     for (int s = 0; s < 2; s++) {
       solve(both[s], &scene, &request, &got, NULL);
-      exact_assert_same_map(&want, &got, both[s]->name);
+      exact_assert_same_map(&want, &got, solver_name(both[s]));
       map_fini(&got);
     }
     map_fini(&want);

@@ -16,6 +16,7 @@
 #include "judge/triangulation.h"
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/random.h"
+#include "tests/scenes/solver_named.h"
 #include "view/triangulate.h"
 
 /* ---- Scenes -------------------------------------------------------------- */
@@ -85,7 +86,7 @@ static void check_methods(const struct scene *scene,
   for (size_t s = 0; s < sizeof others / sizeof *others; s++) {
     char *other = pipeline_draw(scene, options, others[s], &other_length);
     if (other_length != length || memcmp(text, other, length) != 0)
-      fail_msg("%s: %s disagrees", name, others[s]->name);
+      fail_msg("%s: %s disagrees", name, solver_name(others[s]));
     mem_free(other);
   }
   mem_free(text);

@@ -32,7 +32,7 @@ void stats_add_method(struct report *report, recto_method requested,
                       const struct solver_request *request) {
   static const char *const word[] = {"not requested", "requested"};
   report_text(report, "method", "requested", recto_method_name(requested));
-  report_text(report, "method", "chosen", chosen->name);
+  report_text(report, "method", "chosen", recto_method_name(chosen->method));
   report_text(report, "method", "why", why);
   report_text(report, "method", "strokes", word[request->edges]);
   report_text(report, "method", "fragments", word[request->fragments]);

@@ -224,8 +224,8 @@ static int compare_span_edges(const void *a, const void *b, void *user) {
 }
 
 /* Moves the last of `count` indices to its place among the others, which are
- * in order; false where it was there. */
-static bool insert_last(const struct scan_table *table, uint32_t *index,
+ * in order. */
+static void insert_last(const struct scan_table *table, uint32_t *index,
                         size_t count) {
   const struct scan_edge *edge = table->edge.item;
   uint32_t moving = index[count - 1];
@@ -236,7 +236,6 @@ static bool insert_last(const struct scan_table *table, uint32_t *index,
     hole--;
   }
   index[hole] = moving;
-  return hole + 1 < count;
 }
 
 /* Corrects the order where the keys could not decide: first edges with the
@@ -289,7 +288,6 @@ static void step_active(struct scan_table *table) {
     scan_edge_step(&edge[e], table->grid.down);
     table->active[kept++] = e;
   }
-  table->changed = kept < table->active_count;
   table->active_count = kept;
 }
 
@@ -312,19 +310,17 @@ static void merge_bucket(struct scan_table *table, size_t first, size_t past) {
   memcpy(table->active + count, table->scratch + i,
          (kept - i) * sizeof *table->active);
   table->active_count = count + kept - i;
-  table->changed = true;
 }
 
 bool scan_table_next(struct scan_table *table) {
   const struct scan_edge *edge = table->edge.item;
   size_t first = table->entered, past = first, count = table->edge.count;
-  table->changed = false;
   if (table->active_count > 0) {
     table->line += table->grid.down ? -1 : 1;
     step_active(table);
     /* Edges that crossed since the last line change places. */
     for (size_t i = 1; i < table->active_count; i++)
-      table->changed |= insert_last(table, table->active, i + 1);
+      insert_last(table, table->active, i + 1);
   }
   if (table->active_count == 0) {
     if (first == count)

@@ -213,7 +213,6 @@ struct scan_table {
   uint32_t *active, *scratch; /* room for all edges */
   size_t active_count;
   int32_t line;
-  bool changed; /* on the way to this line an edge came, went or was passed */
 };
 
 /* Empty, over that grid. */

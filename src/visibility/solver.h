@@ -22,8 +22,10 @@ struct solver_request {
                          rather than in the middle */
   int subpixels;      /* raster methods: K x K samples averaged per pixel; 0:
                          one sample */
-  int newell_tests;   /* newell, for measurements: so many of the tests A to D
-                        alone, and no face is split; 0: all, and splitting */
+  int newell_tests; /* newell: so many of the tests A to D alone, and no face is
+                        split; 0: all, and splitting.  No option sets it: the
+                        charts of doc/accuracy.md show by it what each test adds
+                        to the method as published */
 };
 
 /* The request that options make of a solver: edges, fragments only where faces
@@ -32,7 +34,6 @@ struct solver_request solver_request_of(const recto_options *options);
 
 struct solver {
   recto_method method;
-  const char *name;
   /* Solves `sheet`.  Where intersections are requested, their edges are
    * appended to the sheet's drawable ones (intersection.h).
    * map     initialised, empty
@@ -60,9 +61,8 @@ const struct solver *solver_choose(const struct sheet *sheet,
                                    const struct solver_request *request,
                                    const char **why);
 
-/* The solver of a method, or with a name; NULL where there is none. */
+/* The solver of a method; NULL where there is none. */
 const struct solver *solver_by_method(recto_method method);
-const struct solver *solver_by_name(const char *name);
 /* All solvers in the order in which they are offered, ended by NULL. */
 const struct solver *const *solvers(void);
 

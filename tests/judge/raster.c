@@ -129,7 +129,7 @@ void judge_raster_scene(struct judge_raster *raster, const struct scene *scene,
 
 /* ---- Regions ------------------------------------------------------------- */
 
-static int compare_numbers(const void *a, const void *b, void *user) {
+static int compare_crossings(const void *a, const void *b, void *user) {
   (void)user;
   const double *x = a, *y = b;
   return *x < *y ? -1 : *x > *y;
@@ -168,7 +168,7 @@ void judge_raster_region(struct judge_raster *raster,
     for (uint32_t i = 0; i < loops; at += count[i++])
       cross_loop(&crossings, at, count[i], scale, row + 0.5);
     require(sort_stable(crossings.x.item, crossings.x.count,
-                        sizeof *crossings.x.item, compare_numbers, NULL));
+                        sizeof *crossings.x.item, compare_crossings, NULL));
     for (size_t k = 0; k + 1 < crossings.x.count; k += 2) {
       unsigned last = first_pixel(raster, crossings.x.item[k + 1]);
       for (unsigned i = first_pixel(raster, crossings.x.item[k]); i < last; i++)

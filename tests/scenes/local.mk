@@ -21,6 +21,7 @@ check_LTLIBRARIES += %D%/libscenes.la
   %D%/scenes.h %D%/box.h \
   %D%/small.c \
   %D%/solids.c \
+  %D%/solver_named.h \
   %D%/stacks.c \
   %D%/subdivide.c %D%/subdivide.h \
   %D%/surfaces.c \

@@ -177,4 +177,4 @@ static recto_status solve_brute(struct sheet *sheet,
   return status;
 }
 
-const struct solver solver_brute = {RECTO_METHOD_BRUTE, "brute", solve_brute};
+const struct solver solver_brute = {RECTO_METHOD_BRUTE, solve_brute};

@@ -313,5 +313,4 @@ static recto_status solve_newell(struct sheet *sheet,
   return status;
 }
 
-const struct solver solver_newell = {RECTO_METHOD_NEWELL, "newell",
-                                     solve_newell};
+const struct solver solver_newell = {RECTO_METHOD_NEWELL, solve_newell};

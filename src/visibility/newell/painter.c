@@ -196,7 +196,6 @@ static recto_status solve_as_given(struct sheet *sheet,
   return solve_painter(sheet, request, true, map, error);
 }
 
-const struct solver solver_painter = {RECTO_METHOD_PAINTER, "painter",
-                                      solve_by_centroid};
+const struct solver solver_painter = {RECTO_METHOD_PAINTER, solve_by_centroid};
 const struct solver solver_painter_given = {RECTO_METHOD_PAINTER_GIVEN,
-                                            "painter-given", solve_as_given};
+                                            solve_as_given};

@@ -15,7 +15,6 @@ bool trapezoids_init(struct trapezoids *trapezoids, const struct sheet *sheet,
   trapezoids->y_high = sheet->camera.page_mm[1] / 2 * SHEET_UNITS_PER_MM;
   trapezoids->x_low = -trapezoids->x_high;
   trapezoids->y_low = -trapezoids->y_high;
-  trapezoids->keys = keys;
   trapezoids->at = mem_alloc(keys, sizeof *trapezoids->at);
   if (trapezoids->at == NULL)
     return false;

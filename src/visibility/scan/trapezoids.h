@@ -52,8 +52,7 @@ struct trapezoids {
   side; /* two a border: that of the span before it
            and of the one after; NULL: none */
   ARRAY(struct trapezoid) trapezoid;
-  uint32_t *at; /* for each key of a left side, the last trapezoid on it */
-  size_t keys;
+  uint32_t *at;     /* for each key of a left side, the last trapezoid on it */
   int64_t count;    /* spans added */
   side_lines lines; /* of the sides stored */
 };

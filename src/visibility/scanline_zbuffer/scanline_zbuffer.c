@@ -119,5 +119,5 @@ static recto_status solve_scanline_zbuffer(struct sheet *sheet,
                       "scanline_zbuffer", map, report, error);
 }
 
-const struct solver solver_scanline_zbuffer = {
-    RECTO_METHOD_SCANLINE_ZBUFFER, "scanline-zbuffer", solve_scanline_zbuffer};
+const struct solver solver_scanline_zbuffer = {RECTO_METHOD_SCANLINE_ZBUFFER,
+                                               solve_scanline_zbuffer};

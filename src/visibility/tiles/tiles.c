@@ -503,4 +503,4 @@ static recto_status solve_tiles(struct sheet *sheet,
   return ok || status != RECTO_OK ? status : error_memory(error);
 }
 
-const struct solver solver_tiles = {RECTO_METHOD_TILES, "tiles", solve_tiles};
+const struct solver solver_tiles = {RECTO_METHOD_TILES, solve_tiles};

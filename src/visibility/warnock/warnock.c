@@ -343,5 +343,4 @@ static recto_status solve_warnock(struct sheet *sheet,
   return status;
 }
 
-const struct solver solver_warnock = {RECTO_METHOD_WARNOCK, "warnock",
-                                      solve_warnock};
+const struct solver solver_warnock = {RECTO_METHOD_WARNOCK, solve_warnock};

@@ -11,5 +11,4 @@ static recto_status solve_watkins(struct sheet *sheet,
              : watkins_solve_at_pitch(sheet, request, map, report, error);
 }
 
-const struct solver solver_watkins = {RECTO_METHOD_WATKINS, "watkins",
-                                      solve_watkins};
+const struct solver solver_watkins = {RECTO_METHOD_WATKINS, solve_watkins};

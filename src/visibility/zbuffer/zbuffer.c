@@ -99,5 +99,4 @@ static recto_status solve_zbuffer(struct sheet *sheet,
                       report, error);
 }
 
-const struct solver solver_zbuffer = {RECTO_METHOD_ZBUFFER, "zbuffer",
-                                      solve_zbuffer};
+const struct solver solver_zbuffer = {RECTO_METHOD_ZBUFFER, solve_zbuffer};
