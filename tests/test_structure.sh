@@ -20,7 +20,8 @@ sources() {
 # sources that lie in the layer itself (the choice of a method, the phases of
 # ink) stand above all.
 #
-# Every file opens with its name and its job.
+# Every file opens with its name and its job, which is not to be looked up in
+# another file.
 check_sources() {
   # shellcheck disable=SC2016 # of awk
   (cd "$1" && sources . | xargs awk '

@@ -1,4 +1,5 @@
-/* letter_places.c - see letter_places.h. */
+/* letter_places.c - tries places around a detail and compares the ink below
+ * them. */
 #include "api/letter_places.h"
 
 #include <math.h>

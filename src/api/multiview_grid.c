@@ -1,4 +1,4 @@
-/* multiview_grid.c - see multiview_grid.h. */
+/* multiview_grid.c - sums the extents of views by column and row. */
 #include "api/multiview_grid.h"
 
 #include <float.h>

@@ -1,4 +1,4 @@
-/* multiview_labels.c - see multiview_labels.h. */
+/* multiview_labels.c - chooses and formats the words of a sheet. */
 #include "api/multiview_labels.h"
 
 #include <stdio.h>

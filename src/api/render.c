@@ -4,7 +4,8 @@
  *   rescale a scene of extreme size, weld the corners of borders and find the
  *   edges, unless that was prepared (preparation.h);
  *   aim the camera; lay out the sheet; choose the method and solve;
- *   make the ink; verify, if requested. */
+ *   count the faces that hide each line, and add smooth contours, if requested;
+ *   make the ink; verify, and keep results, if requested. */
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>

@@ -1,4 +1,5 @@
-/* curves.c - see curves.h. */
+/* curves.c - follows the lines of each plane to closed curves, and finds those that
+ * stay open. */
 #include "cut/curves.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* cut_points.c - see cut_points.h. */
+/* cut_points.c - places planes on the grid of a cut, and makes points on edges. */
 #include "cut/cut_points.h"
 
 #include <float.h>

@@ -42,8 +42,8 @@ static int compare_made_places(const void *a, const void *b, void *user) {
   return 0;
 }
 
-/* Makes points at one place one, which is on all the planes that they are on.
- */
+/* Gives points that are at one place a common representative, which is on all
+ * planes that any of them is on. */
 static bool find_places(struct cutter *cutter) {
   size_t count = cutter->points.point.count;
   struct cut_point *point = cutter->points.point.item;
@@ -116,7 +116,7 @@ static bool list_loose_ends(const struct cutter *cutter, const int32_t *balance,
                      sizeof *loose->list.item, compare_loose_ends, NULL);
 }
 
-/* Makes places one, as sets of union_find.h say. */
+/* Gives all places of a set of union_find.h one representative. */
 static void join_places(struct cutter *cutter, uint32_t *set) {
   struct cut_point *point = cutter->points.point.item;
   size_t points = cutter->points.point.count;
@@ -130,8 +130,8 @@ static void join_places(struct cutter *cutter, uint32_t *set) {
     point[i].on = point[cutter->place[i] - first].on;
 }
 
-/* Makes ends of lines that are as good as in one place one: `end` of each made
- * point is set. */
+/* Joins ends of lines that are within the tolerance of each other: sets for each
+ * point that the cut made the one that takes its place, in `end`. */
 static bool match_loose_ends(const struct cutter *cutter, int32_t *balance,
                              uint32_t *end, uint32_t *set) {
   const struct cut_point *point = cutter->points.point.item;

@@ -77,7 +77,7 @@ struct section {
 
 void section_fini(struct section *section);
 
-/* Sorts the nodes, and makes those at one place one, the first of them. */
+/* Sorts the nodes, and replaces those at one place by the first of them. */
 USE_RESULT bool section_sort_nodes(struct section *section);
 
 /* Finds the boundaries of what is inside.

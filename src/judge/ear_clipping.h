@@ -21,8 +21,8 @@ struct judge_ears {
   ARRAY(struct judge_ear) ear;        /* of the last face */
   ARRAY(struct judge_point2) at;      /* its corners, projected */
   ARRAY(uint32_t) left, next, before; /* the corners that are left */
-  ARRAY(struct judge_sorted_corner)
-  by[2]; /* the corners sorted by x and by y */
+  /* The corners sorted by x and by y. */
+  ARRAY(struct judge_sorted_corner) by[2];
 };
 
 /* Triangulates a face into at most count - 2 triangles, in doubles, projected

@@ -1,4 +1,5 @@
-/* open_surfaces.c - see open_surfaces.h. */
+/* open_surfaces.c - joins the points of faces to surfaces, and finds those that
+ * have borders where the scene is cut. */
 #include "judge/open_surfaces.h"
 
 #include "base/union_find.h"

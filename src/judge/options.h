@@ -12,7 +12,8 @@ struct judge_options {
   double lateral_mm;      /* an edge this close to a drawn point explains it: a
                         little more than the rounding of coordinates in the
                         file */
-  double ray_offset_mm;   /* see above: well above the page grid */
+  double ray_offset_mm;   /* of the rays beside an edge, on the page: well above
+                             the page grid */
   double contact; /* the drawing's contact tolerance, scene units; negative:
                         for each face the rounding error of its coordinates */
   struct precision unstated;  /* of points whose precision is not stated */

@@ -1,4 +1,4 @@
-/* traversal.c - see traversal.h. */
+/* traversal.c - descends the tree of bounding boxes. */
 #include "judge/traversal.h"
 
 /* ---- The tree ------------------------------------------------------------ */

@@ -20,8 +20,8 @@ struct judge_triangulation_triangle {
 
 /* Zero-initialised is empty; one serves any number of faces. */
 struct judge_triangulation {
-  ARRAY(struct judge_triangulation_triangle)
-  triangle; /* of the face cut last */
+  /* Of the face cut last. */
+  ARRAY(struct judge_triangulation_triangle) triangle;
   ARRAY(struct judge_triangulation_corner) corner;
 };
 

@@ -1,4 +1,4 @@
-/* winding.c - see winding.h. */
+/* winding.c - counts signed crossings along rays. */
 #include "judge/winding.h"
 
 #include "base/tolerance.h"

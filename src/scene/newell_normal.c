@@ -1,4 +1,4 @@
-/* newell_normal.c - see newell_normal.h. */
+/* newell_normal.c - sums the areas of the projections of a polygon. */
 #include "scene/newell_normal.h"
 
 void newell_normal(const struct scene_point *point, const uint32_t *corner,

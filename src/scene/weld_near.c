@@ -196,8 +196,9 @@ static size_t range_end(const struct scene *scene,
   return end;
 }
 
-/* The length that rounding explains, of each range; to `each`, one a member,
- * what it is there.  Returns the longest. */
+/* Finds for each range the distance that rounding of its coordinates explains.
+ * each  gets it for each member
+ * Returns the longest. */
 static double find_rounding_lengths(const struct scene *scene,
                                     const struct candidates *candidates,
                                     struct precision unstated, double *each) {

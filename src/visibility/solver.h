@@ -13,19 +13,19 @@ struct solver_request {
   bool intersections; /* edges where faces pierce each other are drawable */
   int threads;        /* at least 1 */
   double pitch_mm;    /* watkins: distance of the scan lines */
-  int resolution;    /* raster methods: lines over the page; 0: their default */
-  int depth_bits;    /* z-buffers: 1 to 32; 0: float64 with ties decided
+  int resolution;     /* raster methods: lines of the page; 0: their default */
+  int depth_bits;     /* z-buffers: 1 to 32; 0: float64 with ties decided
                          exactly */
-  bool remove_backs; /* raster methods: faces that run clockwise on the page
+  bool remove_backs;  /* raster methods: faces that run clockwise on the page
                          are left out (back-face culling) */
   bool divide_by_box; /* warnock: windows are split at bounding boxes of faces
                          rather than in the middle */
   int subpixels;      /* raster methods: K x K samples averaged per pixel; 0:
                          one sample */
-  int newell_tests; /* newell: so many of the tests A to D alone, and no face is
-                        split; 0: all, and splitting.  No option sets it: the
-                        charts of doc/accuracy.md show by it what each test adds
-                        to the method as published */
+  /* newell: so many of the tests A to D alone, and no face is split; 0: all, and
+   * splitting.  No option sets it: the charts of doc/accuracy.md show by it what
+   * each test adds. */
+  int newell_tests;
 };
 
 /* The request that options make of a solver: edges, fragments only where faces

@@ -3,8 +3,8 @@
  * Either the occluders are subtracted one after another, as they are found; or
  * all of them are collected first, and if there are many, the triangle is split
  * by a BSP tree of them until few of them overlap each region (region_split.c).
- *  Both give the same set of points, and the same as the plain subtraction of
- *  the brute-force solver, which shares none of this.
+ * Both give the same set of points, and the same as the plain subtraction of
+ * the brute-force solver, which shares none of this.
  */
 #ifndef VISIBILITY_FRAGMENTS_OCCLUDER_SUBTRACTION_H
 #define VISIBILITY_FRAGMENTS_OCCLUDER_SUBTRACTION_H

@@ -19,13 +19,11 @@
 
 #include <string.h>
 
-enum {
-  SUBTRACTED_BEFORE_TREE =
-      4, /* occluders that are subtracted before the tree is made */
-  WORK_OF_REGION =
-      64 /* per region, and per occluder subtracted, in the units of
-                progress.h */
-};
+/* Occluders that are subtracted before the tree is made. */
+enum { SUBTRACTED_BEFORE_TREE = 4 };
+
+/* Of a region, and of an occluder subtracted, in the units of progress.h. */
+enum { WORK_OF_REGION = 64 };
 
 /* The area that two overlapping boxes share, in square grid units. */
 static double shared_area(struct box2 a, struct box2 b) {

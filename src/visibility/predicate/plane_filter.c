@@ -100,7 +100,7 @@ bool plane_filter_may_intersect(const struct plane_filter *plane,
   int behind = 0, in_front = 0;
   for (int k = 0; k < 3; k++) {
     struct bounded_value at = value_at(plane, corner[k]);
-    bool is_behind = at.value<-at.most, is_in_front = at.value> at.most;
+    bool is_in_front = at.value > at.most, is_behind = -at.value > at.most;
     if (!is_behind && !is_in_front && !(fabs(at.value) < at.least))
       return true;
     behind += is_behind;

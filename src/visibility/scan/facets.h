@@ -21,9 +21,8 @@ struct facet {
 struct facets {
   ARRAY(struct facet) joined; /* those of more than one triangle, ascending */
   ARRAY(uint32_t) corner;     /* sheet points, counter-clockwise */
-  ARRAY(uint32_t)
-  side;           /* side k runs from corner k: a sheet edge or
-                     SHEET_NONE */
+  /* Side k runs from corner k: a sheet edge or SHEET_NONE. */
+  ARRAY(uint32_t) side;
   uint32_t *part; /* for each triangle its facet in `joined`, or SHEET_NONE;
                      NULL where nothing was merged */
 };

@@ -48,9 +48,9 @@ struct trapezoids {
   ARRAY(struct span) row;              /* of the current line */
   int32_t line;
   ARRAY(double) border; /* room for x of the row's borders, left to right */
-  ARRAY(struct span_side *)
-  side; /* two a border: that of the span before it
-           and of the one after; NULL: none */
+  /* Two a border: that of the span before it and of the one after; NULL:
+   * none. */
+  ARRAY(struct span_side *) side;
   ARRAY(struct trapezoid) trapezoid;
   uint32_t *at;     /* for each key of a left side, the last trapezoid on it */
   int64_t count;    /* spans added */

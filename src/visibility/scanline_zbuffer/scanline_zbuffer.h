@@ -11,9 +11,9 @@ struct scanline {
   const struct facets *facets;
   struct sort_key *bucket; /* facets by first line from the top, then order */
   size_t bucket_count, entered;
-  ARRAY(struct active_edge_pair)
-  active; /* unordered: of equally near facets the one of lower
-             index is kept whichever is drawn first */
+  /* Unordered: of equally near facets the one of lower index is kept whichever
+   * is drawn first. */
+  ARRAY(struct active_edge_pair) active;
   int64_t covered;
 };
 
