@@ -149,6 +149,16 @@
  * Ten times   faces 0.15 um apart on paper count as touching. */
 #define TOLERANCE_CONTACT_GRID_UNITS 16
 
+/* Ends of lines of a section that are no farther apart, in each coordinate, are
+ * joined where one line begins and another ends.
+ * Unit        units of the grid of a cut, 2^-38 of the scene's extent
+ * Derivation  an edge that neighbouring faces have in different pieces meets a
+ *             plane in points that are rounded separately: by 1/2 unit each,
+ *             and more where the edge nearly lies in the plane.
+ * Users       cut/cut_sections.c
+ * Ten times   nothing that could be seen. */
+#define TOLERANCE_SECTION_UNITS 4
+
 /* Extents of the drawing and of its depth below this are rounding noise: a
  * wire seen end-on, a plate seen square-on.
  * Unit        share of the scene's diagonal
@@ -207,7 +217,7 @@
  * Derivation  the areas of lobes that cancel add up to rounding noise, 2^-53 of
  *             the square for each of the corners: this leaves room for
  *             thousands.
- * Users       view/polygon.c, judge/triangulation.c
+ * Users       view/polygon.c, judge/triangulation.c, judge/intersections.c
  * Ten times   needles that are ten times wider, in relation to their length,
  *             are projected along their thinnest extent, and may be
  *             triangulated otherwise. */
@@ -283,6 +293,21 @@
  * Users       judge/svg/svg_pen.c
  * Ten times   a third as many pieces; still a tenth of a fine pen. */
 #define TOLERANCE_CURVE_MM 1e-3
+
+/* A curve that the circle of a detail cuts becomes a polyline no farther from
+ * it than this.
+ * Unit        mm
+ * Derivation  a fifth of RECTO_FINEST_MM, which plotters resolve.
+ * Users       drawing/circle_clip.c
+ * Ten times   chords of curves may show in print beside the circle. */
+#define TOLERANCE_CUT_CURVE_MM 0.002
+
+/* The polygon that stands for an arc is no farther from it than this.
+ * Unit        mm
+ * Derivation  half of RECTO_FINEST_MM, which plotters resolve.
+ * Users       drawing/circle_clip.c
+ * Ten times   the circle of a detail shows its corners in print. */
+#define TOLERANCE_ARC_MM 0.005
 
 /* A region whose tones differ by less is uniform.
  * Unit        1 (a tone, 0 to 1)

@@ -1,5 +1,5 @@
-/* curves.c - follows the lines of each plane to closed curves, and finds those that
- * stay open. */
+/* curves.c - joins the lines of each plane to curves, and repairs those that
+ * are not closed. */
 #include "cut/curves.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
-/* cut_points.c - places planes on the grid of a cut, and makes points on edges. */
+/* cut_points.c - places planes on the grid of a cut, and makes points on
+ * edges. */
 #include "cut/cut_points.h"
 
 #include <float.h>

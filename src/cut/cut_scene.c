@@ -1,4 +1,4 @@
-/* cut_scene.c - see cut.h; its phases are explained in cut_phases.h. */
+/* cut_scene.c - cuts a scene, phase by phase: cut_phases.h explains them. */
 #include "cut/cut.h"
 
 #include <string.h>

@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/tolerance.h"
 #include "base/union_find.h"
 #include "cut/cut_phases.h"
 #include "view/vector.h"
@@ -72,13 +73,11 @@ static bool find_places(struct cutter *cutter) {
 
 /* ---- Loose ends ---------------------------------------------------------- */
 
-/* An edge that faces beside each other have in different pieces meets a plane
- * in points so close as this, in units of the grid. */
-enum { LOOSE_UNITS = 4 };
-
+/* Whether two points can be where an edge meets a plane that neighbouring faces
+ * have in different pieces. */
 static bool are_close(const struct cut_point *p, const struct cut_point *q) {
   for (int k = 0; k < 3; k++)
-    if (llabs(p->at[k] - q->at[k]) > LOOSE_UNITS)
+    if (llabs(p->at[k] - q->at[k]) > TOLERANCE_SECTION_UNITS)
       return false;
   return true;
 }
@@ -130,8 +129,8 @@ static void join_places(struct cutter *cutter, uint32_t *set) {
     point[i].on = point[cutter->place[i] - first].on;
 }
 
-/* Joins ends of lines that are within the tolerance of each other: sets for each
- * point that the cut made the one that takes its place, in `end`. */
+/* Joins ends of lines that are within the tolerance of each other.
+ * end  gets for each point that the cut made the one that takes its place */
 static bool match_loose_ends(const struct cutter *cutter, int32_t *balance,
                              uint32_t *end, uint32_t *set) {
   const struct cut_point *point = cutter->points.point.item;
@@ -142,7 +141,7 @@ static bool match_loose_ends(const struct cutter *cutter, int32_t *balance,
   for (size_t i = 0; ok && i < loose.list.count; i++)
     for (size_t k = i + 1;
          k < loose.list.count && balance[item[i].point] != 0 &&
-         item[k].along - item[i].along <= 3 * LOOSE_UNITS;
+         item[k].along - item[i].along <= 3 * TOLERANCE_SECTION_UNITS;
          k++) {
       uint32_t p = item[i].point, q = item[k].point;
       if (balance[q] == 0 || (balance[p] > 0) == (balance[q] > 0) ||

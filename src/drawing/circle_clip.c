@@ -13,9 +13,7 @@
 
 #include "base/poll.h"
 #include "base/sort.h"
-
-/* How near a curve the polyline is that takes its place. */
-#define FLATTEN_MM 0.002
+#include "base/tolerance.h"
 
 /* ---- Geometry ------------------------------------------------------------ */
 
@@ -54,7 +52,7 @@ static bool clip_to_circle(const struct drawing_circle *circle,
 bool drawing_add_arc(struct drawing *drawing,
                      const struct drawing_circle *circle, double from,
                      double to) {
-  double share = fmin(CIRCLE_CHORD_MM / circle->radius, 1);
+  double share = fmin(TOLERANCE_ARC_MM / circle->radius, 1);
   int chords = (int)ceil((to - from) / (2 * acos(1 - share)));
   chords = chords > 1 ? chords : 1;
   bool ok = true;
@@ -173,7 +171,8 @@ static bool clip_stroke(struct clip *clip, size_t index, double width_mm) {
                          stroke->count, stroke->closed);
   if (is_curve_in_circle(clip, &inside, curve))
     return keep_curve(clip, index, curve);
-  return drawing_flatten(from, stroke, curve, FLATTEN_MM, &clip->flat) &&
+  return drawing_flatten(from, stroke, curve, TOLERANCE_CUT_CURVE_MM,
+                         &clip->flat) &&
          clip_polyline(clip, &inside, index, clip->flat.point.item,
                        (uint32_t)clip->flat.point.count, stroke->closed);
 }

@@ -8,9 +8,6 @@ struct drawing_circle {
   double x, y, radius; /* page mm */
 };
 
-/* The most by which a polygon is off the arc that it stands for, mm. */
-#define CIRCLE_CHORD_MM 0.005
-
 /* Removes what is outside of a circle.  Nothing sticks out of a line of
  * `width_mm` along the circle: wider lines end before it, and fills with their
  * seams too.  Curves that leave the circle become polylines.

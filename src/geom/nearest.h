@@ -5,9 +5,9 @@
 
 #include <math.h>
 
-/* The parameter of that point, from 0 to 1.  The segment goes by (dx, dy), the
- * given point is at (px, py), both from the segment's first end; 0 for a segment
- * without length. */
+/* The parameter of that point, from 0 to 1; 0 for a segment without length.
+ * The segment goes by (dx, dy) from its first end; from there the given point
+ * is at (px, py). */
 static inline double geom_nearest_parameter(double dx, double dy, double px,
                                             double py) {
   double length2 = dx * dx + dy * dy;

@@ -1,4 +1,4 @@
-/* cut_hatch.c - see cut_hatch.h.
+/* cut_hatch.c - chooses angles and pitches that tell neighbouring groups apart.
  *
  * Groups are given their hatching in the order of the scene, greedily: so it is
  * the same in all views. */

@@ -1,5 +1,5 @@
-/* cut_edges.c - intersects triangles with the planes of a cut, and the planes with each
- * other. */
+/* cut_edges.c - intersects triangles with the planes of a cut, and these with
+ * each other. */
 #include "judge/cut_edges.h"
 
 #include "base/poll.h"

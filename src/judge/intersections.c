@@ -272,7 +272,8 @@ static bool is_cut_beside(const struct judge_camera *camera,
   for (unsigned i = 0; i < clipped.count; i++) {
     double twice =
         point3_length(point3_cross(side, point3_sub(clipped.p[i], corner[0])));
-    if (twice > 0x1p-40 * length * length && twice < least * length)
+    if (twice > TOLERANCE_NO_AREA_SHARE * length * length &&
+        twice < least * length)
       return true;
   }
   return false;

@@ -22,9 +22,9 @@ struct solver_request {
                          rather than in the middle */
   int subpixels;      /* raster methods: K x K samples averaged per pixel; 0:
                          one sample */
-  /* newell: so many of the tests A to D alone, and no face is split; 0: all, and
-   * splitting.  No option sets it: the charts of doc/accuracy.md show by it what
-   * each test adds. */
+  /* newell: so many of the tests A to D alone, and no face is split; 0: all,
+   * and splitting.  No option sets it: the charts of doc/accuracy.md show by it
+   * what each test adds. */
   int newell_tests;
 };
 
