@@ -114,7 +114,7 @@ void captions_write_scale(char text[CAPTIONS_SCALE_SIZE], double scale) {
  * view by the camera is described as without a sheet. */
 static void describe_sheet(struct sentence *words, const recto_options *o,
                            const struct multiview *views) {
-  if (views->count == 1 && views->view[0].asked->name == NULL) {
+  if (views->count == 1 && views->view[0].request->name == NULL) {
     describe_view(words, o);
     return;
   }

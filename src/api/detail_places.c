@@ -34,10 +34,10 @@ static struct page_box box_of_detail(const struct multiview *views,
 
 /* The circle about what a detail shows, with room for the letter beside it. */
 static struct page_box box_of_mark(const struct multiview *views,
-                                   const recto_detail *asked) {
-  double half = asked->radius_mm + MARK_CLEAR * views->letter_mm;
-  return (struct page_box){{asked->x_mm - half, asked->y_mm - half},
-                           {asked->x_mm + half, asked->y_mm + half}};
+                                   const recto_detail *request) {
+  double half = request->radius_mm + MARK_CLEAR * views->letter_mm;
+  return (struct page_box){{request->x_mm - half, request->y_mm - half},
+                           {request->x_mm + half, request->y_mm + half}};
 }
 
 /* A view with its name. */
@@ -72,7 +72,7 @@ static bool has_room(const struct multiview *views, size_t detail, double x,
   }
   for (size_t i = 0; i < views->details; i++) {
     const struct multiview_detail *other = &views->detail[i];
-    const struct page_box mark = box_of_mark(views, other->asked);
+    const struct page_box mark = box_of_mark(views, other->request);
     const struct page_box large =
         box_of_detail(views, other, other->centre_mm[0], other->centre_mm[1]);
     if (boxes_overlap(&wide, &mark) ||
@@ -91,7 +91,7 @@ static bool find_room(struct multiview *views, size_t index) {
   double nearest = INFINITY;
   for (double y = 0; y <= views->page_mm[1]; y += step)
     for (double x = 0; x <= views->page_mm[0]; x += step) {
-      double far = hypot(x - detail->asked->x_mm, y - detail->asked->y_mm);
+      double far = hypot(x - detail->request->x_mm, y - detail->request->y_mm);
       if (far >= nearest || !has_room(views, index, x, y))
         continue;
       nearest = far;
@@ -122,28 +122,28 @@ static size_t find_view_of_detail(const struct multiview *views,
 static recto_status place_detail(struct multiview *views, size_t index,
                                  recto_error *error) {
   struct multiview_detail *detail = &views->detail[index];
-  const recto_detail *asked = detail->asked;
+  const recto_detail *request = detail->request;
   const char *letter = multiview_labels_letter(detail);
   bool on_page = true;
-  const double at[2] = {asked->x_mm, asked->y_mm};
+  const double at[2] = {request->x_mm, request->y_mm};
   for (int axis = 0; axis < 2; axis++)
-    on_page = on_page && at[axis] - asked->radius_mm >= 0 &&
-              at[axis] + asked->radius_mm <= views->page_mm[axis];
+    on_page = on_page && at[axis] - request->radius_mm >= 0 &&
+              at[axis] + request->radius_mm <= views->page_mm[axis];
   if (!on_page)
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
                      "the detail %s, of %.4g mm about %.6g,%.6g, is not on the "
                      "page of %.4g x %.4g mm",
-                     letter, asked->radius_mm, asked->x_mm, asked->y_mm,
+                     letter, request->radius_mm, request->x_mm, request->y_mm,
                      views->page_mm[0], views->page_mm[1]);
-  detail->view = find_view_of_detail(views, asked);
+  detail->view = find_view_of_detail(views, request);
   if (detail->view == views->count)
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
                      "the detail %s, of %.4g mm about %.6g,%.6g, shows nothing "
                      "of any view",
-                     letter, asked->radius_mm, asked->x_mm, asked->y_mm);
-  detail->radius_mm = asked->radius_mm * asked->scale;
+                     letter, request->radius_mm, request->x_mm, request->y_mm);
+  detail->radius_mm = request->radius_mm * request->scale;
   detail->scale = multiview_grid_limit_scale(views->view[detail->view].scale *
-                                             asked->scale);
+                                             request->scale);
   multiview_labels_of_detail(views, detail);
   if (!find_room(views, index))
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
@@ -162,7 +162,7 @@ recto_status detail_places_find(struct multiview *views,
   recto_status status = RECTO_OK;
   views->details = options->sheet.detail_count;
   for (size_t i = 0; i < views->details; i++) {
-    views->detail[i].asked = &options->sheet.detail[i];
+    views->detail[i].request = &options->sheet.detail[i];
     views->detail[i].name = name[i];
   }
   for (size_t i = 0; i < views->details && status == RECTO_OK; i++)

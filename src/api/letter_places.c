@@ -123,8 +123,8 @@ static bool is_free(const struct multiview *views, struct drawing_point at,
     return false;
   for (size_t i = 0; i < views->details; i++) {
     const struct multiview_detail *other = &views->detail[i];
-    if (overlaps_circle(at, half, other->asked->x_mm, other->asked->y_mm,
-                        other->asked->radius_mm) ||
+    if (overlaps_circle(at, half, other->request->x_mm, other->request->y_mm,
+                        other->request->radius_mm) ||
         overlaps_circle(at, half, other->centre_mm[0], other->centre_mm[1],
                         other->radius_mm))
       return false;
@@ -143,8 +143,8 @@ static void choose_place(struct letter_place *place,
                          const struct ink_cells *ink,
                          const struct multiview *views, size_t detail,
                          const double half[2]) {
-  const recto_detail *asked = views->detail[detail].asked;
-  const struct drawing_point mark = {asked->x_mm, asked->y_mm};
+  const recto_detail *request = views->detail[detail].request;
+  const struct drawing_point mark = {request->x_mm, request->y_mm};
   double letter = views->letter_mm;
   uint32_t least = UINT32_MAX;
   for (double far = 0; far <= FARTHEST && least > 0; far += STEP)
@@ -154,16 +154,16 @@ static void choose_place(struct letter_place *place,
       double angle = acos(-1.0) * (0.25 + 2.0 * turn / DIRECTIONS);
       double reach = half[0] * fabs(cos(angle)) + half[1] * fabs(sin(angle));
       struct drawing_point at =
-          move_along(mark, angle, asked->radius_mm + far * letter + reach);
+          move_along(mark, angle, request->radius_mm + far * letter + reach);
       uint32_t found = count_ink(ink, at, half);
       if (found >= least || (!is_free(views, at, half) && least < UINT32_MAX))
         continue;
       least = found;
       *place =
           (struct letter_place){.middle = at, .has_leader = far >= LEADER_FROM};
-      place->leader[0] = move_along(mark, angle, asked->radius_mm);
+      place->leader[0] = move_along(mark, angle, request->radius_mm);
       place->leader[1] = move_along(
-          mark, angle, asked->radius_mm + (far + CLEAR / 2) * letter);
+          mark, angle, request->radius_mm + (far + CLEAR / 2) * letter);
     }
 }
 
@@ -175,9 +175,9 @@ bool letter_places_find(struct letter_place *place,
   double letter = views->letter_mm;
   const double half[2] = {text_width_mm(&line) / 2 + CLEAR * letter,
                           letter / 2 + CLEAR * letter};
-  double around = of->asked->radius_mm + FARTHEST * letter + 4 * half[0];
+  double around = of->request->radius_mm + FARTHEST * letter + 4 * half[0];
   struct ink_cells ink = {
-      .low = {of->asked->x_mm - around, of->asked->y_mm - around},
+      .low = {of->request->x_mm - around, of->request->y_mm - around},
       .cell_mm = CELL * letter};
   ink.count = 1 + (int)(2 * around / ink.cell_mm);
   size_t corners = ((size_t)ink.count + 1) * ((size_t)ink.count + 1);

@@ -53,17 +53,18 @@ static const char *find_camera_direction(const recto_camera_options *camera) {
 /* A view without a name is "view", or where it is alone by its direction. */
 static void collect_views(struct multiview *views,
                           const recto_options *options) {
-  const recto_sheet_view *asked = find_requested_views(options, &views->count);
+  const recto_sheet_view *request =
+      find_requested_views(options, &views->count);
   const char *direction =
       views->count == 1 ? find_camera_direction(&options->camera) : NULL;
   for (size_t i = 0; i < views->count; i++) {
     struct multiview_view *view = &views->view[i];
-    view->asked = &asked[i];
+    view->request = &request[i];
     view->azimuth_deg = options->camera.azimuth_deg;
     view->elevation_deg = options->camera.elevation_deg;
     view->name =
-        asked[i].name != NULL
-            ? multiview_find_direction(asked[i].name, &view->azimuth_deg,
+        request[i].name != NULL
+            ? multiview_find_direction(request[i].name, &view->azimuth_deg,
                                        &view->elevation_deg)
             : (direction != NULL ? direction : "view");
   }
@@ -162,13 +163,13 @@ void multiview_options(const struct multiview *views, size_t index,
   of_view->page.height_mm = views->page_mm[1];
   of_view->page.margin_mm = views->margin_mm;
   of_view->page.may_turn = false;
-  if (view->asked->has_hidden)
-    of_view->ink.hidden = view->asked->hidden;
+  if (view->request->has_hidden)
+    of_view->ink.hidden = view->request->hidden;
   for (int axis = 0; axis < 2; axis++) {
     double at = view->centre_mm[axis];
     if (detail != NULL) {
-      double shown = axis == 0 ? detail->asked->x_mm : detail->asked->y_mm;
-      at = detail->centre_mm[axis] + (at - shown) * detail->asked->scale;
+      double shown = axis == 0 ? detail->request->x_mm : detail->request->y_mm;
+      at = detail->centre_mm[axis] + (at - shown) * detail->request->scale;
     }
     shift_mm[axis] = at - views->page_mm[axis] / 2;
   }

@@ -50,7 +50,7 @@ static void place_in_grid(struct multiview *views, recto_arrangement how) {
   int side = how == RECTO_ARRANGEMENT_FIRST ? -1 : 1, others = 0;
   for (size_t i = 0; i < views->count; i++) {
     struct multiview_view *view = &views->view[i];
-    view->is_aligned = multiview_grid_has_cell(view->asked->name);
+    view->is_aligned = multiview_grid_has_cell(view->request->name);
     for (size_t c = 0; c < sizeof cells / sizeof cells[0]; c++)
       if (view->is_aligned && strcmp(cells[c].name, view->name) == 0) {
         view->column = cells[c].column == 2 ? 2 : side * cells[c].column;
@@ -95,7 +95,7 @@ static int find_track(const struct multiview_view *view, int axis) {
 }
 
 static double relative_scale(const struct multiview_view *view) {
-  return view->asked->scale > 0 ? view->asked->scale : 1;
+  return view->request->scale > 0 ? view->request->scale : 1;
 }
 
 static void measure_grid(struct grid *grid, const struct multiview *views) {

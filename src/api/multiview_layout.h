@@ -17,7 +17,7 @@ enum { MULTIVIEW_LABEL_SIZE = 96 };
 
 /* A view, where its scene is on the page. */
 struct multiview_view {
-  const recto_sheet_view *asked;
+  const recto_sheet_view *request;
   const char *name; /* a literal */
   double azimuth_deg, elevation_deg;
   bool is_aligned;
@@ -32,7 +32,7 @@ struct multiview_view {
 
 /* A circle of a view, drawn again beside the views. */
 struct multiview_detail {
-  const recto_detail *asked;
+  const recto_detail *request;
   const char *name;    /* a literal: "detail-A" */
   size_t view;         /* that it is of */
   double scale;        /* page mm for a unit of the user's scene */

@@ -57,9 +57,9 @@ static bool add_circle(struct drawing *drawing,
 /* The circles of a detail, and its label below the second. */
 static bool add_detail(struct drawing *drawing, const struct multiview *views,
                        const struct multiview_detail *detail) {
-  const recto_detail *asked = detail->asked;
-  const struct drawing_circle mark = {asked->x_mm, asked->y_mm,
-                                      asked->radius_mm};
+  const recto_detail *request = detail->request;
+  const struct drawing_circle mark = {request->x_mm, request->y_mm,
+                                      request->radius_mm};
   const struct drawing_circle large = {detail->centre_mm[0],
                                        detail->centre_mm[1], detail->radius_mm};
   const struct text_line below = {detail->label, views->letter_mm};

@@ -1,4 +1,4 @@
-/* output_format.c - the writer of an output, and what options it asks for. */
+/* output_format.c - the writer of an output, and the options that the writer needs. */
 #include "api/output_format.h"
 
 #include <math.h>

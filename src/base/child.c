@@ -81,7 +81,7 @@ int child_input_of(const char *bytes, size_t count) {
 /* ---- Starting ------------------------------------------------------------ */
 
 /* Signals that a host may ignore or block have their usual effect again, but
- * for those that a user may have asked to be ignored. */
+ * for those that a user may have requested to be ignored. */
 static int set_signals(posix_spawnattr_t *attributes) {
   static const int usual[] = {SIGPIPE, SIGCHLD, SIGSEGV, SIGBUS,
                               SIGILL,  SIGFPE,  SIGABRT, SIGXCPU,

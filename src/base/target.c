@@ -210,8 +210,8 @@ static bool copy_attribute(const char *from, int to, const char *name) {
   return ok || !is_user_attribute(name);
 }
 
-/* Access lists are such attributes.  They are asked of the path, as a file that
- * may not be read tells its names and its access list too. */
+/* Access lists are such attributes.  They are read by the path: also of a file
+ * that may not be opened, names and access list can be read. */
 static bool copy_attributes(const char *from, int to) {
   ssize_t size = listxattr(from, NULL, 0);
   if (size <= 0)

@@ -25,8 +25,8 @@ enum { TURN_EDGES = 8 };
 /* What is known of a line of joined creases. */
 struct crease_line {
   uint32_t edges, turns; /* so many turn back where just two edges meet */
-  bool is_sharp;         /* an edge bends by more than what is asked */
-  bool is_very_sharp;    /* by more than what zigzags are asked */
+  bool is_sharp;         /* an edge bends by more than the requested angle */
+  bool is_very_sharp;    /* by more than the angle for zigzags */
 };
 
 /* The first two points that edges of a line join to a point. */
