@@ -53,9 +53,9 @@ static void stop_tiles(const char *stage, int after, int threads, unsigned n) {
   sheet_fixture_fini(&fixture);
 }
 
-static void tiles_end_while_they_look_for_piercings(void **state) {
+static void tiles_end_while_they_look_for_intersections(void **state) {
   (void)state;
-  stop_tiles("piercing", 0, 1, 6000);
+  stop_tiles("intersections", 0, 1, 6000);
 }
 
 static void tiles_end_among_edges(void **state) {
@@ -258,7 +258,7 @@ static void a_cancelled_call_says_so_before_all_else(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(tiles_end_while_they_look_for_piercings),
+      cmocka_unit_test(tiles_end_while_they_look_for_intersections),
       cmocka_unit_test(tiles_end_among_edges),
       cmocka_unit_test(tiles_end_among_faces),
       cmocka_unit_test(every_method_is_cancelled_among_duplicates),

@@ -150,7 +150,7 @@ static void no_split_is_drawn(void **state) {
   /* The method did split; all that is drawn is border or intersection. */
   assert_true(
       report_get(pipeline.report, "newell", "splits_by_cycle", 0) +
-          report_get(pipeline.report, "newell", "splits_by_piercing", 0) >
+          report_get(pipeline.report, "newell", "splits_by_intersection", 0) >
       0);
   for (size_t i = 0; i < pipeline.drawing.stroke.count; i++)
     assert_true((pipeline.drawing.stroke.item[i].edge_class &

@@ -217,7 +217,7 @@ static void contact_says_how_deep_touching_is(void **state) {
   }
 }
 
-static void a_shared_edge_is_no_piercing(void **state) {
+static void a_shared_edge_is_no_intersection(void **state) {
   static const int one[][3] = {{4, 0, 4}, {4, 8, 9}, {0, 4, 7}};
   static const int two[][3] = {{4, 0, 4}, {4, 8, 9}, {8, 4, 1}};
   struct sheet sheet;
@@ -227,7 +227,7 @@ static void a_shared_edge_is_no_piercing(void **state) {
   exact_sheet_fini(&sheet);
 }
 
-static void a_shared_vertex_alone_is_no_piercing(void **state) {
+static void a_shared_vertex_alone_is_no_intersection(void **state) {
   static const int one[][3] = {{8, 8, 8}, {2, 2, 8}, {2, 14, 8}};
   static const int two[][3] = {{8, 8, 8}, {14, 2, 2}, {14, 14, 14}};
   struct sheet sheet;
@@ -610,8 +610,8 @@ int main(void) {
       cmocka_unit_test(a_box_on_a_table_makes_no_line),
       cmocka_unit_test(a_box_that_sinks_in_makes_a_line_all_round),
       cmocka_unit_test(contact_says_how_deep_touching_is),
-      cmocka_unit_test(a_shared_edge_is_no_piercing),
-      cmocka_unit_test(a_shared_vertex_alone_is_no_piercing),
+      cmocka_unit_test(a_shared_edge_is_no_intersection),
+      cmocka_unit_test(a_shared_vertex_alone_is_no_intersection),
       cmocka_unit_test(from_a_shared_vertex_the_line_runs_inwards),
       cmocka_unit_test(neighbours_get_the_same_end),
       cmocka_unit_test(folds_cross_where_their_ways_alternate),

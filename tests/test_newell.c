@@ -83,7 +83,7 @@ static void three_bars_come_out_as_a1_b_c_a2(void **state) {
   ASSERT_PAINTED(&o, 0, 1, 2, 0);
   assert_int_equal(o.order.counts.cycles, 1);
   assert_int_equal(o.order.counts.split_cycle, 1);
-  assert_int_equal(o.order.counts.split_pierce, 0);
+  assert_int_equal(o.order.counts.split_intersection, 0);
   assert_int_equal(o.order.piece.count, 5);
   assert_int_equal(o.order.piece.item[0].state, NEWELL_SPLIT);
   ordered_fini(&o);
@@ -113,7 +113,7 @@ static void a_pierced_face_is_split_where_the_planes_cross(void **state) {
   (void)state;
   order_triangles(&o, face, 2);
   ASSERT_PAINTED(&o, 0, 1, 0);
-  assert_int_equal(o.order.counts.split_pierce, 1);
+  assert_int_equal(o.order.counts.split_intersection, 1);
   assert_int_equal(o.order.counts.cycles, 0);
   ordered_fini(&o);
 }
@@ -126,7 +126,7 @@ static void planes_that_cross_beside_the_faces_split_nothing(void **state) {
   (void)state;
   order_triangles(&o, face, 2);
   ASSERT_PAINTED(&o, 0, 1);
-  assert_int_equal(o.order.counts.split_pierce, 0);
+  assert_int_equal(o.order.counts.split_intersection, 0);
   ordered_fini(&o);
 }
 
@@ -225,7 +225,7 @@ static void lines_alone_need_no_order_of_what_touches(void **state) {
     assert_int_equal(
         newell_order_init(&o.order, &o.sheet, &o.grid, &request, &error),
         RECTO_OK);
-    assert_int_equal(o.order.counts.split_pierce, fragments);
+    assert_int_equal(o.order.counts.split_intersection, fragments);
     ordered_fini(&o);
   }
 }
@@ -401,7 +401,7 @@ static void nothing_painted_later_is_behind(void **state) {
     assert_int_equal(put_in_order(&o, 0), RECTO_OK);
     check_order(&o.order, what);
     cycles += o.order.counts.cycles;
-    splits += o.order.counts.split_pierce;
+    splits += o.order.counts.split_intersection;
     unseen += o.order.counts.unseen;
     ordered_fini(&o);
   }

@@ -136,7 +136,7 @@ static void a_stage_polls_in_each_of_its_loops(void **state) {
       {painted, "faces", 252},       {painted, "ink", 53},
       {hatched, "ink", 64},          {shaded_by_pen, "ink", 253},
       {results, "results", 47},      {verified, "verify", 1258},
-      {newell, "solve", 38},         {watkins, "piercing", 329},
+      {newell, "solve", 38},         {watkins, "intersections", 329},
       {warnock, "subdividing", 364}, {zbuffer, "visibility", 28},
       {one_source, "ink", 2978},
   };
@@ -359,19 +359,19 @@ static void what_cairo_draws_and_compresses_is_polled(void **state) {
 
 /* ---- The share ----------------------------------------------------------- */
 
-struct depths {
+struct invisibility_polls {
   double from, to; /* shares of the first and of the last poll of the stage */
   bool extra;      /* a stage was named that was not requested */
 };
 
-static bool watch_depths(void *user, double share, const char *stage) {
-  struct depths *depths = user;
-  if (strcmp(stage, "depths") == 0) {
-    depths->from = depths->from > 0 ? depths->from : share;
-    depths->to = share;
+static bool watch_invisibility(void *user, double share, const char *stage) {
+  struct invisibility_polls *polls = user;
+  if (strcmp(stage, "invisibility") == 0) {
+    polls->from = polls->from > 0 ? polls->from : share;
+    polls->to = share;
   }
   if (strcmp(stage, "verify") == 0 || strcmp(stage, "contours") == 0)
-    depths->extra = true;
+    polls->extra = true;
   return true;
 }
 
@@ -381,17 +381,17 @@ static void the_share_rises_while_hiding_faces_are_counted(void **state) {
   recto_scene *scene = make_hills(60);
   recto_drawing *drawing;
   recto_options options;
-  struct depths depths = {0};
+  struct invisibility_polls polls = {0};
   recto_options_init(&options);
-  options.progress = watch_depths;
-  options.user = &depths;
+  options.progress = watch_invisibility;
+  options.user = &polls;
   options.ink.edges = RECTO_EDGES_ALL;
   options.results = RECTO_RESULT_INVISIBILITY;
   options.camera.elevation_deg = 2;
   assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
                    RECTO_OK);
-  assert_true(depths.from > 0 && depths.to > depths.from + 0.1);
-  assert_false(depths.extra);
+  assert_true(polls.from > 0 && depths.to > depths.from + 0.1);
+  assert_false(polls.extra);
   recto_drawing_destroy(drawing);
   recto_scene_destroy(scene);
 }

@@ -256,7 +256,7 @@ static void bytes_do_not_depend_on_the_threads(void **state) {
 
 /* Where many layers hide them, faces still pierce each other, and hidden lines
  * show it. */
-static void hidden_piercings_are_not_culled(void **state) {
+static void hidden_intersections_are_not_culled(void **state) {
   struct scene scene;
   recto_options options;
   (void)state;
@@ -309,7 +309,7 @@ int main(void) {
       cmocka_unit_test(solvers_agree_on_2000_random_small_scenes),
       cmocka_unit_test(the_views_are_distinct),
       cmocka_unit_test(solvers_agree_on_degenerate_views),
-      cmocka_unit_test(hidden_piercings_are_not_culled),
+      cmocka_unit_test(hidden_intersections_are_not_culled),
       cmocka_unit_test(bytes_do_not_depend_on_the_threads),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

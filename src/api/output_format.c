@@ -1,4 +1,4 @@
-/* output_format.c - the writer of an output, and the options that the writer needs. */
+/* output_format.c - the writer of an output, and the options that it needs. */
 #include "api/output_format.h"
 
 #include <math.h>

@@ -17,7 +17,7 @@ static double weigh_ink(const recto_options *o) {
 }
 
 /* Quantitative invisibility, of the hidden edges. */
-static double weigh_depths(const recto_options *o) {
+static double weigh_invisibility(const recto_options *o) {
   bool has_limit =
       o->ink.hidden != RECTO_HIDDEN_NONE && o->ink.hidden_by_max > 0;
   bool is_kept =
@@ -38,7 +38,7 @@ void shares_plan(double begin[SHARE_STAGES + 1], const recto_options *options) {
       [SHARE_CAMERA] = 1,
       [SHARE_SHEET] = 12,
       [SHARE_SOLVE] = weigh_solving(options),
-      [SHARE_DEPTHS] = weigh_depths(options),
+      [SHARE_INVISIBILITY] = weigh_invisibility(options),
       [SHARE_CONTOURS] = options->ink.contours == RECTO_CONTOURS_SMOOTH ? 8 : 0,
       [SHARE_INK] = weigh_ink(options),
       [SHARE_VERIFY] = weigh_verifying(options),

@@ -11,9 +11,12 @@ static double share_of_method(const struct progress *progress) {
     const char *name;
     double from, to, to_with_fragments;
   } known[] = {
-      {"piercing", 0, 0.15, 0.1},  {"ordering", 0.15, 0.92, 0.6},
-      {"visibility", 0.2, 1, 0.9}, {"subdividing", 0.2, 1, 0.9},
-      {"painting", 0.2, 1, 0.9},   {"edges", 0.15, 1, 0.4},
+      {"intersections", 0, 0.15, 0.1},
+      {"ordering", 0.15, 0.92, 0.6},
+      {"visibility", 0.2, 1, 0.9},
+      {"subdividing", 0.2, 1, 0.9},
+      {"painting", 0.2, 1, 0.9},
+      {"edges", 0.15, 1, 0.4},
       {"faces", 0.4, 1, 1},
   };
   for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)

@@ -124,7 +124,7 @@ static bool store_intervals(struct invisibility_sweep *sweep, uint32_t edge) {
 
 static recto_status find_all(struct invisibility_sweep *sweep,
                              recto_error *error) {
-  struct progress progress = {.stage = "depths"};
+  struct progress progress = {.stage = "invisibility"};
   size_t edges = sweep->map->edge_count;
   for (size_t e = 0; e < edges; e++) {
     if (!progress_step_at(&progress, 1 + 4 * sweep->query.found.count, e,

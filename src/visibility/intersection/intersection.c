@@ -189,10 +189,10 @@ static void search_init(struct intersection_search *search,
                         const struct sheet *sheet,
                         const struct triangle_grid *grid, const uint8_t *cells,
                         const struct solver_request *request) {
-  *search =
-      (struct intersection_search){.sheet = sheet,
-                                   .progress = progress_of(request, "piercing"),
-                                   .prepared = SHEET_NONE};
+  *search = (struct intersection_search){
+      .sheet = sheet,
+      .progress = progress_of(request, "intersections"),
+      .prepared = SHEET_NONE};
   search->sweep = (struct pair_sweep){.sheet = sheet,
                                       .grid = grid,
                                       .cells = cells,

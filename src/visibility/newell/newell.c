@@ -237,7 +237,8 @@ static void report_order(const struct newell_order *order,
   report_count(report, "newell", "moved", c->moved);
   report_count(report, "newell", "cycles", c->cycles);
   report_count(report, "newell", "splits_by_cycle", c->split_cycle);
-  report_count(report, "newell", "splits_by_piercing", c->split_pierce);
+  report_count(report, "newell", "splits_by_intersection",
+               c->split_intersection);
   report_count(report, "newell", "without_order", c->deferred);
   report_count(report, "newell", "pieces", order->painted.count);
 }

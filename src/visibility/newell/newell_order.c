@@ -156,7 +156,8 @@ static bool split_by(struct newell_order *order, uint32_t piece,
 }
 
 /* Splits P where its plane intersects that of Q: the two pierce each other. */
-static bool split_piercing(struct newell_order *order, uint32_t p, uint32_t q) {
+static bool split_at_intersection(struct newell_order *order, uint32_t p,
+                                  uint32_t q) {
   struct geom_line line, reversed;
   struct geom_convex shape;
   bool split;
@@ -165,7 +166,7 @@ static bool split_piercing(struct newell_order *order, uint32_t p, uint32_t q) {
   if (!newell_piece_shape(order, p, &shape) ||
       !split_by(order, p, &shape, &line, &reversed, &split))
     return false;
-  order->counts.split_pierce++;
+  order->counts.split_intersection++;
   count_split(order, order->piece.item[p].triangle);
   return true;
 }
@@ -227,7 +228,7 @@ static enum order_step test_pieces(struct newell_order *order, uint32_t p,
     return STEP_PAINT;
   case NEWELL_PIERCE:
     pop_down_to(order, p);
-    return split_piercing(order, p, q) ? STEP_SPLIT : STEP_FAILED;
+    return split_at_intersection(order, p, q) ? STEP_SPLIT : STEP_FAILED;
   case NEWELL_Q_FIRST:
     break;
   }

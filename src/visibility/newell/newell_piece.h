@@ -42,7 +42,7 @@ struct newell_counts {
    * P behind the plane of Q (B), Q in front of the plane of P (C), the full
    * test on the page (D). */
   uint64_t depth, minimax, behind, before, full;
-  uint64_t moved, cycles, split_cycle, split_pierce, unseen;
+  uint64_t moved, cycles, split_cycle, split_intersection, unseen;
   uint64_t tests;    /* pairs of a candidate and another piece */
   uint64_t deferred; /* triangles without an order */
 };

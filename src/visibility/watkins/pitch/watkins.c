@@ -276,7 +276,8 @@ static void report_scan(const struct pitch_scan *scan, struct report *report) {
   report_int(report, "watkins", "kept_by_coherence", watkins->counts.coherent);
   report_int(report, "watkins", "depth_comparisons",
              watkins->counts.comparisons);
-  report_int(report, "watkins", "splits_by_piercing", watkins->counts.splits);
+  report_int(report, "watkins", "splits_by_intersection",
+             watkins->counts.splits);
   if (scan->request->fragments) {
     report_int(report, "watkins", "spans", scan->trapezoids.count);
     report_count(report, "watkins", "trapezoids",
