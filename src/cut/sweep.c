@@ -1,7 +1,7 @@
 /* sweep.c - sweeps over the edges of a section: winding numbers, and the
  * bridges from boundaries within a place to what is left of them.
  *
- * Invariant  The status holds the edges that cross the sweep line, from below
+ * Invariant  The active edges are those that cross the sweep line, from below
  * to above, as long as no two of them cross: each two that become neighbours
  * are tested.  Upright edges count as leaning to the right, by the order of
  * nodes. */
@@ -18,7 +18,7 @@ enum { WINDINGS_MAX = 1 << 24 };
 struct section_sweep {
   struct section *section;
   uint32_t *helper;         /* NULL: labels are to be set */
-  ARRAY(uint32_t) status;   /* edges */
+  ARRAY(uint32_t) active;   /* edges */
   ARRAY(uint32_t) starting; /* those that replace others in it */
   bool planar;
 };
@@ -30,7 +30,7 @@ static const struct section_node *node_of(const struct section_sweep *sweep,
 
 static struct section_edge *edge_at(const struct section_sweep *sweep,
                                     size_t place) {
-  return &sweep->section->edge.item[sweep->status.item[place]];
+  return &sweep->section->edge.item[sweep->active.item[place]];
 }
 
 static int side_of(const struct section_sweep *sweep,
@@ -137,16 +137,16 @@ static void set_helpers(struct section_sweep *sweep, uint32_t node, size_t low,
 /* ---- The sweep ----------------------------------------------------------- */
 
 /* Replaces the edges from place `low` to before `high` by those that start. */
-static bool replace_in_status(struct section_sweep *sweep, size_t low,
-                              size_t high) {
-  size_t count = sweep->starting.count, rest = sweep->status.count - high;
-  if (!ARRAY_RESERVE(&sweep->status, count))
+static bool replace_active(struct section_sweep *sweep, size_t low,
+                           size_t high) {
+  size_t count = sweep->starting.count, rest = sweep->active.count - high;
+  if (!ARRAY_RESERVE(&sweep->active, count))
     return false;
-  uint32_t *status = sweep->status.item;
-  memmove(status + low + count, status + high, rest * sizeof *status);
+  uint32_t *active = sweep->active.item;
+  memmove(active + low + count, active + high, rest * sizeof *active);
   if (count > 0)
-    memcpy(status + low, sweep->starting.item, count * sizeof *status);
-  sweep->status.count = low + count + rest;
+    memcpy(active + low, sweep->starting.item, count * sizeof *active);
+  sweep->active.count = low + count + rest;
   return true;
 }
 
@@ -155,7 +155,7 @@ static bool replace_in_status(struct section_sweep *sweep, size_t low,
 static bool are_neighbours_in_order(const struct section_sweep *sweep,
                                     size_t low) {
   size_t last = low + sweep->starting.count;
-  for (size_t i = low > 0 ? low : 1; i <= last && i < sweep->status.count;
+  for (size_t i = low > 0 ? low : 1; i <= last && i < sweep->active.count;
        i++) {
     const struct section_edge *lower = edge_at(sweep, i - 1);
     const struct section_edge *upper = edge_at(sweep, i);
@@ -172,21 +172,21 @@ static recto_status visit_node(struct section_sweep *sweep, uint32_t node,
                                recto_error *error) {
   size_t low, high;
   recto_status status = RECTO_OK;
-  LOWER_BOUND(low, 0, sweep->status.count,
+  LOWER_BOUND(low, 0, sweep->active.count,
               side_of(sweep, edge_at(sweep, low), node) > 0);
   for (high = low;
-       high < sweep->status.count && edge_at(sweep, high)->b == node;)
+       high < sweep->active.count && edge_at(sweep, high)->b == node;)
     high++;
   if (low == high && sweep->starting.count == 0)
     return RECTO_OK; /* no edge has this node */
-  if (high < sweep->status.count &&
+  if (high < sweep->active.count &&
       side_of(sweep, edge_at(sweep, high), node) == 0)
     sweep->planar = false;
   if (sweep->helper != NULL)
     set_helpers(sweep, node, low, high - low);
   else
     status = set_labels(sweep, low, error);
-  if (status == RECTO_OK && !replace_in_status(sweep, low, high))
+  if (status == RECTO_OK && !replace_active(sweep, low, high))
     status = error_memory(error);
   if (status == RECTO_OK && !are_neighbours_in_order(sweep, low))
     sweep->planar = false;
@@ -211,8 +211,8 @@ recto_status section_sweep(struct section *section, uint32_t *helper,
       status =
           poll_at(n) ? visit_node(&sweep, n, error) : error_cancelled(error);
   }
-  *planar = sweep.planar && sweep.status.count == 0;
-  ARRAY_FREE(&sweep.status);
+  *planar = sweep.planar && sweep.active.count == 0;
+  ARRAY_FREE(&sweep.active);
   ARRAY_FREE(&sweep.starting);
   return status;
 }

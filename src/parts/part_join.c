@@ -298,14 +298,15 @@ static recto_status set_classes(struct join_work *work) {
 
 /* An intersection, and which of the merged parts' it is. */
 struct joined_crossing {
-  struct map_crossing crossing;
+  struct map_intersection crossing;
   uint32_t number;
 };
 
 static int compare_joined(const void *a, const void *b, void *user) {
   (void)user;
-  return map_crossing_compare(&((const struct joined_crossing *)a)->crossing,
-                              &((const struct joined_crossing *)b)->crossing);
+  return map_intersection_compare(
+      &((const struct joined_crossing *)a)->crossing,
+      &((const struct joined_crossing *)b)->crossing);
 }
 
 /* The triangle of the sheet. */
@@ -368,13 +369,14 @@ static recto_status add_joined_crossings(struct join_work *work) {
   struct sheet *sheet = &work->join->sheet;
   size_t count = work->all->crossing.count, first = sheet->edge.count;
   struct joined_crossing *joined = mem_alloc(count, sizeof *joined);
-  struct map_crossing *crossing = mem_alloc(count, sizeof *crossing);
+  struct map_intersection *crossing = mem_alloc(count, sizeof *crossing);
   recto_status status = joined != NULL && crossing != NULL
                             ? list_crossings(work, joined)
                             : error_memory(work->error);
   for (size_t i = 0; status == RECTO_OK && i < count; i++)
     crossing[i] = joined[i].crossing;
-  if (status == RECTO_OK && !map_assembly_add_crossings(sheet, crossing, count))
+  if (status == RECTO_OK &&
+      !map_assembly_add_intersections(sheet, crossing, count))
     status = error_memory(work->error);
   if (status == RECTO_OK)
     note_crossings(work, first, joined);

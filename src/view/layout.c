@@ -10,11 +10,11 @@ static void free_layout(struct layout *layout) {
   mem_free(layout->point_map);
   mem_free(layout->outcode);
   mem_free(layout->sides);
-  mem_free(layout->edge_cut);
-  ARRAY_FREE(&layout->cut);
+  mem_free(layout->edge_clipped);
+  ARRAY_FREE(&layout->clipped);
   ARRAY_FREE(&layout->flags);
-  ARRAY_FREE(&layout->cut_ends.list);
-  mem_free(layout->cut_ends.slot);
+  ARRAY_FREE(&layout->clipped_ends.list);
+  mem_free(layout->clipped_ends.slot);
   ARRAY_FREE(&layout->diagonal);
   ARRAY_FREE(&layout->fold);
   ARRAY_FREE(&layout->corner);

@@ -6,19 +6,19 @@
 
 #include "base/tolerance.h"
 
-/* The cut of a side of a triangle, in the side's canonical direction. */
-static recto_status cut_side(struct layout *layout,
-                             const struct layout_triangle *triangle, int k,
-                             struct layout_cut *cut) {
+/* What is left of a side of a triangle, in the side's canonical direction. */
+static recto_status find_clipped_side(struct layout *layout,
+                                      const struct layout_triangle *triangle,
+                                      int k, struct layout_clipped *clipped) {
   if (triangle->side[k] != SHEET_NONE)
-    return layout_edge_cut(layout, triangle->side[k], cut);
+    return layout_clip_edge(layout, triangle->side[k], clipped);
   struct layout_diagonal *d = &layout->diagonal.item[triangle->diagonal[k]];
-  return layout_known_cut(layout, &d->cut, d->from, d->to, cut);
+  return layout_clip_known(layout, &d->clipped, d->from, d->to, clipped);
 }
 
 /* Finds the sheet point of corner i of a clipped triangle.  It is
  *   the triangle's own corner,
- *   the end of the cut of the side that starts or ends there, or
+ *   the end of what is left of the side that starts or ends there, or
  *   a new point, where two clipping planes cross inside the triangle. */
 static recto_status find_clipped_corner(struct layout *layout,
                                         const struct layout_triangle *triangle,
@@ -34,13 +34,13 @@ static recto_status find_clipped_corner(struct layout *layout,
   bool leaves = corner->side != CLIP_CUT;
   int side = leaves ? corner->side : reached;
   if (side != CLIP_CUT) {
-    struct layout_cut cut;
-    recto_status status = cut_side(layout, triangle, side, &cut);
+    struct layout_clipped clipped;
+    recto_status status = find_clipped_side(layout, triangle, side, &clipped);
     if (status != RECTO_OK)
       return status;
-    *point = cut.point[leaves != triangle->forward[side]];
+    *point = clipped.point[leaves != triangle->forward[side]];
   }
-  /* A side of which a single point is left has no cut: a new point. */
+  /* A side of which a single point is left is not stored: a new point. */
   return *point == SHEET_NONE ? layout_new_point(layout, corner->at, point)
                               : RECTO_OK;
 }

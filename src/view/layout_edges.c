@@ -42,16 +42,16 @@ static unsigned class_mask_of(const struct scene *scene,
 
 /* The sheet points of a topology edge; SHEET_NONE: all of it is clipped. */
 static recto_status find_end_points(struct layout *layout, uint32_t edge,
-                                    struct layout_cut *ends) {
+                                    struct layout_clipped *ends) {
   const uint32_t *point = layout->topology->edge.item[edge].point;
-  *ends = (struct layout_cut){
+  *ends = (struct layout_clipped){
       {layout->point_map[point[0]], layout->point_map[point[1]]}};
   if (ends->point[0] != SHEET_NONE && ends->point[1] != SHEET_NONE)
     return RECTO_OK;
   ends->point[0] = ends->point[1] = SHEET_NONE;
   if (layout->outcode[point[0]] & layout->outcode[point[1]])
     return RECTO_OK;
-  return layout_edge_cut(layout, edge, ends);
+  return layout_clip_edge(layout, edge, ends);
 }
 
 /* The map from topology edges to sheet edges, as a bit vector with rank: a bit
@@ -76,9 +76,9 @@ static inline uint32_t edge_id_of(const struct edge_ids *edge_ids,
          (uint32_t)__builtin_popcountll(bits & (bit - 1));
 }
 
-static struct sheet_edge sheet_edge_of(struct layout_cut ends, uint32_t source,
-                                       uint32_t group, unsigned edge_class,
-                                       uint32_t part) {
+static struct sheet_edge sheet_edge_of(struct layout_clipped ends,
+                                       uint32_t source, uint32_t group,
+                                       unsigned edge_class, uint32_t part) {
   return (struct sheet_edge){
       .point = {ends.point[0], ends.point[1]},
       .triangle = {SHEET_NONE, SHEET_NONE},
@@ -158,7 +158,7 @@ static bool choose_edges(void *user, struct parallel_range range) {
  * nothing is left of it. */
 static recto_status clip_edge(struct edge_layout *work, uint32_t edge) {
   struct layout *layout = work->layout;
-  struct layout_cut ends;
+  struct layout_clipped ends;
   recto_status status = find_end_points(layout, edge, &ends);
   if (status == RECTO_OK && ends.point[0] == SHEET_NONE)
     work->ids.bits[edge / 64] &= ~(UINT64_C(1) << edge % 64);
@@ -199,7 +199,7 @@ static bool make_edges_of_range(void *user, struct parallel_range range) {
       uint32_t first = layout->topology->edge.item[e].first;
       unsigned edge_class =
           work->class_masks != NULL ? work->class_masks[e] : 0;
-      struct layout_cut ends;
+      struct layout_clipped ends;
       if (find_end_points(layout, e, &ends) != RECTO_OK)
         return false;
       *to++ = sheet_edge_of(ends, e, group[first], edge_class, 0);
@@ -378,7 +378,7 @@ static recto_status add_wire(struct layout *layout, uint32_t wire) {
   for (uint32_t c = start; c + 1 < end; c++) {
     uint32_t from = layout_weld(layout, scene->wire_corner.item[c]);
     uint32_t to = layout_weld(layout, scene->wire_corner.item[c + 1]);
-    struct layout_cut ends;
+    struct layout_clipped ends;
     recto_status status = layout_segment(layout, from, to, &ends);
     if (status != RECTO_OK)
       return status;

@@ -24,20 +24,20 @@
 #include "view/triangulate.h"
 
 /* What clipping leaves of an edge or a diagonal. */
-struct layout_cut {
+struct layout_clipped {
   uint32_t point[2]; /* sheet points; SHEET_NONE both: nothing is left */
 };
 
 /* Where clipping cut an edge of a scene point that is outside. */
-struct layout_cut_end {
+struct layout_clipped_end {
   uint32_t outside; /* the scene point */
   uint32_t point;   /* the sheet point */
   uint32_t hash;    /* of the scene point and the position */
 };
 
 /* A hash table of these by linear probing. */
-struct layout_cut_ends {
-  ARRAY(struct layout_cut_end) list;
+struct layout_clipped_ends {
+  ARRAY(struct layout_clipped_end) list;
   uint32_t *slot; /* indices into the list; SHEET_NONE: free */
   size_t slots;   /* a power of two */
 };
@@ -76,14 +76,14 @@ static inline bool layout_is_silhouette(uint8_t sides) {
 /* A diagonal of the triangulation of the current face. */
 struct layout_diagonal {
   uint32_t from, to; /* welded scene points, the lower first */
-  uint32_t cut;      /* as edge_cut */
+  uint32_t clipped;  /* as edge_clipped */
   uint32_t fold;     /* its index in layout.fold; SHEET_NONE: it is none */
   uint8_t sides;     /* LAYOUT_... */
 };
 
 /* A diagonal that is a silhouette: a face that is not planar folds there. */
 struct layout_fold {
-  struct layout_cut ends;
+  struct layout_clipped ends;
   uint32_t face;
 };
 
@@ -98,10 +98,11 @@ struct layout {
                           welded to another, or not used */
   uint8_t *outcode;    /* one a scene point: see clip.h */
   uint8_t *sides;      /* one a topology edge: LAYOUT_... */
-  uint32_t *edge_cut;  /* topology edge -> cut; SHEET_NONE: not yet clipped;
-                          NULL until the first is */
-  ARRAY(struct layout_cut) cut;
-  struct layout_cut_ends cut_ends;
+  /* Topology edge -> clipped; SHEET_NONE: not yet clipped; NULL until the first
+   * is. */
+  uint32_t *edge_clipped;
+  ARRAY(struct layout_clipped) clipped;
+  struct layout_clipped_ends clipped_ends;
   ARRAY(uint8_t) flags; /* one a triangle; passed to the sheet at the end */
   struct triangulation triangulation;
   ARRAY(struct layout_diagonal) diagonal; /* of the current face */
@@ -139,22 +140,25 @@ USE_RESULT recto_status layout_new_point(struct layout *layout,
                                          struct view_point at, uint32_t *point);
 
 /* Clips the segment between two scene points; of an edge, the lower first.
- * cut  its sheet points; SHEET_NONE where nothing is left */
+ * clipped  its sheet points; SHEET_NONE where nothing is left */
 USE_RESULT recto_status layout_segment(struct layout *layout, uint32_t from,
-                                       uint32_t to, struct layout_cut *cut);
+                                       uint32_t to,
+                                       struct layout_clipped *clipped);
 
-/* The same, clipped once: *known is the number of the cut, or SHEET_NONE where
- * it is made now. */
-USE_RESULT recto_status layout_known_cut(struct layout *layout, uint32_t *known,
-                                         uint32_t from, uint32_t to,
-                                         struct layout_cut *cut);
+/* The same, clipped once: *known is the number in layout.clipped, or SHEET_NONE
+ * where it is clipped now. */
+USE_RESULT recto_status layout_clip_known(struct layout *layout,
+                                          uint32_t *known, uint32_t from,
+                                          uint32_t to,
+                                          struct layout_clipped *clipped);
 
 /* Adds a contour. */
 USE_RESULT recto_status layout_contour(struct layout *layout, uint32_t from,
                                        uint32_t to);
 
-/* The cut of a topology edge, computed at the first call and then looked up. */
-USE_RESULT recto_status layout_edge_cut(struct layout *layout, uint32_t edge,
-                                        struct layout_cut *cut);
+/* What is left of a topology edge, computed at the first call and then looked
+ * up. */
+USE_RESULT recto_status layout_clip_edge(struct layout *layout, uint32_t edge,
+                                         struct layout_clipped *clipped);
 
 #endif

@@ -104,7 +104,7 @@ recto_status layout_new_point(struct layout *layout, struct view_point at,
 }
 
 /* Doubles the table's slots.  Returns false when memory ran out. */
-static bool grow_cut_ends(struct layout_cut_ends *ends) {
+static bool grow_clipped_ends(struct layout_clipped_ends *ends) {
   size_t slots = ends->slots > 0 ? 2 * ends->slots : 64;
   uint32_t *slot = mem_alloc(slots, sizeof *slot);
   if (slot == NULL)
@@ -126,19 +126,19 @@ static bool grow_cut_ends(struct layout_cut_ends *ends) {
  * Edges of that point which are cut in the same place share it, as they share
  * the scene point: else a triangle between two of them would be degenerate, and
  * a diagonal that two faces have in common would be two lines. */
-static recto_status find_cut_end(struct layout *layout, uint32_t outside,
-                                 struct view_point at, uint32_t *point) {
-  struct layout_cut_ends *ends = &layout->cut_ends;
+static recto_status find_clipped_end(struct layout *layout, uint32_t outside,
+                                     struct view_point at, uint32_t *point) {
+  struct layout_clipped_ends *ends = &layout->clipped_ends;
   struct geom_point place = project_point(&layout->projection, at);
-  struct layout_cut_end end = {outside, SHEET_NONE, 0};
+  struct layout_clipped_end end = {outside, SHEET_NONE, 0};
   uint64_t hash = hash_add(hash_add(0, outside), (uint64_t)place.z);
   hash = hash_add(hash_add(hash, (uint32_t)place.x), (uint32_t)place.y);
   end.hash = (uint32_t)((hash * HASH_GOLDEN) >> 32);
-  if (2 * ends->list.count >= ends->slots && !grow_cut_ends(ends))
+  if (2 * ends->list.count >= ends->slots && !grow_clipped_ends(ends))
     return error_memory(layout->error);
   size_t k = end.hash & (ends->slots - 1);
   for (; ends->slot[k] != SHEET_NONE; k = (k + 1) & (ends->slots - 1)) {
-    const struct layout_cut_end *known = &ends->list.item[ends->slot[k]];
+    const struct layout_clipped_end *known = &ends->list.item[ends->slot[k]];
     *point = known->point;
     if (known->outside == outside &&
         geom_compare_points(layout->sheet->point.item[known->point], place) ==
@@ -154,58 +154,59 @@ static recto_status find_cut_end(struct layout *layout, uint32_t outside,
 }
 
 recto_status layout_segment(struct layout *layout, uint32_t from, uint32_t to,
-                            struct layout_cut *cut) {
+                            struct layout_clipped *clipped) {
   const uint32_t source[2] = {from, to};
-  *cut = (struct layout_cut){{layout->point_map[from], layout->point_map[to]}};
-  if (cut->point[0] != SHEET_NONE && cut->point[1] != SHEET_NONE)
+  *clipped =
+      (struct layout_clipped){{layout->point_map[from], layout->point_map[to]}};
+  if (clipped->point[0] != SHEET_NONE && clipped->point[1] != SHEET_NONE)
     return RECTO_OK;
   struct view_point end[2] = {layout_view(layout, from),
                               layout_view(layout, to)};
   bool moved[2];
   if (!clip_segment(&layout->projection, end, moved)) {
-    cut->point[0] = cut->point[1] = SHEET_NONE;
+    clipped->point[0] = clipped->point[1] = SHEET_NONE;
     return RECTO_OK;
   }
   for (int k = 0; k < 2; k++) {
     recto_status status = RECTO_OK;
     if (moved[k])
-      status = find_cut_end(layout, source[k], end[k], &cut->point[k]);
+      status = find_clipped_end(layout, source[k], end[k], &clipped->point[k]);
     else
-      cut->point[k] = layout->point_map[source[k]];
+      clipped->point[k] = layout->point_map[source[k]];
     if (status != RECTO_OK)
       return status;
   }
   return RECTO_OK;
 }
 
-recto_status layout_known_cut(struct layout *layout, uint32_t *known,
-                              uint32_t from, uint32_t to,
-                              struct layout_cut *cut) {
+recto_status layout_clip_known(struct layout *layout, uint32_t *known,
+                               uint32_t from, uint32_t to,
+                               struct layout_clipped *clipped) {
   if (*known != SHEET_NONE) {
-    *cut = layout->cut.item[*known];
+    *clipped = layout->clipped.item[*known];
     return RECTO_OK;
   }
-  recto_status status = layout_segment(layout, from, to, cut);
+  recto_status status = layout_segment(layout, from, to, clipped);
   if (status != RECTO_OK)
     return status;
-  *known = (uint32_t)layout->cut.count;
-  return ARRAY_PUSH(&layout->cut, *cut) ? RECTO_OK
-                                        : error_memory(layout->error);
+  *known = (uint32_t)layout->clipped.count;
+  return ARRAY_PUSH(&layout->clipped, *clipped) ? RECTO_OK
+                                                : error_memory(layout->error);
 }
 
-recto_status layout_edge_cut(struct layout *layout, uint32_t edge,
-                             struct layout_cut *cut) {
+recto_status layout_clip_edge(struct layout *layout, uint32_t edge,
+                              struct layout_clipped *clipped) {
   const struct topology *topology = layout->topology;
-  if (layout->edge_cut == NULL) {
+  if (layout->edge_clipped == NULL) {
     size_t edges = topology->edge.count;
-    layout->edge_cut = mem_alloc(edges, sizeof *layout->edge_cut);
-    if (layout->edge_cut == NULL)
+    layout->edge_clipped = mem_alloc(edges, sizeof *layout->edge_clipped);
+    if (layout->edge_clipped == NULL)
       return error_memory(layout->error);
-    memset(layout->edge_cut, 0xff, edges * sizeof *layout->edge_cut);
+    memset(layout->edge_clipped, 0xff, edges * sizeof *layout->edge_clipped);
   }
   const uint32_t *point = topology->edge.item[edge].point;
-  return layout_known_cut(layout, &layout->edge_cut[edge], point[0], point[1],
-                          cut);
+  return layout_clip_known(layout, &layout->edge_clipped[edge], point[0],
+                           point[1], clipped);
 }
 
 recto_status layout_contour(struct layout *layout, uint32_t from, uint32_t to) {

@@ -77,8 +77,8 @@ static recto_status add_fold(struct layout *layout, uint32_t face,
   uint32_t fold = SHEET_NONE;
   struct layout_fold made = {.face = face};
   if (diagonal->sides != LAYOUT_TWO_SIDED && diagonal->from != SHEET_NONE) {
-    recto_status status = layout_known_cut(
-        layout, &diagonal->cut, diagonal->from, diagonal->to, &made.ends);
+    recto_status status = layout_clip_known(
+        layout, &diagonal->clipped, diagonal->from, diagonal->to, &made.ends);
     if (status == RECTO_OK && made.ends.point[0] != SHEET_NONE) {
       status = layout_contour(layout, made.ends.point[0], made.ends.point[1]);
       if (wanted && layout_is_silhouette(diagonal->sides))

@@ -6,8 +6,8 @@
 #include "visibility/intersection/intersection_segment.h"
 #include "visibility/predicate/edge_intervals.h"
 
-int map_crossing_compare(const struct map_crossing *a,
-                         const struct map_crossing *b) {
+int map_intersection_compare(const struct map_intersection *a,
+                             const struct map_intersection *b) {
   int order = 0;
   for (int k = 0; k < 2; k++)
     if (a->triangle[k] != b->triangle[k])
@@ -17,15 +17,15 @@ int map_crossing_compare(const struct map_crossing *a,
   return order;
 }
 
-bool map_assembly_add_crossings(struct sheet *sheet,
-                                const struct map_crossing *crossing,
-                                size_t count) {
+bool map_assembly_add_intersections(struct sheet *sheet,
+                                    const struct map_intersection *line,
+                                    size_t count) {
   struct intersection_segments segments = {.list = {.item = NULL}};
   bool ok = ARRAY_RESERVE(&segments.list, count);
   for (size_t i = 0; ok && i < count; i++)
     segments.list.item[segments.list.count++] = (struct intersection_segment){
-        {crossing[i].triangle[0], crossing[i].triangle[1]},
-        {crossing[i].end[0], crossing[i].end[1]}};
+        {line[i].triangle[0], line[i].triangle[1]},
+        {line[i].end[0], line[i].end[1]}};
   ok = ok && intersection_add_edges(sheet, &segments);
   ARRAY_FREE(&segments.list);
   return ok;
