@@ -11,7 +11,7 @@ struct curve_finder {
   struct cut_line *line;
   size_t lines;
   const struct cut_points *points;
-  uint32_t *curve;  /* of each made point: a set of union_find.h */
+  uint32_t *curve;  /* of each point of the cut: a set of union_find.h */
   int32_t *balance; /* of each: lines that end there less those that begin */
   uint8_t *bad;     /* of each that represents a curve: enum curve_fault */
   /* Of bad curves: the lines at each point, those of point p from start[p]. */
@@ -22,21 +22,21 @@ struct curve_finder {
 
 enum curve_fault { CURVE_SOUND, CURVE_UNBALANCED, CURVE_OPEN, CURVE_HOPELESS };
 
-static uint32_t made_number(const struct curve_finder *c, uint32_t point) {
+static uint32_t cut_point_index(const struct curve_finder *c, uint32_t point) {
   return point - c->points->first;
 }
 
 static uint32_t curve_of(const struct curve_finder *c,
                          const struct cut_line *line) {
-  return union_find_root(c->curve, made_number(c, line->from));
+  return union_find_root(c->curve, cut_point_index(c, line->from));
 }
 
 /* ---- Groups -------------------------------------------------------------- */
 
 static double length_of(const struct curve_finder *c,
                         const struct cut_line *line) {
-  const int64_t *a = cut_made_point(c->points, line->from)->at;
-  const int64_t *b = cut_made_point(c->points, line->to)->at;
+  const int64_t *a = cut_point_of(c->points, line->from)->at;
+  const int64_t *b = cut_point_of(c->points, line->to)->at;
   double x = (double)(b[0] - a[0]), y = (double)(b[1] - a[1]);
   return hypot(hypot(x, y), (double)(b[2] - a[2]));
 }
@@ -115,7 +115,7 @@ static bool list_bad_lines(struct curve_finder *c) {
     for (uint32_t i = 0; i < c->lines; i++) {
       const struct cut_line *line = &c->line[i];
       for (int k = 0; k < 2 && is_on_bad_curve(c, line) && !line->open; k++) {
-        uint32_t p = made_number(c, k == 0 ? line->from : line->to);
+        uint32_t p = cut_point_index(c, k == 0 ? line->from : line->to);
         if (pass == 0)
           c->degree[p]++;
         else
@@ -135,10 +135,10 @@ static bool list_bad_lines(struct curve_finder *c) {
 }
 
 /* A line at a point that is neither open nor walked; NULL: there is none. */
-static struct cut_line *find_line_at(struct curve_finder *c, uint32_t made,
+static struct cut_line *find_line_at(struct curve_finder *c, uint32_t point,
                                      uint32_t *number) {
-  for (; c->start[made] < c->start[made + 1]; c->start[made]++) {
-    *number = c->at[c->start[made]];
+  for (; c->start[point] < c->start[point + 1]; c->start[point]++) {
+    *number = c->at[c->start[point]];
     if (!c->line[*number].open && !c->walked[*number])
       return &c->line[*number];
   }
@@ -146,40 +146,41 @@ static struct cut_line *find_line_at(struct curve_finder *c, uint32_t made,
 }
 
 static uint32_t other_line_end(const struct curve_finder *c,
-                               const struct cut_line *line, uint32_t made) {
-  uint32_t from = made_number(c, line->from);
-  return from == made ? made_number(c, line->to) : from;
+                               const struct cut_line *line, uint32_t point) {
+  uint32_t from = cut_point_index(c, line->from);
+  return from == point ? cut_point_index(c, line->to) : from;
 }
 
-/* Opens lines from a loose end on. */
-static void strip_from(struct curve_finder *c, uint32_t made) {
-  while (c->degree[made] == 1) {
-    uint32_t number = 0, start = c->start[made];
-    struct cut_line *line = find_line_at(c, made, &number);
-    c->start[made] = start;
+/* Opens lines from a point with a single line on. */
+static void strip_from(struct curve_finder *c, uint32_t point) {
+  while (c->degree[point] == 1) {
+    uint32_t number = 0, start = c->start[point];
+    struct cut_line *line = find_line_at(c, point, &number);
+    c->start[point] = start;
     if (line == NULL)
       return;
     line->open = true;
     c->bad[curve_of(c, line)] = CURVE_OPEN;
-    c->degree[made]--;
-    made = other_line_end(c, line, made);
-    c->degree[made]--;
+    c->degree[point]--;
+    point = other_line_end(c, line, point);
+    c->degree[point]--;
   }
 }
 
 /* Walks from a point along lines that are left until it is back, and turns all
  * of them the way that most of their length runs. */
-static void turn_trail(struct curve_finder *c, uint32_t made, uint32_t *trail) {
+static void turn_trail(struct curve_finder *c, uint32_t point,
+                       uint32_t *trail) {
   size_t count = 0;
   double along = 0;
   uint32_t number = 0;
   for (struct cut_line *line;
-       (line = find_line_at(c, made, &number)) != NULL;) {
-    bool forward = made_number(c, line->from) == made;
+       (line = find_line_at(c, point, &number)) != NULL;) {
+    bool forward = cut_point_index(c, line->from) == point;
     c->walked[number] = forward ? 1 : 2;
     along += forward ? length_of(c, line) : -length_of(c, line);
     trail[count++] = number;
-    made = other_line_end(c, line, made);
+    point = other_line_end(c, line, point);
   }
   for (size_t i = 0; i < count; i++) {
     struct cut_line *line = &c->line[trail[i]];
@@ -219,8 +220,8 @@ static bool repair_curves(struct curve_finder *c) {
 static bool join_cut_lines(struct curve_finder *c) {
   bool balanced = true;
   for (size_t i = 0; i < c->lines; i++) {
-    uint32_t from = made_number(c, c->line[i].from);
-    uint32_t to = made_number(c, c->line[i].to);
+    uint32_t from = cut_point_index(c, c->line[i].from);
+    uint32_t to = cut_point_index(c, c->line[i].to);
     union_find_join(c->curve, from, to);
     c->balance[from]--;
     c->balance[to]++;

@@ -50,8 +50,8 @@ static bool end_cut_face(struct assembly *a, uint32_t group) {
          ARRAY_PUSH(&scene->face_start, (uint32_t)count);
 }
 
-/* Finds the made points that are corners of what is left.  The others lie on
- * sides of faces, where a plane meets them and nothing goes.  Returns false
+/* Finds the points of the cut that are corners of what is left.  The others lie
+ * on sides of faces, where a plane meets them and nothing goes.  Returns false
  * when memory ran out. */
 static bool find_needed(struct assembly *a) {
   const struct cutter *cutter = a->cutter;

@@ -95,7 +95,7 @@ static struct scene_point corner_position(const struct cutter *cutter,
   return p < cutter->points.first
              ? cutter->scene->point.item[p]
              : cut_points_position(&cutter->points,
-                                   cut_made_point(&cutter->points, p)->at);
+                                   cut_point_of(&cutter->points, p)->at);
 }
 
 /* Whether two corners of a loop are at one place; they may be a point of the

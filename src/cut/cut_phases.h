@@ -40,14 +40,17 @@ struct cutter {
   ARRAY(struct cut_corner) corner;
   ARRAY(struct cut_part) part; /* in the order of their faces */
   struct triangulation triangulation;
-  bool is_warped;  /* the current face is not planar */
-  uint32_t *place; /* of each made point: the first one at its place */
+  bool is_warped; /* the current face is not planar */
+  uint32_t
+      *place; /* of each point of the cut: its representative, the first one
+                      at its place */
   size_t places;
   struct cut_lines lines;
   struct section section[CUT_PLANES_MAX];
-  bool has_tip;     /* three planes have a point in common */
-  double tip_at[3]; /* its place, in units of the grid */
-  uint32_t tip;     /* SCENE_NONE: there is none, or it is not in the scene's
+  bool has_common_vertex;     /* three planes have a point in common */
+  double common_vertex_at[3]; /* its place, in units of the grid */
+  uint32_t
+      common_vertex; /* SCENE_NONE: there is none, or it is not in the scene's
                        box */
   bool anything_goes;
 };

@@ -215,7 +215,7 @@ static void position_of(const struct cut_points *points, uint32_t point,
   struct scene_point p =
       point < points->first
           ? points->scene->point.item[point]
-          : cut_points_position(points, cut_made_point(points, point)->at);
+          : cut_points_position(points, cut_point_of(points, point)->at);
   at[0] = p.x;
   at[1] = p.y;
   at[2] = p.z;
@@ -225,7 +225,7 @@ static void position_of(const struct cut_points *points, uint32_t point,
 static unsigned planes_through(const struct cut_points *points,
                                uint32_t point) {
   if (point >= points->first)
-    return cut_made_point(points, point)->on;
+    return cut_point_of(points, point)->on;
   unsigned on = 0;
   double at[3];
   position_of(points, point, at);
@@ -297,8 +297,7 @@ uint32_t cut_points_meet(struct cut_points *points, uint32_t a, uint32_t b,
   if (a == b) {
     struct cut_point *point = &points->point.item[made - points->first];
     point->beyond = (uint8_t)(on | cut_beyond(points, a));
-    point->is_corner =
-        a < points->first || cut_made_point(points, a)->is_corner;
+    point->is_corner = a < points->first || cut_point_of(points, a)->is_corner;
   }
   *find_point_slot(points, a, b, plane) =
       (struct cut_point_slot){a, b, made - points->first + 1, plane};

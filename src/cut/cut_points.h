@@ -42,7 +42,7 @@ void cut_points_fini(struct cut_points *points);
 bool cut_points_have_room(const struct cut_points *points);
 
 static inline const struct cut_point *
-cut_made_point(const struct cut_points *points, uint32_t point) {
+cut_point_of(const struct cut_points *points, uint32_t point) {
   return &points->point.item[point - points->first];
 }
 
@@ -50,7 +50,7 @@ cut_made_point(const struct cut_points *points, uint32_t point) {
 static inline uint8_t cut_beyond(const struct cut_points *points,
                                  uint32_t point) {
   return point < points->first ? points->beyond[point]
-                               : cut_made_point(points, point)->beyond;
+                               : cut_point_of(points, point)->beyond;
 }
 
 static inline bool cut_is_beyond(const struct cut_points *points,

@@ -2,9 +2,9 @@
  *
  * Where planes meet, what is cut ends at the line that they have in common, in
  * both of them.  There the lines of a section are joined by others along that
- * line, which close it: the sum of the lines that end on the way from infinity,
- * where nothing is, says how many.  Three planes have a point in common, the
- * tip, where that way turns. */
+ * common line, which close it: from infinity, where the winding number is 0, it
+ * changes by each line that ends or begins.  Three planes have a common vertex;
+ * there the way turns from one common line to the other. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -32,7 +32,8 @@ static struct section_axes axes_of(const struct cut_plane *plane) {
 
 /* ---- Places -------------------------------------------------------------- */
 
-static int compare_made_places(const void *a, const void *b, void *user) {
+static int compare_positions_of_points(const void *a, const void *b,
+                                       void *user) {
   const struct cutter *cutter = user;
   uint32_t p = *(const uint32_t *)a, q = *(const uint32_t *)b;
   const int64_t *at = cutter->points.point.item[p].at;
@@ -57,10 +58,11 @@ static bool find_places(struct cutter *cutter) {
   }
   for (uint32_t i = 0; i < count; i++)
     order[i] = i;
-  bool ok =
-      sort_stable(order, count, sizeof *order, compare_made_places, cutter);
+  bool ok = sort_stable(order, count, sizeof *order,
+                        compare_positions_of_points, cutter);
   for (size_t i = 0, first = 0; ok && i < count; i++) {
-    if (i > 0 && compare_made_places(&order[first], &order[i], cutter) != 0)
+    if (i > 0 &&
+        compare_positions_of_points(&order[first], &order[i], cutter) != 0)
       first = i;
     cutter->place[order[i]] = cutter->points.first + order[first];
     point[order[first]].on |= point[order[i]].on;
@@ -71,7 +73,7 @@ static bool find_places(struct cutter *cutter) {
   return ok;
 }
 
-/* ---- Loose ends ---------------------------------------------------------- */
+/* ---- Unbalanced ends ----------------------------------------------------- */
 
 /* Whether two points can be where an edge meets a plane that neighbouring faces
  * have in different pieces. */
@@ -82,37 +84,39 @@ static bool are_close(const struct cut_point *p, const struct cut_point *q) {
   return true;
 }
 
-/* A made point at which not as many lines end as begin. */
-struct loose_end {
+/* A point of the cut at which not as many lines end as begin. */
+struct unbalanced_end {
   double along; /* a direction in which no plane of a model is likely to lie */
   uint32_t point;
 };
 
-struct loose_ends {
-  ARRAY(struct loose_end) list;
+struct unbalanced_ends {
+  ARRAY(struct unbalanced_end) list;
 };
 
-static const double loose_direction[3] = {0.8191725, 0.6710436, 0.5497005};
+static const double sort_direction[3] = {0.8191725, 0.6710436, 0.5497005};
 
-static int compare_loose_ends(const void *a, const void *b, void *user) {
-  const struct loose_end *p = a, *q = b;
+static int compare_unbalanced_ends(const void *a, const void *b, void *user) {
+  const struct unbalanced_end *p = a, *q = b;
   (void)user;
   return (p->along > q->along) - (p->along < q->along);
 }
 
-static bool list_loose_ends(const struct cutter *cutter, const int32_t *balance,
-                            struct loose_ends *loose) {
+static bool list_unbalanced_ends(const struct cutter *cutter,
+                                 const int32_t *balance,
+                                 struct unbalanced_ends *unbalanced) {
   for (uint32_t i = 0; i < cutter->points.point.count; i++) {
     const int64_t *at = cutter->points.point.item[i].at;
     double along = 0;
     for (int k = 0; k < 3; k++)
-      along += loose_direction[k] * (double)at[k];
+      along += sort_direction[k] * (double)at[k];
     if (balance[i] != 0 &&
-        !ARRAY_PUSH(&loose->list, ((struct loose_end){along, i})))
+        !ARRAY_PUSH(&unbalanced->list, ((struct unbalanced_end){along, i})))
       return false;
   }
-  return sort_stable(loose->list.item, loose->list.count,
-                     sizeof *loose->list.item, compare_loose_ends, NULL);
+  return sort_stable(unbalanced->list.item, unbalanced->list.count,
+                     sizeof *unbalanced->list.item, compare_unbalanced_ends,
+                     NULL);
 }
 
 /* Gives all places of a set of union_find.h one representative. */
@@ -131,16 +135,16 @@ static void join_places(struct cutter *cutter, uint32_t *set) {
 
 /* Joins ends of lines that are within the tolerance of each other.
  * end  gets for each point that the cut made the one that takes its place */
-static bool match_loose_ends(const struct cutter *cutter, int32_t *balance,
-                             uint32_t *end, uint32_t *set) {
+static bool match_unbalanced_ends(const struct cutter *cutter, int32_t *balance,
+                                  uint32_t *end, uint32_t *set) {
   const struct cut_point *point = cutter->points.point.item;
   uint32_t first = cutter->points.first;
-  struct loose_ends loose = {{0}};
-  bool ok = list_loose_ends(cutter, balance, &loose);
-  const struct loose_end *item = loose.list.item;
-  for (size_t i = 0; ok && i < loose.list.count; i++)
+  struct unbalanced_ends unbalanced = {{0}};
+  bool ok = list_unbalanced_ends(cutter, balance, &unbalanced);
+  const struct unbalanced_end *item = unbalanced.list.item;
+  for (size_t i = 0; ok && i < unbalanced.list.count; i++)
     for (size_t k = i + 1;
-         k < loose.list.count && balance[item[i].point] != 0 &&
+         k < unbalanced.list.count && balance[item[i].point] != 0 &&
          item[k].along - item[i].along <= 3 * TOLERANCE_SECTION_UNITS;
          k++) {
       uint32_t p = item[i].point, q = item[k].point;
@@ -152,11 +156,11 @@ static bool match_loose_ends(const struct cutter *cutter, int32_t *balance,
       end[q] = p;
       union_find_join(set, cutter->place[p] - first, cutter->place[q] - first);
     }
-  ARRAY_FREE(&loose.list);
+  ARRAY_FREE(&unbalanced.list);
   return ok;
 }
 
-static bool join_loose_ends(struct cutter *cutter) {
+static bool join_unbalanced_ends(struct cutter *cutter) {
   size_t points = cutter->points.point.count;
   uint32_t first = cutter->points.first;
   struct cut_line *line = cutter->lines.line.item;
@@ -170,7 +174,7 @@ static bool join_loose_ends(struct cutter *cutter) {
   }
   for (uint32_t i = 0; ok && i < points; i++)
     end[i] = i;
-  ok = ok && match_loose_ends(cutter, balance, end, set);
+  ok = ok && match_unbalanced_ends(cutter, balance, end, set);
   for (size_t i = 0; ok && i < cutter->lines.line.count; i++) {
     line[i].from = first + end[line[i].from - first];
     line[i].to = first + end[line[i].to - first];
@@ -183,17 +187,17 @@ static bool join_loose_ends(struct cutter *cutter) {
   return ok;
 }
 
-/* ---- The tip ------------------------------------------------------------- */
+/* ---- The common vertex --------------------------------------------------- */
 
 /* Finds the point that three planes have in common.  Returns false when memory
  * ran out. */
-static bool find_tip(struct cutter *cutter) {
+static bool find_common_vertex(struct cutter *cutter) {
   const struct cut_points *points = &cutter->points;
   double sum[3] = {0, 0, 0}, volume = 0;
   bool inside = true;
-  cutter->has_tip = points->planes == 3;
-  cutter->tip = SCENE_NONE;
-  for (int k = 0; k < 3 && cutter->has_tip; k++) {
+  cutter->has_common_vertex = points->planes == 3;
+  cutter->common_vertex = SCENE_NONE;
+  for (int k = 0; k < 3 && cutter->has_common_vertex; k++) {
     double side[3];
     vector_cross(points->plane[(k + 1) % 3].normal,
                  points->plane[(k + 2) % 3].normal, side);
@@ -201,41 +205,41 @@ static bool find_tip(struct cutter *cutter) {
     for (int i = 0; i < 3; i++)
       sum[i] += points->plane[k].offset * side[i];
   }
-  for (int i = 0; i < 3 && cutter->has_tip; i++) {
+  for (int i = 0; i < 3 && cutter->has_common_vertex; i++) {
     double place = (sum[i] / volume - points->origin[i]) / points->unit;
-    cutter->tip_at[i] = place;
-    cutter->has_tip = isfinite(place);
+    cutter->common_vertex_at[i] = place;
+    cutter->has_common_vertex = isfinite(place);
     inside = inside && place >= 0 && place <= (double)SECTION_COORDINATE_MAX;
   }
-  if (!cutter->has_tip || !inside)
+  if (!cutter->has_common_vertex || !inside)
     return true;
-  const int64_t at[3] = {(int64_t)rint(cutter->tip_at[0]),
-                         (int64_t)rint(cutter->tip_at[1]),
-                         (int64_t)rint(cutter->tip_at[2])};
-  cutter->tip = cut_points_add(&cutter->points, at, 7);
-  return cutter->tip != SCENE_NONE;
+  const int64_t at[3] = {(int64_t)rint(cutter->common_vertex_at[0]),
+                         (int64_t)rint(cutter->common_vertex_at[1]),
+                         (int64_t)rint(cutter->common_vertex_at[2])};
+  cutter->common_vertex = cut_points_add(&cutter->points, at, 7);
+  return cutter->common_vertex != SCENE_NONE;
 }
 
-/* ---- Where planes meet --------------------------------------------------- */
+/* ---- Common lines -------------------------------------------------------- */
 
-/* A line of a label that ends or begins where planes meet. */
-struct meeting {
+/* An end of a line of the section on a line that two planes have in common. */
+struct common_line_event {
   uint32_t label, point;
-  int leg;      /* 0 or 1: the way before the tip or after it; without a tip the
-                   other plane */
-  double along; /* the way */
-  int32_t flow; /* lines that end here, less those that begin */
+  int line;     /* 0 or 1: the common line before the common vertex or after it;
+                   without such a vertex that of the other plane */
+  double along; /* the common line */
+  int32_t winding; /* lines that end here, less those that begin */
 };
 
-struct meetings {
-  ARRAY(struct meeting) list;
+struct common_line_events {
+  ARRAY(struct common_line_event) list;
 };
 
-static int compare_meetings(const void *a, const void *b, void *user) {
-  const struct meeting *p = a, *q = b;
+static int compare_events(const void *a, const void *b, void *user) {
+  const struct common_line_event *p = a, *q = b;
   (void)user;
-  if (p->leg != q->leg)
-    return p->leg < q->leg ? -1 : 1;
+  if (p->line != q->line)
+    return p->line < q->line ? -1 : 1;
   return p->along != q->along ? (p->along < q->along ? -1 : 1) : 0;
 }
 
@@ -249,48 +253,49 @@ static double along_line(const struct cutter *cutter, unsigned plane,
 }
 
 /* Adds an end of a line, where it is on another plane. */
-static bool add_meeting(const struct cutter *cutter, unsigned plane,
-                        uint32_t point, uint32_t label, int32_t flow,
-                        struct meetings *meetings) {
+static bool add_event(const struct cutter *cutter, unsigned plane,
+                      uint32_t point, uint32_t label, int32_t winding,
+                      struct common_line_events *events) {
   const struct cut_points *points = &cutter->points;
-  const struct cut_point *made = cut_made_point(points, point);
-  unsigned others = made->on & ~(1u << plane) & 7u;
-  if (others == 0 || point == cutter->tip)
+  const struct cut_point *cut_point = cut_point_of(points, point);
+  unsigned others = cut_point->on & ~(1u << plane) & 7u;
+  if (others == 0 || point == cutter->common_vertex)
     return others == 0 ||
-           ARRAY_PUSH(&meetings->list,
-                      ((struct meeting){label, point, 0, INFINITY, flow}));
+           ARRAY_PUSH(&events->list, ((struct common_line_event){
+                                         label, point, 0, INFINITY, winding}));
   unsigned other = 0;
   while (!(others >> other & 1))
     other++;
-  const double at[3] = {(double)made->at[0], (double)made->at[1],
-                        (double)made->at[2]};
-  struct meeting meeting = {label, point, other != (plane + 1) % 3,
-                            along_line(cutter, plane, other, at), flow};
-  if (cutter->has_tip) {
-    double tip = along_line(cutter, plane, other, cutter->tip_at);
-    double away = fabs(meeting.along - tip);
-    meeting.along = meeting.leg == 0 ? -away : away;
+  const double at[3] = {(double)cut_point->at[0], (double)cut_point->at[1],
+                        (double)cut_point->at[2]};
+  struct common_line_event event = {label, point, other != (plane + 1) % 3,
+                                    along_line(cutter, plane, other, at),
+                                    winding};
+  if (cutter->has_common_vertex) {
+    double vertex = along_line(cutter, plane, other, cutter->common_vertex_at);
+    double away = fabs(event.along - vertex);
+    event.along = event.line == 0 ? -away : away;
   }
-  return ARRAY_PUSH(&meetings->list, meeting);
+  return ARRAY_PUSH(&events->list, event);
 }
 
 static bool is_closed_in(const struct cut_line *line, unsigned plane) {
   return line->plane == plane && !line->open;
 }
 
-static bool collect_meetings(const struct cutter *cutter, unsigned plane,
-                             struct meetings *meetings) {
+static bool collect_events(const struct cutter *cutter, unsigned plane,
+                           struct common_line_events *events) {
   for (size_t i = 0; i < cutter->lines.line.count; i++) {
     const struct cut_line *line = &cutter->lines.line.item[i];
     if (is_closed_in(line, plane) &&
-        (!add_meeting(cutter, plane, cut_place(cutter, line->from), line->group,
-                      -1, meetings) ||
-         !add_meeting(cutter, plane, cut_place(cutter, line->to), line->group,
-                      1, meetings)))
+        (!add_event(cutter, plane, cut_place(cutter, line->from), line->group,
+                    -1, events) ||
+         !add_event(cutter, plane, cut_place(cutter, line->to), line->group, 1,
+                    events)))
       return false;
   }
-  return sort_stable(meetings->list.item, meetings->list.count,
-                     sizeof *meetings->list.item, compare_meetings, NULL);
+  return sort_stable(events->list.item, events->list.count,
+                     sizeof *events->list.item, compare_events, NULL);
 }
 
 /* ---- Segments ------------------------------------------------------------ */
@@ -298,14 +303,14 @@ static bool collect_meetings(const struct cutter *cutter, unsigned plane,
 static uint32_t section_node_of(const struct cutter *cutter, unsigned plane,
                                 uint32_t point) {
   struct section_axes axes = axes_of(&cutter->points.plane[plane]);
-  const int64_t *at = cut_made_point(&cutter->points, point)->at;
+  const int64_t *at = cut_point_of(&cutter->points, point)->at;
   return section_node_at(&cutter->section[plane], at[axes.u], at[axes.v]);
 }
 
 static bool add_section_node(struct cutter *cutter, unsigned plane,
                              uint32_t point) {
   struct section_axes axes = axes_of(&cutter->points.plane[plane]);
-  const int64_t *at = cut_made_point(&cutter->points, point)->at;
+  const int64_t *at = cut_point_of(&cutter->points, point)->at;
   return ARRAY_PUSH(&cutter->section[plane].node,
                     ((struct section_node){at[axes.u], at[axes.v], point}));
 }
@@ -321,8 +326,8 @@ static bool add_section_segment(struct cutter *cutter, unsigned plane,
 }
 
 static bool add_section_nodes(struct cutter *cutter, unsigned plane) {
-  bool ok =
-      cutter->tip == SCENE_NONE || add_section_node(cutter, plane, cutter->tip);
+  bool ok = cutter->common_vertex == SCENE_NONE ||
+            add_section_node(cutter, plane, cutter->common_vertex);
   for (size_t i = 0; ok && i < cutter->lines.line.count; i++) {
     const struct cut_line *line = &cutter->lines.line.item[i];
     ok = !is_closed_in(line, plane) ||
@@ -332,51 +337,47 @@ static bool add_section_nodes(struct cutter *cutter, unsigned plane) {
   return ok && section_sort_nodes(&cutter->section[plane]);
 }
 
-/* How many lines of a label run along the line where planes meet. */
-struct carry {
-  uint32_t label;
-  int32_t lines;
+/* The winding numbers along a common line, none of them 0. */
+struct common_line_windings {
+  ARRAY(struct section_winding) list;
 };
 
-struct carries {
-  ARRAY(struct carry) list; /* none of them 0 */
-};
-
-static bool add_to_carry(struct carries *carries, uint32_t label,
-                         int32_t flow) {
+static bool add_winding(struct common_line_windings *windings, uint32_t label,
+                        int32_t winding) {
   size_t i = 0;
-  while (i < carries->list.count && carries->list.item[i].label != label)
+  while (i < windings->list.count && windings->list.item[i].label != label)
     i++;
-  if (i == carries->list.count)
-    return ARRAY_PUSH(&carries->list, ((struct carry){label, flow}));
-  carries->list.item[i].lines += flow;
-  if (carries->list.item[i].lines == 0)
-    carries->list.item[i] = carries->list.item[--carries->list.count];
+  if (i == windings->list.count)
+    return ARRAY_PUSH(&windings->list,
+                      ((struct section_winding){label, winding}));
+  windings->list.item[i].number += winding;
+  if (windings->list.item[i].number == 0)
+    windings->list.item[i] = windings->list.item[--windings->list.count];
   return true;
 }
 
-/* Adds the segments along the lines where planes meet: all labels have the same
+/* Adds the segments along common lines: all labels have the same
  * ones, as points on such a line that are rounded are not quite on one. */
 static bool close_section(struct cutter *cutter, unsigned plane) {
-  struct meetings meetings = {{0}};
-  struct carries carries = {{0}};
-  bool ok = collect_meetings(cutter, plane, &meetings);
-  for (size_t i = 0; ok && i + 1 < meetings.list.count; i++) {
-    const struct meeting *at = &meetings.list.item[i], *next = at + 1;
-    bool turns = at->leg != next->leg && cutter->tip != SCENE_NONE;
-    ok = add_to_carry(&carries, at->label, at->flow);
-    for (size_t c = 0; ok && c < carries.list.count; c++) {
-      const struct carry *carry = &carries.list.item[c];
-      ok = add_section_segment(cutter, plane, at->point,
-                               turns ? cutter->tip : next->point, carry->label,
-                               carry->lines) &&
-           (!turns ||
-            add_section_segment(cutter, plane, cutter->tip, next->point,
-                                carry->label, carry->lines));
+  struct common_line_events events = {{0}};
+  struct common_line_windings windings = {{0}};
+  bool ok = collect_events(cutter, plane, &events);
+  for (size_t i = 0; ok && i + 1 < events.list.count; i++) {
+    const struct common_line_event *at = &events.list.item[i], *next = at + 1;
+    bool turns = at->line != next->line && cutter->common_vertex != SCENE_NONE;
+    ok = add_winding(&windings, at->label, at->winding);
+    for (size_t c = 0; ok && c < windings.list.count; c++) {
+      const struct section_winding *run = &windings.list.item[c];
+      ok =
+          add_section_segment(cutter, plane, at->point,
+                              turns ? cutter->common_vertex : next->point,
+                              run->label, run->number) &&
+          (!turns || add_section_segment(cutter, plane, cutter->common_vertex,
+                                         next->point, run->label, run->number));
     }
   }
-  ARRAY_FREE(&meetings.list);
-  ARRAY_FREE(&carries.list);
+  ARRAY_FREE(&events.list);
+  ARRAY_FREE(&windings.list);
   return ok;
 }
 
@@ -421,10 +422,12 @@ static bool add_crossing_points(struct cutter *cutter, unsigned plane) {
 
 recto_status cut_sections(struct cutter *cutter, recto_error *error) {
   uint32_t open_at = SCENE_NONE;
-  if (!find_tip(cutter) || !find_places(cutter) || !join_loose_ends(cutter))
+  if (!find_common_vertex(cutter) || !find_places(cutter) ||
+      !join_unbalanced_ends(cutter))
     return error_memory(error);
-  cutter->tip =
-      cutter->tip != SCENE_NONE ? cut_place(cutter, cutter->tip) : SCENE_NONE;
+  cutter->common_vertex = cutter->common_vertex != SCENE_NONE
+                              ? cut_place(cutter, cutter->common_vertex)
+                              : SCENE_NONE;
   uint32_t labels = (uint32_t)cutter->scene->group.count;
   if (!cut_lines_close(&cutter->lines, &cutter->points, &cutter->cut->open,
                        &open_at) ||
@@ -441,6 +444,6 @@ recto_status cut_sections(struct cutter *cutter, recto_error *error) {
   }
   if (open_at != SCENE_NONE)
     cutter->cut->open_at = cut_points_position(
-        &cutter->points, cut_made_point(&cutter->points, open_at)->at);
+        &cutter->points, cut_point_of(&cutter->points, open_at)->at);
   return RECTO_OK;
 }
