@@ -67,7 +67,7 @@ static inline bool multiview_has_title(const recto_options *options) {
 static inline bool multiview_has_hidden(const struct multiview *views,
                                         const recto_options *options) {
   for (size_t i = 0; i < views->count; i++) {
-    const recto_sheet_view *view = views->view[i].asked;
+    const recto_sheet_view *view = views->view[i].request;
     if ((view->has_hidden ? view->hidden : options->ink.hidden) !=
         RECTO_HIDDEN_NONE)
       return true;

@@ -470,11 +470,11 @@ static recto_status check_pens(const struct render *render,
   struct pens pens;
   recto_status status =
       pens_init(&pens, &render->model->scene, render->options, error);
-  recto_options asked = *render->options;
-  if (render->request->others_hide && asked.ink.hidden == RECTO_HIDDEN_NONE)
-    asked.ink.hidden = RECTO_HIDDEN_DASHED;
+  recto_options given = *render->options;
+  if (render->request->others_hide && given.ink.hidden == RECTO_HIDDEN_NONE)
+    given.ink.hidden = RECTO_HIDDEN_DASHED;
   if (status == RECTO_OK)
-    pens_warn_unused(&pens, &asked);
+    pens_warn_unused(&pens, &given);
   if (status == RECTO_OK)
     status = cut_hatch_check(&render->model->scene, render->options, error);
   pens_fini(&pens);
