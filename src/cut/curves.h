@@ -22,9 +22,9 @@ struct cut_lines {
  * most of its length.  What all planes remove is convex, and a curve runs on
  * its surface, from plane to plane.
  * A curve is closed where as many of its lines end as begin at each point.  One
- * that is not loses its duplicate lines, and lines to points that have no other;
- * if then an even number of lines is left at each point, they are turned to run
- * around.  What remains is open.
+ * that is not loses its duplicate lines, and lines to points that have no
+ * other; if then an even number of lines is left at each point, they are turned
+ * to run around.  What remains is open.
  * open     is increased by the number of open curves
  * open_at  set to a point of the first of them, if it is SCENE_NONE
  * Returns false when memory ran out.

@@ -235,7 +235,8 @@ struct common_line_events {
   ARRAY(struct common_line_event) list;
 };
 
-static int compare_events(const void *a, const void *b, void *user) {
+static int compare_common_line_events(const void *a, const void *b,
+                                      void *user) {
   const struct common_line_event *p = a, *q = b;
   (void)user;
   if (p->line != q->line)
@@ -295,7 +296,8 @@ static bool collect_events(const struct cutter *cutter, unsigned plane,
       return false;
   }
   return sort_stable(events->list.item, events->list.count,
-                     sizeof *events->list.item, compare_events, NULL);
+                     sizeof *events->list.item, compare_common_line_events,
+                     NULL);
 }
 
 /* ---- Segments ------------------------------------------------------------ */

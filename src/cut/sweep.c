@@ -137,8 +137,8 @@ static void set_helpers(struct section_sweep *sweep, uint32_t node, size_t low,
 /* ---- The sweep ----------------------------------------------------------- */
 
 /* Replaces the edges from place `low` to before `high` by those that start. */
-static bool replace_active(struct section_sweep *sweep, size_t low,
-                           size_t high) {
+static bool replace_active_edges(struct section_sweep *sweep, size_t low,
+                                 size_t high) {
   size_t count = sweep->starting.count, rest = sweep->active.count - high;
   if (!ARRAY_RESERVE(&sweep->active, count))
     return false;
@@ -186,7 +186,7 @@ static recto_status visit_node(struct section_sweep *sweep, uint32_t node,
     set_helpers(sweep, node, low, high - low);
   else
     status = set_labels(sweep, low, error);
-  if (status == RECTO_OK && !replace_active(sweep, low, high))
+  if (status == RECTO_OK && !replace_active_edges(sweep, low, high))
     status = error_memory(error);
   if (status == RECTO_OK && !are_neighbours_in_order(sweep, low))
     sweep->planar = false;
