@@ -12,7 +12,7 @@ enum { PATH_SIZE = 512, PATH_COUNT = 4 };
 int temporary_set_up(void **state) {
   const char *parent = getenv("TMPDIR");
   char *folder = malloc(PATH_SIZE);
-  if (!folder)
+  if (folder == NULL)
     return -1;
   snprintf(folder, PATH_SIZE, "%s/recto-test-XXXXXX",
            parent && *parent ? parent : "/tmp");
@@ -26,9 +26,9 @@ int temporary_set_up(void **state) {
 
 int temporary_tear_down(void **state) {
   DIR *folder = opendir(*state);
-  if (!folder)
+  if (folder == NULL)
     return -1;
-  for (struct dirent *entry; (entry = readdir(folder));)
+  for (struct dirent *entry; (entry = readdir(folder)) != NULL;)
     if (strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0)
       (void)!unlink(temporary_path(state, entry->d_name));
   closedir(folder);
@@ -77,9 +77,9 @@ char *temporary_read(const char *path, size_t *count) {
 size_t temporary_count(void *const *state) {
   size_t count = 0;
   DIR *folder = opendir(*state);
-  if (!folder)
+  if (folder == NULL)
     return 0;
-  for (struct dirent *entry; (entry = readdir(folder));)
+  for (struct dirent *entry; (entry = readdir(folder)) != NULL;)
     count +=
         strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
   closedir(folder);

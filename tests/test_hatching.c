@@ -204,7 +204,8 @@ static void scan_lines_do_not_cut_hatching_up(void **state) {
   (void)state;
   snprintf(path[0], sizeof path[0], "%.500s/examples/models/gears.obj",
            source != NULL ? source : ".");
-  snprintf(path[1], sizeof path[1], "%.500s/spot.obj", real ? real : "none");
+  snprintf(path[1], sizeof path[1], "%.500s/spot.obj",
+           real != NULL ? real : "none");
   for (int k = 0; k < 2; k++) {
     struct scene scene;
     struct diagnostics silent = {.file = path[k]};

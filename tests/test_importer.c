@@ -178,9 +178,9 @@ static void cancelling_ends_the_importer(void **state) {
 static int count_descriptors(void) {
   DIR *folder = opendir("/proc/self/fd");
   int count = 0;
-  if (!folder)
+  if (folder == NULL)
     return 0;
-  while (readdir(folder))
+  while (readdir(folder) != NULL)
     count++;
   closedir(folder);
   return count;

@@ -581,7 +581,7 @@ static void real_models_are_read_whole(void **state) {
       {"suzanne", 507, 500},  {"fandisk", 6475, 12946},
       {"cow", 2903, 5804},    {"stanford-bunny", 35947, 69451}};
   const char *folder = getenv("RECTO_MODELS");
-  if (!folder) {
+  if (folder == NULL) {
     print_message("no models\n");
     skip();
   }

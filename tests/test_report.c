@@ -133,10 +133,10 @@ static void running_out_of_memory_loses_entries_only(void **state) {
     mem_fail_after(0);
     if (n == 1)
       assert_null(report);
-    else if (json)
+    else if (json != NULL)
       assert_true(json[0] == '{' && json[strlen(json) - 1] == '\n');
     fill(report);
-    if (report)
+    if (report != NULL)
       assert_true(report_get(report, "a", "b", 0) >= 101);
     report_destroy(report);
   }

@@ -142,6 +142,7 @@ struct option_entry {
                              const char *value);
   /* The conditions under which the option has an effect: all of them. */
   enum option_use use[OPTION_USES];
+  bool of_parts; /* a join takes it from the parts */
 };
 
 /* The table, of less than MAX_OPTIONS, ended by an entry without help and

@@ -175,19 +175,6 @@ static const struct {
     [USED_BY_PART] = {"--part", BIT(PART)},
 };
 
-/* What a join takes from the parts. */
-static const char of_parts[] =
-    " from method contact weld pitch resolution divide depth-bits subpixels "
-    "remove-backs view turntable azimuth elevation camera lookat up fov ortho "
-    "fit no-fit scale unit near cut cut-fill cut-hatch section page landscape "
-    "portrait margin edges crease ";
-
-static bool is_of_parts(const char *name) {
-  char word[40];
-  snprintf(word, sizeof word, " %s ", name);
-  return strstr(of_parts, word) != NULL;
-}
-
 /* ---- Warnings ------------------------------------------------------------ */
 
 /* What the command line requests instead of one of the bits. */
@@ -222,7 +209,7 @@ void option_scope_warn(const struct arguments *arguments,
   for (int i = 0; !option_is_end(&option_table[i]); i++) {
     const struct option_entry *entry = &option_table[i];
     char text[MESSAGE_SIZE];
-    if (arguments->seen[i] && arguments->joins && is_of_parts(entry->name)) {
+    if (arguments->seen[i] && arguments->joins && entry->of_parts) {
       snprintf(text, sizeof text, "--%s is for parts; --join does not use it",
                entry->name);
       warn("", 0, text);
