@@ -3,6 +3,8 @@
 #ifndef TESTS_INK_FIXTURE_H
 #define TESTS_INK_FIXTURE_H
 
+#include <stdlib.h>
+
 #include "ink/ink.h"
 
 /* Sheet, map, scene and options on a page of 100 x 100 mm, with one group and
@@ -92,5 +94,9 @@ double ink_fixture_distance(const struct ink_fixture *k, double x_mm,
 #define INK_FIXTURE_COUNT(array) ((uint32_t)(sizeof(array) / sizeof *(array)))
 /* "points, count" of an array of pairs. */
 #define INK_FIXTURE_XY(array) (array), INK_FIXTURE_COUNT(array) / 2
+
+static inline bool is_under_valgrind(void) {
+  return getenv("RECTO_VALGRIND") != NULL;
+}
 
 #endif

@@ -7,8 +7,10 @@
  *     memory_faults_end(&faults, status of what is tested);
  *   }
  *
- * The first run that succeeds is the last one; it asserts that each other one
- * ended with RECTO_ERROR_MEMORY, and that at least `least` did. */
+ * The first run that succeeds is the last one, or where not every failure is an
+ * error, the last of `in_a_row` that succeed one after the other.  It asserts
+ * that each other one ended with RECTO_ERROR_MEMORY, and that at least `least`
+ * did. */
 #ifndef TESTS_MEMORY_FAULTS_H
 #define TESTS_MEMORY_FAULTS_H
 
@@ -21,24 +23,28 @@
 
 struct memory_faults {
   unsigned long least, failed;
-  bool succeeded;
+  unsigned long in_a_row;   /* 0 stands for 1 */
+  unsigned long allocation; /* of the last run, that failed; increase it between
+                               runs to leave some out */
+  unsigned long succeeded;  /* runs since the last that failed */
 };
 
 static inline bool memory_faults_go_on(const struct memory_faults *faults) {
-  if (faults->succeeded)
+  bool ended = faults->succeeded > 0 && faults->succeeded >= faults->in_a_row;
+  if (ended)
     assert_in_range(faults->failed, faults->least, 20000);
-  return !faults->succeeded;
+  return !ended;
 }
 
-static inline void memory_faults_begin(const struct memory_faults *faults) {
+static inline void memory_faults_begin(struct memory_faults *faults) {
   assert_true(faults->failed < 20000);
-  mem_fail_after(faults->failed + 1);
+  mem_fail_after(++faults->allocation);
 }
 
 static inline void memory_faults_end(struct memory_faults *faults,
                                      recto_status status) {
   mem_fail_after(0);
-  faults->succeeded = status == RECTO_OK;
+  faults->succeeded = status == RECTO_OK ? faults->succeeded + 1 : 0;
   faults->failed += status != RECTO_OK;
   if (status != RECTO_OK)
     assert_int_equal(status, RECTO_ERROR_MEMORY);

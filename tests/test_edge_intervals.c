@@ -182,21 +182,35 @@ static void whole_occlusion_ends_the_query(void **state) {
   edge_intervals_fini(&intervals);
 }
 
+static void assert_same_intervals(const struct map *a, const struct map *b) {
+  assert_int_equal(a->edge_state[0], b->edge_state[0]);
+  assert_int_equal(a->interval.count, b->interval.count);
+  for (size_t i = 0; i < a->interval.count; i++) {
+    const struct map_interval *s = &a->interval.item[i],
+                              *t = &b->interval.item[i];
+    assert_int_equal(ratio_compare(s->t0, t->t0), 0);
+    assert_int_equal(ratio_compare(s->t1, t->t1), 0);
+  }
+}
+
 static void the_order_of_pieces_does_not_matter(void **state) {
   uint64_t r = 4;
   (void)state;
   for (int i = 0; i < 2000; i++) {
     struct span span[8];
     int count = draw_spans(span, &r);
-    struct map map;
+    struct map map, again;
+    store_one(span, count, &map);
     for (int k = count; k > 1; k--) {
       int other = exact_random_below(&r, k);
       struct span swap = span[k - 1];
       span[k - 1] = span[other];
       span[other] = swap;
     }
-    store_one(span, count, &map);
+    store_one(span, count, &again);
+    assert_same_intervals(&map, &again);
     map_fini(&map);
+    map_fini(&again);
   }
 }
 

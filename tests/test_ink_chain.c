@@ -20,8 +20,6 @@ enum {
   WIRE = RECTO_EDGE_WIRE
 };
 
-static bool is_under_valgrind(void) { return getenv("RECTO_VALGRIND") != NULL; }
-
 static double total_length(const struct ink_fixture *k) {
   double length = 0;
   for (size_t s = 0; s < k->drawing.stroke.count; s++)

@@ -19,8 +19,6 @@ enum { CREASE = RECTO_EDGE_CREASE };
 
 #define NANOMETRE (1.0 / 1048576)
 
-static bool is_under_valgrind(void) { return getenv("RECTO_VALGRIND") != NULL; }
-
 /* ---- Paths on their own -------------------------------------------------- */
 
 static void add_path(struct ink_paths *paths, const struct ink_point *point,

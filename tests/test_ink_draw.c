@@ -11,10 +11,9 @@
 #include "tests/ink_fixture.h"
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/random.h"
+#include "tests/memory_faults.h"
 
 #define NANOMETRE (1.0 / 1048576)
-
-static bool is_under_valgrind(void) { return getenv("RECTO_VALGRIND") != NULL; }
 
 /* ---- The shared scenes --------------------------------------------------- */
 
@@ -200,16 +199,13 @@ static void running_out_of_memory_is_reported(void **state) {
     k.options.ink.fill = cases[i].fill;
     k.options.ink.ids = cases[i].ids;
     k.options.ink.hatch_inset = cases[i].inset;
-    unsigned long n = 1, step = is_under_valgrind() ? 7 : 1;
-    recto_status status;
-    do {
-      mem_fail_after(n);
-      status = ink_fixture_try(&k);
-      mem_fail_after(0);
-      assert_true(status == RECTO_OK || status == RECTO_ERROR_MEMORY);
-      n += step;
-    } while (status != RECTO_OK);
-    assert_in_range(n, 40, 10000);
+    unsigned long left_out = is_under_valgrind() ? 6 : 0;
+    struct memory_faults faults = {.least = 40 / (left_out + 1)};
+    while (memory_faults_go_on(&faults)) {
+      memory_faults_begin(&faults);
+      memory_faults_end(&faults, ink_fixture_try(&k));
+      faults.allocation += left_out;
+    }
     assert_true(k.drawing.stroke.count > 20);
     ink_fixture_end(&k);
   }

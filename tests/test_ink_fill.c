@@ -13,8 +13,6 @@
 
 enum { CREASE = RECTO_EDGE_CREASE };
 
-static bool is_under_valgrind(void) { return getenv("RECTO_VALGRIND") != NULL; }
-
 /* ---- Layers -------------------------------------------------------------- */
 
 static void assert_layer(const struct ink_fixture *k, size_t layer,

@@ -22,8 +22,6 @@ enum {
 
 #define NANOMETRE (1.0 / 1048576)
 
-static bool is_under_valgrind(void) { return getenv("RECTO_VALGRIND") != NULL; }
-
 /* ---- Intervals ----------------------------------------------------------- */
 
 static void visible_edge_is_a_stroke(void **state) {

@@ -15,8 +15,6 @@
 #include "tests/ink_fixture.h"
 #include "tests/scenes/random.h"
 
-static bool is_under_valgrind(void) { return getenv("RECTO_VALGRIND") != NULL; }
-
 /* ---- Drawings ------------------------------------------------------------ */
 
 static void add_layer(struct drawing *drawing) {

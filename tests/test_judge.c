@@ -18,6 +18,7 @@
 #include "tests/polled.h"
 #include "tests/scenes/judge_camera.h"
 #include "tests/scenes/scenes.h"
+#include "tests/memory_faults.h"
 
 /* An SVG file that is being written. */
 struct page {
@@ -948,17 +949,15 @@ static void any_bytes_and_no_memory_are_survived(void **state) {
       judge_drawing_fini(&drawing);
     }
   }
-  const char *fault = "";
-  unsigned long n = 0;
-  while (fault != NULL) {
-    mem_fail_after(++n);
-    fault = read_text(&drawing, text);
-    mem_fail_after(0);
+  struct memory_faults faults = {.least = 3};
+  while (memory_faults_go_on(&faults)) {
+    memory_faults_begin(&faults);
+    const char *fault = read_text(&drawing, text);
+    memory_faults_end(&faults, memory_faults_status(fault == NULL));
     if (fault != NULL)
       assert_string_equal(fault, "memory ran out");
     judge_drawing_fini(&drawing);
   }
-  assert_true(n > 3);
 }
 
 /* ---- The grid of segments ------------------------------------------------ */

@@ -17,6 +17,7 @@
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/random.h"
 #include "tests/scenes/solver_named.h"
+#include "tests/memory_faults.h"
 
 static const struct solver *const bounded[] = {
     &solver_tiles, &solver_newell, &solver_warnock, &solver_watkins, NULL};
@@ -251,14 +252,12 @@ static void running_out_of_memory_is_reported(void **state) {
   add_piercing(&fixture.scene, 24, false);
   sheet_fixture_out(&fixture, true);
   for (const struct solver *const *s = bounded; *s != NULL; s++) {
-    recto_status status = RECTO_ERROR_MEMORY;
-    for (unsigned long n = 1; status != RECTO_OK; n += 1 + n / 32) {
+    struct memory_faults faults = {.least = 10, .in_a_row = 20};
+    while (memory_faults_go_on(&faults)) {
       struct patience patience = {0, 1 << 30};
-      mem_fail_after(n);
-      status = solve(&fixture, *s, &patience);
-      mem_fail_after(0);
-      if (status != RECTO_OK)
-        assert_int_equal(status, RECTO_ERROR_MEMORY);
+      memory_faults_begin(&faults);
+      memory_faults_end(&faults, solve(&fixture, *s, &patience));
+      faults.allocation += faults.allocation / 32;
     }
   }
   sheet_fixture_fini(&fixture);

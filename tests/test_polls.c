@@ -390,7 +390,7 @@ static void the_share_rises_while_hiding_faces_are_counted(void **state) {
   options.camera.elevation_deg = 2;
   assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
                    RECTO_OK);
-  assert_true(polls.from > 0 && depths.to > depths.from + 0.1);
+  assert_true(polls.from > 0 && polls.to > polls.from + 0.1);
   assert_false(polls.extra);
   recto_drawing_destroy(drawing);
   recto_scene_destroy(scene);

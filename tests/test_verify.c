@@ -18,6 +18,7 @@
 #include "tests/scenes/catmull_clark.h"
 #include "tests/scenes/pipeline.h"
 #include "tests/temporary.h"
+#include "tests/memory_faults.h"
 #include "view/camera_aim.h"
 
 /* ---- Helpers ------------------------------------------------------------- */
@@ -426,15 +427,11 @@ static void every_allocation_may_fail(void **state) {
   build_box(&run.scene, vector_of(-2, -2, -9), vector_of(3, 3, 20));
   run.scene.point.item[0].z += 1; /* a warped face */
   draw(&run);
-  recto_status status = RECTO_ERROR_MEMORY;
-  unsigned long n = 0;
-  while (status == RECTO_ERROR_MEMORY) {
-    mem_fail_after(++n);
-    status = verify_run(&run, 0);
-    mem_fail_after(0);
-    assert_true(status == RECTO_OK || status == RECTO_ERROR_MEMORY);
+  struct memory_faults faults = {.least = 20};
+  while (memory_faults_go_on(&faults)) {
+    memory_faults_begin(&faults);
+    memory_faults_end(&faults, verify_run(&run, 0));
   }
-  assert_true(n > 20);
   end(&run);
 }
 

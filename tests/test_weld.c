@@ -207,7 +207,7 @@ static void points_on_the_borders_of_cells_are_found(void **state) {
   }
 }
 
-static void an_overfull_cell_is_joined_in_linear_time(void **state) {
+static void a_million_points_within_the_length_are_one_cluster(void **state) {
   (void)state;
   struct random random = {13};
   struct scene scene;
@@ -217,7 +217,10 @@ static void an_overfull_cell_is_joined_in_linear_time(void **state) {
     add_point(&scene, random_between(&random, 0, 1),
               random_between(&random, 0, 1), random_between(&random, 0, 1));
   free(join(&scene, 0.4));
-  free(join(&scene, 10));
+  struct cluster_member *member = join(&scene, 10);
+  for (uint32_t i = 0; i < count; i++)
+    assert_int_equal(member[i].representative, member[0].representative);
+  free(member);
   scene_fini(&scene);
 }
 
@@ -673,7 +676,7 @@ int main(void) {
       cmocka_unit_test(radii_are_kept),
       cmocka_unit_test(groups_that_are_apart_are_one_in_any_order),
       cmocka_unit_test(points_on_the_borders_of_cells_are_found),
-      cmocka_unit_test(an_overfull_cell_is_joined_in_linear_time),
+      cmocka_unit_test(a_million_points_within_the_length_are_one_cluster),
       cmocka_unit_test(unusual_lengths_and_positions_are_handled),
       cmocka_unit_test(noise_of_rounding_leaves_no_border),
       cmocka_unit_test(exact_coordinates_are_left_alone),
