@@ -8,7 +8,6 @@
  *   make the ink; verify, and keep results, if requested. */
 #include <limits.h>
 #include <math.h>
-#include <stdio.h>
 
 #include "api/captions.h"
 #include "api/clip_warning.h"
@@ -16,6 +15,7 @@
 #include "api/handle.h"
 #include "api/output_format.h"
 #include "api/render.h"
+#include "api/render_warnings.h"
 #include "api/result.h"
 #include "api/rounded_warning.h"
 #include "api/shares.h"
@@ -114,42 +114,20 @@ static void drop_topology(struct render *render) {
     topology_fini(&render->topology);
 }
 
-/* Corners that were one before something moved them apart make borders of all
- * edges. */
-static void warn_of_borders(const struct render *render) {
-  const recto_options *o = render->options;
+static void report_preparation(const struct render *render) {
   const struct preparation *prepared = render->prepared;
-  bool is_cut = prepared->planes > 0;
-  size_t edges = is_cut ? prepared->edges : render->topology.edge.count;
-  if (o->warning == NULL || o->mesh.weld == 0 ||
-      !(is_cut ? prepared->is_suspicious
-               : welded_is_suspicious(&prepared->welded, &render->topology)))
-    return;
-  char text[128];
-  snprintf(text, sizeof text,
-           "%.0f %% of the edges are borders; --weld LENGTH joins corners that "
-           "lie apart",
-           100.0 * (double)prepared->welded.borders / (double)edges);
-  const char *path = render->model->path;
-  o->warning(o->user, path != NULL ? path : "", 0, text);
-}
-
-/* Surfaces that are not closed have no inside that a cut could show. */
-static void warn_of_open_cut(const struct render *render) {
-  const recto_options *o = render->options;
-  const struct cut *cut = &render->prepared->cut;
-  int exponent = render->prepared->rescaled.exponent;
-  if (o->warning == NULL || cut->open == 0)
-    return;
-  char text[192];
-  snprintf(text, sizeof text,
-           "%zu %s of the cut %s not closed, the first at %.9g,%.9g,%.9g: the "
-           "surface is open there, and no cut face fills it",
-           cut->open, cut->open == 1 ? "line" : "lines",
-           cut->open == 1 ? "is" : "are", ldexp(cut->open_at.x, exponent),
-           ldexp(cut->open_at.y, exponent), ldexp(cut->open_at.z, exponent));
-  const char *path = render->model->path;
-  o->warning(o->user, path != NULL ? path : "", 0, text);
+  struct report *report = render->report;
+  report_double(report, "scene", "weld",
+                ldexp(prepared->welded.length, prepared->rescaled.exponent));
+  report_count(report, "scene", "welded_points", prepared->welded.joined);
+  report_count(report, "scene", "welded_faces", prepared->welded.lost);
+  report_count(report, "scene", "edges", render->topology.edge.count);
+  if (prepared->planes > 0) {
+    report_count(report, "cut", "faces",
+                 scene_face_count(prepared->scene) -
+                     prepared->cut.made.first_face);
+    report_count(report, "cut", "open_lines", prepared->cut.open);
+  }
 }
 
 /* Takes what was prepared for the scene, where it serves, or prepares it.  The
@@ -173,15 +151,9 @@ static recto_status find_topology(struct render *render, recto_error *error) {
     status = preparation_rescale(render->prepared, &render->scaled, error);
   if (status != RECTO_OK)
     return status;
-  report_double(render->report, "scene", "weld",
-                ldexp(render->prepared->welded.length,
-                      render->prepared->rescaled.exponent));
-  report_count(render->report, "scene", "welded_points",
-               render->prepared->welded.joined);
-  report_count(render->report, "scene", "welded_faces",
-               render->prepared->welded.lost);
-  warn_of_borders(render);
-  warn_of_open_cut(render);
+  report_preparation(render);
+  warn_of_borders(o, render->model->path, render->prepared, &render->topology);
+  warn_of_open_cut(o, render->model->path, render->prepared);
   if (render->prepared->welded.lost > 0 &&
       scene_face_count(render->prepared->scene) == 0 &&
       scene_wire_count(render->prepared->scene) == 0)
@@ -191,14 +163,6 @@ static recto_status find_topology(struct render *render, recto_error *error) {
   render->topology.drop_after_sheet = !needs_fragments(render) &&
                                       !draws_smooth_contours(render) &&
                                       !is_shared(render);
-  report_count(render->report, "scene", "edges", render->topology.edge.count);
-  if (render->prepared->planes > 0) {
-    report_count(render->report, "cut", "faces",
-                 scene_face_count(render->prepared->scene) -
-                     render->prepared->cut.made.first_face);
-    report_count(render->report, "cut", "open_lines",
-                 render->prepared->cut.open);
-  }
   return status;
 }
 
@@ -389,58 +353,6 @@ static recto_status run_stages(struct render *render, recto_error *error) {
   return RECTO_OK;
 }
 
-/* ---- Warnings ------------------------------------------------------------ */
-
-/* Whether nothing is inside the page's margins. */
-static bool is_outside_page(const struct render *render) {
-  return render->triangles == 0 && render->sheet.edge.count == 0;
-}
-
-static void warn_of_empty_drawing(const recto_options *o, const char *why) {
-  char text[128];
-  if (o->warning == NULL)
-    return;
-  if (o->ink.edges == RECTO_EDGES_NONE && o->ink.fill == RECTO_FILL_NONE)
-    why = "neither lines nor fills are requested";
-  snprintf(text, sizeof text, "the drawing is empty: %s", why);
-  o->warning(o->user, "", 0, text);
-}
-
-#define NOTHING_VISIBLE "nothing that was requested is visible and long enough"
-
-void render_warn_of_nothing(const recto_options *options) {
-  warn_of_empty_drawing(options, NOTHING_VISIBLE);
-}
-
-/* Warns if the drawing is empty, which is no error but seldom intended. */
-static void warn_of_empty_page(const struct render *render) {
-  const struct drawing *drawing = render->drawing;
-  if (drawing->stroke.count == 0 && drawing->fill.count == 0)
-    warn_of_empty_drawing(
-        render->options,
-        is_outside_page(render)
-            ? "all of the scene is outside of the page's margins"
-            : NOTHING_VISIBLE);
-}
-
-/* Warns of faces that the default near plane clips, which it does where depths
- * would otherwise become too coarse. */
-static void warn_of_near_plane(const struct render *render) {
-  const recto_options *o = render->options;
-  unsigned long cut = (unsigned long)render->sheet.cut_near;
-  if (cut == 0 || o->warning == NULL)
-    return;
-  char text[160];
-  snprintf(
-      text, sizeof text,
-      "%lu %s nearer to the eye than %.3g and %s cut there; --near takes a "
-      "smaller distance",
-      cut, cut == 1 ? "face comes" : "faces come",
-      ldexp(render->camera.near_d, render->prepared->rescaled.exponent),
-      cut == 1 ? "is" : "are");
-  o->warning(o->user, "", 0, text);
-}
-
 /* ---- The numbers of faces and polylines ---------------------------------- */
 
 /* Gives faces the numbers that they have in the scene's sources, where faces
@@ -504,11 +416,14 @@ static recto_status run_and_report(struct render *render, recto_error *error) {
     number_elements(render->drawing, scene);
     stats_add_seconds(render->report, "render_cpu_s", clock_cpu() - cpu);
     stats_add_seconds(render->report, "render_wall_s", clock_wall() - wall);
+    bool is_outside = render->triangles == 0 && render->sheet.edge.count == 0;
     if (!render->request->may_be_empty)
-      warn_of_empty_page(render);
-    warn_of_near_plane(render);
+      warn_of_empty_page(render->options, render->drawing, is_outside);
+    warn_of_near_plane(
+        render->options, (unsigned long)render->sheet.cut_near,
+        ldexp(render->camera.near_d, render->prepared->rescaled.exponent));
     clipped_report(&render->overflow, render->report);
-    if (!is_outside_page(render))
+    if (!is_outside)
       clipped_warn(&render->overflow,
                    has_fills(render) ? render->sheet.clipped_page : 0,
                    render->camera.margin_mm, render->options);

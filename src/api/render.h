@@ -19,7 +19,4 @@ USE_RESULT recto_status render_view(recto_drawing **drawing,
                                     const struct render_request *request,
                                     recto_error *error);
 
-/* Warns that nothing is drawn. */
-void render_warn_of_nothing(const recto_options *options);
-
 #endif

@@ -15,6 +15,7 @@
 #include "api/multiview.h"
 #include "api/options.h"
 #include "api/render.h"
+#include "api/render_warnings.h"
 #include "api/shares.h"
 #include "api/multiview_labels.h"
 #include "api/multiview_text.h"
@@ -90,7 +91,7 @@ static void warn_of_empty_parts(const struct multiview_work *work) {
     all = all && is_empty[i];
   }
   if (all)
-    render_warn_of_nothing(work->options);
+    warn_of_nothing(work->options);
   for (size_t i = 0; !all && i < count_parts(work); i++)
     if (is_empty[i] && i < work->views.count)
       warn_of_empty_part(work, "view", multiview_name(&work->views, i));

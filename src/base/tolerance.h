@@ -208,7 +208,7 @@
  * that they may be meant to be one.
  * Unit        share of the size of the faces about a corner
  * Derivation  by experience: modelled gaps are wider.
- * Users       scene/weld_near.c
+ * Users       scene/weld_suspicion.c
  * Ten times   models of loose plates are warned about too. */
 #define TOLERANCE_GAP_SHARE 0x1p-6
 

@@ -34,4 +34,6 @@ librecto_core_la_SOURCES += \
   %D%/topology_edge.h \
   %D%/unusable.c %D%/unusable.h \
   %D%/weld_equal.c %D%/weld_equal.h \
-  %D%/weld_near.c %D%/weld_near.h
+  %D%/weld_candidates.c %D%/weld_candidates.h \
+  %D%/weld_near.c %D%/weld_near.h \
+  %D%/weld_suspicion.c

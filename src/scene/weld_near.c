@@ -24,120 +24,18 @@
  */
 #include "scene/weld_near.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
-#include "base/hash.h"
 #include "base/poll.h"
 #include "base/tolerance.h"
-#include "scene/cluster.h"
-
-/* A longer length is taken as LENGTH_MAX; at one below LENGTH_LEAST nothing is
- * joined.  Their squares neither overflow nor vanish. */
-#define LENGTH_MAX 0x1p200
-#define LENGTH_LEAST 0x1p-900
-
-/* The points that may be joined. */
-struct candidates {
-  ARRAY(struct cluster_member) member; /* ascending points */
-  uint32_t *number;                    /* point -> its member + 1; 0: none */
-  double *size; /* one a member: of its smallest face, squared */
-};
-
-static void candidates_fini(struct candidates *candidates) {
-  ARRAY_FREE(&candidates->member);
-  mem_free(candidates->number);
-  mem_free(candidates->size);
-}
-
-static bool is_border(const struct topology_edge *edge) {
-  return edge->uses == 1;
-}
+#include "scene/weld_candidates.h"
 
 static size_t count_borders(const struct topology *topology) {
   size_t count = 0;
   for (size_t e = 0; e < topology->edge.count; e++)
-    count += is_border(&topology->edge.item[e]);
+    count += weld_is_border(&topology->edge.item[e]);
   return count;
-}
-
-/* ---- Candidates ---------------------------------------------------------- */
-
-static bool find_weld_candidates(struct candidates *candidates,
-                                 const struct scene *scene,
-                                 const struct topology *topology) {
-  size_t points = scene->point.count;
-  candidates->number = mem_calloc(points, sizeof *candidates->number);
-  if (candidates->number == NULL)
-    return false;
-  size_t count = 0;
-  for (size_t e = 0; e < topology->edge.count; e++) {
-    const struct topology_edge *edge = &topology->edge.item[e];
-    for (int k = 0; k < 2 && is_border(edge); k++) {
-      count += candidates->number[edge->point[k]] == 0;
-      candidates->number[edge->point[k]] = 1;
-    }
-  }
-  if (!ARRAY_RESERVE(&candidates->member, count))
-    return false;
-  for (size_t p = 0; p < points; p++)
-    if (candidates->number[p]) {
-      struct cluster_member member = {.point = (uint32_t)p};
-      candidates->member.item[candidates->member.count++] = member;
-      candidates->number[p] = (uint32_t)candidates->member.count;
-    }
-  return true;
-}
-
-static double square_between(const struct scene_point *a,
-                             const struct scene_point *b) {
-  double x = b->x - a->x, y = b->y - a->y, z = b->z - a->z;
-  return x * x + y * y + z * z;
-}
-
-/* The square of the longest side. */
-static double face_size(const struct scene *scene, uint32_t face) {
-  const struct scene_point *point = scene->point.item;
-  uint32_t start = scene->face_start.item[face];
-  uint32_t end = scene->face_start.item[face + 1];
-  double most = 0;
-  uint32_t before = scene->corner.item[end - 1];
-  for (uint32_t c = start; c < end; c++) {
-    most = fmax(most,
-                square_between(&point[before], &point[scene->corner.item[c]]));
-    before = scene->corner.item[c];
-  }
-  return most;
-}
-
-/* Of the faces whose border edges meet at a point, the smallest counts. */
-static bool measure_faces(struct candidates *candidates,
-                          const struct scene *scene,
-                          const struct topology *topology) {
-  size_t count = candidates->member.count;
-  candidates->size = mem_alloc(count, sizeof *candidates->size);
-  if (candidates->size == NULL)
-    return false;
-  for (size_t i = 0; i < count; i++)
-    candidates->size[i] = INFINITY;
-  /* The edges of a face follow one another. */
-  uint32_t face = SCENE_NONE;
-  double size = 0;
-  for (size_t e = 0; e < topology->edge.count; e++) {
-    const struct topology_edge *edge = &topology->edge.item[e];
-    if (!is_border(edge))
-      continue;
-    if (edge->first != face)
-      size = face_size(scene, edge->first);
-    face = edge->first;
-    for (int k = 0; k < 2; k++) {
-      uint32_t number = candidates->number[edge->point[k]];
-      double *least = &candidates->size[number - 1];
-      *least = fmin(*least, size);
-    }
-  }
-  return true;
 }
 
 /* ---- Radii --------------------------------------------------------------- */
@@ -171,19 +69,10 @@ static double explained_length(double scale, struct precision precision) {
                                     TOLERANCE_WELD_SHARE * scale));
 }
 
-/* Sets how often each radius is the length halved; it never is longer. */
-static void set_radius(struct cluster_member *member, double length,
-                       double radius) {
-  int halvings = 0;
-  while (halvings < CLUSTER_LEVELS && ldexp(length, -halvings) > radius)
-    halvings++;
-  member->halvings =
-      halvings < CLUSTER_LEVELS ? (uint8_t)halvings : CLUSTER_ALONE;
-}
-
 /* The members from `first` on whose points are of one range of precision. */
 static size_t range_end(const struct scene *scene,
-                        const struct candidates *candidates, size_t first) {
+                        const struct weld_candidates *candidates,
+                        size_t first) {
   uint32_t limit = SCENE_NONE;
   uint32_t point = candidates->member.item[first].point;
   for (size_t r = scene->precision.count; r > 0; r--)
@@ -200,7 +89,7 @@ static size_t range_end(const struct scene *scene,
  * each  gets it for each member
  * Returns the longest. */
 static double find_rounding_lengths(const struct scene *scene,
-                                    const struct candidates *candidates,
+                                    const struct weld_candidates *candidates,
                                     struct precision unstated, double *each) {
   double most = 0;
   const struct cluster_member *member = candidates->member.item;
@@ -218,7 +107,7 @@ static double find_rounding_lengths(const struct scene *scene,
 
 /* Sets the radii that rounding explains; returns the longest length, or less
  * than 0 when memory ran out. */
-static double set_explained_radii(struct candidates *candidates,
+static double set_explained_radii(struct weld_candidates *candidates,
                                   const struct scene *scene,
                                   const struct topology *topology,
                                   struct precision unstated) {
@@ -228,11 +117,12 @@ static double set_explained_radii(struct candidates *candidates,
   if (each == NULL)
     return length;
   length = find_rounding_lengths(scene, candidates, unstated, each);
-  if (length > 0 && !measure_faces(candidates, scene, topology))
+  if (length > 0 && !weld_candidates_measure(candidates, scene, topology))
     length = -1;
   for (size_t i = 0; i < count && length > 0; i++) {
     double face = sqrt(candidates->size[i]) * TOLERANCE_WELD_FACE_SHARE;
-    set_radius(&candidates->member.item[i], length, fmin(each[i], face));
+    weld_candidate_set_radius(&candidates->member.item[i], length,
+                              fmin(each[i], face));
   }
   mem_free(each);
   return length;
@@ -243,7 +133,7 @@ double weld_near_length_most(const struct scene *scene,
   double largest = 0, most = 0;
   int exponent;
   if (request->length >= 0)
-    return fmin(request->length, LENGTH_MAX);
+    return fmin(request->length, WELD_LENGTH_MAX);
   for (size_t p = 0; p < scene->point.count; p++) {
     const struct scene_point *at = &scene->point.item[p];
     largest = fmax(largest, fmax(fabs(at->x), fmax(fabs(at->y), fabs(at->z))));
@@ -261,7 +151,7 @@ double weld_near_length_most(const struct scene *scene,
 
 /* Makes `number` the map from each point to the one it is welded to, which is
  * the lowest of those at one position. */
-static uint32_t *make_map(struct candidates *candidates,
+static uint32_t *make_map(struct weld_candidates *candidates,
                           const struct scene *scene,
                           const struct topology *topology) {
   const struct cluster_member *member = candidates->member.item;
@@ -375,21 +265,21 @@ static recto_status rewrite(struct welded *welded, const struct scene *scene,
 
 /* Sets the radii and joins; false when memory ran out. */
 static bool join_close_points(struct welded *welded,
-                              struct candidates *candidates,
+                              struct weld_candidates *candidates,
                               const struct topology *topology,
                               const struct weld_request *request) {
   const struct scene *scene = &welded->scene;
-  if (!find_weld_candidates(candidates, scene, topology))
+  if (!weld_candidates_find(candidates, scene, topology))
     return false;
   if (candidates->member.count == 0)
     return true;
-  welded->length = fmin(request->length, LENGTH_MAX);
+  welded->length = fmin(request->length, WELD_LENGTH_MAX);
   if (request->length < 0)
     welded->length =
         set_explained_radii(candidates, scene, topology, request->unstated);
   if (welded->length < 0)
     return false;
-  if (welded->length < LENGTH_LEAST)
+  if (welded->length < WELD_LENGTH_LEAST)
     return true;
   welded->joined = cluster_join(scene, welded->length, candidates->member.item,
                                 candidates->member.count);
@@ -399,7 +289,7 @@ static bool join_close_points(struct welded *welded,
 recto_status weld_near(struct welded *welded, struct topology *topology,
                        const struct scene *scene,
                        const struct weld_request *request, recto_error *error) {
-  struct candidates candidates = {.number = NULL};
+  struct weld_candidates candidates = {.number = NULL};
   *welded = (struct welded){.scene = *scene};
   recto_status status = topology_init(topology, scene, error);
   if (status != RECTO_OK)
@@ -419,7 +309,7 @@ recto_status weld_near(struct welded *welded, struct topology *topology,
     if (status == RECTO_OK)
       welded->borders = count_borders(topology);
   }
-  candidates_fini(&candidates);
+  weld_candidates_fini(&candidates);
   if (status != RECTO_OK) {
     topology_fini(topology);
     welded_fini(welded);
@@ -439,68 +329,4 @@ void welded_fini(struct welded *welded) {
     ARRAY_FREE(&own->wire_group);
   }
   memset(welded, 0, sizeof *welded);
-}
-
-/* ---- Suspicion ----------------------------------------------------------- */
-
-/* Whether the member lies in a block of space that is in the sample: one block
- * in `one_in` is.
- * side  of the blocks */
-static bool is_in_sample(const struct scene *scene,
-                         const struct cluster_member *member, double side,
-                         size_t one_in) {
-  const struct scene_point *p = &scene->point.item[member->point];
-  uint64_t hash = hash_add_double(0, floor(p->x / side));
-  hash = hash_add_double(hash, floor(p->y / side));
-  hash = hash_add_double(hash, floor(p->z / side));
-  return hash % one_in == 0;
-}
-
-/* Keeps a sample of the members: those of some blocks of space, so that each is
- * kept with all its neighbours but for those beyond the sides of its block.
- * Keeps all where there are few, or few in these blocks.
- * length  the longest radius */
-static void keep_sample(struct candidates *candidates,
-                        const struct scene *scene, double length) {
-  enum { SAMPLE = 1 << 15, SAMPLE_MIN = SAMPLE / 8, RADII = 64 };
-  struct cluster_member *member = candidates->member.item;
-  size_t kept = 0, count = candidates->member.count, one_in = count / SAMPLE;
-  if (one_in < 2)
-    return;
-  for (size_t i = 0; i < count; i++)
-    kept += is_in_sample(scene, &member[i], RADII * length, one_in);
-  if (kept < SAMPLE_MIN)
-    return;
-  candidates->member.count = 0;
-  for (size_t i = 0; i < count; i++)
-    if (is_in_sample(scene, &member[i], RADII * length, one_in))
-      member[candidates->member.count++] = member[i];
-}
-
-bool welded_is_suspicious(const struct welded *welded,
-                          const struct topology *topology) {
-  enum { FEWEST_FACES = 100, TENTHS_OF_EDGES = 3, ONE_POINT_IN = 4 };
-  const struct scene *scene = &welded->scene;
-  struct candidates candidates = {.number = NULL};
-  size_t joined = 0, count = 0;
-  if (scene_face_count(scene) < FEWEST_FACES ||
-      10 * welded->borders <= TENTHS_OF_EDGES * topology->edge.count)
-    return false;
-  if (find_weld_candidates(&candidates, scene, topology) &&
-      measure_faces(&candidates, scene, topology)) {
-    double length = 0;
-    count = candidates.member.count;
-    for (size_t i = 0; i < count; i++)
-      length = fmax(length, TOLERANCE_GAP_SHARE * sqrt(candidates.size[i]));
-    for (size_t i = 0; i < count; i++)
-      set_radius(&candidates.member.item[i], length,
-                 TOLERANCE_GAP_SHARE * sqrt(candidates.size[i]));
-    if (length >= LENGTH_LEAST) {
-      keep_sample(&candidates, scene, length);
-      count = candidates.member.count;
-      joined = cluster_join(scene, length, candidates.member.item, count);
-    }
-  }
-  candidates_fini(&candidates);
-  return joined != SIZE_MAX && joined > 0 && ONE_POINT_IN * joined >= count;
 }

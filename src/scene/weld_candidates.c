@@ -1,0 +1,95 @@
+/* weld_candidates.c - lists the ends of borders, and measures the faces about
+ * them. */
+#include "scene/weld_candidates.h"
+
+#include <math.h>
+
+void weld_candidates_fini(struct weld_candidates *candidates) {
+  ARRAY_FREE(&candidates->member);
+  mem_free(candidates->number);
+  mem_free(candidates->size);
+}
+
+bool weld_candidates_find(struct weld_candidates *candidates,
+                          const struct scene *scene,
+                          const struct topology *topology) {
+  size_t points = scene->point.count;
+  candidates->number = mem_calloc(points, sizeof *candidates->number);
+  if (candidates->number == NULL)
+    return false;
+  size_t count = 0;
+  for (size_t e = 0; e < topology->edge.count; e++) {
+    const struct topology_edge *edge = &topology->edge.item[e];
+    for (int k = 0; k < 2 && weld_is_border(edge); k++) {
+      count += candidates->number[edge->point[k]] == 0;
+      candidates->number[edge->point[k]] = 1;
+    }
+  }
+  if (!ARRAY_RESERVE(&candidates->member, count))
+    return false;
+  for (size_t p = 0; p < points; p++)
+    if (candidates->number[p]) {
+      struct cluster_member member = {.point = (uint32_t)p};
+      candidates->member.item[candidates->member.count++] = member;
+      candidates->number[p] = (uint32_t)candidates->member.count;
+    }
+  return true;
+}
+
+static double square_between(const struct scene_point *a,
+                             const struct scene_point *b) {
+  double x = b->x - a->x, y = b->y - a->y, z = b->z - a->z;
+  return x * x + y * y + z * z;
+}
+
+/* The square of the longest side. */
+static double face_size(const struct scene *scene, uint32_t face) {
+  const struct scene_point *point = scene->point.item;
+  uint32_t start = scene->face_start.item[face];
+  uint32_t end = scene->face_start.item[face + 1];
+  double most = 0;
+  uint32_t before = scene->corner.item[end - 1];
+  for (uint32_t c = start; c < end; c++) {
+    most = fmax(most,
+                square_between(&point[before], &point[scene->corner.item[c]]));
+    before = scene->corner.item[c];
+  }
+  return most;
+}
+
+bool weld_candidates_measure(struct weld_candidates *candidates,
+                             const struct scene *scene,
+                             const struct topology *topology) {
+  size_t count = candidates->member.count;
+  candidates->size = mem_alloc(count, sizeof *candidates->size);
+  if (candidates->size == NULL)
+    return false;
+  for (size_t i = 0; i < count; i++)
+    candidates->size[i] = INFINITY;
+  /* The edges of a face follow one another. */
+  uint32_t face = SCENE_NONE;
+  double size = 0;
+  for (size_t e = 0; e < topology->edge.count; e++) {
+    const struct topology_edge *edge = &topology->edge.item[e];
+    if (!weld_is_border(edge))
+      continue;
+    if (edge->first != face)
+      size = face_size(scene, edge->first);
+    face = edge->first;
+    for (int k = 0; k < 2; k++) {
+      uint32_t number = candidates->number[edge->point[k]];
+      double *least = &candidates->size[number - 1];
+      *least = fmin(*least, size);
+    }
+  }
+  return true;
+}
+
+void weld_candidate_set_radius(struct cluster_member *member, double length,
+                               double radius) {
+  int halvings = 0;
+  while (halvings < CLUSTER_LEVELS && ldexp(length, -halvings) > radius)
+    halvings++;
+  member->halvings =
+      halvings < CLUSTER_LEVELS ? (uint8_t)halvings : CLUSTER_ALONE;
+}

@@ -1,0 +1,41 @@
+/* weld_candidates.h - the points of borders, which may be welded to others. */
+#ifndef SCENE_WELD_CANDIDATES_H
+#define SCENE_WELD_CANDIDATES_H
+
+#include "scene/cluster.h"
+#include "scene/topology.h"
+
+/* A longer length is taken as WELD_LENGTH_MAX; at one below WELD_LENGTH_LEAST
+ * nothing is joined.  Their squares neither overflow nor vanish. */
+#define WELD_LENGTH_MAX 0x1p200
+#define WELD_LENGTH_LEAST 0x1p-900
+
+struct weld_candidates {
+  ARRAY(struct cluster_member) member; /* ascending points */
+  uint32_t *number;                    /* point -> its member + 1; 0: none */
+  double *size; /* one a member: of its smallest face, squared */
+};
+
+void weld_candidates_fini(struct weld_candidates *candidates);
+
+static inline bool weld_is_border(const struct topology_edge *edge) {
+  return edge->uses == 1;
+}
+
+/* Lists the points of borders.  Returns false when memory ran out. */
+USE_RESULT bool weld_candidates_find(struct weld_candidates *candidates,
+                                     const struct scene *scene,
+                                     const struct topology *topology);
+
+/* Sets the size of each candidate: of the faces whose border edges meet there,
+ * the smallest counts.  Returns false when memory ran out. */
+USE_RESULT bool weld_candidates_measure(struct weld_candidates *candidates,
+                                        const struct scene *scene,
+                                        const struct topology *topology);
+
+/* Sets how often the radius of a candidate is the length halved; it never is
+ * longer. */
+void weld_candidate_set_radius(struct cluster_member *member, double length,
+                               double radius);
+
+#endif

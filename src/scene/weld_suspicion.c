@@ -1,0 +1,70 @@
+/* weld_suspicion.c - decides whether the borders of a scene look like edges
+ * whose corners were moved apart. */
+#include <math.h>
+
+#include "base/hash.h"
+#include "base/tolerance.h"
+#include "scene/weld_candidates.h"
+#include "scene/weld_near.h"
+
+/* Whether the member lies in a block of space that is in the sample: one block
+ * in `one_in` is.
+ * side  of the blocks */
+static bool is_in_sample(const struct scene *scene,
+                         const struct cluster_member *member, double side,
+                         size_t one_in) {
+  const struct scene_point *p = &scene->point.item[member->point];
+  uint64_t hash = hash_add_double(0, floor(p->x / side));
+  hash = hash_add_double(hash, floor(p->y / side));
+  hash = hash_add_double(hash, floor(p->z / side));
+  return hash % one_in == 0;
+}
+
+/* Keeps a sample of the members: those of some blocks of space, so that each is
+ * kept with all its neighbours but for those beyond the sides of its block.
+ * Keeps all where there are few, or few in these blocks.
+ * length  the longest radius */
+static void keep_sample(struct weld_candidates *candidates,
+                        const struct scene *scene, double length) {
+  enum { SAMPLE = 1 << 15, SAMPLE_MIN = SAMPLE / 8, RADII = 64 };
+  struct cluster_member *member = candidates->member.item;
+  size_t kept = 0, count = candidates->member.count, one_in = count / SAMPLE;
+  if (one_in < 2)
+    return;
+  for (size_t i = 0; i < count; i++)
+    kept += is_in_sample(scene, &member[i], RADII * length, one_in);
+  if (kept < SAMPLE_MIN)
+    return;
+  candidates->member.count = 0;
+  for (size_t i = 0; i < count; i++)
+    if (is_in_sample(scene, &member[i], RADII * length, one_in))
+      member[candidates->member.count++] = member[i];
+}
+
+bool welded_is_suspicious(const struct welded *welded,
+                          const struct topology *topology) {
+  enum { FEWEST_FACES = 100, TENTHS_OF_EDGES = 3, ONE_POINT_IN = 4 };
+  const struct scene *scene = &welded->scene;
+  struct weld_candidates candidates = {.number = NULL};
+  size_t joined = 0, count = 0;
+  if (scene_face_count(scene) < FEWEST_FACES ||
+      10 * welded->borders <= TENTHS_OF_EDGES * topology->edge.count)
+    return false;
+  if (weld_candidates_find(&candidates, scene, topology) &&
+      weld_candidates_measure(&candidates, scene, topology)) {
+    double length = 0;
+    count = candidates.member.count;
+    for (size_t i = 0; i < count; i++)
+      length = fmax(length, TOLERANCE_GAP_SHARE * sqrt(candidates.size[i]));
+    for (size_t i = 0; i < count; i++)
+      weld_candidate_set_radius(&candidates.member.item[i], length,
+                                TOLERANCE_GAP_SHARE * sqrt(candidates.size[i]));
+    if (length >= WELD_LENGTH_LEAST) {
+      keep_sample(&candidates, scene, length);
+      count = candidates.member.count;
+      joined = cluster_join(scene, length, candidates.member.item, count);
+    }
+  }
+  weld_candidates_fini(&candidates);
+  return joined != SIZE_MAX && joined > 0 && ONE_POINT_IN * joined >= count;
+}
