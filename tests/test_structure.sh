@@ -282,6 +282,33 @@ check_listed() {
     sed 's/$/: not in local.mk/'
 }
 
+# A function of more than 45 lines does more than one thing, and so does a file
+# of more than 450, but for those here: recto.h is the whole interface, and the
+# others are tables, formats and searches of which no part stands alone.
+check_length() {
+  (cd "$1" && sources . | xargs awk '
+    BEGIN {
+      split("src/recto.h backends/writer_svg.c backends/writer_cairo.c " \
+            "src/geom/line.c src/visibility/tiles/tiles.c " \
+            "src/parts/part_merge.c src/parts/part_join.c " \
+            "src/view/camera_aim.c src/base/target.c " \
+            "src/judge/intersections.c src/judge/judge.c " \
+            "src/cli/options.c src/api/render.c src/api/part.c", name, " ")
+      for (i in name)
+        long[name[i]] = 1
+    }
+    FNR == 1 { start = 0 }
+    FNR == 451 && !(FILENAME in long) { print FILENAME ": too long" }
+    # A table is no function, nor is the function that is one but for its end.
+    / = \{$/ { table = 1 }
+    /^[a-z].*\(/ && !/;$/ { start = FNR; table = 0 }
+    /^}/ && start {
+      if (FNR - start >= 45 && !table)
+        print FILENAME ": line " start ": a function too long"
+      start = 0
+    }')
+}
+
 # Of two tests that have one log make runs only one.
 check_logs() {
   (cd "$1/tests" && printf '%s\n' test_*.c test_*.sh) | sed 's/\.[a-z]*$//' |
@@ -296,7 +323,8 @@ holds() {
   test -z "$found" || { say "$found" && false; }
 }
 claim "there are sources to check" test "$(sources "$srcdir" | wc -l)" -gt 50
-for check in sources circles names tolerances users reports width listed logs; do
+for check in sources circles names tolerances users reports width length listed \
+  logs; do
   claim "check_$check finds nothing" holds check_$check "$srcdir"
 done
 
@@ -368,7 +396,14 @@ END
 mkdir "$copy/tests"
 touch "$copy"/tests/test_{twin,line}.c "$copy"/tests/test_{twin,lines}.sh
 echo "/* new.c - nothing. */" >"$copy/src/visibility/included/new.c"
-for check in sources circles names tolerances users reports width listed logs; do
+yes "" | head -451 >>"$copy/src/geom/wide.c"
+{
+  echo "int planted_length(void) {"
+  yes "  ;" | head -44
+  echo "}"
+} >>"$copy/src/geom/int128.h"
+for check in sources circles names tolerances users reports width length listed \
+  logs; do
   check_$check "$copy" >"$scratch/$check"
 done
 
@@ -412,6 +447,9 @@ claim "a function may not have the name of another one" finds names \
 claim "nor a struct" finds names \
   "src/ink/pens.c: also defined in src/ink/layers.c: " "struct planted_tag"
 claim "and no other names are reported" test "$(wc -l <"$scratch/names")" -eq 2
+claim "a file may not grow too long" finds length "src/geom/wide.c: too long" ""
+claim "nor a function" finds length "src/geom/int128.h: line " "too long"
+claim "and no other lengths are reported" test "$(wc -l <"$scratch/length")" -eq 2
 claim "a source may not be left out of the build" finds listed \
   "src/geom/new.c: not in" ""
 claim "two tests may not have one log" finds logs "tests/test_twin.log: " ""

@@ -280,7 +280,29 @@ static recto_status check_sheet(const struct preparation *prepared,
   return status;
 }
 
-/* -------------------------------------------------------------------------- */
+/* ---- The whole check ----------------------------------------------------- */
+
+/* Judges a drawing by its own page, unless the options take its box. */
+static recto_status check_views(const struct scene *scene,
+                                recto_options *options,
+                                struct judge_drawing *drawing,
+                                struct judge_verdict *found,
+                                recto_error *error) {
+  struct preparation prepared;
+  if (!options->output.tight) {
+    options->page.width_mm = drawing->width_mm;
+    options->page.height_mm = drawing->height_mm;
+    options->page.may_turn = false;
+  }
+  recto_status status =
+      preparation_init(&prepared, scene, options, false, error);
+  topology_fini(&prepared.topology); /* the judge has its own */
+  if (status == RECTO_OK)
+    status = (multiview_is_requested(options) ? check_sheet : check_view_alone)(
+        &prepared, options, drawing, found, error);
+  preparation_fini(&prepared);
+  return status;
+}
 
 recto_status recto_scene_check_sized(const recto_scene *scene, const char *path,
                                      const recto_options *options,
@@ -305,21 +327,8 @@ recto_status recto_scene_check_sized(const recto_scene *scene, const char *path,
   poll_open(&poll, &checked);
   status = poll_stage(0, 1, "check") ? read_drawing(&drawing, path, error)
                                      : error_cancelled(error);
-  if (status == RECTO_OK) {
-    struct preparation prepared;
-    if (!checked.output.tight) {
-      checked.page.width_mm = drawing.width_mm;
-      checked.page.height_mm = drawing.height_mm;
-      checked.page.may_turn = false;
-    }
-    status = preparation_init(&prepared, &scene->scene, &checked, false, error);
-    topology_fini(&prepared.topology); /* the judge has its own */
-    if (status == RECTO_OK)
-      status =
-          (multiview_is_requested(&checked) ? check_sheet : check_view_alone)(
-              &prepared, &checked, &drawing, &found, error);
-    preparation_fini(&prepared);
-  }
+  if (status == RECTO_OK)
+    status = check_views(&scene->scene, &checked, &drawing, &found, error);
   if (status == RECTO_OK) {
     fill_verdict(&own, &found);
     (void)sized_copy_out(verdict, size, &own, sizeof own);

@@ -393,6 +393,26 @@ static recto_status check_pens(const struct render *render,
   return status;
 }
 
+/* Warns of what is seldom intended, and reports what was drawn. */
+static void warn_and_report(const struct render *render) {
+  bool is_outside = render->triangles == 0 && render->sheet.edge.count == 0;
+  if (!render->request->may_be_empty)
+    warn_of_empty_page(render->options, render->drawing, is_outside);
+  warn_of_near_plane(
+      render->options, (unsigned long)render->sheet.cut_near,
+      ldexp(render->camera.near_d, render->prepared->rescaled.exponent));
+  clipped_report(&render->overflow, render->report);
+  if (!is_outside)
+    clipped_warn(&render->overflow,
+                 has_fills(render) ? render->sheet.clipped_page : 0,
+                 render->camera.margin_mm, render->options);
+  stats_add_sheet(render->report, &render->sheet, render->triangles);
+  stats_add_work(render->report, &render->sheet, &render->map,
+                 render->triangles);
+  stats_add_drawing(render->report, render->drawing, render->options);
+  report_count(render->report, "memory", "peak_bytes", mem_peak_bytes());
+}
+
 static recto_status run_and_report(struct render *render, recto_error *error) {
   recto_status status = check_method(render->options, error);
   if (status == RECTO_OK)
@@ -416,22 +436,7 @@ static recto_status run_and_report(struct render *render, recto_error *error) {
     number_elements(render->drawing, scene);
     stats_add_seconds(render->report, "render_cpu_s", clock_cpu() - cpu);
     stats_add_seconds(render->report, "render_wall_s", clock_wall() - wall);
-    bool is_outside = render->triangles == 0 && render->sheet.edge.count == 0;
-    if (!render->request->may_be_empty)
-      warn_of_empty_page(render->options, render->drawing, is_outside);
-    warn_of_near_plane(
-        render->options, (unsigned long)render->sheet.cut_near,
-        ldexp(render->camera.near_d, render->prepared->rescaled.exponent));
-    clipped_report(&render->overflow, render->report);
-    if (!is_outside)
-      clipped_warn(&render->overflow,
-                   has_fills(render) ? render->sheet.clipped_page : 0,
-                   render->camera.margin_mm, render->options);
-    stats_add_sheet(render->report, &render->sheet, render->triangles);
-    stats_add_work(render->report, &render->sheet, &render->map,
-                   render->triangles);
-    stats_add_drawing(render->report, render->drawing, render->options);
-    report_count(render->report, "memory", "peak_bytes", mem_peak_bytes());
+    warn_and_report(render);
   }
   map_fini(&render->map);
   (void)poll_now();

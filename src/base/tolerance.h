@@ -305,7 +305,7 @@
 /* The polygon that stands for an arc is no farther from it than this.
  * Unit        mm
  * Derivation  half of RECTO_FINEST_MM, which plotters resolve.
- * Users       drawing/circle_clip.c
+ * Users       drawing/curve.c
  * Ten times   the circle of a detail shows its corners in print. */
 #define TOLERANCE_ARC_MM 0.005
 

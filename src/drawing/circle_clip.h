@@ -4,10 +4,6 @@
 
 #include "drawing/drawing.h"
 
-struct drawing_circle {
-  double x, y, radius; /* page mm */
-};
-
 /* Removes what is outside of a circle.  Nothing sticks out of a line of
  * `width_mm` along the circle: wider lines end before it, and fills with their
  * seams too.  Curves that leave the circle become polylines.
@@ -15,12 +11,5 @@ struct drawing_circle {
 USE_RESULT bool drawing_clip_circle(struct drawing *drawing,
                                     const struct drawing_circle *circle,
                                     double width_mm);
-
-/* Appends the points of an arc, both ends included, counter-clockwise.
- * from, to  radians, to >= from
- * Returns false when memory ran out. */
-USE_RESULT bool drawing_add_arc(struct drawing *drawing,
-                                const struct drawing_circle *circle,
-                                double from, double to);
 
 #endif

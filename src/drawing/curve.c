@@ -1,6 +1,7 @@
 /* curve.c - the curves of strokes, and polylines near them. */
 #include <math.h>
 
+#include "base/tolerance.h"
 #include "drawing/drawing.h"
 
 const struct drawing_curve *drawing_curve_of(const struct drawing *drawing,
@@ -60,5 +61,21 @@ bool drawing_flatten(const struct drawing *drawing,
     ok = add_chords(control + i, distance, line);
   if (ok && stroke->closed)
     line->point.count--;
+  return ok;
+}
+
+bool drawing_add_arc(struct drawing *drawing,
+                     const struct drawing_circle *circle, double from,
+                     double to) {
+  double share = fmin(TOLERANCE_ARC_MM / circle->radius, 1);
+  int chords = (int)ceil((to - from) / (2 * acos(1 - share)));
+  chords = chords > 1 ? chords : 1;
+  bool ok = true;
+  for (int i = 0; ok && i <= chords; i++) {
+    double angle = from + (to - from) * i / chords;
+    const struct drawing_point p = {circle->x + circle->radius * cos(angle),
+                                    circle->y + circle->radius * sin(angle)};
+    ok = ARRAY_PUSH(&drawing->point, p);
+  }
   return ok;
 }

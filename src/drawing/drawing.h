@@ -156,6 +156,17 @@ USE_RESULT bool drawing_flatten(const struct drawing *drawing,
                                 const struct drawing_curve *curve,
                                 double distance, struct drawing_polyline *line);
 
+struct drawing_circle {
+  double x, y, radius; /* page mm */
+};
+
+/* Appends the points of an arc, both ends included, counter-clockwise.
+ * from, to  radians, to >= from
+ * Returns false when memory ran out. */
+USE_RESULT bool drawing_add_arc(struct drawing *drawing,
+                                const struct drawing_circle *circle,
+                                double from, double to);
+
 /* A rectangle of the page. */
 struct drawing_window {
   double x0, y0, x1, y1; /* page mm */

@@ -2,6 +2,7 @@
 librecto_core_la_SOURCES += \
   %D%/append.c %D%/append.h \
   %D%/circle_clip.c %D%/circle_clip.h \
+  %D%/circle_clip_fill.c %D%/circle_clip_fill.h \
   %D%/curve.c \
   %D%/drawing.c %D%/drawing.h \
   %D%/simplex.c %D%/simplex.h \

@@ -51,11 +51,13 @@ static bool add_triangle_cut(const struct cut_edge_finder *finder, int k,
   return ends != 2 || add_cut_edge(finder, k, end[0], end[1], &source);
 }
 
-/* Adds the line that two planes have in common, as far as the scene reaches. */
-static bool add_common_line(const struct cut_edge_finder *finder, int j,
-                            int k) {
-  const struct judge_removed *removed = &finder->all->removed;
-  const struct judge_box *box = &finder->all->node[0].box;
+/* Finds the line that planes j and k have in common, as far as the scene
+ * reaches; false: it does not pass the scene. */
+static bool find_common_line(const struct judge_triangles *all, int j, int k,
+                             struct judge_point3 *from,
+                             struct judge_point3 *to) {
+  const struct judge_removed *removed = &all->removed;
+  const struct judge_box *box = &all->node[0].box;
   struct judge_point3 middle = {(box->low[0] + box->high[0]) / 2,
                                 (box->low[1] + box->high[1]) / 2,
                                 (box->low[2] + box->high[2]) / 2};
@@ -64,7 +66,7 @@ static bool add_common_line(const struct cut_edge_finder *finder, int j,
   struct judge_point3 along = point3_cross(n, m);
   double square = point3_dot(along, along);
   if (square < TOLERANCE_JUDGE_ANGLE * TOLERANCE_JUDGE_ANGLE)
-    return true;
+    return false;
   /* From the middle of the box to the line, in the plane of both normals. */
   double down = -judge_plane_height(&removed->plane[j], middle);
   double over = -judge_plane_height(&removed->plane[k], middle);
@@ -72,21 +74,21 @@ static bool add_common_line(const struct cut_edge_finder *finder, int j,
   struct judge_point3 at =
       point3_along(middle, (down - over * cosine) / square, n);
   at = point3_along(at, (over - down * cosine) / square, m);
-  if (point3_length(point3_sub(at, middle)) > finder->all->size)
-    return true;
-  double reach = finder->all->size / sqrt(square);
-  const struct judge_source source = {{SCENE_NONE, SCENE_NONE},
-                                      {SCENE_NONE, SCENE_NONE},
-                                      RECTO_EDGE_SECTION,
-                                      false,
-                                      0,
-                                      JUDGE_CUT_OF_PLANES,
-                                      k};
-  struct judge_point3 from = point3_along(at, -reach, along);
-  struct judge_point3 to = point3_along(at, reach, along);
-  /* Both planes have the line: it is beyond the third one, or that is one of
-   * them again. */
+  double reach = all->size / sqrt(square);
+  *from = point3_along(at, -reach, along);
+  *to = point3_along(at, reach, along);
+  return point3_length(point3_sub(at, middle)) <= all->size;
+}
+
+/* Adds the line that two planes have in common.  Both planes have it: it is
+ * beyond the third one, or that is one of them again. */
+static bool add_common_line(const struct cut_edge_finder *finder, int j,
+                            int k) {
+  const struct judge_removed *removed = &finder->all->removed;
+  struct judge_point3 from, to;
   double t0 = 0, t1 = 1;
+  if (!find_common_line(finder->all, j, k, &from, &to))
+    return true;
   for (int other = 0; other < removed->planes; other++) {
     double a = judge_plane_height(&removed->plane[other], from) + removed->near;
     double b = judge_plane_height(&removed->plane[other], to) + removed->near;
@@ -97,7 +99,14 @@ static bool add_common_line(const struct cut_edge_finder *finder, int j,
     t0 = a < 0 ? fmax(t0, a / (a - b)) : t0;
     t1 = b < 0 ? fmin(t1, a / (a - b)) : t1;
   }
-  along = point3_sub(to, from);
+  const struct judge_source source = {{SCENE_NONE, SCENE_NONE},
+                                      {SCENE_NONE, SCENE_NONE},
+                                      RECTO_EDGE_SECTION,
+                                      false,
+                                      0,
+                                      JUDGE_CUT_OF_PLANES,
+                                      k};
+  struct judge_point3 along = point3_sub(to, from);
   return t0 >= t1 ||
          judge_edges_add_whole(finder->edges, finder->camera,
                                point3_along(from, t0, along),

@@ -109,6 +109,21 @@ static size_t drop_hidden(struct warnock_windows *windows,
   return kept;
 }
 
+/* Ends the lists of a window, less what the front hides in it. */
+static void end_lists(struct warnock_windows *windows,
+                      struct warnock_window *win, struct warnock_front *front) {
+  uint64_t dropped = windows->dropped;
+  win->facets.to = windows->facet_pool.count;
+  win->surrounders.to = windows->surrounder_pool.count;
+  if (front->facet == SHEET_NONE)
+    return;
+  win->facets.to = windows->facet_pool.count =
+      drop_hidden(windows, win, front, windows->facet_pool.item, win->facets);
+  win->surrounders.to = windows->surrounder_pool.count = drop_hidden(
+      windows, win, front, windows->surrounder_pool.item, win->surrounders);
+  front->hides |= windows->dropped > dropped;
+}
+
 /* The parent's surrounders surround this window, too, and are not classified
  * again.  The parent's faces come nearest first, so that all others are behind
  * the front as soon as one is behind its farthest depth. */
@@ -146,16 +161,7 @@ bool warnock_list_facets(struct warnock_windows *windows,
     if (!ARRAY_PUSH(&windows->surrounder_pool,
                     windows->surrounder_pool.item[i]))
       return false;
-  win->facets.to = windows->facet_pool.count;
-  win->surrounders.to = windows->surrounder_pool.count;
-  if (front->facet == SHEET_NONE)
-    return true;
-  uint64_t dropped = windows->dropped;
-  win->facets.to = windows->facet_pool.count =
-      drop_hidden(windows, win, front, windows->facet_pool.item, win->facets);
-  win->surrounders.to = windows->surrounder_pool.count = drop_hidden(
-      windows, win, front, windows->surrounder_pool.item, win->surrounders);
-  front->hides |= windows->dropped > dropped;
+  end_lists(windows, win, front);
   return true;
 }
 
