@@ -293,7 +293,8 @@ check_length() {
             "src/parts/part_merge.c src/parts/part_join.c " \
             "src/view/camera_aim.c src/base/target.c " \
             "src/judge/intersections.c src/judge/judge.c " \
-            "src/cli/options.c src/api/render.c src/api/part.c", name, " ")
+            "src/cli/options.c src/api/render.c src/api/part.c " \
+            "src/parts/part_file.c", name, " ")
       for (i in name)
         long[name[i]] = 1
     }
