@@ -40,18 +40,14 @@ struct cutter {
   ARRAY(struct cut_corner) corner;
   ARRAY(struct cut_part) part; /* in the order of their faces */
   struct triangulation triangulation;
-  bool is_warped; /* the current face is not planar */
-  uint32_t
-      *place; /* of each point of the cut: its representative, the first one
-                      at its place */
+  bool is_warped;  /* the current face is not planar */
+  uint32_t *place; /* of each point of the cut: the first one at its place */
   size_t places;
   struct cut_lines lines;
   struct section section[CUT_PLANES_MAX];
   bool has_common_vertex;     /* three planes have a point in common */
   double common_vertex_at[3]; /* its place, in units of the grid */
-  uint32_t
-      common_vertex; /* SCENE_NONE: there is none, or it is not in the scene's
-                       box */
+  uint32_t common_vertex;     /* SCENE_NONE: none, or not in the scene's box */
   bool anything_goes;
 };
 
@@ -79,8 +75,8 @@ USE_RESULT recto_status cut_sections(struct cutter *cutter, recto_error *error);
  * that three planes have in common, where that is outside the scene's box.
  * Sets *open_at to a point of the first, where it is SCENE_NONE.  Returns false
  * when memory ran out. */
-USE_RESULT bool cut_open_lines_past_tip(struct cutter *cutter,
-                                        uint32_t *open_at);
+USE_RESULT bool cut_open_lines_past_vertex(struct cutter *cutter,
+                                           uint32_t *open_at);
 USE_RESULT recto_status cut_assemble(struct cutter *cutter,
                                      struct precision unstated,
                                      recto_error *error);

@@ -433,7 +433,7 @@ recto_status cut_sections(struct cutter *cutter, recto_error *error) {
   uint32_t labels = (uint32_t)cutter->scene->group.count;
   if (!cut_lines_close(&cutter->lines, &cutter->points, &cutter->cut->open,
                        &open_at) ||
-      !cut_open_lines_past_tip(cutter, &open_at))
+      !cut_open_lines_past_vertex(cutter, &open_at))
     return error_memory(error);
   for (unsigned k = 0; k < cutter->points.planes; k++) {
     if (!add_section_nodes(cutter, k) || !add_section_segments(cutter, k))

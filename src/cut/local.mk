@@ -6,7 +6,7 @@ librecto_core_la_SOURCES += \
   %D%/cut_faces.c \
   %D%/cut_phases.h \
   %D%/cut_scene.c \
-  %D%/cut_sections.c %D%/tip_flow.c \
+  %D%/cut_sections.c %D%/common_vertex_flow.c \
   %D%/cut_points.c %D%/cut_points.h \
   %D%/section.h \
   %D%/section_loops.c \
