@@ -25,7 +25,7 @@ struct svg {
   double scale;                   /* 10 to the power of the precision */
   ARRAY(struct svg_point) point;  /* of the current stroke or loop */
   struct drawing_polyline chords; /* of the current stroke's curve */
-  char **group_id;                /* with ids: of each group, or NULL */
+  char **group_id;                /* by groups: of each, or NULL */
 };
 
 /* ---- Text ---------------------------------------------------------------- */
@@ -302,7 +302,7 @@ static bool write_seams(struct svg *svg, uint32_t layer) {
   return true;
 }
 
-/* What is open within a layer: the group of the model, with ids, and in it a
+/* What is open within a layer: the group of the model, and in it a
  * class of strokes of one width, or fills.  Style sheets address both; a group
  * takes less space than an attribute of every line. */
 struct svg_nesting {
@@ -351,8 +351,8 @@ static void write_layer_id(const struct svg *svg, uint32_t layer,
   stream_text(out, "\"");
 }
 
-/* Opens the model's group, if there are ids and it has a name, unless it is
- * open. */
+/* Opens the model's group, if groups are elements and it has a name, unless it
+ * is open. */
 static void open_group(const struct svg *svg, struct svg_nesting *open,
                        uint32_t group) {
   const struct drawing *drawing = svg->drawing;
@@ -501,10 +501,10 @@ static recto_status write_svg(const struct drawing *drawing,
       .drawing = drawing, .options = options, .out = stream, .scale = 1};
   for (int i = 0; i < options->precision; i++)
     svg.scale *= 10;
-  if (drawing->ids)
+  if (drawing->by_groups)
     svg.group_id =
         svg_ids_make(drawing->group_name.item, drawing->group_name.count);
-  bool ok = !drawing->ids || svg.group_id != NULL;
+  bool ok = !drawing->by_groups || svg.group_id != NULL;
   write_head(&svg);
   for (uint32_t i = 0; i < drawing->layer.count && ok; i++)
     ok = write_layer(&svg, i);

@@ -187,6 +187,7 @@ recto_status ink_fixture_try(struct ink_fixture *k) {
   drawing_fini(&k->drawing);
   drawing_init(&k->drawing);
   k->drawing.by_pens = k->by_pens;
+  k->drawing.by_groups = k->by_groups;
   if (!find_twins(k))
     return RECTO_ERROR_MEMORY;
   /* The map borrows the states and does not own them. */

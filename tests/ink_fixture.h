@@ -19,6 +19,7 @@ struct ink_fixture {
   ARRAY(uint8_t) state; /* of the edges */
   uint32_t side;        /* edge that all sides of fragments are pieces of */
   bool by_pens;         /* the drawing is for a plotter */
+  bool by_groups;       /* groups are elements of it */
 };
 
 /* Uses of pens, for the options. */

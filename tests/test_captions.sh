@@ -102,11 +102,30 @@ stays() { # ARGUMENT...
     { test "${2-}" = hatch || grep -q 'data-edge="[0-9]"' two.part; } && return 0
   say "$(head -n 4 out)" && false
 }
+has_groups() { # WHETHER ARGUMENT... - an element for each of two groups
+  local wanted=$1
+  shift
+  { part far -6 1 && part near 0 9; } >two.obj &&
+    run 0 two.obj -o plain.svg "$@" && ! grep -q data-face plain.svg || return 1
+  test "$(ids plain.svg | grep -cE -- '-(far|near)"$')" = "$wanted" ||
+    { say "$(ids plain.svg | tr '\n' ' ')" && false; }
+}
+ids() { grep -o ' id="[^"]*"' "$1"; }
+claim "each group is an element" has_groups 2
+claim "also of hidden lines and fills" has_groups 6 --hidden dashed --fill shade
+for how in "--fill hatch" "--pens 2" "--order near" "--pen-for crease=2"; do
+  # shellcheck disable=SC2086
+  claim "but not where strokes are ordered for $how" has_groups 0 $how
+done
+same_ink() {
+  has_groups 2 --stats=by.json && has_groups 0 --order near --stats=near.json &&
+    diff <(grep '"length_mm"' by.json) <(grep '"length_mm"' near.json) >out
+}
+claim "that changes no ink" same_ink
 claim "a part in front changes no number of another" stays
 claim "nor of hidden lines and fills" stays --hidden dashed --fill shade
 claim "nor of hatching" stays --fill hatch --hatch-pitch 3 --order none
 
-ids() { grep -o ' id="[^"]*"' "$1"; }
 are_unique() {
   { part 'a b' -6 1 && part a_b 0 9 && part 'a/b' 6 17 && part a_b.2 12 25; } \
     >four.obj && run 0 four.obj --ids --hidden layer --fill paint -o four.svg &&

@@ -231,6 +231,34 @@ static void stroke_has_the_ids_of_its_first_segment(void **state) {
   ink_fixture_end(&k);
 }
 
+/* A square, two sides of which are another group's. */
+static void by_groups_every_stroke_is_of_one_group(void **state) {
+  (void)state;
+  for (int by_groups = 0; by_groups < 2; by_groups++) {
+    struct ink_fixture k;
+    ink_fixture_start(&k);
+    k.by_groups = by_groups;
+    k.options.ink.min_stroke_mm = 1;
+    uint32_t other = ink_fixture_group(&k, "other"), p[4];
+    for (int i = 0; i < 4; i++)
+      p[i] = ink_fixture_point(&k, square[2 * i], square[2 * i + 1]);
+    for (uint32_t i = 0; i < 4; i++) {
+      uint32_t edge = ink_fixture_edge(&k, p[i], p[(i + 1) % 4], SILHOUETTE);
+      k.sheet.edge.item[edge].group = i < 2 ? other : 0;
+    }
+    ink_fixture_draw(&k);
+    const struct drawing_stroke *stroke = k.drawing.stroke.item;
+    assert_int_equal(k.drawing.stroke.count, 1 + by_groups);
+    assert_int_equal(stroke[0].closed, !by_groups);
+    for (uint32_t i = 0; i < 2 && by_groups; i++) {
+      assert_int_equal(stroke[i].group, i);
+      assert_int_equal(stroke[i].count, 3);
+    }
+    assert_false(k.drawing.ids);
+    ink_fixture_end(&k);
+  }
+}
+
 static void with_ids_every_stroke_is_of_one_edge(void **state) {
   struct ink_fixture k;
   (void)state;
@@ -516,6 +544,7 @@ int main(void) {
       cmocka_unit_test(hidden_and_visible_are_not_joined),
       cmocka_unit_test(strokes_of_two_pens_are_not_joined),
       cmocka_unit_test(stroke_has_the_ids_of_its_first_segment),
+      cmocka_unit_test(by_groups_every_stroke_is_of_one_group),
       cmocka_unit_test(with_ids_every_stroke_is_of_one_edge),
       cmocka_unit_test(with_ids_a_polyline_of_the_users_is_one_stroke),
       cmocka_unit_test(with_ids_the_whole_line_decides_what_is_too_short),

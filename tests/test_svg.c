@@ -335,7 +335,7 @@ static void ids_are_written_only_on_request(void **state) {
   stroke->edge = 12;
   stroke->group = 0;
   assert_lacks(write_it(f), "data-");
-  f->drawing.ids = true;
+  f->drawing.ids = f->drawing.by_groups = true;
   assert_has(write_it(f), "<g id=\"layer1-wheel\" data-group=\"wheel\">\n"
                           "<g class=\"crease\">\n"
                           "<path data-face=\"7\" data-edge=\"12\" "
@@ -348,14 +348,14 @@ static void ids_are_written_only_on_request(void **state) {
 
 static void ids_that_are_not_there_are_left_out(void **state) {
   struct fixture *f = *state;
-  f->drawing.ids = true;
+  f->drawing.ids = f->drawing.by_groups = true;
   add_stroke(f, (double[]){0, 100, 5, 100}, 2, false)->edge_class = 0;
   assert_has(write_it(f), "<path data-class=\"hatch\" d=");
 }
 
 static void names_are_escaped(void **state) {
   struct fixture *f = *state;
-  f->drawing.ids = true;
+  f->drawing.ids = f->drawing.by_groups = true;
   add_group(f, "a<b> & \"c\"\t'\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80");
   add_stroke(f, (double[]){0, 100, 5, 100}, 2, false)->group = 0;
   assert_has(write_it(f), "data-group=\"a&lt;b&gt; &amp; &quot;c&quot;&#9;'"
@@ -369,7 +369,7 @@ static void invalid_utf_8_is_replaced(void **state) {
                                     "\xed\xa0\x80", "\x01",     "\xf0\x9f",
                                     "\xef\xbf\xbf", "\xf5\x80", "\x80"};
   struct fixture *f = *state;
-  f->drawing.ids = true;
+  f->drawing.ids = f->drawing.by_groups = true;
   add_group(f, "");
   add_stroke(f, (double[]){0, 100, 5, 100}, 2, false)->group = 0;
   for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {

@@ -93,7 +93,7 @@ static recto_status ink_join(struct join *join, recto_error *error) {
     pens_warn_unused(&pens, o);
   pens_fini(&pens);
   double cpu = clock_cpu();
-  join->made->drawing.by_pens = output_is_by_pens(o);
+  output_adapt_drawing(&join->made->drawing, o);
   if (status == RECTO_OK)
     status = ink_draw(&join->made->drawing, &joined->sheet, &joined->scene,
                       &joined->map, o, error);

@@ -66,18 +66,23 @@ static void fit_margin(recto_options *o, const struct writer *writer) {
     o->page.margin_mm = needed;
 }
 
-bool output_is_by_pens(const recto_options *options) {
-  const char *format = options->output.format;
-  const struct writer *writer = format != NULL ? writer_by_name(format) : NULL;
-  return writer != NULL && writer->by_pens;
-}
-
 /* Whether a drawing looks as if it were for a plotter: it has hatching, or
  * several pens; cut faces are hatched too. */
 static bool suggests_plotter(const recto_options *o) {
   return o->ink.fill == RECTO_FILL_HATCH || cut_hatch_is_drawn(o) ||
          o->ink.pens > 1 || o->ink.pen_use_count > 0 ||
          o->ink.hidden == RECTO_HIDDEN_LAYER;
+}
+
+/* Groups are left out where a pen would travel farther for them. */
+void output_adapt_drawing(struct drawing *drawing,
+                          const recto_options *options) {
+  const char *format = options->output.format;
+  const struct writer *writer = format != NULL ? writer_by_name(format) : NULL;
+  drawing->by_pens = writer != NULL && writer->by_pens;
+  drawing->by_groups = writer != NULL && writer->has_layers &&
+                       options->ink.order != RECTO_ORDER_NEAR &&
+                       !suggests_plotter(options);
 }
 
 recto_status options_adapt(recto_options *options, recto_error *error) {

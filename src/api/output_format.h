@@ -13,8 +13,11 @@ const struct writer *output_writer(const char *path, const char *format);
 recto_status output_no_writer(const char *path, const char *format,
                               recto_error *error);
 
-/* Whether the options' format is one for plotters. */
-bool output_is_by_pens(const recto_options *options);
+/* Says what the drawing is for, before it is drawn by adapted options: whether
+ * the format is one for plotters, and whether groups of the model are elements
+ * of it. */
+void output_adapt_drawing(struct drawing *drawing,
+                          const recto_options *options);
 
 struct writer_options output_writer_options(const recto_options *options);
 

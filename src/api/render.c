@@ -271,7 +271,7 @@ static recto_status ink(struct render *render, recto_error *error) {
   if (!needs_fragments(render) && render->options->verify == 0 &&
       !sheet_drop_triangles(&render->sheet))
     return error_memory(error);
-  render->drawing->by_pens = output_is_by_pens(render->options);
+  output_adapt_drawing(render->drawing, render->options);
   return ink_draw(render->drawing, &render->sheet, render->prepared->scene,
                   &render->map, render->options, error);
 }

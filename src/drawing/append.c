@@ -140,6 +140,7 @@ recto_status drawing_append(struct drawing *drawing,
   memcpy(drawing->weight, other->weight, sizeof drawing->weight);
   drawing->weighted = other->weighted;
   drawing->by_pens = other->by_pens;
+  drawing->by_groups = other->by_groups;
   drawing->ids = other->ids;
   append_counts(&drawing->counts, &other->counts);
   return append_layers(drawing, other, view) &&

@@ -86,6 +86,10 @@ struct drawing {
   /* Set before it is drawn: it is for a plotter, which takes one pen after the
    * other, and where it does not matter what lies below. */
   bool by_pens;
+  /* Set before it is drawn, or with ids: strokes of a group of the model are
+   * consecutive in a layer, no stroke has parts of several, and each group is
+   * written as an element. */
+  bool by_groups;
   ARRAY(struct drawing_layer) layer;
   ARRAY(struct drawing_stroke) stroke; /* in drawing order within a layer */
   ARRAY(struct drawing_fill) fill;

@@ -206,8 +206,9 @@ static bool mark_short(struct ink *ink, const struct ink_paths *paths,
 }
 
 /* Drops the segments of lines that are too short.  With ids a stroke is a
- * piece of one source, and a long line may consist of many short strokes.  So
- * the length that counts is that of the line as it is drawn without ids. */
+ * piece of one source, and by groups one of a group: a long line may consist of
+ * many short strokes.  So the length that counts is that of the line as it is
+ * drawn without these. */
 static recto_status drop_short_lines(struct ink *ink,
                                      struct segment_graph *graph,
                                      recto_error *error) {
@@ -277,6 +278,8 @@ static bool keep_gap_ends(struct ink *ink, const struct segment_graph *graph) {
 
 static recto_status draw_lines(struct ink *ink, recto_error *error) {
   bool ids = ink->options->ink.ids;
+  bool by_groups =
+      ids || (ink->drawing->by_groups && ink->scene->group.count > 1);
   struct segment_graph graph;
   struct ink_paths paths = {0};
   segment_graph_init(&graph);
@@ -285,14 +288,16 @@ static recto_status draw_lines(struct ink *ink, recto_error *error) {
     status = error_memory(error);
   if (status == RECTO_OK && is_tidied(ink->options))
     status = drop_short_cycles(ink, &graph, error);
-  if (status == RECTO_OK && ids && ink->options->ink.min_stroke_mm != 0)
+  if (status == RECTO_OK && by_groups && ink->options->ink.min_stroke_mm != 0)
     status = drop_short_lines(ink, &graph, error);
   if (status == RECTO_OK && ids)
     status = segment_graph_key_by_source(&graph, ink->sheet, error);
+  else if (status == RECTO_OK && by_groups)
+    segment_graph_key_by_group(&graph, ink->sheet);
   if (status == RECTO_OK)
     status = make_paths(ink, &paths, NULL, &graph, error);
   segment_graph_fini(&graph);
-  if (status == RECTO_OK && !add_paths(ink, &paths, !ids))
+  if (status == RECTO_OK && !add_paths(ink, &paths, !by_groups))
     status = error_memory(error);
   paths_fini(&paths);
   return status;
@@ -314,10 +319,19 @@ static bool copy_group_names(struct ink *ink) {
   return true;
 }
 
+/* Whether the model has groups: more than what has no name. */
+static bool has_groups(const struct scene *scene) {
+  size_t count = scene->group.count;
+  return count > 0 && count <= SEGMENT_GRAPH_GROUPS_MAX &&
+         (count > 1 || !scene->group.item[0].is_nameless);
+}
+
 static bool start_drawing(struct ink *ink) {
   ink->drawing->width_mm = ink->sheet->camera.page_mm[0];
   ink->drawing->height_mm = ink->sheet->camera.page_mm[1];
   ink->drawing->ids = ink->options->ink.ids;
+  ink->drawing->by_groups =
+      ink->drawing->ids || (ink->drawing->by_groups && has_groups(ink->scene));
   ink->drawing->seam_mm = fmax(ink->options->ink.seam_mm, 0);
   memcpy(ink->drawing->weight, ink->pens->weight, sizeof ink->pens->weight);
   return layers_add(ink->drawing, ink->pens, ink->scene, ink->options) &&

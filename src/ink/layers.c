@@ -144,7 +144,7 @@ bool layers_add(struct drawing *drawing, const struct pens *pens,
       options->ink.hidden == RECTO_HIDDEN_LAYER && pens->of_hidden == PENS_NONE;
   uint32_t count = pens->count + one_more;
   bool apart = !drawing->by_pens &&
-               (count > 1 || options->ink.ids ||
+               (count > 1 || drawing->by_groups ||
                 options->ink.hidden == RECTO_HIDDEN_LAYER) &&
                options->ink.hidden != RECTO_HIDDEN_NONE;
   for (uint32_t pen = 0; pen < count; pen++) {
@@ -247,14 +247,14 @@ static bool arrange_layers(struct drawing *drawing) {
   return layer != NULL;
 }
 
-/* With ids the strokes of a group are consecutive within a layer.  Hidden ones
+/* By groups the strokes of one are consecutive within a layer.  Hidden ones
  * are first. */
 static int compare_layers(const void *first, const void *second, void *user) {
   const struct drawing_stroke *a = first, *b = second;
   const struct drawing *drawing = user;
   if (a->layer != b->layer)
     return a->layer > b->layer ? 1 : -1;
-  if (drawing->ids && a->group != b->group)
+  if (drawing->by_groups && a->group != b->group)
     return a->group > b->group ? 1 : -1;
   return drawing->by_pens ? 0 : b->hidden - a->hidden;
 }
@@ -302,11 +302,11 @@ bool layers_pack(struct drawing *drawing) {
       (drawing->fill.count > 0 && !add_fill_layer(drawing)))
     return false;
   drawing->weighted = has_weights(drawing);
-  if (drawing->ids &&
+  if (drawing->by_groups &&
       !sort_stable(drawing->fill.item, drawing->fill.count,
                    sizeof *drawing->fill.item, compare_fills, NULL))
     return false;
-  if (drawing->layer.count < 2 && !drawing->weighted && !drawing->ids &&
+  if (drawing->layer.count < 2 && !drawing->weighted && !drawing->by_groups &&
       (drawing->by_pens || !has_hidden(drawing)))
     return true;
   return sort_stable(

@@ -7,7 +7,7 @@
  * RECTO_HIDDEN_LAYER without a pen for hidden lines:
  *   one more                                          "4 hidden"
  * hidden lines of a pen that draws others too,
- *   where there are several pens, or ids              "2 hidden"
+ *   where there are several pens, or groups           "2 hidden"
  * fills, where strokes are on more than one layer     "% fills", the lowest
  *
  * Layers of hidden lines lie below all that have visible ones, but for a

@@ -90,6 +90,9 @@ static void code_camera(struct byte_codec *codec, struct camera *camera) {
                      (!camera->perspective || camera->near_d > 0));
 }
 
+/* Is added to the colour of a group that has no name of its own. */
+#define NAMELESS UINT32_C(0x1000000)
+
 static void code_groups(struct byte_codec *codec, struct part_common *common) {
   CODE_COUNT(codec, &common->group, GROUP_SIZE);
   for (size_t g = 0; g < common->group.count; g++) {
@@ -97,10 +100,13 @@ static void code_groups(struct byte_codec *codec, struct part_common *common) {
     if (!codec->writes)
       *group = (struct scene_group){.name = NULL};
     byte_codec_text(codec, &group->name);
-    byte_codec_u32(codec, &group->colour);
+    uint32_t colour = group->colour | (group->is_nameless ? NAMELESS : 0);
+    byte_codec_u32(codec, &colour);
+    group->colour = colour & 0xffffff;
+    group->is_nameless = (colour & NAMELESS) != 0;
     byte_codec_bool(codec, &group->has_colour);
     byte_codec_bool(codec, &group->is_shade);
-    require(codec, group->colour <= 0xffffff);
+    require(codec, colour <= (0xffffff | NAMELESS));
   }
 }
 

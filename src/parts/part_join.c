@@ -128,6 +128,7 @@ static recto_status add_joined_groups(struct join_work *work) {
     group->colour = from->colour;
     group->has_colour = from->has_colour;
     group->is_shade = from->is_shade;
+    group->is_nameless = from->is_nameless;
   }
   return RECTO_OK;
 }

@@ -149,7 +149,8 @@ static uint32_t *find_own_slot(const struct scene *scene, const char *name,
 
 recto_status scene_use_group(struct scene *scene, const char *name,
                              size_t length, recto_error *error) {
-  if (length == 0) {
+  bool nameless = length == 0;
+  if (nameless) {
     name = scene->file_stem_length > 0 ? scene->file_stem : "default";
     length =
         scene->file_stem_length > 0 ? scene->file_stem_length : strlen(name);
@@ -162,6 +163,8 @@ recto_status scene_use_group(struct scene *scene, const char *name,
     return error_memory(error);
   uint32_t *slot = find_own_slot(scene, name, length, text);
   bool added = !*slot && add_group(scene, text, slot);
+  if (added)
+    scene->group.item[scene->group.count - 1].is_nameless = nameless;
   if (!added)
     mem_free(text);
   if (!*slot)

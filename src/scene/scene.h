@@ -28,6 +28,7 @@ struct scene_group {
   /* One of the colours of a surface: where it meets another such group there
    * is no line. */
   bool is_shade;
+  bool is_nameless; /* what has no name, called as its file or "default" */
 };
 
 /* What a cut made of a scene. */

@@ -196,6 +196,14 @@ USE_RESULT recto_status segment_graph_key_by_source(struct segment_graph *graph,
                                                     const struct sheet *sheet,
                                                     recto_error *error);
 
+/* The most groups that segment_graph_key_by_group tells apart. */
+enum { SEGMENT_GRAPH_GROUPS_MAX = 1 << 17 };
+
+/* Makes the pen keys of lines of different groups differ, of which there are at
+ * most SEGMENT_GRAPH_GROUPS_MAX. */
+void segment_graph_key_by_group(struct segment_graph *graph,
+                                const struct sheet *sheet);
+
 static inline bool
 graph_segment_is_hidden(const struct graph_segment *segment) {
   return segment->pen_key & 1;

@@ -254,3 +254,15 @@ recto_status segment_graph_key_by_source(struct segment_graph *graph,
   mem_free(source);
   return RECTO_OK;
 }
+
+/* No fewer than there are pen keys, of a pen, a weight and whether a line is
+ * hidden. */
+enum { PEN_KEYS = 1 << 15 };
+
+void segment_graph_key_by_group(struct segment_graph *graph,
+                                const struct sheet *sheet) {
+  for (size_t i = 0; i < graph->segment.count; i++) {
+    struct graph_segment *s = &graph->segment.item[i];
+    s->pen_key += PEN_KEYS * sheet->edge.item[s->edge].group;
+  }
+}

@@ -233,13 +233,14 @@ static struct drawing_point pen_after(const struct drawing *drawing,
   return drawing->point.item[stroke->point + last];
 }
 
-/* Whether strokes are ordered together: those of a layer, with ids of a group
- * in it, but not of different widths, as heavy lines are drawn last, nor hidden
- * ones with others but for a plotter. */
+/* Whether strokes are ordered together: those of a layer, where groups are
+ * elements those of one in it, but not of different widths, as heavy lines are
+ * drawn last, nor hidden ones with others but for a plotter. */
 static bool may_mix(const struct drawing *drawing,
                     const struct drawing_stroke *a,
                     const struct drawing_stroke *b) {
-  return a->layer == b->layer && (!drawing->ids || a->group == b->group) &&
+  return a->layer == b->layer &&
+         (!drawing->by_groups || a->group == b->group) &&
          (drawing->by_pens || a->hidden == b->hidden) &&
          (!drawing->weighted ||
           (a->hidden == b->hidden && a->edge_class == b->edge_class));
