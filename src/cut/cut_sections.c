@@ -427,9 +427,8 @@ recto_status cut_sections(struct cutter *cutter, recto_error *error) {
   if (!find_common_vertex(cutter) || !find_places(cutter) ||
       !join_unbalanced_ends(cutter))
     return error_memory(error);
-  cutter->common_vertex = cutter->common_vertex != SCENE_NONE
-                              ? cut_place(cutter, cutter->common_vertex)
-                              : SCENE_NONE;
+  if (cutter->common_vertex != SCENE_NONE)
+    cutter->common_vertex = cut_place(cutter, cutter->common_vertex);
   uint32_t labels = (uint32_t)cutter->scene->group.count;
   if (!cut_lines_close(&cutter->lines, &cutter->points, &cutter->cut->open,
                        &open_at) ||
