@@ -10,7 +10,9 @@ judges_its_own() {
     test "$(wc -l <out)" -eq 5 &&
     grep -qE '^drawn +[0-9]{3}\.[0-9]{3} mm$' out &&
     grep -qE '^false ink +0\.000 mm +0\.000 %$' out &&
-    grep -qE '^missing ink +0\.000 mm +0\.000 %$' out
+    grep -qE '^missing ink +0\.000 mm +0\.000 %$' out &&
+    awk '/^drawn/ { drawn = $2 } /^visible/ { visible = $2 }
+      END { exit (drawn - visible) ^ 2 > 1 }' out
 }
 claim "--check finds its own drawing right" judges_its_own
 judges_lines_alone() {

@@ -1,6 +1,8 @@
 /* judge_input.c - converts a scene, a camera and options for the judge. */
 #include "api/judge_input.h"
 
+#include "base/tolerance.h"
+
 bool judge_input_init(struct judge_input *input, const struct scene *scene) {
   size_t count = scene->point.count;
   const struct scene_point *from = scene->point.item;
@@ -53,7 +55,7 @@ struct judge_camera judge_input_camera(const struct judge_input *input,
   judge_camera_axes(&made, camera->right, camera->up, camera->back, eye,
                     camera->perspective, camera->s, camera->middle_mm,
                     camera->page_mm);
-  made.margin_mm = camera->margin_mm;
+  made.margin_mm = camera->margin_mm - TOLERANCE_JUDGE_MARGIN_MM;
   /* A default near plane of an orthographic view clips nothing. */
   if (camera->perspective || options->camera.near_distance > 0)
     made.near_d = camera->near_d;

@@ -278,6 +278,15 @@
  * Ten times   nothing that could be seen. */
 #define TOLERANCE_JUDGE_EYE_SHARE 0x1p-50
 
+/* What lies on the margins' border is inside them for the judge, as a drawing
+ * that fits them has its outermost lines there.
+ * Unit        mm
+ * Derivation  doubles place a point of the page within 1e-10 mm; the drawing's
+ *             own border is 4e-6 mm farther out.
+ * Users       api/judge_input.c
+ * Ten times   nothing that could be seen. */
+#define TOLERANCE_JUDGE_MARGIN_MM 1e-9
+
 /* The judge clips edges whose images reach farther than this from the page, as
  * they do beside the eye.
  * Unit        mm
