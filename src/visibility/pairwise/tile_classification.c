@@ -131,14 +131,6 @@ static inline void add_to_samples(const struct tile_collection *g,
     }
 }
 
-static inline struct box2 box_of_corners(const struct geom_triangle *corners) {
-  const struct geom_point *p = corners->p;
-  return (struct box2){box2_min(p[0].x, box2_min(p[1].x, p[2].x)),
-                       box2_min(p[0].y, box2_min(p[1].y, p[2].y)),
-                       box2_max(p[0].x, box2_max(p[1].x, p[2].x)),
-                       box2_max(p[0].y, box2_max(p[1].y, p[2].y))};
-}
-
 /* Adds a triangle's depth buckets to all its tiles. */
 static inline void add_buckets(const struct tile_collection *g,
                                struct cell_range r, uint64_t mask) {
@@ -193,7 +185,7 @@ static inline struct collected collected_of(const struct collection_work *work,
   struct collected c = {.corners = {{point[p[0]], point[p[1]], point[p[2]]}}};
   int64_t z0 = c.corners.p[0].z, z1 = c.corners.p[1].z, z2 = c.corners.p[2].z;
   int64_t least = z0 < z1 ? z0 : z1, most = z0 > z1 ? z0 : z1;
-  c.box = box_of_corners(&c.corners);
+  c.box = box2_of_corners(&c.corners.p[0], &c.corners.p[1], &c.corners.p[2]);
   c.cells = triangle_grid_cells(&g->grid, c.box);
   c.low = tile_bucket(z2 < least ? z2 : least);
   c.high = tile_bucket(z2 > most ? z2 : most);
