@@ -11,7 +11,8 @@ sources() {
 }
 
 # A file includes its own layer or a lower one.  Writers see base and the
-# drawing alone, the judge base and the scene, the program recto.h alone;
+# drawing alone, the judge base and the scene without the triangulation, which
+# it does by itself, the program recto.h alone;
 # readers and writers never include each other.
 #
 # Within visibility and ink the folders have levels too: a folder includes
@@ -120,6 +121,9 @@ check_sources() {
         else if (from == "judge" && to != "judge" && to != "base" &&
                  to != "scene")
           wrong("the judge sees base and the scene alone")
+        else if (from == "judge" &&
+                 included ~ /^scene\/(triangul|ear_clip|reflex|polygon)/)
+          wrong("the judge triangulates by itself")
         else if (from == "cli" && to != "cli")
           wrong("the program sees recto.h alone")
         else if (member(included) != "" && member(included) != member(file))
@@ -359,6 +363,7 @@ backends/writer_svg.c|#include "scene/scene.h"
 backends/writer_svg.c|#include "ink/ink.h"
 backends/writer_svg.c|#include "backends/writer_hpgl.h"
 src/judge/judge.c|#include "view/sheet.h"
+src/judge/triangulation.c|#include "scene/triangulate.h"
 backends/writers.c|#include "api/handle.h"
 src/cli/main.c|#include "base/memory.h"
 src/cli/main.c|#include "scene/scene.h"

@@ -16,7 +16,7 @@
 #include "scene/exact.h"
 #include "tests/memory_faults.h"
 #include "tests/scenes/random.h"
-#include "view/triangulate.h"
+#include "scene/triangulate.h"
 
 enum { MOST = 2048 };
 

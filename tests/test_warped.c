@@ -17,7 +17,7 @@
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/random.h"
 #include "tests/scenes/solver_named.h"
-#include "view/triangulate.h"
+#include "scene/triangulate.h"
 
 /* ---- Scenes -------------------------------------------------------------- */
 

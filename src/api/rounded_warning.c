@@ -9,7 +9,7 @@
 #include "scene/edge_classes.h"
 #include "scene/newell_normal.h"
 #include "scene/topology.h"
-#include "view/vector.h"
+#include "geom/vector.h"
 
 /* So many times larger than the mean is a large face; facets of a curved
  * surface are about as large as each other. */

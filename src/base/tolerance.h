@@ -174,7 +174,7 @@
  * Unit        share of the face's own extent
  * Derivation  single precision and six digits round a point by 1e-7 of its
  *             size; sums of a few of those stay below.
- * Users       view/triangulate.c, judge/triangles.c
+ * Users       scene/triangulate.c, judge/triangles.c
  * Ten times   fewer faces are counted as warped. */
 #define TOLERANCE_WARP_SHARE 1e-6
 
@@ -217,7 +217,7 @@
  * Derivation  the areas of lobes that cancel add up to rounding noise, 2^-53 of
  *             the square for each of the corners: this leaves room for
  *             thousands.
- * Users       view/polygon.c, judge/triangulation.c, judge/intersections.c
+ * Users       scene/polygon.c, judge/triangulation.c, judge/intersections.c
  * Ten times   needles that are ten times wider, in relation to their length,
  *             are projected along their thinnest extent, and may be
  *             triangulated otherwise. */
@@ -227,7 +227,7 @@
  * Unit        mm
  * Derivation  20 grid units: what the page grid rounds, and doubles do in a
  *             ray's way through the scene, is a tenth of it.
- * Users       judge/judge.c
+ * Users       judge/options.c
  * Ten times   slits and slivers of 0.2 um are passed over. */
 #define TOLERANCE_JUDGE_RAY_OFFSET_MM 2e-5
 

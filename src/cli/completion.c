@@ -1,9 +1,11 @@
 /* completion.c - --completion, from the table of options: what bash or zsh
  * offers while a command line is typed. */
+#include "cli/completion.h"
+
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/arguments.h"
+#include "cli/options.h"
 
 /* ---- Options ------------------------------------------------------------- */
 

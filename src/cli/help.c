@@ -1,8 +1,10 @@
 /* help.c - --help, from the table of options. */
+#include "cli/help.h"
+
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/arguments.h"
+#include "cli/options.h"
 
 static void print_entry(const struct option_entry *entry) {
   const int column = 28;

@@ -3,7 +3,7 @@
 #ifndef CLI_LISTS_H
 #define CLI_LISTS_H
 
-#include "cli/arguments.h"
+#include "cli/option_entry.h"
 
 /* Takes the items NAME=VALUE of an option's list; a name has one value in it.
  * list     is cut into names and values, to which the arguments refer

@@ -1,7 +1,9 @@
 /* main.c - the program: exit 0 done, 1 failed, 2 wrong usage. */
 #include <stdio.h>
 
+#include "cli/completion.h"
 #include "cli/descriptors.h"
+#include "cli/help.h"
 #include "cli/memory_limit.h"
 #include "cli/message.h"
 #include "cli/parse.h"

@@ -8,6 +8,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/options.h"
+
 /* ---- What a command line requests, as bits ------------------------------- */
 
 #define BIT(n) ((uint64_t)1 << (n))

@@ -3,17 +3,22 @@
  *
  * An option that this build does not support is in the table as absent, so that
  * the message says so rather than calling it unknown. */
+#include "cli/options.h"
+
 #include <float.h>
 #include <string.h>
 
 #include "cli/lists.h"
-#include "cli/option_scope.h"
 #include "cli/multiview.h"
 #include "cli/value.h"
 
 #define AT(member) offsetof(struct arguments, member)
 
 /* ---- Words --------------------------------------------------------------- */
+
+bool option_is_end(const struct option_entry *entry) {
+  return entry->name == NULL && entry->help == NULL;
+}
 
 const char *name_method(size_t index) {
   return index < RECTO_METHOD_COUNT ? recto_method_name((recto_method)index)

@@ -9,15 +9,12 @@
 #include "cli/frames.h"
 #include "cli/lists.h"
 #include "cli/multiview.h"
+#include "cli/options.h"
 #include "cli/value.h"
 
 enum { FIRST_LONG = 256 };
 
 /* ---- The table for getopt_long ------------------------------------------- */
-
-bool option_is_end(const struct option_entry *entry) {
-  return entry->name == NULL && entry->help == NULL;
-}
 
 static int has_argument(const struct option_entry *entry) {
   return entry->argument == NULL     ? no_argument

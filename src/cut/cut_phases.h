@@ -9,9 +9,9 @@
 #define CUT_CUT_PHASES_H
 
 #include "base/sort.h"
-#include "cut/curves.h"
+#include "cut/cut_lines.h"
 #include "cut/section.h"
-#include "view/triangulate.h"
+#include "scene/triangulate.h"
 
 enum { CUT_NO_PLANE = 255 };
 

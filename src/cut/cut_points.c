@@ -10,7 +10,7 @@
 #include "base/tolerance.h"
 #include "cut/section.h"
 #include "view/used.h"
-#include "view/vector.h"
+#include "geom/vector.h"
 
 /* Of an edge and a plane. */
 struct cut_point_slot {

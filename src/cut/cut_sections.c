@@ -11,7 +11,7 @@
 #include "base/tolerance.h"
 #include "base/union_find.h"
 #include "cut/cut_phases.h"
-#include "view/vector.h"
+#include "geom/vector.h"
 
 /* The axes of a plane's section: u, v, and the one along which it is seen, in
  * the direction of the normal. */

@@ -1,6 +1,6 @@
 # src/cut/local.mk - the sources of this layer.
 librecto_core_la_SOURCES += \
-  %D%/curves.c %D%/curves.h \
+  %D%/cut_lines.c %D%/cut_lines.h \
   %D%/cut.h \
   %D%/cut_assemble.c \
   %D%/cut_faces.c \
@@ -12,5 +12,5 @@ librecto_core_la_SOURCES += \
   %D%/section_loops.c \
   %D%/section_phases.h \
   %D%/section_solve.c \
-  %D%/snap_rounding.c \
-  %D%/sweep.c
+  %D%/section_sweep.c \
+  %D%/snap_rounding.c

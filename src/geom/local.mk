@@ -7,4 +7,5 @@ librecto_core_la_SOURCES += \
   %D%/region.c %D%/region.h \
   %D%/ratio.c %D%/ratio.h \
   %D%/scanfill.c %D%/scanfill.h \
+  %D%/vector.h \
   %D%/wide.c %D%/wide.h

@@ -9,6 +9,7 @@
 #include "ink/fill/fill.h"
 #include "ink/cut_hatch.h"
 #include "ink/hatch/hatch.h"
+#include "ink/hatch/tone_hatch.h"
 #include "ink/layers.h"
 #include "ink/order/stroke_order.h"
 #include "ink/lines/paths.h"

@@ -23,7 +23,7 @@ librecto_core_la_SOURCES += \
   %D%/hatch/hatch_runs.c %D%/hatch/hatch_runs.h \
   %D%/hatch/inset.c %D%/hatch/inset.h \
   %D%/hatch/tone.c %D%/hatch/tone.h \
-  %D%/hatch/tone_hatch.c \
+  %D%/hatch/tone_hatch.c %D%/hatch/tone_hatch.h \
   %D%/lines/chain.c \
   %D%/lines/covered.c \
   %D%/lines/crease_lines.c %D%/lines/crease_lines.h \

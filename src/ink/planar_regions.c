@@ -3,7 +3,7 @@
 
 #include "base/tolerance.h"
 #include "base/union_find.h"
-#include "view/vector.h"
+#include "geom/vector.h"
 
 /* So many times larger than each of its neighbours is a flat region. */
 #define FLAT_RATIO 2.0

@@ -3,7 +3,7 @@
 
 #include "ink/fill/light.h"
 #include "scene/newell_normal.h"
-#include "view/vector.h"
+#include "geom/vector.h"
 
 /* Colours of low saturation, so that the lines dominate the picture; any two
  * differ in hue or in lightness. */

@@ -14,7 +14,7 @@ librecto_core_la_SOURCES += \
   %D%/judge.c %D%/judge.h \
   %D%/missing_run.c %D%/missing_run.h \
   %D%/open_surfaces.c %D%/open_surfaces.h \
-  %D%/options.h \
+  %D%/options.c %D%/options.h \
   %D%/point.h \
   %D%/ray.c %D%/ray.h \
   %D%/removed.h \

@@ -3,6 +3,7 @@ librecto_core_la_SOURCES += \
   %D%/angle.c %D%/angle.h \
   %D%/cluster.c %D%/cluster.h \
   %D%/diagnostics.c %D%/diagnostics.h \
+  %D%/ear_clipping.c %D%/ear_clipping.h \
   %D%/edge_classes.c %D%/edge_classes.h \
   %D%/edge_range.c %D%/edge_range.h \
   %D%/exact.c %D%/exact.h \
@@ -18,6 +19,7 @@ librecto_core_la_SOURCES += \
   %D%/ply_header.c %D%/ply_header.h \
   %D%/ply_parser.c %D%/ply_parser.h \
   %D%/ply_value.h \
+  %D%/polygon.c %D%/polygon.h \
   %D%/positions.c %D%/positions.h \
   %D%/precision.c %D%/precision.h \
   %D%/read.c %D%/read.h \
@@ -27,11 +29,14 @@ librecto_core_la_SOURCES += \
   %D%/reader_obj.c \
   %D%/reader_ply.c \
   %D%/reader_stl.c \
+  %D%/reflex_tree.c %D%/reflex_tree.h \
   %D%/scene.c %D%/scene.h \
   %D%/self_intersection.c %D%/self_intersection.h \
   %D%/side_iterator.h \
   %D%/topology.c %D%/topology.h \
   %D%/topology_edge.h \
+  %D%/triangulate.c %D%/triangulate.h \
+  %D%/triangulation.h \
   %D%/unusable.c %D%/unusable.h \
   %D%/weld_equal.c %D%/weld_equal.h \
   %D%/weld_candidates.c %D%/weld_candidates.h \

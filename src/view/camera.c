@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "view/vector.h"
+#include "geom/vector.h"
 
 void camera_matrix(const struct camera *camera, double matrix[12]) {
   const double *axis[2] = {camera->right, camera->up};

@@ -28,7 +28,7 @@
 #include "view/camera_axes.h"
 #include "view/preferred_scale.h"
 #include "view/used.h"
-#include "view/vector.h"
+#include "geom/vector.h"
 
 /* The largest page that fits on the page grid. */
 static const double page_limit_mm = 2000;

@@ -5,7 +5,7 @@
 
 #include "base/tolerance.h"
 #include "scene/angle.h"
-#include "view/vector.h"
+#include "geom/vector.h"
 
 /* The right axis of the front view: +X less its component along `up`.  Where
  * that is zero it is -Y or +Y, by the shortest rotation of +Y onto `up`.  No

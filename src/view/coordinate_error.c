@@ -6,7 +6,7 @@
 
 #include "base/sort.h"
 #include "base/tolerance.h"
-#include "view/vector.h"
+#include "geom/vector.h"
 
 /* Twice the rounding error of a coordinate: that of the plane and that of the
  * point. */

@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "view/project.h"
-#include "view/vector.h"
+#include "geom/vector.h"
 
 static void grow_extent(struct extent *extent, const struct camera *camera,
                         struct view_point v) {

@@ -21,7 +21,7 @@
 
 #include "view/clip.h"
 #include "view/sheet.h"
-#include "view/triangulate.h"
+#include "scene/triangulate.h"
 
 /* What clipping leaves of an edge or a diagonal. */
 struct layout_clipped {

@@ -22,7 +22,7 @@
  */
 #include "base/poll.h"
 #include "view/layout_phases.h"
-#include "view/vector.h"
+#include "geom/vector.h"
 
 /* Whether a default near plane clips anything visible is tested by clipping to
  * a near plane at this fraction of its distance. */

@@ -1,10 +1,8 @@
 # src/view/local.mk - the sources of this layer.
 librecto_core_la_SOURCES += \
   %D%/page_overflow.c %D%/page_overflow.h \
-  %D%/reflex_tree.c %D%/reflex_tree.h \
   %D%/camera.c %D%/camera.h \
   %D%/clip.c %D%/clip.h \
-  %D%/ear_clipping.c %D%/ear_clipping.h \
   %D%/coordinate_error.c %D%/coordinate_error.h \
   %D%/extent.c %D%/extent.h \
   %D%/camera_aim.c %D%/camera_aim.h \
@@ -18,12 +16,8 @@ librecto_core_la_SOURCES += \
   %D%/layout_range.c \
   %D%/layout_triangles.c \
   %D%/layout_unclipped.c %D%/layout_unclipped.h \
-  %D%/polygon.c %D%/polygon.h \
   %D%/preferred_scale.c %D%/preferred_scale.h \
   %D%/project.c %D%/project.h \
   %D%/rescale.c %D%/rescale.h \
   %D%/sheet.c %D%/sheet.h \
-  %D%/triangulation.h \
-  %D%/triangulate.c %D%/triangulate.h \
-  %D%/used.c %D%/used.h \
-  %D%/vector.h
+  %D%/used.c %D%/used.h

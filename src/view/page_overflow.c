@@ -8,7 +8,7 @@
 #include "base/poll.h"
 #include "scene/edge_classes.h"
 #include "view/project.h"
-#include "view/vector.h"
+#include "geom/vector.h"
 
 struct measure {
   struct page_overflow *overflow;

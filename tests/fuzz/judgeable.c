@@ -7,7 +7,7 @@
 #include "api/handle.h"
 #include "scene/self_intersection.h"
 #include "tests/scenes/box.h"
-#include "view/triangulate.h"
+#include "scene/triangulate.h"
 
 /* Corners of a face at one position have one index. */
 static bool has_corner_twice(const uint32_t *corner, size_t count) {

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/arguments.h"
+#include "cli/options.h"
 #include "tests/fuzz/fuzz.h"
 
 const struct fuzz_target *const fuzz_targets[] = {&fuzz_target_scene,

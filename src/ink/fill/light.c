@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "view/vector.h"
+#include "geom/vector.h"
 
 #define USUAL_AMBIENT 0.3
 #define USUAL_FILL 0.5

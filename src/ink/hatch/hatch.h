@@ -1,4 +1,4 @@
-/* hatch.h - hatches the visible fragments: at one pitch, or by tone. */
+/* hatch.h - hatches the visible fragments at one pitch. */
 #ifndef INK_HATCH_HATCH_H
 #define INK_HATCH_HATCH_H
 
@@ -18,19 +18,10 @@ USE_RESULT bool hatch_add(struct drawing *drawing, const struct sheet *sheet,
                           const recto_options *options);
 
 /* Adds strokes of class 0 over the visible parts of cut faces, at the angle and
- * pitch of each group (cut_hatch.h).  The two others leave these out.
+ * pitch of each group (cut_hatch.h).  hatch_add and
+ * tone_hatch_add leave these out.
  * Returns false when memory ran out. */
 USE_RESULT bool hatch_add_cuts(struct drawing *drawing,
-                               const struct sheet *sheet,
-                               const struct scene *scene, const struct map *map,
-                               const struct pens *pens,
-                               const recto_options *options);
-
-/* Adds strokes of class 0 along parallel lines in up to three directions, the
- * first at hatch_angle_deg, so that the ink of a pen pen_mm wide covers the
- * share of the paper that the tone of the face under options->ink.light
- * requires (tone.h).  Returns false when memory ran out. */
-USE_RESULT bool tone_hatch_add(struct drawing *drawing,
                                const struct sheet *sheet,
                                const struct scene *scene, const struct map *map,
                                const struct pens *pens,

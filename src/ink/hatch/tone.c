@@ -22,7 +22,7 @@
 #include "scene/edge_classes.h"
 #include "scene/newell_normal.h"
 #include "view/project.h"
-#include "view/vector.h"
+#include "geom/vector.h"
 
 /* The side of a square, in pens, in which one sees whether hatching is even. */
 #define EVEN_PENS 16

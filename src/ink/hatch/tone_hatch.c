@@ -42,7 +42,7 @@
 
 #include "base/poll.h"
 #include "base/tolerance.h"
-#include "ink/hatch/hatch.h"
+#include "ink/hatch/tone_hatch.h"
 #include "ink/fill/light.h"
 #include "ink/hatch/hatch_lines.h"
 #include "ink/hatch/hatch_runs.h"

@@ -17,7 +17,7 @@
 #include "base/union_find.h"
 #include "scene/newell_normal.h"
 #include "view/sheet.h"
-#include "view/vector.h"
+#include "geom/vector.h"
 
 struct facing {
   const struct scene *scene;       /* borrowed, not owned */

@@ -3,7 +3,7 @@
 #define VISIBILITY_CONTOUR_ZERO_FINDER_H
 
 #include "view/clip.h"
-#include "view/triangulate.h"
+#include "scene/triangulate.h"
 #include "visibility/contour/zero_segments.h"
 
 struct zero_finder {

@@ -3,7 +3,7 @@
 #define VIEW_TRIANGULATE_H
 
 #include "scene/scene.h"
-#include "view/triangulation.h"
+#include "scene/triangulation.h"
 
 /* Zero-initialised is empty; one object serves any number of polygons. */
 void triangulation_fini(struct triangulation *triangulation);

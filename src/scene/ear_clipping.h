@@ -2,8 +2,8 @@
 #ifndef VIEW_EAR_CLIPPING_H
 #define VIEW_EAR_CLIPPING_H
 
-#include "view/polygon.h"
-#include "view/triangulation.h"
+#include "scene/polygon.h"
+#include "scene/triangulation.h"
 
 /* Adds the triangles of a polygon whose corners have been projected; there is
  * room for them.  Returns false when memory ran out. */

@@ -3,7 +3,7 @@
 #define VIEW_TRIANGULATION_H
 
 #include "scene/exact.h"
-#include "view/reflex_tree.h"
+#include "scene/reflex_tree.h"
 
 /* Corners are numbered from 0 within the polygon.  Side k runs from corner[k]
  * to corner[(k + 1) % 3].  A number below the polygon's number of corners, n,

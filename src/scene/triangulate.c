@@ -1,10 +1,10 @@
 /* triangulate.c - triangulates a polygon in space: triangles and quadrilaterals
  * at once, others by ear clipping. */
-#include "view/triangulate.h"
+#include "scene/triangulate.h"
 
 #include "base/tolerance.h"
-#include "view/ear_clipping.h"
-#include "view/polygon.h"
+#include "scene/ear_clipping.h"
+#include "scene/polygon.h"
 
 void triangulation_fini(struct triangulation *triangulation) {
   ARRAY_FREE(&triangulation->triangle);

@@ -1,7 +1,7 @@
 /* vector.h - vectors of three doubles; sums are evaluated in one fixed order.
  */
-#ifndef VIEW_VECTOR_H
-#define VIEW_VECTOR_H
+#ifndef GEOM_VECTOR_H
+#define GEOM_VECTOR_H
 
 #include <math.h>
 #include <stdbool.h>

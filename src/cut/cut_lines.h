@@ -1,7 +1,7 @@
-/* curves.h - which lines of a section are closed, and of which group what they
+/* cut_lines.h - which lines of a section are closed, and of which group what they
  * enclose is. */
-#ifndef CUT_CURVES_H
-#define CUT_CURVES_H
+#ifndef CUT_CUT_LINES_H
+#define CUT_CUT_LINES_H
 
 #include "cut/cut_points.h"
 

@@ -1,4 +1,4 @@
-/* sweep.c - sweeps over the edges of a section: winding numbers, and the
+/* section_sweep.c - sweeps over the edges of a section: winding numbers, and the
  * bridges from boundaries within a place to what is left of them.
  *
  * Invariant  The active edges are those that cross the sweep line, from below

@@ -1,13 +1,13 @@
 /* polygon.c - a polygon in space, and its projection along a coordinate axis.
  */
-#include "view/polygon.h"
+#include "scene/polygon.h"
 
 #include <string.h>
 
 #include "base/tolerance.h"
 #include "scene/exact.h"
 #include "scene/newell_normal.h"
-#include "view/vector.h"
+#include "geom/vector.h"
 
 static void offset(const struct polygon *polygon, uint32_t c,
                    const double origin[3], double to[3]) {

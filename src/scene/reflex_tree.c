@@ -9,7 +9,7 @@
  *
  * Source  Z order: [Morton1966].
  */
-#include "view/reflex_tree.h"
+#include "scene/reflex_tree.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
-/* curves.c - joins the lines of each plane to curves, and repairs those that
+/* cut_lines.c - joins the lines of each plane to curves, and repairs those that
  * are not closed. */
-#include "cut/curves.h"
+#include "cut/cut_lines.h"
 
 #include <math.h>
 

@@ -41,10 +41,10 @@
  *   corners are cut off untested, so the loop always ends.
  * Source  ear clipping: [Meisters1975], the two-ears theorem.
  */
-#include "view/ear_clipping.h"
+#include "scene/ear_clipping.h"
 
 #include "base/union_find.h"
-#include "view/vector.h"
+#include "geom/vector.h"
 
 enum {
   TURN_GONE = 2, /* of a corner that was cut off */
