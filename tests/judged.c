@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "judge/svg/svg.h"
 #include "tests/scenes/judge_camera.h"
 
 void judged_camera(struct judge_camera *camera,

@@ -12,6 +12,7 @@
 
 #include "backends/writer.h"
 #include "judge/judge.h"
+#include "judge/svg/svg.h"
 #include "scene/read.h"
 #include "tests/hpgl_reader.h"
 #include "tests/measure/measure.h"

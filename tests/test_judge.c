@@ -15,6 +15,7 @@
 #include "judge/ear_clipping.h"
 #include "judge/grid.h"
 #include "judge/judge.h"
+#include "judge/svg/svg.h"
 #include "tests/polled.h"
 #include "tests/scenes/judge_camera.h"
 #include "tests/scenes/scenes.h"

@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "judge/grid.h"
-#include "judge/judge.h"
+#include "judge/svg/svg.h"
 
 /* The page, and how far beyond it ink is kept. */
 enum { WIDTH = 200, HEIGHT = 100, MARGIN = 25 };

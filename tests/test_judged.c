@@ -13,6 +13,7 @@
 
 #include "scene/read.h"
 #include "tests/judged.h"
+#include "judge/svg/svg.h"
 #include "tests/scenes/judge_camera.h"
 #include "tests/temporary.h"
 #include "view/camera_aim.h"

@@ -16,6 +16,7 @@
 #include "ink/dash_pattern.h"
 #include "ink/ink.h"
 #include "ink/pens.h"
+#include "judge/svg/svg.h"
 #include "scene/weld_near.h"
 
 /* The number of samples of the drawing, and of the edges. */

@@ -22,42 +22,8 @@
 #define JUDGE_JUDGE_H
 
 #include "judge/camera.h"
+#include "judge/drawing.h"
 #include "judge/options.h"
-
-/* ---- Drawings ------------------------------------------------------------ */
-
-enum judge_role {
-  JUDGE_INK,
-  JUDGE_HIDDEN,  /* a hidden line: not judged */
-  JUDGE_DROPPED, /* omitted as too short: no ink is missing there */
-  JUDGE_ADDED    /* closes a gap: no ink is false there */
-};
-
-struct judge_stroke {
-  uint32_t point, count; /* a closed one repeats its first point */
-  enum judge_role role;
-};
-
-struct judge_drawing {
-  double width_mm, height_mm;
-  double left_mm, top_mm; /* where the page begins in the file's coordinates */
-  ARRAY(struct judge_point2) point; /* mm, y up from the lower left corner */
-  ARRAY(struct judge_stroke) stroke;
-};
-
-/* Reads an SVG file such as recto writes: a root in mm with a viewBox in the
- * same, paths of M, L, Z with absolute numbers, polylines and polygons.
- * Strokes of the class hidden are JUDGE_HIDDEN, and without a class those on a
- * layer labelled "hidden" or "2 hidden"; hatching, seams and text are left
- * out.
- * Returns NULL, or what is wrong with it: JUDGE_NO_MEMORY itself where memory
- * ran out. */
-const char *judge_read_svg(struct judge_drawing *drawing, const char *text,
-                           size_t length);
-extern const char JUDGE_NO_MEMORY[];
-void judge_drawing_fini(struct judge_drawing *drawing);
-
-/* ---- The verdict --------------------------------------------------------- */
 
 /* A sample that proves a drawing wrong. */
 struct judge_witness {

@@ -4,6 +4,7 @@ librecto_core_la_SOURCES += \
   %D%/clipped_triangle.c %D%/clipped_triangle.h \
   %D%/cut_edges.c %D%/cut_edges.h \
   %D%/contact.c %D%/contact.h \
+  %D%/drawing.c %D%/drawing.h \
   %D%/ear_clipping.c %D%/ear_clipping.h \
   %D%/edge_list.c %D%/edge_list.h \
   %D%/edge_classes.c %D%/edge_classes.h \
@@ -23,7 +24,7 @@ librecto_core_la_SOURCES += \
   %D%/triangles.c %D%/triangles.h \
   %D%/triangulation.c %D%/triangulation.h \
   %D%/winding.c %D%/winding.h \
-  %D%/svg/svg.c \
+  %D%/svg/svg.c %D%/svg/svg.h \
   %D%/svg/svg_path.c %D%/svg/svg_path.h \
   %D%/svg/svg_pen.c %D%/svg/svg_pen.h \
   %D%/svg/svg_scan.c %D%/svg/svg_scan.h

@@ -12,6 +12,7 @@
 #include "backends/writer.h"
 #include "cli/parse.h"
 #include "judge/judge.h"
+#include "judge/svg/svg.h"
 
 bool render_options(recto_options *options, int argc, char **argv,
                     struct fuzz_finding *finding) {

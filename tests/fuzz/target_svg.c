@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "judge/judge.h"
+#include "judge/svg/svg.h"
 #include "tests/fuzz/fuzz.h"
 
 enum {

@@ -5,11 +5,12 @@
  * an svg element within another.  Style sheets are not interpreted: where there
  * is one, an element without a stroke or fill of its own counts as drawn.
  */
+#include "judge/svg/svg.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "base/poll.h"
-#include "judge/judge.h"
 #include "judge/svg/svg_path.h"
 #include "judge/svg/svg_scan.h"
 
@@ -310,9 +311,4 @@ const char *judge_read_svg(struct judge_drawing *drawing, const char *text,
       read_tags(&reader, (struct svg_text){text, text + length});
   ARRAY_FREE(&reader.open);
   return fault;
-}
-
-void judge_drawing_fini(struct judge_drawing *drawing) {
-  ARRAY_FREE(&drawing->point);
-  ARRAY_FREE(&drawing->stroke);
 }

@@ -3,7 +3,7 @@
 #ifndef JUDGE_SVG_SVG_PEN_H
 #define JUDGE_SVG_SVG_PEN_H
 
-#include "judge/judge.h"
+#include "judge/drawing.h"
 #include "judge/svg/svg_scan.h"
 
 /* Adds strokes to a judge_drawing.  Positions are in the element's coordinates.

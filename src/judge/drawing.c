@@ -1,0 +1,7 @@
+/* drawing.c - what the judge knows of a drawing: its strokes, in mm. */
+#include "judge/drawing.h"
+
+void judge_drawing_fini(struct judge_drawing *drawing) {
+  ARRAY_FREE(&drawing->point);
+  ARRAY_FREE(&drawing->stroke);
+}
