@@ -1,5 +1,5 @@
-/* cut_lines.h - which lines of a section are closed, and of which group what they
- * enclose is. */
+/* cut_lines.h - which lines of a section are closed, and of which group
+ * what they enclose is. */
 #ifndef CUT_CUT_LINES_H
 #define CUT_CUT_LINES_H
 

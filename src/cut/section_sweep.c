@@ -1,5 +1,5 @@
-/* section_sweep.c - sweeps over the edges of a section: winding numbers, and the
- * bridges from boundaries within a place to what is left of them.
+/* section_sweep.c - sweeps over the edges of a section: winding numbers, and
+ * the bridges from boundaries within a place to what is left of them.
  *
  * Invariant  The active edges are those that cross the sweep line, from below
  * to above, as long as no two of them cross: each two that become neighbours
