@@ -1,4 +1,4 @@
-/* test_sort.c - sorting is right and stable. */
+/* test_sort.c - sorting is right and stable, and lists are what was put in. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -8,7 +8,9 @@
 #include <cmocka.h>
 
 #include "base/memory.h"
+#include "base/number_lists.h"
 #include "base/sort.h"
+#include "tests/memory_faults.h"
 #include "tests/scenes/random.h"
 
 /* ---- Keys ---------------------------------------------------------------- */
@@ -164,6 +166,62 @@ static void lower_bounds_are_where_a_linear_search_ends(void **state) {
       }
 }
 
+/* ---- Lists of numbers ---------------------------------------------------- */
+
+/* Lists 0 to `lists` - 1 by the remainders of the squares of 0 to `count` - 1,
+ * which leaves some lists empty. */
+static bool list_squares(struct number_lists *made, uint32_t lists,
+                         uint32_t count) {
+  if (!number_lists_init(made, lists))
+    return false;
+  for (uint32_t i = 0; i < count; i++)
+    number_lists_put(made, i * i % lists, i);
+  if (!number_lists_allocate(made, lists))
+    return false;
+  for (uint32_t i = count; i-- > 0;)
+    number_lists_put(made, i * i % lists, i);
+  return true;
+}
+
+static void a_list_has_its_numbers_in_reverse_of_the_second_pass(void **state) {
+  (void)state;
+  for (uint32_t lists = 1; lists <= 7; lists++)
+    for (uint32_t count = 0; count <= 20; count++) {
+      struct number_lists made;
+      assert_true(list_squares(&made, lists, count));
+      assert_int_equal(made.start[0], 0);
+      assert_int_equal(made.start[lists], count);
+      for (uint32_t k = 0; k < lists; k++) {
+        uint32_t at = made.start[k];
+        for (uint32_t i = 0; i < count; i++)
+          if (i * i % lists == k)
+            assert_int_equal(made.item[at++], i);
+        assert_int_equal(at, made.start[k + 1]);
+      }
+      number_lists_fini(&made);
+    }
+}
+
+static void lists_of_numbers_report_that_memory_ran_out(void **state) {
+  (void)state;
+  struct memory_faults faults = {.least = 2};
+  while (memory_faults_go_on(&faults)) {
+    struct number_lists made;
+    memory_faults_begin(&faults);
+    memory_faults_end(&faults, memory_faults_status(list_squares(&made, 3, 9)));
+    number_lists_fini(&made);
+  }
+}
+
+static void four_billion_numbers_are_refused(void **state) {
+  (void)state;
+  struct number_lists made;
+  assert_true(number_lists_init(&made, 2));
+  made.start[0] = made.start[1] = UINT32_C(1) << 31;
+  assert_false(number_lists_allocate(&made, 2));
+  number_lists_fini(&made);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(keys_are_sorted_stably_at_every_size),
@@ -172,6 +230,9 @@ int main(void) {
       cmocka_unit_test(records_are_sorted_stably_at_every_size),
       cmocka_unit_test(lower_bounds_are_where_a_linear_search_ends),
       cmocka_unit_test(without_memory_nothing_is_sorted),
+      cmocka_unit_test(a_list_has_its_numbers_in_reverse_of_the_second_pass),
+      cmocka_unit_test(lists_of_numbers_report_that_memory_ran_out),
+      cmocka_unit_test(four_billion_numbers_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -60,7 +60,7 @@ static void check_memory(const struct triangle_grid *grid, size_t triangles) {
   size_t cells = triangle_grid_cell_count(grid);
   assert_true(cells <= 2 * triangles + 64);
   /* A box of w x h cells may stand in (w + 1) x (h + 1): four times at most. */
-  assert_true(grid->start[cells] <= 4 * (8 * triangles + 64));
+  assert_true(grid->lists.start[cells] <= 4 * (8 * triangles + 64));
 }
 
 /* ---- Queries ------------------------------------------------------------- */
@@ -261,8 +261,8 @@ static void lists_are_ascending(void **state) {
   make_triangles(&sheet, MIX_MIXED, 3000, &r);
   assert_true(triangle_grid_init(&grid, &sheet));
   for (size_t c = 0; c < triangle_grid_cell_count(&grid); c++)
-    for (uint32_t i = grid.start[c] + 1; i < grid.start[c + 1]; i++)
-      assert_true(grid.item[i - 1] < grid.item[i]);
+    for (uint32_t i = grid.lists.start[c] + 1; i < grid.lists.start[c + 1]; i++)
+      assert_true(grid.lists.item[i - 1] < grid.lists.item[i]);
   triangle_grid_fini(&grid);
   exact_sheet_fini(&sheet);
 }

@@ -12,6 +12,7 @@ librecto_core_la_SOURCES += \
   %D%/memory.c %D%/memory.h \
   %D%/number.c %D%/number.h \
   %D%/number_format.c \
+  %D%/number_lists.c %D%/number_lists.h \
   %D%/parallel.c %D%/parallel.h \
   %D%/path.c %D%/path.h \
   %D%/poll.c %D%/poll.h \

@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "base/number_lists.h"
 #include "base/sort.h"
 #include "base/union_find.h"
 
@@ -14,10 +15,9 @@ struct curve_finder {
   uint32_t *curve;  /* of each point of the cut: a set of union_find.h */
   int32_t *balance; /* of each: lines that end there less those that begin */
   uint8_t *bad;     /* of each that represents a curve: enum curve_fault */
-  /* Of bad curves: the lines at each point, those of point p from start[p]. */
-  uint32_t *start, *at;
-  uint32_t *degree; /* lines that are left */
-  uint8_t *walked;  /* of each line */
+  struct number_lists at; /* of bad curves: the lines at each point */
+  uint32_t *degree;       /* lines that are left */
+  uint8_t *walked;        /* of each line */
 };
 
 enum curve_fault { CURVE_SOUND, CURVE_UNBALANCED, CURVE_OPEN, CURVE_HOPELESS };
@@ -103,42 +103,38 @@ static bool drop_duplicate_lines(struct curve_finder *c) {
   return ok;
 }
 
+/* Puts the lines of bad curves into the lists of their ends. */
+static void put_bad_lines(struct curve_finder *c) {
+  for (uint32_t i = (uint32_t)c->lines; i-- > 0;) {
+    const struct cut_line *line = &c->line[i];
+    for (int k = 0; k < 2 && is_on_bad_curve(c, line) && !line->open; k++)
+      number_lists_put(&c->at,
+                       cut_point_index(c, k == 0 ? line->from : line->to), i);
+  }
+}
+
 /* Lists the lines of bad curves by their ends. */
 static bool list_bad_lines(struct curve_finder *c) {
-  size_t points = c->points->point.count, ends = 0;
-  c->start = mem_calloc(points + 2, sizeof *c->start);
+  size_t points = c->points->point.count;
   c->degree = mem_calloc(points, sizeof *c->degree);
   c->walked = mem_calloc(c->lines, sizeof *c->walked);
-  if (c->start == NULL || c->degree == NULL || c->walked == NULL)
+  if (c->degree == NULL || c->walked == NULL ||
+      !number_lists_init(&c->at, points))
     return false;
-  for (int pass = 0; pass < 2; pass++) {
-    for (uint32_t i = 0; i < c->lines; i++) {
-      const struct cut_line *line = &c->line[i];
-      for (int k = 0; k < 2 && is_on_bad_curve(c, line) && !line->open; k++) {
-        uint32_t p = cut_point_index(c, k == 0 ? line->from : line->to);
-        if (pass == 0)
-          c->degree[p]++;
-        else
-          c->at[c->start[p + 1]++] = i;
-      }
-    }
-    for (size_t p = 0; pass == 0 && p < points; p++) {
-      c->start[p + 1] = (uint32_t)ends;
-      ends += c->degree[p];
-    }
-    c->start[points + 1] = (uint32_t)ends;
-    c->at = pass == 0 ? mem_alloc(ends, sizeof *c->at) : c->at;
-    if (c->at == NULL)
-      return false;
-  }
+  put_bad_lines(c);
+  if (!number_lists_allocate(&c->at, points))
+    return false;
+  put_bad_lines(c);
+  for (size_t p = 0; p < points; p++)
+    c->degree[p] = c->at.start[p + 1] - c->at.start[p];
   return true;
 }
 
 /* A line at a point that is neither open nor walked; NULL: there is none. */
 static struct cut_line *find_line_at(struct curve_finder *c, uint32_t point,
                                      uint32_t *number) {
-  for (; c->start[point] < c->start[point + 1]; c->start[point]++) {
-    *number = c->at[c->start[point]];
+  for (; c->at.start[point] < c->at.start[point + 1]; c->at.start[point]++) {
+    *number = c->at.item[c->at.start[point]];
     if (!c->line[*number].open && !c->walked[*number])
       return &c->line[*number];
   }
@@ -154,9 +150,9 @@ static uint32_t other_line_end(const struct curve_finder *c,
 /* Opens lines from a point with a single line on. */
 static void strip_from(struct curve_finder *c, uint32_t point) {
   while (c->degree[point] == 1) {
-    uint32_t number = 0, start = c->start[point];
+    uint32_t number = 0, start = c->at.start[point];
     struct cut_line *line = find_line_at(c, point, &number);
-    c->start[point] = start;
+    c->at.start[point] = start;
     if (line == NULL)
       return;
     line->open = true;
@@ -205,7 +201,7 @@ static bool repair_curves(struct curve_finder *c) {
     if (c->bad[curve_of(c, &c->line[i])] == CURVE_HOPELESS)
       c->line[i].open = true;
   for (uint32_t p = 0; ok && p < points; p++)
-    while (c->start[p] < c->start[p + 1]) {
+    while (c->at.start[p] < c->at.start[p + 1]) {
       uint32_t number;
       if (find_line_at(c, p, &number) != NULL)
         turn_trail(c, p, trail);
@@ -253,8 +249,7 @@ bool cut_lines_close(struct cut_lines *lines, const struct cut_points *points,
   mem_free(c.curve);
   mem_free(c.balance);
   mem_free(c.bad);
-  mem_free(c.start);
-  mem_free(c.at);
+  number_lists_fini(&c.at);
   mem_free(c.degree);
   mem_free(c.walked);
   return ok;

@@ -12,6 +12,7 @@
  *             of pieces in one cell are refused. */
 #include <math.h>
 
+#include "base/number_lists.h"
 #include "base/poll.h"
 #include "base/sort.h"
 #include "cut/section_phases.h"
@@ -23,29 +24,17 @@ struct piece {
   uint32_t a, b, segment;
 };
 
-/* Lists of cells, one after the other: those of cell c from start[c] on. */
-struct cell_lists {
-  size_t *start;
-  uint32_t *item;
-};
-
 struct snapper {
   struct section *section;
   ARRAY(struct piece) piece; /* in the order of their segments */
   int64_t low[2];
   double cell[2]; /* width and height */
   uint32_t cells[2];
-  struct cell_lists pieces, nodes;
+  struct number_lists pieces, nodes; /* of each cell */
   ARRAY(struct section_node) crossing;
   ARRAY(struct sort_key) hot; /* nodes, by their order along a piece */
   bool failed;                /* memory ran out */
 };
-
-static void free_lists(struct cell_lists *lists) {
-  mem_free(lists->start);
-  mem_free(lists->item);
-  *lists = (struct cell_lists){NULL, NULL};
-}
 
 static const struct section_node *end_of(const struct snapper *s,
                                          const struct piece *piece, int k) {
@@ -142,59 +131,34 @@ static void visit_piece_cells(struct snapper *s, const struct piece *piece,
   }
 }
 
-static void count_piece_in_cell(struct snapper *s, size_t cell,
-                                uint32_t number) {
-  (void)number;
-  s->pieces.start[cell + 2]++;
+static void put_piece_in_cell(struct snapper *s, size_t cell, uint32_t number) {
+  number_lists_put(&s->pieces, cell, number);
 }
 
-static void store_piece_in_cell(struct snapper *s, size_t cell,
-                                uint32_t number) {
-  s->pieces.item[s->pieces.start[cell + 1]++] = number;
+static void put_pieces(struct snapper *s) {
+  for (size_t i = s->piece.count; i-- > 0;)
+    visit_piece_cells(s, &s->piece.item[i], put_piece_in_cell, (uint32_t)i);
 }
 
-/* Turns counts, that of cell c at c + 2, into starts, at c + 1; storing moves
- * them to c. */
-static void sum_counts(size_t *start, size_t cells) {
-  for (size_t c = 2; c <= cells + 1; c++)
-    start[c] += start[c - 1];
+static void put_nodes(struct snapper *s) {
+  for (size_t n = s->section->node.count; n-- > 0;) {
+    const struct section_node *node = &s->section->node.item[n];
+    size_t cell = (size_t)piece_cell_at(s, 0, (double)node->u) * s->cells[1] +
+                  piece_cell_at(s, 1, (double)node->v);
+    number_lists_put(&s->nodes, cell, (uint32_t)n);
+  }
 }
 
-static bool fill_piece_lists(struct snapper *s) {
+/* Makes the lists of all cells in two passes of `put`. */
+static bool fill_lists(struct snapper *s, struct number_lists *lists,
+                       void (*put)(struct snapper *s)) {
   size_t cells = (size_t)s->cells[0] * s->cells[1];
-  s->pieces.start = mem_calloc(cells + 2, sizeof *s->pieces.start);
-  if (s->pieces.start == NULL)
+  if (!number_lists_init(lists, cells))
     return false;
-  for (size_t i = 0; i < s->piece.count; i++)
-    visit_piece_cells(s, &s->piece.item[i], count_piece_in_cell, (uint32_t)i);
-  sum_counts(s->pieces.start, cells);
-  s->pieces.item =
-      mem_alloc(s->pieces.start[cells + 1], sizeof *s->pieces.item);
-  if (s->pieces.item == NULL)
+  put(s);
+  if (!number_lists_allocate(lists, cells))
     return false;
-  for (size_t i = 0; i < s->piece.count; i++)
-    visit_piece_cells(s, &s->piece.item[i], store_piece_in_cell, (uint32_t)i);
-  return true;
-}
-
-static size_t cell_of_node(const struct snapper *s, size_t n) {
-  const struct section_node *node = &s->section->node.item[n];
-  return (size_t)piece_cell_at(s, 0, (double)node->u) * s->cells[1] +
-         piece_cell_at(s, 1, (double)node->v);
-}
-
-static bool fill_node_lists(struct snapper *s) {
-  size_t cells = (size_t)s->cells[0] * s->cells[1];
-  size_t count = s->section->node.count;
-  s->nodes.start = mem_calloc(cells + 2, sizeof *s->nodes.start);
-  s->nodes.item = mem_alloc(count, sizeof *s->nodes.item);
-  if (s->nodes.start == NULL || s->nodes.item == NULL)
-    return false;
-  for (size_t n = 0; n < count; n++)
-    s->nodes.start[cell_of_node(s, n) + 2]++;
-  sum_counts(s->nodes.start, cells);
-  for (size_t n = 0; n < count; n++)
-    s->nodes.item[s->nodes.start[cell_of_node(s, n) + 1]++] = (uint32_t)n;
+  put(s);
   return true;
 }
 
@@ -250,7 +214,7 @@ static recto_status refuse_crossings(recto_error *error) {
 static recto_status find_piece_crossings(struct snapper *s,
                                          recto_error *error) {
   size_t cells = (size_t)s->cells[0] * s->cells[1];
-  const size_t *start = s->pieces.start;
+  const uint32_t *start = s->pieces.start;
   uint64_t pairs = 0;
   for (size_t c = 0; c < cells; c++)
     pairs +=
@@ -394,18 +358,18 @@ recto_status section_snap(struct section *section, recto_error *error) {
   bool ok = collect_pieces(&s);
   if (ok && s.piece.count > 0) {
     choose_cells(&s);
-    ok = fill_piece_lists(&s);
+    ok = fill_lists(&s, &s.pieces, put_pieces);
     if (ok)
       status = find_piece_crossings(&s, error);
-    ok = ok && (status != RECTO_OK ||
-                (add_crossing_nodes(&s) && fill_node_lists(&s)));
+    ok = ok && (status != RECTO_OK || (add_crossing_nodes(&s) &&
+                                       fill_lists(&s, &s.nodes, put_nodes)));
   }
   if (!ok)
     status = error_memory(error);
   if (status == RECTO_OK)
     status = make_section_paths(&s, error);
-  free_lists(&s.pieces);
-  free_lists(&s.nodes);
+  number_lists_fini(&s.pieces);
+  number_lists_fini(&s.nodes);
   ARRAY_FREE(&s.piece);
   ARRAY_FREE(&s.crossing);
   ARRAY_FREE(&s.hot);

@@ -17,6 +17,7 @@
 
 #include "base/poll.h"
 #include "base/sort.h"
+#include "base/number_lists.h"
 #include "base/tolerance.h"
 #include "ink/cut_hatch.h"
 #include "ink/hatch/hatch.h"
@@ -36,12 +37,9 @@ struct hatch {
   double inked_distance; /* mm from a side within which a move is on its ink */
   double inset; /* mm that the pen keeps from all sides; 0: it does not */
   struct drawing_stroke attributes; /* of all strokes of the region */
-  /* The sides that reach into strip first + k are
-   *     strip_side[strip[k]] to strip_side[strip[k + 1] - 1]. */
   int64_t first, strips;
-  ARRAY(uint32_t) strip;
-  ARRAY(uint32_t) strip_side;
-  struct stroke_line line; /* the current stroke */
+  struct number_lists strip; /* the sides that reach into strip first + k */
+  struct stroke_line line;   /* the current stroke */
 };
 
 /* ---- 1 Sides ------------------------------------------------------------- */
@@ -61,35 +59,30 @@ static bool collect_sides(struct hatch *h, const struct map *map, size_t begin,
 
 /* ---- 3 Strips ------------------------------------------------------------ */
 
-/* Lists the sides by strip (a counting sort) for a region whose hatch lines are
- * [first, last).  False when memory ran out. */
-static bool list_strips(struct hatch *h, int64_t first, int64_t last) {
+/* Puts the sides into the lists of the strips. */
+static void list_sides(struct hatch *h) {
   const struct hatch_lines *lines = &h->lines;
+  for (uint32_t i = (uint32_t)lines->side.count; i-- > 0;) {
+    int64_t low, high;
+    hatch_lines_side_range(lines, &lines->side.item[i], &low, &high);
+    for (int64_t k = low; k <= high; k++)
+      number_lists_put(&h->strip, (size_t)(k - h->first), i);
+  }
+}
+
+/* Lists the sides by strip for a region whose hatch lines are [first, last).
+ * False when memory ran out. */
+static bool list_strips(struct hatch *h, int64_t first, int64_t last) {
   size_t count = (size_t)(last - first) + 1;
   h->first = first;
   h->strips = (int64_t)count;
-  h->strip.count = h->strip_side.count = 0;
-  if (!ARRAY_RESERVE(&h->strip, count + 2))
+  number_lists_fini(&h->strip);
+  if (!number_lists_init(&h->strip, count))
     return false;
-  uint32_t *start = h->strip.item, sum = 0;
-  for (size_t k = 0; k < count + 2; k++)
-    start[k] = 0;
-  for (size_t i = 0; i < lines->side.count; i++) {
-    int64_t low, high;
-    hatch_lines_side_range(lines, &lines->side.item[i], &low, &high);
-    for (int64_t k = low; k <= high; k++)
-      start[k - first + 2]++;
-  }
-  for (size_t k = 0; k < count + 2; k++)
-    start[k] = sum += start[k];
-  if (!ARRAY_RESERVE(&h->strip_side, sum))
+  list_sides(h);
+  if (!number_lists_allocate(&h->strip, count))
     return false;
-  for (uint32_t i = 0; i < lines->side.count; i++) {
-    int64_t low, high;
-    hatch_lines_side_range(lines, &lines->side.item[i], &low, &high);
-    for (int64_t k = low; k <= high; k++)
-      h->strip_side.item[start[k - first + 1]++] = i;
-  }
+  list_sides(h);
   return true;
 }
 
@@ -117,10 +110,10 @@ static bool move_is_inside(const struct hatch *h,
   struct hatch_point a = {from->u, hatch_lines_height(&h->lines, from->line)};
   struct hatch_point b = {to->u, hatch_lines_height(&h->lines, to->line)};
   struct hatch_point middle = {(a.u + b.u) / 2, (a.v + b.v) / 2};
-  const uint32_t *start = h->strip.item + (to->line - h->first);
+  const uint32_t *start = h->strip.start + (to->line - h->first);
   bool inside = false;
   for (uint32_t i = start[0]; i < start[1]; i++) {
-    uint32_t s = h->strip_side.item[i];
+    uint32_t s = h->strip.item[i];
     const struct hatch_side *side = &h->lines.side.item[s];
     if (s != from->side && s != to->side && segments_meet(side, a, b))
       return false;
@@ -141,10 +134,9 @@ static bool move_is_clear(const struct hatch *h,
   int64_t last = h->strips - 1, strip = to->line - h->first;
   int64_t low = strip > inked_distance ? strip - inked_distance : 0;
   int64_t high = strip + inked_distance < last ? strip + inked_distance : last;
-  const uint32_t *start = h->strip.item;
+  const uint32_t *start = h->strip.start;
   for (uint32_t i = start[low]; i < start[high + 1]; i++)
-    if (!inset_is_clear(&h->lines.side.item[h->strip_side.item[i]], a, b,
-                        h->inset))
+    if (!inset_is_clear(&h->lines.side.item[h->strip.item[i]], a, b, h->inset))
       return false;
   return true;
 }
@@ -163,11 +155,11 @@ static bool side_is_of_pen(const struct hatch *h, uint32_t side) {
 }
 
 /* Whether a point is on the ink of a line of the same pen, among the sides
- * strip_side[begin] to strip_side[end - 1]. */
+ * strip.item[begin] to strip.item[end - 1]. */
 static bool is_on_ink(const struct hatch *h, uint32_t begin, uint32_t end,
                       struct hatch_point p) {
   for (uint32_t i = begin; i < end; i++) {
-    uint32_t s = h->strip_side.item[i];
+    uint32_t s = h->strip.item[i];
     const struct hatch_side *side = &h->lines.side.item[s];
     if (hatch_lines_distance(p, side->from, side->to) <= h->inked_distance &&
         side_is_of_pen(h, s))
@@ -183,7 +175,7 @@ static bool move_is_on_ink(const struct hatch *h,
                            const struct hatch_crossing *to) {
   struct hatch_point a = {from->u, hatch_lines_height(&h->lines, from->line)};
   struct hatch_point b = {to->u, hatch_lines_height(&h->lines, to->line)};
-  const uint32_t *start = h->strip.item + (to->line - h->first);
+  const uint32_t *start = h->strip.start + (to->line - h->first);
   bool along = true;
   for (int quarter = 1; quarter < 4 && along; quarter++) {
     double t = quarter / 4.0;
@@ -327,8 +319,7 @@ static bool hatch_faces(struct hatch *h, const struct scene *scene,
 
 static void hatch_fini(struct hatch *h) {
   hatch_regions_fini(&h->regions);
-  ARRAY_FREE(&h->strip);
-  ARRAY_FREE(&h->strip_side);
+  number_lists_fini(&h->strip);
   ARRAY_FREE(&h->line.point);
 }
 

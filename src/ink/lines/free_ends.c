@@ -42,7 +42,7 @@ static bool may_end_free(const struct segment_graph *graph,
   for (int k = 0; k < 2 && !path->closed; k++) {
     uint32_t end = path->end[k];
     uint32_t node = graph->segment.item[end >> 1].node[end & 1];
-    alone = alone || graph->end_start[node + 1] - graph->end_start[node] == 1;
+    alone = alone || graph->ends.start[node + 1] - graph->ends.start[node] == 1;
   }
   return alone && (path->classes & ~inner_classes) == 0;
 }
@@ -56,7 +56,7 @@ static bool is_free_end(const struct segment_graph *graph,
   const struct graph_segment *s = &graph->segment.item[end >> 1];
   uint32_t node = s->node[end & 1];
   struct ink_point at = graph->node.item[node];
-  if (graph->end_start[node + 1] - graph->end_start[node] > 1)
+  if (graph->ends.start[node + 1] - graph->ends.start[node] > 1)
     return false;
   for (int k = 0; k < 2; k++) {
     uint32_t point = sheet->edge.item[s->edge].point[k];

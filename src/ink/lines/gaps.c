@@ -33,12 +33,12 @@ static struct ink_point end_point(const struct gaps *g, uint32_t end) {
 static bool collect_loose_ends(struct gaps *g) {
   const struct segment_graph *graph = g->graph;
   for (size_t n = 0; n < graph->node.count; n++) {
-    uint32_t first = graph->end_start[n];
+    uint32_t first = graph->ends.start[n];
     if (!poll_at(n))
       return false;
-    if (graph->end_start[n + 1] - first != 1)
+    if (graph->ends.start[n + 1] - first != 1)
       continue;
-    uint32_t end = graph->end[first];
+    uint32_t end = graph->ends.item[first];
     const struct graph_segment *s = segment_of(g, end);
     unsigned edge_class = s->style_key & RECTO_EDGES_ALL;
     struct sort_key loose = {(uint64_t)s->pen_key << 8 | edge_class, end};

@@ -29,25 +29,24 @@ struct overlap_finder {
   ARRAY(uint32_t) member; /* segments of clusters, with repetitions */
 };
 
+static void list_ends(struct segment_graph *graph, size_t ends) {
+  for (size_t e = ends; e-- > 0;) {
+    (void)poll_at(e);
+    number_lists_put(&graph->ends, graph->segment.item[e >> 1].node[e & 1],
+                     (uint32_t)e);
+  }
+}
+
 recto_status segment_graph_index_ends(struct segment_graph *graph,
                                       recto_error *error) {
   size_t nodes = graph->node.count, ends = 2 * graph->segment.count;
-  mem_free(graph->end_start);
-  mem_free(graph->end);
-  graph->end_start = mem_calloc(nodes + 2, sizeof *graph->end_start);
-  graph->end = mem_alloc(ends, sizeof *graph->end);
-  if (graph->end_start == NULL || graph->end == NULL)
+  number_lists_fini(&graph->ends);
+  if (!number_lists_init(&graph->ends, nodes))
     return error_memory(error);
-  uint32_t *next = graph->end_start + 1; /* becomes the start of the next
-                                            node */
-  for (size_t e = 0; e < ends; e++)
-    next[graph->segment.item[e >> 1].node[e & 1] + 1]++;
-  for (size_t n = 0; n < nodes; n++)
-    next[n + 1] += next[n];
-  for (size_t e = 0; e < ends; e++) {
-    (void)poll_at(e);
-    graph->end[next[graph->segment.item[e >> 1].node[e & 1]]++] = (uint32_t)e;
-  }
+  list_ends(graph, ends);
+  if (!number_lists_allocate(&graph->ends, nodes))
+    return error_memory(error);
+  list_ends(graph, ends);
   return RECTO_OK;
 }
 
@@ -96,8 +95,8 @@ static bool join_clusters(struct overlap_finder *w, uint32_t a, uint32_t b) {
 static bool test_overlap(void *user, uint32_t segment, uint32_t k) {
   struct overlap_finder *w = user;
   const struct segment_graph *graph = w->graph;
-  for (uint32_t i = graph->end_start[k]; i < graph->end_start[k + 1]; i++) {
-    uint32_t other = graph->end[i] >> 1;
+  for (uint32_t i = graph->ends.start[k]; i < graph->ends.start[k + 1]; i++) {
+    uint32_t other = graph->ends.item[i] >> 1;
     if (!w->dropped[other] && overlap_is_along(graph, segment, other) &&
         !join_clusters(w, segment, other))
       return false;

@@ -133,9 +133,9 @@ static bool record_pairs(void *user, uint32_t segment, uint32_t node) {
   const struct segment_graph *graph = r->snapping.graph;
   const struct graph_segment *s = graph->segment.item;
   struct overlap_cover cover;
-  for (uint32_t i = graph->end_start[node]; i < graph->end_start[node + 1];
+  for (uint32_t i = graph->ends.start[node]; i < graph->ends.start[node + 1];
        i++) {
-    uint32_t other = graph->end[i] >> 1;
+    uint32_t other = graph->ends.item[i] >> 1;
     if (r->snapping.gone[other] ||
         !find_cover(&r->snapping, s[segment].node, s[other].node, &cover))
       continue;

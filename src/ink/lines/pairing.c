@@ -175,8 +175,8 @@ static bool pair_large_fan(struct pairing *p, const uint32_t *end,
 /* Pairs the ends at a node. */
 static bool pair_node(struct pairing *p, size_t n) {
   const struct segment_graph *graph = p->graph;
-  const uint32_t *end = graph->end + graph->end_start[n];
-  uint32_t count = graph->end_start[n + 1] - graph->end_start[n];
+  const uint32_t *end = graph->ends.item + graph->ends.start[n];
+  uint32_t count = graph->ends.start[n + 1] - graph->ends.start[n];
   if (count > SMALL_FAN_MAX)
     return pair_large_fan(p, end, count);
   if (count > 2)

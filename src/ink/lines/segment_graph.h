@@ -29,6 +29,7 @@
 #include <stdatomic.h>
 
 #include "base/memory.h"
+#include "base/number_lists.h"
 #include "visibility/map.h"
 
 #define SEGMENT_GRAPH_NONE UINT32_MAX
@@ -66,9 +67,9 @@ struct segment_graph {
   struct graph_segments isolated;
   /* One a node: it is near a segment that does not end there; NULL: unknown. */
   atomic_uchar *near_segment;
-  /* The ends at node n: end[end_start[n] .. end_start[n + 1]), ascending;
-   * end e is node[e & 1] of segment e >> 1. */
-  uint32_t *end_start, *end;
+  /* The ends at each node, ascending; end e is node[e & 1] of segment
+   * e >> 1. */
+  struct number_lists ends;
   /* One a node: not 0 where the node lies on the lines that meet there only up
    * to the output's step; NULL: no such nodes. */
   uint8_t *approximate;
@@ -175,7 +176,7 @@ USE_RESULT recto_status segment_graph_close_gaps(struct segment_graph *graph,
                                                  const struct pens *pens,
                                                  recto_error *error);
 
-/* Builds end_start and end. */
+/* Lists the ends at each node. */
 USE_RESULT recto_status segment_graph_index_ends(struct segment_graph *graph,
                                                  recto_error *error);
 

@@ -31,8 +31,7 @@ void segment_graph_fini(struct segment_graph *graph) {
   ARRAY_FREE(&graph->segment);
   ARRAY_FREE(&graph->isolated);
   mem_free(graph->near_segment);
-  mem_free(graph->end_start);
-  mem_free(graph->end);
+  number_lists_fini(&graph->ends);
   mem_free(graph->approximate);
   ARRAY_FREE(&graph->gap_end);
   segment_graph_init(graph);

@@ -148,14 +148,14 @@ static bool closes_cycle(const struct cycle_search *c,
     if (at->node == ends[1])
       return true;
     at->done = true;
-    uint32_t first = graph->end_start[at->node];
-    uint32_t count = graph->end_start[at->node + 1] - first;
+    uint32_t first = graph->ends.start[at->node];
+    uint32_t count = graph->ends.start[at->node + 1] - first;
     for (uint32_t i = first; i < first + count && i < first + ENDS_MAX; i++) {
-      uint32_t segment = graph->end[i] >> 1;
+      uint32_t segment = graph->ends.item[i] >> 1;
       const struct graph_segment *s = &graph->segment.item[segment];
       if (c->is_absent[segment] || (s->pen_key & 1))
         continue;
-      uint32_t node = s->node[(graph->end[i] & 1) ^ 1];
+      uint32_t node = s->node[(graph->ends.item[i] & 1) ^ 1];
       double distance = at->distance + length_of_segment(graph, segment);
       if (distance + distance_of_nodes(graph, node, ends[1]) <= most)
         reach_node(&places, node, distance);

@@ -15,9 +15,8 @@
 
 /* ---- 1 Contour edges about points ---------------------------------------- */
 
-/* Counts an edge at the points of its face, or stores it. */
-static void list_contour(struct corner_moves *moves, uint32_t edge,
-                         bool store) {
+/* Puts an edge into the lists of its face's points. */
+static void list_contour(struct corner_moves *moves, uint32_t edge) {
   const struct scene *scene = moves->sheet->scene;
   uint32_t t = moves->sheet->edge.item[edge].triangle[0];
   if (t == SHEET_NONE || moves->map->edge_state[edge] != MAP_VISIBLE)
@@ -28,10 +27,7 @@ static void list_contour(struct corner_moves *moves, uint32_t edge,
     uint32_t point = scene->corner.item[c];
     if (moves->topology->weld != NULL)
       point = moves->topology->weld[point];
-    if (store)
-      moves->item[--moves->start[point]] = edge;
-    else
-      ++moves->start[point];
+    number_lists_put(&moves->of_point, point, edge);
   }
 }
 
@@ -61,18 +57,15 @@ static bool join_edges(struct corner_moves *moves) {
 
 static bool list_at_points(struct corner_moves *moves) {
   size_t points = moves->sheet->scene->point.count;
-  moves->start = mem_calloc(points + 1, sizeof *moves->start);
-  if (moves->start == NULL)
+  if (!number_lists_init(&moves->of_point, points))
     return false;
   for (uint32_t e = moves->first; e < moves->sheet->edge.count; e++)
-    list_contour(moves, e, false);
-  for (size_t p = 1; p <= points; p++)
-    moves->start[p] += moves->start[p - 1];
-  moves->item = mem_alloc(moves->start[points], sizeof *moves->item);
-  for (uint32_t e = moves->first;
-       moves->item != NULL && e < moves->sheet->edge.count; e++)
-    list_contour(moves, e, true);
-  return moves->item != NULL;
+    list_contour(moves, e);
+  if (!number_lists_allocate(&moves->of_point, points))
+    return false;
+  for (uint32_t e = moves->first; e < moves->sheet->edge.count; e++)
+    list_contour(moves, e);
+  return true;
 }
 
 /* ---- 2 Moves ------------------------------------------------------------- */
@@ -101,8 +94,9 @@ static void try_contour(const struct corner_moves *moves, uint32_t edge,
 
 static void try_point(const struct corner_moves *moves, uint32_t point,
                       bool beyond, struct corner_move *move) {
-  for (uint32_t i = moves->start[point]; i < moves->start[point + 1]; i++)
-    try_contour(moves, moves->item[i], beyond, move);
+  for (uint32_t i = moves->of_point.start[point];
+       i < moves->of_point.start[point + 1]; i++)
+    try_contour(moves, moves->of_point.item[i], beyond, move);
 }
 
 bool sheet_edge_is_outline(const struct sheet *sheet,
@@ -148,8 +142,8 @@ static void try_side(const struct corner_moves *moves,
       (move->occluder && !occluder))
     return;
   const uint32_t *point = moves->topology->edge.item[edge->source].point;
-  if (moves->start[point[0]] == moves->start[point[0] + 1] &&
-      moves->start[point[1]] == moves->start[point[1] + 1])
+  if (moves->of_point.start[point[0]] == moves->of_point.start[point[0] + 1] &&
+      moves->of_point.start[point[1]] == moves->of_point.start[point[1] + 1])
     return;
   if (occluder && !move->occluder) {
     move->occluder = true;
@@ -174,9 +168,9 @@ static void meet_contours(const struct corner_moves *moves,
   const uint32_t *ends =
       moves->topology->edge.item[edge[farther->id].source].point;
   for (int k = 0; k < 4; k++)
-    for (uint32_t i = moves->start[ends[k / 2]];
-         i < moves->start[ends[k / 2] + 1]; i++) {
-      uint32_t point = edge[moves->item[i]].point[k % 2];
+    for (uint32_t i = moves->of_point.start[ends[k / 2]];
+         i < moves->of_point.start[ends[k / 2] + 1]; i++) {
+      uint32_t point = edge[moves->of_point.item[i]].point[k % 2];
       struct geom_point p = moves->sheet->point.item[point];
       double away = hypot(p.x - move->from[0], p.y - move->from[1]);
       struct corner_move on = {.from = {p.x, p.y}, .distance = INFINITY};
@@ -190,7 +184,7 @@ static void meet_contours(const struct corner_moves *moves,
       move->to[0] = p.x;
       move->to[1] = p.y;
       move->edge = on.edge;
-      move->farther = moves->item[i];
+      move->farther = moves->of_point.item[i];
       move->distance = away * away;
     }
 }
@@ -308,8 +302,7 @@ bool corner_moves_find(struct corner_moves *moves) {
 
 void corner_moves_fini(struct corner_moves *moves) {
   mem_free(moves->at_point);
-  mem_free(moves->start);
-  mem_free(moves->item);
+  number_lists_fini(&moves->of_point);
   ARRAY_FREE(&moves->move);
   mem_free(moves->table);
   mem_free(moves->of_corner);

@@ -3,6 +3,7 @@
 #ifndef VISIBILITY_CONTOUR_CORNER_MOVES_H
 #define VISIBILITY_CONTOUR_CORNER_MOVES_H
 
+#include "base/number_lists.h"
 #include "visibility/contour/drawn_outlines.h"
 
 /* From a point of the page to the nearest one of a contour. */
@@ -23,8 +24,7 @@ struct corner_moves {
   uint32_t (
       *at_point)[2]; /* one a point of the contours: the visible edges that
                               meet there; SHEET_NONE */
-  uint32_t *start;   /* one a scene point and one more: its edges in `item` */
-  uint32_t *item;
+  struct number_lists of_point; /* the edges at each scene point */
   ARRAY(struct corner_move) move;
   uint32_t *table; /* open addressing: a point -> 1 + its move; 0: free */
   size_t mask;

@@ -60,8 +60,10 @@ static void try_cells(const struct drawn_outlines *d, const double p[2],
   for (int y = range.y0; y <= range.y1; y++)
     for (int x = range.x0; x <= range.x1; x++) {
       size_t at = triangle_grid_index(cell, x, y);
-      for (uint32_t i = cell->start[at]; i < cell->start[at + 1]; i++)
-        try_drawn(d, &d->grid.segment.item[cell->item[i]], p, along, best);
+      for (uint32_t i = cell->lists.start[at]; i < cell->lists.start[at + 1];
+           i++)
+        try_drawn(d, &d->grid.segment.item[cell->lists.item[i]], p, along,
+                  best);
     }
 }
 

@@ -85,7 +85,8 @@ static bool add_line_crossing(struct line_ends *l,
 }
 
 static bool find_crossings(struct line_ends *l) {
-  const uint32_t *item = l->grid.cell.item, *start = l->grid.cell.start;
+  const uint32_t *item = l->grid.cell.lists.item,
+                 *start = l->grid.cell.lists.start;
   const struct page_segment *all = l->grid.segment.item;
   size_t cells = triangle_grid_cell_count(&l->grid.cell);
   for (size_t cell = 0; cell < cells; cell++) {

@@ -136,10 +136,10 @@ static void find_nearest(const struct outline_gaps *g, struct geom_point p,
     for (int y = range.y0; y <= range.y1; y++)
       for (int x = range.x0; x <= range.x1; x++) {
         size_t cell = triangle_grid_index(&g->grid.cell, x, y);
-        for (uint32_t i = g->grid.cell.start[cell];
-             i < g->grid.cell.start[cell + 1]; i++)
-          try_segment(g, &g->grid.segment.item[g->grid.cell.item[i]], p, along,
-                      best);
+        for (uint32_t i = g->grid.cell.lists.start[cell];
+             i < g->grid.cell.lists.start[cell + 1]; i++)
+          try_segment(g, &g->grid.segment.item[g->grid.cell.lists.item[i]], p,
+                      along, best);
       }
     if (reach >= radius || fmin(best->any, best->loose) <= reach)
       return;

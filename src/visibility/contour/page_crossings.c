@@ -49,7 +49,7 @@ static bool cut_at_crossing(struct contour_curves *curves,
 
 static bool cut_at_crossings(struct contour_curves *curves,
                              const struct segment_grid *grid) {
-  const uint32_t *item = grid->cell.item, *start = grid->cell.start;
+  const uint32_t *item = grid->cell.lists.item, *start = grid->cell.lists.start;
   const struct page_segment *all = grid->segment.item;
   size_t cells = triangle_grid_cell_count(&grid->cell);
   for (size_t cell = 0; cell < cells; cell++) {

@@ -8,9 +8,8 @@ bool segment_grid_add(struct segment_grid *grid, struct geom_segment segment,
          ARRAY_PUSH(&grid->segment, made);
 }
 
-/* Counts a segment in the lists of the cells that it meets, or stores it. */
-static void list_segment(struct segment_grid *grid, uint32_t segment,
-                         bool store) {
+/* Puts a segment into the lists of the cells that it meets. */
+static void list_segment(struct segment_grid *grid, uint32_t segment) {
   struct triangle_grid *cell = &grid->cell;
   const struct page_segment *s = &grid->segment.item[segment];
   struct cell_range range =
@@ -18,13 +17,8 @@ static void list_segment(struct segment_grid *grid, uint32_t segment,
   for (int y = range.y0; y <= range.y1; y++) {
     int x0, x1;
     triangle_grid_row(cell, s->p, s->q, range, y, &x0, &x1);
-    for (int x = x0; x <= x1; x++) {
-      uint32_t *end = &cell->start[triangle_grid_index(cell, x, y)];
-      if (store)
-        cell->item[--*end] = segment;
-      else
-        ++*end;
-    }
+    for (int x = x0; x <= x1; x++)
+      number_lists_put(&cell->lists, triangle_grid_index(cell, x, y), segment);
   }
 }
 
@@ -44,25 +38,20 @@ bool segment_grid_make(struct segment_grid *grid) {
   } while ((uint64_t)cell->columns * (uint64_t)cell->rows >
            2 * grid->segment.count + 16);
   size_t cells = triangle_grid_cell_count(cell);
-  cell->start = mem_calloc(cells + 1, sizeof *cell->start);
-  if (cell->start == NULL)
+  if (!number_lists_init(&cell->lists, cells))
     return false;
   for (uint32_t i = 0; i < grid->segment.count; i++)
-    list_segment(grid, i, false);
-  for (size_t i = 1; i <= cells; i++)
-    cell->start[i] += cell->start[i - 1];
-  cell->item = mem_alloc(cell->start[cells], sizeof *cell->item);
-  if (cell->item == NULL)
+    list_segment(grid, i);
+  if (!number_lists_allocate(&cell->lists, cells))
     return false;
   for (uint32_t i = 0; i < grid->segment.count; i++)
-    list_segment(grid, i, true);
+    list_segment(grid, i);
   return true;
 }
 
 void segment_grid_fini(struct segment_grid *grid) {
   ARRAY_FREE(&grid->segment);
-  mem_free(grid->cell.start);
-  mem_free(grid->cell.item);
+  number_lists_fini(&grid->cell.lists);
 }
 
 static bool is_joined(const struct page_segment *a,

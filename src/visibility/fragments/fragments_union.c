@@ -63,9 +63,10 @@ static bool add_nearby(struct fragments *f, uint32_t triangle, uint8_t *done) {
       if (done[cell])
         continue;
       done[cell] = 1;
-      for (uint32_t i = grid->start[cell]; i < grid->start[cell + 1]; i++)
-        if (triangle_grid_query_first(&f->query, grid->item[i]) &&
-            !ARRAY_PUSH(&f->query.found, grid->item[i]))
+      for (uint32_t i = grid->lists.start[cell];
+           i < grid->lists.start[cell + 1]; i++)
+        if (triangle_grid_query_first(&f->query, grid->lists.item[i]) &&
+            !ARRAY_PUSH(&f->query.found, grid->lists.item[i]))
           return false;
     }
   return true;

@@ -8,6 +8,7 @@
  *   3 loop by loop divide the sides at the ends of their stretches */
 #include "visibility/fragments/planar_subdivision.h"
 
+#include "base/number_lists.h"
 #include "base/parallel.h"
 #include "base/poll.h"
 #include "base/sort.h"
@@ -28,9 +29,7 @@ struct subdivision_work {
   struct map *map;
   uint32_t *end; /* of each side: the corner where it ends */
   ARRAY(struct side_stretch) stretch;
-  /* The stretches of side s, in its direction:
-   *     along[start[s]] to along[start[s + 1] - 1]. */
-  uint32_t *start, *along;
+  struct number_lists along; /* the stretches of each side, in its direction */
   uint32_t *before; /* half-edges before those of each range of fragments */
 };
 
@@ -195,22 +194,19 @@ static bool match_lines(struct subdivision_work *work,
 static bool list_by_side(struct subdivision_work *work) {
   const struct side_stretch *stretch = work->stretch.item;
   size_t sides = work->map->corner.count, count = work->stretch.count;
-  uint32_t *start = mem_calloc(sides + 2, sizeof *start);
-  work->start = start;
-  work->along = mem_alloc(2 * count, sizeof *work->along);
-  if (start == NULL || work->along == NULL)
+  if (!number_lists_init(&work->along, sides))
     return false;
-  for (size_t i = 0; i < count; i++)
+  for (uint32_t i = 0; i < count; i++)
     for (int k = 0; k < 2; k++)
-      start[stretch[i].side[k] + 2]++;
-  for (size_t s = 0; s < sides; s++)
-    start[s + 2] += start[s + 1];
-  for (uint32_t i = 0; i < count; i++) {
+      number_lists_put(&work->along, stretch[i].side[k], i);
+  if (!number_lists_allocate(&work->along, sides))
+    return false;
+  for (uint32_t i = 0; i < count; i++)
+    number_lists_put(&work->along, stretch[i].side[1], i);
+  for (uint32_t i = (uint32_t)count; i-- > 0;) {
     (void)poll_at(i);
-    work->along[start[stretch[i].side[0] + 1]++] = i;
+    number_lists_put(&work->along, stretch[i].side[0], i);
   }
-  for (uint32_t i = (uint32_t)count; i-- > 0;)
-    work->along[start[stretch[i].side[1] + 1]++] = i;
   return true;
 }
 
@@ -240,8 +236,9 @@ static void divide_side(const struct subdivision_work *work, uint32_t fragment,
   const struct map *map = work->map;
   struct map_half_edge half = {fragment, side, side, SHEET_NONE, 0};
   bool ends = false; /* the last stretch ends where the side does */
-  for (uint32_t i = work->start[side]; i < work->start[side + 1]; i++) {
-    struct side_stretch *stretch = &work->stretch.item[work->along[i]];
+  for (uint32_t i = work->along.start[side]; i < work->along.start[side + 1];
+       i++) {
+    struct side_stretch *stretch = &work->stretch.item[work->along.item[i]];
     bool upright = stretch->upright, reversed = stretch->side[1] == side;
     uint32_t from = stretch->corner[reversed], to = stretch->corner[!reversed];
     if (coordinate_along(map, from, upright) !=
@@ -266,8 +263,9 @@ MEM_PREFETCH_INLINE void prefetch_stretch(const struct subdivision_work *work,
                                           uint32_t side) {
   uint32_t later = side + MEM_PREFETCH_AHEAD;
   if (later < work->map->corner.count &&
-      work->start[later] < work->start[later + 1])
-    MEM_PREFETCH(&work->stretch.item[work->along[work->start[later]]]);
+      work->along.start[later] < work->along.start[later + 1])
+    MEM_PREFETCH(
+        &work->stretch.item[work->along.item[work->along.start[later]]]);
 }
 
 /* Adds the half-edges of the fragments of a range. */
@@ -360,8 +358,7 @@ bool planar_subdivision_store(const side_lines *lines,
   ok = ok && match_lines(&work, lines) && list_by_side(&work) &&
        divide_loops(&work);
   mem_free(work.end);
-  mem_free(work.start);
-  mem_free(work.along);
+  number_lists_fini(&work.along);
   mem_free(work.before);
   ARRAY_FREE(&work.stretch);
   return ok;

@@ -117,10 +117,8 @@ struct filling {
   size_t count;
 };
 
-/* Counts the triangle in its cells' lists, or stores it there.
- * store  grid->start has the ends of the cells' free ranges, else counts */
-static void fill_triangle(const struct filling *filling, uint32_t t,
-                          bool store) {
+/* Puts the triangle into its cells' lists. */
+static void fill_triangle(const struct filling *filling, uint32_t t) {
   struct triangle_grid *grid = filling->grid;
   const struct sheet *sheet = filling->sheet;
   struct cell_range r =
@@ -130,24 +128,17 @@ static void fill_triangle(const struct filling *filling, uint32_t t,
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++) {
       size_t cell = triangle_grid_index(grid, x, y);
-      uint32_t *end = &grid->start[cell];
-      if (filling->wanted != NULL && !filling->wanted[cell])
-        continue;
-      if (store)
-        grid->item[--*end] = t;
-      else
-        ++*end;
+      if (filling->wanted == NULL || filling->wanted[cell])
+        number_lists_put(&grid->lists, cell, t);
     }
 }
 
-/* Counting sort of the triangles by cell: the first pass counts, the second
- * stores, backwards, after which start[] has the lists' starts. */
-static void fill_cells(const struct filling *filling, bool store) {
+/* A pass over the triangles, from the last to the first. */
+static void fill_cells(const struct filling *filling) {
   for (size_t i = filling->count; i-- > 0;) {
     (void)poll_at(i);
     fill_triangle(filling,
-                  filling->subset != NULL ? filling->subset[i] : (uint32_t)i,
-                  store);
+                  filling->subset != NULL ? filling->subset[i] : (uint32_t)i);
   }
 }
 
@@ -156,19 +147,19 @@ static void shorten_lists(struct triangle_grid *grid) {
   size_t cells = triangle_grid_cell_count(grid);
   uint32_t kept = 0, i = 0;
   for (size_t c = 0; c < cells; c++) {
-    uint32_t end = grid->start[c + 1];
-    grid->start[c] = kept;
+    uint32_t end = grid->lists.start[c + 1];
+    grid->lists.start[c] = kept;
     for (; i < end; i++)
-      if (!grid->left_out[grid->item[i]])
-        grid->item[kept++] = grid->item[i];
+      if (!grid->left_out[grid->lists.item[i]])
+        grid->lists.item[kept++] = grid->lists.item[i];
   }
-  grid->start[cells] = kept;
+  grid->lists.start[cells] = kept;
 }
 
 /* Leaves out duplicates where the longest list has many of them. */
 static bool leave_out_duplicates(struct triangle_grid *grid) {
   size_t cells = triangle_grid_cell_count(grid), longest = 0;
-  const uint32_t *start = grid->start;
+  const uint32_t *start = grid->lists.start;
   bool many;
   for (size_t c = 1; c < cells; c++)
     if (start[c + 1] - start[c] > start[longest + 1] - start[longest])
@@ -176,8 +167,8 @@ static bool leave_out_duplicates(struct triangle_grid *grid) {
   size_t count = start[longest + 1] - start[longest];
   if (count < TRIANGLE_GRID_DUPLICATES)
     return true;
-  if (!duplicate_triangles_are_many(grid->sheet, grid->item + start[longest],
-                                    count, &many))
+  if (!duplicate_triangles_are_many(
+          grid->sheet, grid->lists.item + start[longest], count, &many))
     return false;
   if (!many)
     return true;
@@ -190,7 +181,7 @@ static bool leave_out_duplicates(struct triangle_grid *grid) {
 bool triangle_grid_split(struct triangle_grid *grid, bool planes) {
   size_t cells = triangle_grid_cell_count(grid);
   for (size_t c = 0; c < cells; c++) {
-    size_t count = grid->start[c + 1] - grid->start[c];
+    size_t count = grid->lists.start[c + 1] - grid->lists.start[c];
     if (count < TRIANGLE_GRID_SPLIT)
       continue;
     if (grid->bsp == NULL) {
@@ -200,8 +191,9 @@ bool triangle_grid_split(struct triangle_grid *grid, bool planes) {
         return false;
       memset(grid->bsp_root, 0xff, cells * sizeof *grid->bsp_root);
     }
-    if (!bsp_add(grid->bsp, grid->sheet, grid->item + grid->start[c], count,
-                 planes, &grid->bsp_root[c]))
+    if (!bsp_add(grid->bsp, grid->sheet,
+                 grid->lists.item + grid->lists.start[c], count, planes,
+                 &grid->bsp_root[c]))
       return false;
   }
   return true;
@@ -210,24 +202,17 @@ bool triangle_grid_split(struct triangle_grid *grid, bool planes) {
 static bool fill(const struct filling *filling) {
   struct triangle_grid *grid = filling->grid;
   size_t cells = triangle_grid_cell_count(grid);
-  grid->start = mem_calloc(cells + 1, sizeof *grid->start);
-  if (grid->start == NULL)
-    return false;
-  fill_cells(filling, false);
-  for (size_t c = 0; c < cells; c++)
-    grid->start[c + 1] += grid->start[c];
-  grid->item = mem_alloc(grid->start[cells], sizeof *grid->item);
-  if (grid->item == NULL) {
-    triangle_grid_fini(grid);
-    return false;
-  }
-  fill_cells(filling, true);
+  bool ok = number_lists_init(&grid->lists, cells);
+  if (ok)
+    fill_cells(filling);
+  ok = ok && number_lists_allocate(&grid->lists, cells);
+  if (ok)
+    fill_cells(filling);
   grid->sheet = filling->sheet;
-  if (!leave_out_duplicates(grid)) {
+  ok = ok && leave_out_duplicates(grid);
+  if (!ok)
     triangle_grid_fini(grid);
-    return false;
-  }
-  return true;
+  return ok;
 }
 
 /* Per cell: is it wanted, or the next one in x, in y or in both?  Then one
@@ -294,14 +279,13 @@ bool triangle_grid_fill_some(struct triangle_grid *grid,
 }
 
 void triangle_grid_fini(struct triangle_grid *grid) {
-  mem_free(grid->start);
-  mem_free(grid->item);
+  number_lists_fini(&grid->lists);
   if (grid->bsp != NULL)
     bsp_fini(grid->bsp);
   mem_free(grid->bsp);
   mem_free(grid->bsp_root);
   mem_free(grid->left_out);
-  grid->start = grid->item = grid->bsp_root = NULL;
+  grid->bsp_root = NULL;
   grid->left_out = NULL;
   grid->bsp = NULL;
 }
@@ -352,8 +336,9 @@ static bool visit_cell(const struct triangle_grid *grid, int x, int y,
   uint32_t root = triangle_grid_bsp(grid, cell);
   if (root != SHEET_NONE)
     return visit_bsp(grid, root, shape, query);
-  for (uint32_t i = grid->start[cell]; i < grid->start[cell + 1]; i++)
-    if (!visit(query, grid->item[i]))
+  for (uint32_t i = grid->lists.start[cell]; i < grid->lists.start[cell + 1];
+       i++)
+    if (!visit(query, grid->lists.item[i]))
       return false;
   return true;
 }

@@ -3,17 +3,18 @@
 #ifndef VISIBILITY_INDEX_TRIANGLE_GRID_H
 #define VISIBILITY_INDEX_TRIANGLE_GRID_H
 
+#include "base/number_lists.h"
 #include "view/sheet.h"
 #include "visibility/predicate/box2.h"
 
 /* Cells are squares of 2^shift units, row by row from the lower left; the
- * triangles of cell c are item[start[c] .. start[c + 1]), ascending.  Where
- * there are many duplicates, only their representatives are listed
+ * triangles of a cell are its list, ascending.  Where there are many
+ * duplicates, only their representatives are listed
  * (duplicate_triangles.h). */
 struct triangle_grid {
   int shift, columns, rows;
   int32_t x0, y0; /* lower left corner */
-  uint32_t *start, *item;
+  struct number_lists lists;
   uint8_t *left_out; /* per triangle, not 0: not listed; NULL: all are listed */
   size_t triangle_count;
   const struct sheet *sheet; /* borrowed, not owned */

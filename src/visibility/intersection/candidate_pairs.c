@@ -56,7 +56,7 @@ static bool is_pair_selected(const struct pair_sweep *sweep, int x, int y) {
   size_t cell = triangle_grid_index(grid, x, y);
   if (sweep->cells != NULL && !sweep->cells[cell])
     return false;
-  return grid->start[cell] < grid->start[cell + 1];
+  return grid->lists.start[cell] < grid->lists.start[cell + 1];
 }
 
 /* A pair may be listed together in several cells; it is tested only in the
@@ -317,11 +317,11 @@ bool pair_sweep_cells(struct pair_sweep *sweep, size_t begin, size_t end) {
   const struct triangle_grid *grid = sweep->grid;
   bool ok = true;
   for (size_t cell = begin; ok && cell < end; cell++) {
-    size_t n = grid->start[cell + 1] - grid->start[cell];
+    size_t n = grid->lists.start[cell + 1] - grid->lists.start[cell];
     sweep->x = (int)(cell % (size_t)grid->columns);
     sweep->y = (int)(cell / (size_t)grid->columns);
     if (n > 1 && (sweep->cells == NULL || sweep->cells[cell]))
-      ok = sweep_cell(sweep, grid->item + grid->start[cell], n);
+      ok = sweep_cell(sweep, grid->lists.item + grid->lists.start[cell], n);
   }
   return ok;
 }

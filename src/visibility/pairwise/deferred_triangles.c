@@ -31,9 +31,8 @@
 
 /* ---- Contours by tile ---------------------------------------------------- */
 
-/* Counts the contours of each wanted tile or, if `filling`, lists them. */
-static void visit_contours(struct deferred_triangles *d, const uint8_t *wanted,
-                           bool filling) {
+/* Puts the contours into the lists of the wanted tiles. */
+static void list_contours(struct deferred_triangles *d, const uint8_t *wanted) {
   const struct sheet *sheet = d->sheet;
   const struct triangle_grid *grid = &d->lists->tiles->grid;
   for (size_t i = sheet->contour.count; i-- > 0;) {
@@ -44,12 +43,8 @@ static void visit_contours(struct deferred_triangles *d, const uint8_t *wanted,
       triangle_grid_row(grid, s.p, s.q, r, y, &x0, &x1);
       for (int x = x0; x <= x1; x++) {
         size_t cell = triangle_grid_index(grid, x, y);
-        if (!wanted[cell])
-          continue;
-        if (filling)
-          d->contour[--d->start[cell]] = (uint32_t)i;
-        else
-          d->start[cell]++;
+        if (wanted[cell])
+          number_lists_put(&d->contours, cell, (uint32_t)i);
       }
     }
   }
@@ -64,22 +59,17 @@ bool deferred_triangles_init(struct deferred_triangles *d,
   d->sheet = sheet;
   d->lists = lists;
   d->state = state;
-  d->start = mem_calloc(cells + 1, sizeof *d->start);
-  if (d->start == NULL)
+  if (!number_lists_init(&d->contours, cells))
     return false;
-  visit_contours(d, wanted, false);
-  for (size_t i = 0; i < cells; i++)
-    d->start[i + 1] += d->start[i];
-  d->contour = mem_alloc(d->start[cells], sizeof *d->contour);
-  if (d->contour == NULL)
+  list_contours(d, wanted);
+  if (!number_lists_allocate(&d->contours, cells))
     return false;
-  visit_contours(d, wanted, true);
+  list_contours(d, wanted);
   return true;
 }
 
 void deferred_triangles_fini(struct deferred_triangles *d) {
-  mem_free(d->start);
-  mem_free(d->contour);
+  number_lists_fini(&d->contours);
 }
 
 /* ---- The order ----------------------------------------------------------- */
@@ -173,10 +163,10 @@ static bool is_crossed(const struct triangle_solver *solver) {
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++) {
       size_t cell = triangle_grid_index(grid, x, y);
-      for (uint32_t i = solver->d->start[cell]; i < solver->d->start[cell + 1];
-           i++) {
-        struct geom_segment s =
-            sheet_ends(sheet, sheet->contour.item[solver->d->contour[i]].point);
+      for (uint32_t i = solver->d->contours.start[cell];
+           i < solver->d->contours.start[cell + 1]; i++) {
+        struct geom_segment s = sheet_ends(
+            sheet, sheet->contour.item[solver->d->contours.item[i]].point);
         if ((s.p.z >= subtraction->low || s.q.z >= subtraction->low) &&
             may_intersect_segment(subtraction->plane.p, s.p, s.q))
           return true;
@@ -227,7 +217,7 @@ static bool find_near_triangles(struct triangle_solver *solver) {
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++) {
       size_t cell = triangle_grid_index(grid, x, y);
-      uint32_t i = grid->start[cell], end = grid->start[cell + 1];
+      uint32_t i = grid->lists.start[cell], end = grid->lists.start[cell + 1];
       if (i == end)
         continue;
       if (triangle_grid_bsp(grid, cell) != SHEET_NONE) {
@@ -240,7 +230,7 @@ static bool find_near_triangles(struct triangle_solver *solver) {
       uint64_t kdop_query = kdop8_query(&range, &kdop);
       for (; i < end; i++)
         if (kdop8_overlaps(lists->key[i], kdop_query) &&
-            !add_candidate(solver, grid->item[i]))
+            !add_candidate(solver, grid->lists.item[i]))
           return false;
     }
   return true;

@@ -14,6 +14,7 @@
 #ifndef VISIBILITY_PAIRWISE_DEFERRED_TRIANGLES_H
 #define VISIBILITY_PAIRWISE_DEFERRED_TRIANGLES_H
 
+#include "base/number_lists.h"
 #include "visibility/fragments/occluder_subtraction.h"
 #include "visibility/pairwise/tile_candidates.h"
 
@@ -28,8 +29,8 @@ struct deferred_triangles_counts {
 struct deferred_triangles {
   const struct sheet *sheet;
   const struct tile_candidates *lists; /* borrowed, not owned */
-  uint8_t *state;            /* one per triangle, enum map_state; borrowed */
-  uint32_t *start, *contour; /* of tile i: contour[start[i] .. start[i + 1]) */
+  uint8_t *state;               /* one per triangle, enum map_state; borrowed */
+  struct number_lists contours; /* of each tile, ascending */
   struct deferred_triangles_counts counts;
 };
 

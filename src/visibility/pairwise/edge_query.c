@@ -135,7 +135,7 @@ static bool test_bsp(struct edge_query *query, struct cell_query *at) {
                             .p = {query->end[0], query->end[1]}};
   struct bsp_traversal traversal =
       bsp_traversal_from(triangle_grid_bsp(grid, at->cell));
-  const uint64_t *key = query->lists->key + grid->start[at->cell];
+  const uint64_t *key = query->lists->key + grid->lists.start[at->cell];
   const struct bsp_node *node;
   while (!query->intervals.occluded &&
          (node = bsp_next(grid->bsp, &traversal, &shape)) != NULL) {
@@ -160,7 +160,8 @@ static bool test_bsp(struct edge_query *query, struct cell_query *at) {
 static bool test_cell(struct edge_query *query, int x, int y) {
   const struct tile_candidates *list = query->lists;
   size_t cell = (size_t)y * (size_t)list->grid.columns + (size_t)x;
-  uint32_t i = list->grid.start[cell], end = list->grid.start[cell + 1];
+  uint32_t i = list->grid.lists.start[cell],
+           end = list->grid.lists.start[cell + 1];
   struct cell_query at = {.cell = cell, .share = -1};
   if (i == end)
     return true;
@@ -173,7 +174,7 @@ static bool test_cell(struct edge_query *query, int x, int y) {
       i++;
     if (i == end || query->intervals.occluded)
       return true;
-    if (!add_triangle_occlusion(query, list->grid.item[i]))
+    if (!add_triangle_occlusion(query, list->grid.lists.item[i]))
       return false;
     update_kdop_query(&at, query);
   }

@@ -35,19 +35,20 @@ static double cost_of_lists(const struct triangle_grid *grid) {
   size_t cells = triangle_grid_cell_count(grid);
   double cost = 0;
   for (size_t c = 0; c < cells; c++)
-    cost += triangle_grid_cost_of_list(grid->start[c + 1] - grid->start[c]);
+    cost += triangle_grid_cost_of_list(grid->lists.start[c + 1] -
+                                       grid->lists.start[c]);
   return cost;
 }
 
 /* The triangles that are in some list, ascending; NULL when memory ran out. */
 static uint32_t *list_all(const struct triangle_grid *grid, size_t *count) {
   size_t n = grid->triangle_count,
-         entries = grid->start[triangle_grid_cell_count(grid)];
+         entries = grid->lists.start[triangle_grid_cell_count(grid)];
   uint32_t *all = mem_alloc(n, sizeof *all);
   uint8_t *listed = mem_calloc(n, 1);
   *count = 0;
   for (size_t i = 0; all != NULL && listed != NULL && i < entries; i++)
-    listed[grid->item[i]] = 1;
+    listed[grid->lists.item[i]] = 1;
   for (size_t t = 0; all != NULL && listed != NULL && t < n; t++)
     if (listed[t])
       all[(*count)++] = (uint32_t)t;
@@ -79,7 +80,7 @@ static bool enlarge_cells(struct tile_candidates *list,
                           const struct sheet *sheet) {
   struct triangle_grid large = list->tiles->grid, *small = &list->grid;
   double cost = cost_of_lists(small);
-  size_t count, entries = small->start[triangle_grid_cell_count(small)];
+  size_t count, entries = small->lists.start[triangle_grid_cell_count(small)];
   if (cost < LONG_LIST / 2 * (double)entries)
     return true;
   uint32_t *all = list_all(small, &count);
@@ -127,8 +128,8 @@ MEM_PREFETCH_INLINE void prefetch_triangles(const struct tile_candidates *list,
   const struct sheet_triangle *triangle = sheet->triangle.item;
   if (i + 2 * MEM_PREFETCH_AHEAD >= items)
     return;
-  MEM_PREFETCH(&triangle[list->grid.item[i + 2 * MEM_PREFETCH_AHEAD]]);
-  sheet_prefetch_corners(sheet, list->grid.item[i + MEM_PREFETCH_AHEAD]);
+  MEM_PREFETCH(&triangle[list->grid.lists.item[i + 2 * MEM_PREFETCH_AHEAD]]);
+  sheet_prefetch_corners(sheet, list->grid.lists.item[i + MEM_PREFETCH_AHEAD]);
 }
 
 /* Computes the keys of a cell's list.  A triangle that is seen edge-on
@@ -137,9 +138,10 @@ static void compute_keys(struct tile_candidates *list,
                          const struct sheet *sheet, int x, int y, size_t from,
                          size_t to) {
   struct kdop8_range range = tile_candidates_range(list, x, y);
-  const size_t items = list->grid.start[triangle_grid_cell_count(&list->grid)];
+  const size_t items =
+      list->grid.lists.start[triangle_grid_cell_count(&list->grid)];
   for (size_t i = from; i < to; i++) {
-    uint32_t t = list->grid.item[i];
+    uint32_t t = list->grid.lists.item[i];
     const uint32_t *p = sheet->triangle.item[t].point;
     prefetch_triangles(list, sheet, i, items);
     struct kdop8 kdop = kdop8_of_point(sheet->point.item[p[0]]);
@@ -155,7 +157,7 @@ static void compute_keys(struct tile_candidates *list,
 static void sort_list(struct tile_candidates *list, size_t from, size_t to,
                       struct sort_key scratch[TRIANGLE_GRID_SPLIT]) {
   uint32_t start[KDOP8_MAX + 1] = {0}, sum = 0;
-  uint32_t *item = list->grid.item + from;
+  uint32_t *item = list->grid.lists.item + from;
   uint64_t *key = list->key + from;
   size_t n = to - from;
   for (size_t i = 0; i < n; i++) {
@@ -186,7 +188,7 @@ static bool add_keys_of_range(void *user, struct parallel_range range) {
   size_t columns = (size_t)grid->columns;
   struct sort_key scratch[TRIANGLE_GRID_SPLIT];
   for (size_t cell = range.begin; cell < range.end; cell++) {
-    size_t from = grid->start[cell], to = grid->start[cell + 1];
+    size_t from = grid->lists.start[cell], to = grid->lists.start[cell + 1];
     if (!poll_at(cell))
       return false;
     if (from == to)
@@ -202,7 +204,7 @@ static bool add_keys_of_range(void *user, struct parallel_range range) {
 static bool add_keys(struct tile_candidates *list, const struct sheet *sheet) {
   size_t cells = triangle_grid_cell_count(&list->grid);
   struct key_work work = {list, sheet};
-  list->key = mem_alloc(list->grid.start[cells], sizeof *list->key);
+  list->key = mem_alloc(list->grid.lists.start[cells], sizeof *list->key);
   return list->key != NULL &&
          parallel_ranges(parallel_workers(cells, CELLS_IN_RANGE), cells,
                          CELLS_IN_RANGE, add_keys_of_range, &work);
