@@ -11,9 +11,9 @@
 /* List k is item[start[k]] to before item[start[k + 1]].
  *
  * They are made in two passes over the same numbers: after number_lists_init
- * each is put into its list to be counted and, after number_lists_allocate, once
- * more to be stored.  A list has its numbers in the reverse of the order in
- * which the second pass puts them. */
+ * each is put into its list to be counted and, after number_lists_allocate,
+ * once more to be stored.  A list has its numbers in the reverse of the order
+ * in which the second pass puts them.  */
 struct number_lists {
   uint32_t *start, *item;
 };

@@ -135,12 +135,12 @@ static void put_piece_in_cell(struct snapper *s, size_t cell, uint32_t number) {
   number_lists_put(&s->pieces, cell, number);
 }
 
-static void put_pieces(struct snapper *s) {
+static void put_section_pieces(struct snapper *s) {
   for (size_t i = s->piece.count; i-- > 0;)
     visit_piece_cells(s, &s->piece.item[i], put_piece_in_cell, (uint32_t)i);
 }
 
-static void put_nodes(struct snapper *s) {
+static void put_section_nodes(struct snapper *s) {
   for (size_t n = s->section->node.count; n-- > 0;) {
     const struct section_node *node = &s->section->node.item[n];
     size_t cell = (size_t)piece_cell_at(s, 0, (double)node->u) * s->cells[1] +
@@ -358,11 +358,12 @@ recto_status section_snap(struct section *section, recto_error *error) {
   bool ok = collect_pieces(&s);
   if (ok && s.piece.count > 0) {
     choose_cells(&s);
-    ok = fill_lists(&s, &s.pieces, put_pieces);
+    ok = fill_lists(&s, &s.pieces, put_section_pieces);
     if (ok)
       status = find_piece_crossings(&s, error);
-    ok = ok && (status != RECTO_OK || (add_crossing_nodes(&s) &&
-                                       fill_lists(&s, &s.nodes, put_nodes)));
+    ok = ok &&
+         (status != RECTO_OK || (add_crossing_nodes(&s) &&
+                                 fill_lists(&s, &s.nodes, put_section_nodes)));
   }
   if (!ok)
     status = error_memory(error);

@@ -60,7 +60,7 @@ static bool collect_sides(struct hatch *h, const struct map *map, size_t begin,
 /* ---- 3 Strips ------------------------------------------------------------ */
 
 /* Puts the sides into the lists of the strips. */
-static void list_sides(struct hatch *h) {
+static void list_strip_sides(struct hatch *h) {
   const struct hatch_lines *lines = &h->lines;
   for (uint32_t i = (uint32_t)lines->side.count; i-- > 0;) {
     int64_t low, high;
@@ -79,10 +79,10 @@ static bool list_strips(struct hatch *h, int64_t first, int64_t last) {
   number_lists_fini(&h->strip);
   if (!number_lists_init(&h->strip, count))
     return false;
-  list_sides(h);
+  list_strip_sides(h);
   if (!number_lists_allocate(&h->strip, count))
     return false;
-  list_sides(h);
+  list_strip_sides(h);
   return true;
 }
 

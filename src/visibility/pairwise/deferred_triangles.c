@@ -32,7 +32,8 @@
 /* ---- Contours by tile ---------------------------------------------------- */
 
 /* Puts the contours into the lists of the wanted tiles. */
-static void list_contours(struct deferred_triangles *d, const uint8_t *wanted) {
+static void list_tile_contours(struct deferred_triangles *d,
+                               const uint8_t *wanted) {
   const struct sheet *sheet = d->sheet;
   const struct triangle_grid *grid = &d->lists->tiles->grid;
   for (size_t i = sheet->contour.count; i-- > 0;) {
@@ -61,10 +62,10 @@ bool deferred_triangles_init(struct deferred_triangles *d,
   d->state = state;
   if (!number_lists_init(&d->contours, cells))
     return false;
-  list_contours(d, wanted);
+  list_tile_contours(d, wanted);
   if (!number_lists_allocate(&d->contours, cells))
     return false;
-  list_contours(d, wanted);
+  list_tile_contours(d, wanted);
   return true;
 }
 
