@@ -749,7 +749,9 @@ RECTO_USE_RESULT recto_status recto_scene_read_for_parts(
  * to a file that recto_join_parts takes.  A part knows of the model what meets
  * its window; the windows depend on the scene, the options and `count`, and
  * have about as many points each.  Of the options for ink those say what is
- * solved that choose what is drawn: edges, hidden, hidden_by_max, fill.
+ * solved that choose what is drawn: edges, hidden, hidden_by_max, fill, ids,
+ * and for hatching by tone light, ambient, fill_light and pen_mm: to find the
+ * tones the model is held.
  * `output.format` is that of the joined drawing, as its margin may depend on
  * it.
  * number  from 1 to `count`
@@ -757,10 +759,9 @@ RECTO_USE_RESULT recto_status recto_scene_read_for_parts(
  * path    written whole or not at all, as by recto_drawing_write
  * Errors  those of recto_scene_render; RECTO_ERROR_UNSUPPORTED also where the
  *         parts could not be joined to the same drawing: with approximate
- *         methods, smooth contours, cuts, sheets, creases with a second angle,
- *         results or verification, in a view that the page or the near plane
- *         clips, of a scene of extreme size, and where welding might join
- *         corners; RECTO_ERROR_IO */
+ *         methods, smooth contours, cuts, sheets, results or verification, in a
+ *         view that the page or the near plane clips, of a scene of extreme
+ *         size, and where welding might join corners; RECTO_ERROR_IO */
 RECTO_USE_RESULT recto_status recto_scene_write_part(
     const recto_scene *scene, const recto_options *options, unsigned number,
     unsigned count, const char *path, recto_error *error);
@@ -780,10 +781,9 @@ RECTO_USE_RESULT recto_status recto_scene_has_part(
  * Errors  RECTO_ERROR_ARGUMENT: a part is missing, there twice, or of another
  *         drawing; RECTO_ERROR_FORMAT: a file is no part, cut short or damaged;
  *         the error names it; RECTO_ERROR_UNSUPPORTED: the options want what
- *         the parts do not have: fills, hidden lines or a number of hiding
- *         faces that these were made without, ids, tone hatching, results or
- *         verification; RECTO_ERROR_IO; RECTO_ERROR_LIMIT;
- *         RECTO_ERROR_CANCELLED */
+ *         the parts do not have: fills, hidden lines, a number of hiding faces,
+ *         ids or tones that these were made without; results or verification;
+ *         RECTO_ERROR_IO; RECTO_ERROR_LIMIT; RECTO_ERROR_CANCELLED */
 RECTO_USE_RESULT recto_status recto_join_parts(const char *const *paths,
                                                size_t count,
                                                const recto_options *options,

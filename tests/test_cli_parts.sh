@@ -33,6 +33,25 @@ takes_ink() {
 }
 claim "other pens and another format are those of the join" takes_ink
 
+takes() { # OPTION...
+  "$recto" "$models/gears.obj" "$@" -o takes.svg -q && make_parts takes "$@" -q &&
+    "$recto" --join takes-?.recto "$@" -o joined.svg -q 2>err &&
+    cmp takes.svg joined.svg
+}
+claim "ids are those of the whole" takes --ids --hidden dashed
+claim "tone hatching is that of the whole" takes --fill hatch --light=-1,2,1 --ids
+claim "creases with a second angle are those of the whole" \
+  takes --crease 8,40 --edges all
+
+has_this_format() {
+  local file
+  for file in "$srcdir"/tests/fuzz/corpus/part/*; do
+    "$recto" --join "$file" -o corpus.svg -q 2>err ||
+      grep -q 'do not fit together' err || return 1
+  done
+}
+claim "the parts that fuzzing starts from are of this format" has_this_format
+
 scans() {
   local model i
   for model in "$RECTO_MODELS"/*.obj; do

@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "ink/hatch/hatch_runs.h"
-#include "ink/hatch/tone.h"
+#include "ink/tone.h"
 #include "tests/ink_fixture.h"
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/random.h"

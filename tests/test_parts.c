@@ -77,19 +77,26 @@ static bool compare_parts(void *const *state, const recto_scene *scene,
   return true;
 }
 
-/* Lines, hidden lines dashed, fills, hatching, lines behind one face. */
-enum { MODES = 5 };
+/* Lines, hidden lines dashed, fills, hatching, lines behind one face, ids,
+ * creases with a second angle and all edges, tone hatching. */
+enum { MODES = 8 };
 
 static void set_mode(recto_options *options, int mode) {
-  static const recto_fill fill[MODES] = {RECTO_FILL_NONE, RECTO_FILL_NONE,
-                                         RECTO_FILL_SHADE, RECTO_FILL_HATCH,
-                                         RECTO_FILL_NONE};
+  static const recto_fill fill[MODES] = {
+      RECTO_FILL_NONE, RECTO_FILL_NONE,  RECTO_FILL_SHADE, RECTO_FILL_HATCH,
+      RECTO_FILL_NONE, RECTO_FILL_SHADE, RECTO_FILL_NONE,  RECTO_FILL_HATCH};
   options->ink.fill = fill[mode];
   options->ink.hidden = mode == 1   ? RECTO_HIDDEN_DASHED
                         : mode == 4 ? RECTO_HIDDEN_LAYER
                                     : RECTO_HIDDEN_NONE;
   options->ink.hidden_by_max = mode == 4;
-  options->ink.light[0] = options->ink.light[1] = options->ink.light[2] = 0;
+  options->ink.ids = mode == 5;
+  options->mesh.crease_deg = mode == 6 ? 10 : 30;
+  options->mesh.crease_start_deg = mode == 6 ? 50 : 0;
+  options->ink.edges = mode == 6 ? RECTO_EDGES_ALL : RECTO_EDGES_DEFAULT;
+  options->ink.light[0] = mode == 7 ? -1 : 0;
+  options->ink.light[1] = mode == 7 ? 2 : 0;
+  options->ink.light[2] = mode == 7 ? 1 : 0;
 }
 
 /* Scenes of more faces are drawn in one number of parts alone. */
@@ -296,6 +303,19 @@ static void what_parts_do_not_have_is_refused(void **state) {
   assert_int_equal(join_all(state, &other, 2, &drawing, &error),
                    RECTO_ERROR_UNSUPPORTED);
   other = options;
+  other.ink.fill = RECTO_FILL_HATCH;
+  assert_int_equal(write_parts(state, scene, &other, 2, &error), RECTO_OK);
+  other.ink.light[0] = 1;
+  assert_int_equal(join_all(state, &other, 2, &drawing, &error),
+                   RECTO_ERROR_UNSUPPORTED);
+  assert_non_null(strstr(error.text, "--light"));
+  assert_int_equal(write_parts(state, scene, &other, 2, &error), RECTO_OK);
+  assert_int_equal(join_all(state, &other, 2, &drawing, &error), RECTO_OK);
+  recto_drawing_destroy(drawing);
+  other.ink.pen_mm *= 2;
+  assert_int_equal(join_all(state, &other, 2, &drawing, &error),
+                   RECTO_ERROR_UNSUPPORTED);
+  other = options;
   other.ink.contours = RECTO_CONTOURS_SMOOTH;
   assert_int_equal(write_parts(state, scene, &other, 2, &error),
                    RECTO_ERROR_UNSUPPORTED);
@@ -378,6 +398,12 @@ static void what_runs_out_of_memory_says_so(void **state) {
   run.path = path;
   run.options.solver.threads = 1;
   run.options.ink.fill = RECTO_FILL_SHADE;
+  fail_allocations(write_one, &run);
+  fail_allocations(join_one, &run);
+  run.options.ink.fill = RECTO_FILL_HATCH;
+  run.options.ink.light[0] = 1;
+  run.options.ink.ids = true;
+  run.options.mesh.crease_start_deg = 60;
   fail_allocations(write_one, &run);
   fail_allocations(join_one, &run);
   mem_free(path);

@@ -355,7 +355,7 @@ src/visibility/intersection/intersection.c|#include "visibility/newell/newell_or
 src/visibility/intersection/intersection.c|#include "visibility/fragments/fragments.h"
 src/visibility/predicate/occlusion.h|#include "visibility/index/triangle_grid.h"
 src/visibility/solver.h|#include "visibility/predicate/occlusion.h"
-src/ink/lines/chain.c|#include "ink/hatch/tone.h"
+src/ink/lines/chain.c|#include "ink/hatch/hatch.h"
 src/ink/ink.c|#include "visibility/predicate/occlusion.h"
 src/api/render.c|#include "ink/lines/stroke.h"
 src/scene/reader_obj.c|#include "scene/reader_stl.h"

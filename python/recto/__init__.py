@@ -26,7 +26,7 @@ from ._library import (
     text_of,
 )
 from ._options import EDGE_CLASSES, METHODS, PAGES, VIEWS, Options
-from ._scene import Scene, Verdict, draw
+from ._scene import Scene, Verdict, draw, join
 
 __version__ = text_of(lib.recto_version())
 NONE: int = lib.RECTO_NONE
@@ -58,4 +58,5 @@ __all__ = [
     "VerifyError",
     "Warning",
     "draw",
+    "join",
 ]

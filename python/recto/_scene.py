@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any, NamedTuple, Sequence
 
 import numpy as np
@@ -43,6 +43,22 @@ def _corners(faces: Any) -> tuple[np.ndarray, np.ndarray | None, int]:
     if corners.dtype.itemsize == 4 and corners.dtype.isnative:
         return np.ascontiguousarray(corners).view(np.uint32), offsets, size
     return np.ascontiguousarray(corners, np.uint32), offsets, size
+
+
+def _make_drawing(make: Callable[[Filled, Any], int], options: Any) -> Drawing:
+    """The drawing that a function of the library makes with these options."""
+    given: dict[str, Any] = {"format": "svg", **options}
+    for name, value in given.items():
+        if isinstance(value, Iterator):  # the drawing uses it again
+            given[name] = tuple(value)
+    filled = Filled(given)
+    drawing = ffi.new("recto_drawing **")
+    status = make(filled, drawing)
+    owner = drawing[0]
+    if owner != ffi.NULL:
+        owner = ffi.gc(owner, lib.recto_drawing_destroy)
+    filled.call.finish(status)
+    return Drawing(owner, given)
 
 
 class Verdict(NamedTuple):
@@ -93,6 +109,29 @@ class Scene:
         filled = Filled(options)
         filled.call.finish(
             lib.recto_scene_read(
+                scene._owner,
+                path_of(path),
+                text_to(model_format),
+                filled.at,
+                filled.call.error,
+            )
+        )
+        return scene
+
+    @classmethod
+    def read_for_parts(
+        cls,
+        path: str | os.PathLike[str],
+        /,
+        model_format: str | None = None,
+        **options: Unpack[Options],
+    ) -> Scene:
+        """Reads a model file for write_part and has_part alone, which read an
+        OBJ file themselves, block by block: to other methods it is empty."""
+        scene = cls()
+        filled = Filled(options)
+        filled.call.finish(
+            lib.recto_scene_read_for_parts(
                 scene._owner,
                 path_of(path),
                 text_to(model_format),
@@ -230,21 +269,63 @@ class Scene:
 
     def render(self, **options: Unpack[Options]) -> Drawing:
         """Draws the scene for SVG files, or for those of `format`."""
-        given: dict[str, Any] = {"format": "svg", **options}
-        for name, value in given.items():
-            if isinstance(value, Iterator):  # the drawing uses it again
-                given[name] = tuple(value)
-        filled = Filled(given)
-        drawing = ffi.new("recto_drawing **")
         with self._use.reading():
-            status = lib.recto_scene_render(
-                self._owner, filled.at, drawing, filled.call.error
+            return _make_drawing(
+                lambda filled, drawing: lib.recto_scene_render(
+                    self._owner, filled.at, drawing, filled.call.error
+                ),
+                options,
             )
-        owner = drawing[0]
-        if owner != ffi.NULL:
-            owner = ffi.gc(owner, lib.recto_drawing_destroy)
-        filled.call.finish(status)
-        return Drawing(owner, given)
+
+    def write_part(
+        self,
+        path: str | os.PathLike[str],
+        number: int,
+        count: int,
+        /,
+        **options: Unpack[Options],
+    ) -> None:
+        """Draws part `number`, from 1, of `count` of a drawing, a window of the
+        page, and writes it to a file that join takes.  All parts take the
+        options of the drawing."""
+        filled = Filled({"format": "svg", **options})
+        with self._use.reading():
+            filled.call.finish(
+                lib.recto_scene_write_part(
+                    self._owner,
+                    filled.at,
+                    number,
+                    count,
+                    path_of(path),
+                    filled.call.error,
+                )
+            )
+
+    def has_part(
+        self,
+        path: str | os.PathLike[str],
+        number: int,
+        count: int,
+        /,
+        **options: Unpack[Options],
+    ) -> bool:
+        """Whether a file is the very part that write_part would write there,
+        and whole."""
+        filled = Filled({"format": "svg", **options})
+        is_there = ffi.new("bool *")
+        with self._use.reading():
+            filled.call.finish(
+                lib.recto_scene_has_part(
+                    self._owner,
+                    filled.at,
+                    number,
+                    count,
+                    path_of(path),
+                    is_there,
+                    filled.call.error,
+                )
+            )
+        return bool(is_there[0])
 
     def check(
         self, path: str | os.PathLike[str], /, **options: Unpack[Options]
@@ -275,6 +356,25 @@ class Scene:
             (at[0][0], at[0][1]) if found.false_mm > 0 else None,
             (at[1][0], at[1][1]) if found.missing_mm > 0 else None,
         )
+
+
+def join(
+    parts: Iterable[str | os.PathLike[str]], /, **options: Unpack[Options]
+) -> Drawing:
+    """Joins the parts of a drawing, all files that Scene.write_part wrote, in any
+    order: the drawing that Scene.render makes of the whole, to the byte.  The
+    options are those for ink and output; camera, page and mesh are the parts'."""
+    paths = [ffi.new("char[]", path_of(path)) for path in parts]
+    return _make_drawing(
+        lambda filled, drawing: lib.recto_join_parts(
+            ffi.new("char *[]", paths),
+            len(paths),
+            filled.at,
+            drawing,
+            filled.call.error,
+        ),
+        options,
+    )
 
 
 def draw(

@@ -496,6 +496,30 @@ def test_late_options():
     raised(TypeError, drawing.write, "late.svg", hidden="dashed")
 
 
+def test_parts():
+    """Parts of a drawing, joined, are the drawing"""
+    options = {"hidden": "dashed", "ids": True}
+    scene = cube()
+    names = ["part-%d.recto" % number for number in (1, 2, 3)]
+    for number, name in enumerate(names, 1):
+        assert not scene.has_part(name, number, 3, **options)
+        scene.write_part(name, number, 3, **options)
+        assert scene.has_part(name, number, 3, **options)
+    assert not scene.has_part(names[0], 2, 3, **options)
+    whole = scene.render(**options).svg()
+    assert recto.join(reversed(names), **options).svg() == whole
+    error = raised(recto.ArgumentError, recto.join, names[:2], **options)
+    assert "part 3 of the 3 parts is missing" in str(error), error
+    error = raised(recto.UnsupportedError, recto.join, names, fill="shade")
+    assert "--fill" in str(error), error
+    with open("cube.obj", "w") as file:
+        file.write(OBJ)
+    read = recto.Scene.read_for_parts("cube.obj", **options)
+    read.write_part("read.recto", 1, 1, **options)
+    read = recto.Scene.read("cube.obj").render(**options).svg()
+    assert recto.join(["read.recto"], **options).svg() == read
+
+
 def test_polyline():
     """A polyline is drawn, as class wire"""
     scene = cube()

@@ -74,6 +74,7 @@ static recto_status read_part_files(struct join *join, size_t count,
 static void take_options(recto_options *o, const struct part_common *common) {
   o->ink.edges = common->edges;
   o->mesh.crease_deg = common->crease_deg;
+  o->mesh.crease_start_deg = common->crease_start_deg;
   o->camera.kind = common->camera_kind;
   o->camera.azimuth_deg = common->azimuth_deg;
   o->camera.elevation_deg = common->elevation_deg;
@@ -99,6 +100,39 @@ static recto_status ink_join(struct join *join, recto_error *error) {
                       &joined->map, o, error);
   stats_add_seconds(join->made->report, "ink_cpu_s", clock_cpu() - cpu);
   return status;
+}
+
+/* The number of a face or a polyline within its group. */
+static uint32_t in_group_at(const struct part_element *element, size_t count,
+                            uint32_t at) {
+  return at < count ? element[at].in_group : DRAWING_NONE;
+}
+
+/* Sets the sources of strokes and fills, as group_numbers.h does. */
+static bool set_sources(struct join *join) {
+  struct drawing *drawing = &join->made->drawing;
+  const struct part *all = &join->join.all;
+  uint32_t *edge = part_join_edge_numbers(&join->join);
+  bool ok = edge != NULL &&
+            ARRAY_RESERVE(&drawing->stroke_source, drawing->stroke.count) &&
+            ARRAY_RESERVE(&drawing->fill_source, drawing->fill.count);
+  for (size_t i = 0; ok && i < drawing->stroke.count; i++) {
+    const struct drawing_stroke *stroke = &drawing->stroke.item[i];
+    struct drawing_source own = {
+        in_group_at(all->face.item, all->face.count, stroke->face),
+        stroke->edge_class == RECTO_EDGE_WIRE
+            ? in_group_at(all->wire.item, all->wire.count, stroke->edge)
+        : stroke->edge < join->join.topology.edge.count ? edge[stroke->edge]
+                                                        : DRAWING_NONE};
+    drawing->stroke_source.item[drawing->stroke_source.count++] = own;
+  }
+  for (size_t i = 0; ok && i < drawing->fill.count; i++)
+    drawing->fill_source.item[drawing->fill_source.count++] =
+        (struct drawing_source){in_group_at(all->face.item, all->face.count,
+                                            drawing->fill.item[i].face),
+                                DRAWING_NONE};
+  mem_free(edge);
+  return ok;
 }
 
 /* Gives faces their numbers in the model; edges have none here. */
@@ -159,6 +193,8 @@ static recto_status join_and_ink(struct join *join, size_t count,
   const char *path = joined->all.common.path;
   if (!captions_set(&join->made->drawing, path[0] != '\0' ? path : NULL,
                     &join->options))
+    return error_memory(error);
+  if (join->options.ink.ids && !set_sources(join))
     return error_memory(error);
   number_faces(join);
   report_join(join);

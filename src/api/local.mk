@@ -21,6 +21,7 @@ librecto_core_la_SOURCES += \
   %D%/multiview_layout.h \
   %D%/part.c \
   %D%/part_check.c %D%/part_check.h \
+  %D%/part_tones.c %D%/part_tones.h \
   %D%/render.c %D%/render.h \
   %D%/render_scene.c \
   %D%/render_warnings.c %D%/render_warnings.h \

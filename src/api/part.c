@@ -17,11 +17,13 @@
 #include "api/handle.h"
 #include "api/options.h"
 #include "api/part_check.h"
+#include "api/part_tones.h"
 #include "api/shares.h"
 #include "base/clock.h"
 #include "base/hash.h"
 #include "base/parallel.h"
 #include "base/stream.h"
+#include "ink/tone.h"
 #include "parts/part_collect.h"
 #include "parts/part_file.h"
 #include "scene/weld_near.h"
@@ -45,6 +47,7 @@ struct part_work {
   double weld; /* the most that welding could join */
   struct part part;
   struct part_scene scene;
+  struct part_tones tones;
   struct topology topology;
   struct sheet sheet;
   struct map map;
@@ -55,6 +58,7 @@ static void part_work_fini(struct part_work *work) {
   sheet_fini(&work->sheet);
   topology_fini(&work->topology);
   part_scene_fini(&work->scene);
+  part_tones_fini(&work->tones);
   part_fini(&work->part);
   face_pick_fini(&work->pick);
   read_passes_close(work->pick.source.passes);
@@ -109,7 +113,12 @@ static recto_status make_common(struct part_work *work, recto_error *error) {
   common->has_fragments = o->ink.fill != RECTO_FILL_NONE;
   common->has_hidden = o->ink.hidden != RECTO_HIDDEN_NONE;
   common->hidden_by_max = part_hidden_by_max(o);
+  common->has_ids = o->ink.ids;
+  common->has_tones = part_tones_are_wanted(o);
+  if (common->has_tones)
+    tones_set_light(common->light, &work->camera, o);
   common->crease_deg = o->mesh.crease_deg;
+  common->crease_start_deg = o->mesh.crease_start_deg;
   common->camera = work->camera;
   common->camera_kind = o->camera.kind;
   common->azimuth_deg = o->camera.azimuth_deg;
@@ -186,7 +195,8 @@ static recto_status aim_pick(struct part_work *work, recto_error *error) {
         .window = work->part.window,
         .margin = margin_of_window(&work->camera),
         .reach = reach_of_window(&work->camera, scene->point.count),
-        .fragments = work->options->ink.fill != RECTO_FILL_NONE};
+        .owned = work->options->ink.fill != RECTO_FILL_NONE ||
+                 work->options->ink.ids};
     ok = part_scene_aim(&work->pick, &work->request, place);
   }
   mem_free(window);
@@ -271,6 +281,7 @@ static recto_status guess_and_pick(struct part_work *work, uint8_t *used,
 static recto_status survey_model(struct part_work *work, bool picks,
                                  recto_error *error) {
   recto_status status = open_model(work, error);
+  work->pick.counts_groups = work->options->ink.ids;
   if (status != RECTO_OK)
     return status;
   const struct scene *scene = work->pick.source.scene;
@@ -299,6 +310,10 @@ static recto_status keep_part(struct part_work *work, recto_error *error) {
   bool may_weld = false;
   recto_status status =
       part_scene_make(&work->scene, &work->pick, &work->request, error);
+  if (status == RECTO_OK && work->part.common.has_tones &&
+      scene_face_count(&work->scene.scene) > 0)
+    status = part_tones_find(&work->tones, &work->scene, &work->pick.source,
+                             &work->camera, work->options, error);
   drop_model(work);
   if (status == RECTO_OK)
     status = topology_init(&work->topology, &work->scene.scene, error);
@@ -316,11 +331,13 @@ static recto_status keep_part(struct part_work *work, recto_error *error) {
 static recto_status solve_part_scene(struct part_work *work,
                                      recto_error *error) {
   const recto_options *o = work->options;
+  recto_options lower = *o; /* of two angles of creases: part_join.c */
   struct solver_request request = solver_request_of(o);
   const char *why;
-  recto_status status =
-      layout_sheet(&work->sheet, &work->scene.scene, &work->topology,
-                   &work->camera, o, work->part.common.has_fragments, error);
+  lower.mesh.crease_start_deg = 0;
+  recto_status status = layout_sheet(&work->sheet, &work->scene.scene,
+                                     &work->topology, &work->camera, &lower,
+                                     work->part.common.has_fragments, error);
   if (status != RECTO_OK)
     return status;
   request.fragments = work->part.common.has_fragments;
@@ -344,7 +361,9 @@ static recto_status collect_part(struct part_work *work, recto_error *error) {
   const struct part_sources sources = {.scene = &work->scene,
                                        .topology = &work->topology,
                                        .sheet = &work->sheet,
-                                       .map = &work->map};
+                                       .map = &work->map,
+                                       .tone = work->tones.corner,
+                                       .uniform = work->tones.uniform};
   return part_collect(&work->part, &sources, error);
 }
 

@@ -1,6 +1,11 @@
 /* part_check.c - which options can be used with parts of a drawing. */
 #include "api/part_check.h"
 
+#include <string.h>
+
+#include "api/part_tones.h"
+#include "ink/tone.h"
+
 static recto_status refuse_parts(const char *what, recto_error *error) {
   return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
                    "drawings in parts have no %s", what);
@@ -48,27 +53,31 @@ recto_status part_check_solve(const recto_options *o, recto_error *error) {
     what = "approximate methods";
   if (what == NULL && (o->mesh.cut_count > 0 || o->camera.has_section))
     what = "cuts";
-  if (what == NULL && o->mesh.crease_start_deg > o->mesh.crease_deg)
-    what = "second angle of creases";
   return what != NULL ? refuse_parts(what, error) : RECTO_OK;
 }
 
 recto_status part_check_ink(const recto_options *o,
                             const struct part_common *common,
                             recto_error *error) {
-  const double *light = o->ink.light;
   const char *what = name_unsupported(o);
-  if (what == NULL && o->ink.ids)
-    what = "ids";
-  if (what == NULL && o->ink.fill == RECTO_FILL_HATCH &&
-      (light[0] != 0 || light[1] != 0 || light[2] != 0))
-    what = "tone hatching";
   if (what != NULL)
     return refuse_parts(what, error);
   if (o->ink.fill != RECTO_FILL_NONE && !common->has_fragments)
     return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
                      "the parts were made without visible faces: make them "
                      "with --fill");
+  double light[PART_LIGHT];
+  _Static_assert((int)PART_LIGHT == (int)TONES_LIGHT, "are one light");
+  tones_set_light(light, &common->camera, o);
+  if (part_tones_are_wanted(o) &&
+      (!common->has_tones || memcmp(light, common->light, sizeof light) != 0))
+    return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
+                     "the parts were made without these tones: make them with "
+                     "the same --fill hatch, --light, --ambient, --fill-light "
+                     "and --pen");
+  if (o->ink.ids && !common->has_ids)
+    return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
+                     "the parts were made without ids: make them with --ids");
   if (o->ink.hidden != RECTO_HIDDEN_NONE && !common->has_hidden)
     return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
                      "the parts were made without hidden lines: make them with "

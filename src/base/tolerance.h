@@ -321,7 +321,7 @@
 /* A region whose tones differ by less is uniform.
  * Unit        1 (a tone, 0 to 1)
  * Derivation  half a step of 8 bits: neither a pen nor a screen shows less.
- * Users       ink/hatch/tone.c
+ * Users       ink/tone.c
  * Ten times   shallow curved surfaces get hatching of one density. */
 #define TOLERANCE_TONE (1.0 / 512)
 

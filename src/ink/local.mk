@@ -4,6 +4,7 @@ librecto_core_la_SOURCES += \
   %D%/ink.c %D%/ink.h \
   %D%/layers.c %D%/layers.h \
   %D%/shading.c %D%/shading.h \
+  %D%/tone.c %D%/tone.h \
   %D%/pens.c %D%/pens.h \
   %D%/pens_warn_unused.c \
   %D%/planar_regions.c %D%/planar_regions.h \
@@ -22,7 +23,6 @@ librecto_core_la_SOURCES += \
   %D%/hatch/hatch_regions.c %D%/hatch/hatch_regions.h \
   %D%/hatch/hatch_runs.c %D%/hatch/hatch_runs.h \
   %D%/hatch/inset.c %D%/hatch/inset.h \
-  %D%/hatch/tone.c %D%/hatch/tone.h \
   %D%/hatch/tone_hatch.c %D%/hatch/tone_hatch.h \
   %D%/lines/chain.c \
   %D%/lines/covered.c \

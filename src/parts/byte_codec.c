@@ -60,6 +60,14 @@ void byte_codec_i64(struct byte_codec *codec, int64_t *value) {
   memcpy(value, &number, sizeof *value);
 }
 
+void byte_codec_float(struct byte_codec *codec, float *value) {
+  uint32_t bits = 0;
+  if (codec->writes)
+    memcpy(&bits, value, sizeof bits);
+  byte_codec_u32(codec, &bits);
+  memcpy(value, &bits, sizeof bits);
+}
+
 void byte_codec_double(struct byte_codec *codec, double *value) {
   uint64_t bits = 0;
   if (codec->writes)

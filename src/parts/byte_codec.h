@@ -25,6 +25,7 @@ void byte_codec_u16(struct byte_codec *codec, uint16_t *value);
 void byte_codec_u32(struct byte_codec *codec, uint32_t *value);
 void byte_codec_u64(struct byte_codec *codec, uint64_t *value);
 void byte_codec_i64(struct byte_codec *codec, int64_t *value);
+void byte_codec_float(struct byte_codec *codec, float *value);
 void byte_codec_double(struct byte_codec *codec, double *value);
 void byte_codec_bool(struct byte_codec *codec, bool *value);
 

@@ -91,6 +91,31 @@ static bool wire_is_picked(const struct face_pick *pick, const uint32_t *corner,
   return picked && pick->picks;
 }
 
+/* ---- Numbers within groups ----------------------------------------------- */
+
+/* Makes room for the count of a group. */
+static bool have_group(struct face_pick *pick, uint32_t group) {
+  struct group_counts *counts = &pick->counts;
+  while (counts->face.count <= group)
+    if (!ARRAY_PUSH(&counts->face, 0) || !ARRAY_PUSH(&counts->wire, 0))
+      return false;
+  return true;
+}
+
+/* The number of a face within its group: those that were skipped between two
+ * faces of a group count. */
+static uint32_t count_in_group(struct group_counts *counts, uint32_t group,
+                               uint32_t number) {
+  uint32_t *next = &counts->face.item[group];
+  if (group == counts->last_group)
+    *next += number - counts->last_number - 1;
+  counts->last_group = group;
+  counts->last_number = number;
+  return (*next)++;
+}
+
+/* ---- Picking ------------------------------------------------------------- */
+
 static bool pick_face(struct picked *picked, const struct scene *from,
                       uint32_t face, uint32_t number) {
   struct scene *to = &picked->scene;
@@ -135,11 +160,19 @@ static recto_status take_faces(struct face_pick *pick,
     pick->face_hash = hash_add(pick->face_hash, (uint64_t)number << 32 |
                                                     scene->face_group.item[f]);
     pick->face_hash = hash_corners(pick->face_hash, corner, count);
+    uint32_t group = scene->face_group.item[f], in_group = 0;
+    if (pick->counts_groups) {
+      if (!have_group(pick, group))
+        return error_memory(error);
+      in_group = count_in_group(&pick->counts, group, number);
+    }
     if (face_is_picked(pick, corner, count)) {
       if (count > SCENE_LIMIT - pick->picked.scene.corner.count)
         return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
                          "the part has more than 2^31 corners");
-      if (!pick_face(&pick->picked, scene, f, number))
+      if (!pick_face(&pick->picked, scene, f, number) ||
+          (pick->counts_groups &&
+           !ARRAY_PUSH(&pick->picked.face_in_group, in_group)))
         return error_memory(error);
     }
     if (!poll_at(f))
@@ -158,8 +191,16 @@ static recto_status take_wires(struct face_pick *pick,
     const uint32_t *corner = scene->wire_corner.item + start;
     pick->wire_hash = hash_add(pick->wire_hash, scene->wire_group.item[w]);
     pick->wire_hash = hash_corners(pick->wire_hash, corner, count);
+    uint32_t group = scene->wire_group.item[w], in_group = 0;
+    if (pick->counts_groups) {
+      if (!have_group(pick, group))
+        return error_memory(error);
+      in_group = pick->counts.wire.item[group]++;
+    }
     if (wire_is_picked(pick, corner, count) &&
-        !pick_wire(&pick->picked, scene, w, block->wire + w))
+        !(pick_wire(&pick->picked, scene, w, block->wire + w) &&
+          (!pick->counts_groups ||
+           ARRAY_PUSH(&pick->picked.wire_in_group, in_group))))
       return error_memory(error);
   }
   return RECTO_OK;
@@ -177,6 +218,8 @@ recto_status face_pick_pass(struct face_pick *pick, recto_error *error) {
     return error_memory(error);
   picked_fini(&pick->picked);
   pick->face_hash = pick->wire_hash = 0;
+  pick->counts.face.count = pick->counts.wire.count = 0;
+  pick->counts.last_group = SCENE_NONE;
   for (size_t p = 0; p < pick->source.scene->point.count; p++)
     pick->flag[p] &= OUTCODE;
   return face_source_pass(&pick->source, take_faces_and_wires, pick, error);
@@ -186,10 +229,14 @@ void picked_fini(struct picked *picked) {
   scene_fini(&picked->scene);
   ARRAY_FREE(&picked->face_number);
   ARRAY_FREE(&picked->wire_number);
+  ARRAY_FREE(&picked->face_in_group);
+  ARRAY_FREE(&picked->wire_in_group);
 }
 
 void face_pick_fini(struct face_pick *pick) {
   picked_fini(&pick->picked);
+  ARRAY_FREE(&pick->counts.face);
+  ARRAY_FREE(&pick->counts.wire);
   mem_free(pick->flag);
   pick->flag = NULL;
 }

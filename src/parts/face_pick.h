@@ -12,7 +12,8 @@
 struct picked {
   struct scene scene; /* without points and groups: corners are the model's
                          points */
-  ARRAY(uint32_t) face_number, wire_number; /* in the model */
+  ARRAY(uint32_t) face_number, wire_number;     /* in the model */
+  ARRAY(uint32_t) face_in_group, wire_in_group; /* if the pick counts groups */
 };
 
 /* Zero-initialised but for its source, it picks nothing. */
@@ -23,7 +24,13 @@ struct face_pick {
   struct place_set *kept; /* with this, also faces with a corner there */
   struct picked picked;
   uint64_t face_hash, wire_hash; /* of all faces, and all polylines */
-  uint8_t *flag;                 /* one a point: of enum point_flag, private */
+  /* Numbers faces and polylines within their groups, as group_numbers.h: */
+  bool counts_groups;
+  struct group_counts {
+    ARRAY(uint32_t) face, wire;       /* of each group: how many there were */
+    uint32_t last_group, last_number; /* of the last face */
+  } counts;
+  uint8_t *flag; /* one a point: of enum point_flag, private */
 };
 
 /* Notes on which sides of a box the points lie.

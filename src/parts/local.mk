@@ -1,6 +1,7 @@
 # src/parts/local.mk - the sources of this layer.
 librecto_core_la_SOURCES += \
   %D%/byte_codec.c %D%/byte_codec.h \
+  %D%/edge_runs.c %D%/edge_runs.h \
   %D%/face_pick.c %D%/face_pick.h \
   %D%/face_source.c %D%/face_source.h \
   %D%/interval_lists.c %D%/interval_lists.h \
@@ -11,5 +12,7 @@ librecto_core_la_SOURCES += \
   %D%/part_file.c %D%/part_file.h \
   %D%/part_join.c %D%/part_join.h \
   %D%/part_merge.c %D%/part_merge.h \
+  %D%/part_points.c %D%/part_points.h \
   %D%/part_scene.c %D%/part_scene.h \
+  %D%/part_sources.h \
   %D%/place_set.c %D%/place_set.h

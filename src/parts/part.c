@@ -13,11 +13,13 @@ void part_fini(struct part *part) {
   ARRAY_FREE(&part->face);
   ARRAY_FREE(&part->wire);
   ARRAY_FREE(&part->corner);
+  ARRAY_FREE(&part->tone);
   ARRAY_FREE(&part->interval);
   ARRAY_FREE(&part->over_limit);
   ARRAY_FREE(&part->edge);
   ARRAY_FREE(&part->crossing);
   ARRAY_FREE(&part->fragment);
+  ARRAY_FREE(&part->run);
   ARRAY_FREE(&part->loop);
   ARRAY_FREE(&part->fragment_corner);
   *part = (struct part){0};
@@ -28,6 +30,12 @@ int part_edge_key_compare(struct part_edge_key a, struct part_edge_key b) {
   if (order == 0)
     order = compare_numbers(a.element, b.element);
   return order != 0 ? order : compare_numbers(a.place, b.place);
+}
+
+int part_edge_run_compare(const struct part_edge_run *a,
+                          const struct part_edge_run *b) {
+  int order = compare_numbers(a->face, b->face);
+  return order != 0 ? order : compare_numbers(a->place, b->place);
 }
 
 int part_crossing_compare(const struct part_crossing *a,

@@ -20,6 +20,10 @@ struct part_window {
   int32_t low[2], high[2];
 };
 
+/* On what tones depend: the direction to the light, ambient and fill light, and
+ * the width of the pen. */
+enum { PART_LIGHT = 6 };
+
 /* What all parts of a drawing have in common. */
 struct part_common {
   uint64_t id;    /* a hash of the model, the options and the windows */
@@ -27,8 +31,11 @@ struct part_common {
   uint32_t edges; /* recto_options.ink.edges */
   bool has_fragments;
   bool has_hidden; /* intersections that are hidden were looked for too */
-  uint32_t hidden_by_max; /* where more faces hide an edge is known; 0: not */
-  double crease_deg;
+  uint32_t hidden_by_max;   /* where more faces hide an edge is known; 0: not */
+  bool has_ids;             /* numbers within groups are known */
+  bool has_tones;           /* those of tone hatching are known, */
+  double light[PART_LIGHT]; /* for this light */
+  double crease_deg, crease_start_deg; /* as in recto_mesh_options */
   struct camera camera;
   /* For the description of the drawing: */
   uint32_t camera_kind;
@@ -46,7 +53,10 @@ struct part_point {
 /* A face, or a polyline. */
 struct part_element {
   uint32_t number, group;
-  uint32_t corner, count; /* its numbers of points: in part.corner */
+  uint32_t in_group;      /* its number among those of the group: with ids */
+  uint32_t corner, count; /* its numbers of points: in part.corner; of a face
+                             with tones also in part.tone */
+  uint8_t uniform;        /* its tone is that of its first corner */
 };
 
 enum part_edge_kind {
@@ -74,6 +84,14 @@ struct part_over_limit {
   uint32_t interval, count;
 };
 
+/* Edges of the model that follow one another in its order, which is that of
+ * their first faces, and their sides: how many they are, from a side of a face
+ * on.  All edges of a class begin a run, so that the runs of all parts give
+ * each its number. */
+struct part_edge_run {
+  uint32_t face, place, group, count;
+};
+
 struct part_edge {
   struct part_edge_key key;
   uint16_t edge_class; /* never 0 */
@@ -93,6 +111,9 @@ struct part_crossing {
   struct part_visibility visibility;
   struct part_over_limit over_limit;
 };
+
+int part_edge_run_compare(const struct part_edge_run *a,
+                          const struct part_edge_run *b);
 
 int part_crossing_compare(const struct part_crossing *a,
                           const struct part_crossing *b);
@@ -118,13 +139,15 @@ struct part {
   ARRAY(struct part_point) point;
   ARRAY(struct part_element) face;
   ARRAY(struct part_element) wire;
-  ARRAY(uint32_t) corner;
+  ARRAY(uint32_t) corner; /* those of faces, then those of polylines */
+  ARRAY(float) tone;
   ARRAY(struct map_interval) interval;
   ARRAY(struct map_interval) over_limit;
   ARRAY(struct part_edge) edge;
   ARRAY(struct part_crossing) crossing;
   ARRAY(struct part_fragment) fragment;
-  ARRAY(uint32_t) loop; /* how many corners each has */
+  ARRAY(struct part_edge_run) run; /* of the faces that the window owns */
+  ARRAY(uint32_t) loop;            /* how many corners each has */
   ARRAY(struct part_corner) fragment_corner;
 };
 

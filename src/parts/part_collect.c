@@ -4,12 +4,14 @@
  *   keys       of the sheet's edges: which is which fold of its face, and which
  *              segment of its polyline
  *   edges      with a class that meet the window, and intersections
- *   fragments  of the faces that the window owns
+ *   runs       of the edges of the faces that the window owns
+ *   fragments  of these faces
  *   elements   the faces of all edges so stored or referred to, and the points
  */
 #include "parts/part_collect.h"
 
 #include "base/poll.h"
+#include "parts/edge_runs.h"
 
 struct collection {
   struct part *part;
@@ -56,16 +58,6 @@ static void number_places(struct collection *c) {
   }
 }
 
-/* The side of its first face that is a topology edge. */
-static uint32_t first_side_of_edge(const struct collection *c, uint32_t edge) {
-  const struct scene *scene = &c->from->scene->scene;
-  uint32_t face = c->from->topology->edge.item[edge].first;
-  uint32_t start = scene->face_start.item[face], side = start;
-  while (c->from->topology->corner_edge[side] != edge)
-    side++;
-  return side - start;
-}
-
 static struct part_edge_key key_of(const struct collection *c, uint32_t e) {
   const struct sheet_edge *edge = &c->from->sheet->edge.item[e];
   const struct part_scene *scene = c->from->scene;
@@ -78,7 +70,7 @@ static struct part_edge_key key_of(const struct collection *c, uint32_t e) {
         scene->face_number[sheet_edge_face(c->from->sheet, edge)], c->place[e]};
   uint32_t face = c->from->topology->edge.item[edge->source].first;
   return (struct part_edge_key){PART_EDGE_OF_FACE, scene->face_number[face],
-                                first_side_of_edge(c, edge->source)};
+                                edge_runs_first_side(c->from, edge->source)};
 }
 
 /* Notes that the join needs the edge, and so the faces that meet there. */
@@ -204,20 +196,6 @@ static bool collect_edges(struct collection *c) {
 
 /* ---- Fragments ----------------------------------------------------------- */
 
-static bool is_owned(const struct collection *c, uint32_t face) {
-  const struct scene *scene = &c->from->scene->scene;
-  int32_t low[2] = {INT32_MAX, INT32_MAX};
-  for (uint32_t i = scene->face_start.item[face];
-       i < scene->face_start.item[face + 1]; i++) {
-    uint32_t point = scene->corner.item[i];
-    for (int k = 0; k < 2; k++) {
-      int32_t at = c->from->scene->place[point].at[k];
-      low[k] = at < low[k] ? at : low[k];
-    }
-  }
-  return page_window_owns(&c->part->window, low);
-}
-
 static bool collect_corner(struct collection *c, uint32_t corner) {
   const struct map *map = c->from->map;
   const struct map_corner *from = &map->corner.item[corner];
@@ -246,7 +224,7 @@ static bool collect_fragments(struct collection *c) {
                                 (uint32_t)part->loop.count, from->loops};
     if (!poll_at(f))
       return false;
-    if (!is_owned(c, from->face))
+    if (!part_scene_owns(c->from->scene, &part->window, from->face))
       continue;
     c->face_needed[from->face] = 1;
     if (!ARRAY_PUSH(&part->fragment, own))
@@ -289,25 +267,46 @@ static bool store_element(struct collection *c, const uint32_t *corner,
   return true;
 }
 
+static bool store_tones(struct collection *c, uint32_t face,
+                        struct part_element *element) {
+  const float *tone = c->from->tone;
+  uint32_t start = c->from->scene->scene.face_start.item[face];
+  if (tone == NULL)
+    return true;
+  element->uniform = c->from->uniform[face];
+  for (uint32_t i = 0; i < element->count; i++)
+    if (!ARRAY_PUSH(&c->part->tone, tone[start + i]))
+      return false;
+  return true;
+}
+
+static uint32_t number_in_group(const uint32_t *number, uint32_t element) {
+  return number != NULL ? number[element] : 0;
+}
+
 static bool collect_elements(struct collection *c) {
   const struct scene *scene = &c->from->scene->scene;
   struct part *part = c->part;
   need_faces_of_edges(c);
   for (uint32_t f = 0; f < scene_face_count(scene); f++) {
     uint32_t start = scene->face_start.item[f];
-    struct part_element face = {c->from->scene->face_number[f],
-                                scene->face_group.item[f], 0,
-                                scene->face_start.item[f + 1] - start};
+    struct part_element face = {
+        .number = c->from->scene->face_number[f],
+        .group = scene->face_group.item[f],
+        .in_group = number_in_group(c->from->scene->face_in_group, f),
+        .count = scene->face_start.item[f + 1] - start};
     if (c->face_needed[f] &&
         !(store_element(c, scene->corner.item + start, &face, true) &&
-          ARRAY_PUSH(&part->face, face)))
+          store_tones(c, f, &face) && ARRAY_PUSH(&part->face, face)))
       return false;
   }
   for (uint32_t w = 0; w < scene_wire_count(scene); w++) {
     uint32_t start = scene->wire_start.item[w];
-    struct part_element wire = {c->from->scene->wire_number[w],
-                                scene->wire_group.item[w], 0,
-                                scene->wire_start.item[w + 1] - start};
+    struct part_element wire = {
+        .number = c->from->scene->wire_number[w],
+        .group = scene->wire_group.item[w],
+        .in_group = number_in_group(c->from->scene->wire_in_group, w),
+        .count = scene->wire_start.item[w + 1] - start};
     if (c->wire_needed[w] &&
         !(store_element(c, scene->wire_corner.item + start, &wire, true) &&
           ARRAY_PUSH(&part->wire, wire)))
@@ -350,7 +349,9 @@ recto_status part_collect(struct part *part, const struct part_sources *sources,
     number_places(&c);
     find_first_triangles(&c);
   }
-  ok = ok && collect_edges(&c) && collect_fragments(&c) && collect_elements(&c);
+  ok = ok && collect_edges(&c) &&
+       (!part->common.has_ids || edge_runs_collect(part, sources)) &&
+       collect_fragments(&c) && collect_elements(&c);
   mem_free(c.place);
   mem_free(c.edge_needed);
   mem_free(c.face_needed);

@@ -2,15 +2,7 @@
 #ifndef PARTS_PART_COLLECT_H
 #define PARTS_PART_COLLECT_H
 
-#include "parts/part.h"
-#include "parts/part_scene.h"
-
-struct part_sources {
-  const struct part_scene *scene;
-  const struct topology *topology; /* of it */
-  const struct sheet *sheet;
-  const struct map *map; /* with side lines, if it has fragments */
-};
+#include "parts/part_sources.h"
 
 /* Fills the lists of a part whose window is set: its edges of a class and its
  * intersections that meet the window, the fragments of the faces that the

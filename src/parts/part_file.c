@@ -10,7 +10,7 @@
 #include "scene/limit.h"
 
 static const unsigned char magic[8] = {'r', 'e', 'c', 't', 'o', 'p', 't', '\n'};
-enum { FORMAT_VERSION = 2, SUM_SIZE = 8, HEAD_SIZE = 8 + 4 + 8 };
+enum { FORMAT_VERSION = 3, SUM_SIZE = 8, HEAD_SIZE = 8 + 4 + 8 };
 
 /* Sizes of items, at least, in bytes. */
 enum {
@@ -22,6 +22,7 @@ enum {
   INTERVAL_SIZE = 64,
   EDGE_SIZE = 16,
   CROSSING_SIZE = 53,
+  RUN_SIZE = 16,
   FRAGMENT_SIZE = 8,
   CORNER_SIZE = 25
 };
@@ -129,7 +130,12 @@ static void code_common(struct byte_codec *codec, struct part_common *common) {
   byte_codec_bool(codec, &common->has_fragments);
   byte_codec_bool(codec, &common->has_hidden);
   byte_codec_u32(codec, &common->hidden_by_max);
+  byte_codec_bool(codec, &common->has_ids);
+  byte_codec_bool(codec, &common->has_tones);
+  if (common->has_tones)
+    code_doubles(codec, common->light, PART_LIGHT);
   code_doubles(codec, &common->crease_deg, 1);
+  code_doubles(codec, &common->crease_start_deg, 1);
   code_camera(codec, &common->camera);
   byte_codec_u32(codec, &common->camera_kind);
   code_doubles(codec, &common->azimuth_deg, 1);
@@ -144,6 +150,8 @@ static void code_common(struct byte_codec *codec, struct part_common *common) {
                      common->hidden_by_max <= INT_MAX &&
                      (common->has_hidden || common->hidden_by_max == 0) &&
                      common->crease_deg >= 0 && common->crease_deg <= 180 &&
+                     common->crease_start_deg >= 0 &&
+                     common->crease_start_deg <= 180 &&
                      common->camera_kind <= RECTO_CAMERA_EYE &&
                      common->fov_deg >= 0 && common->fov_deg <= 179);
 }
@@ -170,6 +178,12 @@ static void code_element(struct byte_codec *codec, struct part *part,
                          uint32_t least) {
   byte_codec_u32(codec, &element->number);
   byte_codec_u32(codec, &element->group);
+  if (!codec->writes) {
+    element->in_group = 0;
+    element->uniform = 0;
+  }
+  if (part->common.has_ids)
+    byte_codec_u32(codec, &element->in_group);
   byte_codec_u32(codec, &element->count);
   if (codec->writes) {
     for (uint32_t i = 0; i < element->count; i++)
@@ -191,10 +205,37 @@ static void code_element(struct byte_codec *codec, struct part *part,
   }
 }
 
+/* The tones of a face: one where it is uniform, else one a corner.  They follow
+ * one another in the list of tones. */
+static void code_tones(struct byte_codec *codec, struct part *part,
+                       struct part_element *face) {
+  bool uniform = face->uniform;
+  if (!part->common.has_tones)
+    return;
+  byte_codec_bool(codec, &uniform);
+  face->uniform = uniform;
+  float tone = 0;
+  for (uint32_t i = 0; i < face->count && !codec->failed; i++) {
+    if (codec->writes)
+      tone = part->tone.item[face->corner + i];
+    if (i == 0 || !uniform)
+      byte_codec_float(codec, &tone);
+    require(codec, tone >= 0 && tone <= 1);
+    if (!codec->writes && !ARRAY_PUSH(&part->tone, tone))
+      codec->failed = codec->out_of_memory = true;
+  }
+}
+
+static void code_face(struct byte_codec *codec, struct part *part,
+                      struct part_element *face, bool is_first) {
+  code_element(codec, part, face, is_first, 3);
+  code_tones(codec, part, face);
+}
+
 static void code_elements(struct byte_codec *codec, struct part *part) {
   CODE_COUNT(codec, &part->face, ELEMENT_SIZE);
   for (size_t f = 0; f < part->face.count && !codec->failed; f++)
-    code_element(codec, part, &part->face.item[f], f == 0, 3);
+    code_face(codec, part, &part->face.item[f], f == 0);
   CODE_COUNT(codec, &part->wire, ELEMENT_SIZE);
   for (size_t w = 0; w < part->wire.count && !codec->failed; w++)
     code_element(codec, part, &part->wire.item[w], w == 0, 2);
@@ -307,6 +348,21 @@ static void code_edges(struct byte_codec *codec, struct part *part) {
   }
 }
 
+static void code_runs(struct byte_codec *codec, struct part *part) {
+  if (!part->common.has_ids)
+    return;
+  CODE_COUNT(codec, &part->run, RUN_SIZE);
+  for (size_t r = 0; r < part->run.count && !codec->failed; r++) {
+    struct part_edge_run *run = &part->run.item[r];
+    byte_codec_u32(codec, &run->face);
+    byte_codec_u32(codec, &run->place);
+    byte_codec_u32(codec, &run->group);
+    byte_codec_u32(codec, &run->count);
+    require(codec, run->group < part->common.group.count && run->count > 0 &&
+                       (r == 0 || part_edge_run_compare(&run[-1], run) < 0));
+  }
+}
+
 /* ---- Fragments ----------------------------------------------------------- */
 
 static void code_corner(struct byte_codec *codec, struct part_corner *corner) {
@@ -380,6 +436,7 @@ static void code_part(struct byte_codec *codec, struct part *part) {
   code_elements(codec, part);
   code_intervals(codec, part);
   code_edges(codec, part);
+  code_runs(codec, part);
   code_fragments(codec, part);
 }
 

@@ -11,6 +11,7 @@
 
 #include "base/poll.h"
 #include "base/sort.h"
+#include "scene/edge_classes.h"
 #include "view/layout.h"
 #include "visibility/map_assembly.h"
 
@@ -297,6 +298,44 @@ static recto_status set_classes(struct join_work *work) {
   return RECTO_OK;
 }
 
+/* Finds the classes that listed edges have of themselves: all faces there are
+ * known. */
+static void find_listed_masks(const struct join_work *work, uint8_t *masks) {
+  const struct part_join *join = work->join;
+  for (size_t e = 0; e < join->sheet.edge.count; e++) {
+    const struct sheet_edge *edge = &join->sheet.edge.item[e];
+    if (edge->edge_class != 0 && edge->edge_class != RECTO_EDGE_WIRE &&
+        edge->source != SHEET_NONE)
+      masks[edge->source] = (uint8_t)topology_class_mask(
+          &join->topology, &join->scene, edge->source,
+          join->all.common.crease_deg);
+  }
+}
+
+/* The parts list creases at the lower angle, as only all of them tell which
+ * go on from one beyond the higher angle: the others are no creases. */
+static bool drop_weak_creases(struct join_work *work) {
+  struct part_join *join = work->join;
+  const struct part_common *common = &join->all.common;
+  if (common->crease_start_deg <= common->crease_deg)
+    return true;
+  uint8_t *masks = mem_calloc(join->topology.edge.count, 1);
+  bool ok = masks != NULL;
+  if (ok) {
+    find_listed_masks(work, masks);
+    ok = topology_drop_weak_creases(&join->topology, &join->scene,
+                                    common->crease_start_deg, masks);
+  }
+  for (size_t e = 0; ok && e < join->sheet.edge.count; e++) {
+    struct sheet_edge *edge = &join->sheet.edge.item[e];
+    if (edge->edge_class == RECTO_EDGE_CREASE && edge->source != SHEET_NONE)
+      edge->edge_class =
+          (uint16_t)topology_class_of_mask(masks[edge->source] & common->edges);
+  }
+  mem_free(masks);
+  return ok;
+}
+
 /* An intersection, and which of the merged parts' it is. */
 struct joined_crossing {
   struct map_intersection crossing;
@@ -486,6 +525,32 @@ static recto_status add_joined_fragments(struct join_work *work) {
              : error_memory(work->error);
 }
 
+/* ---- Numbers ------------------------------------------------------------- */
+
+/* Whether a run begins before an edge of a face. */
+static bool is_before_edge(const struct part_edge_run *run,
+                           struct part_edge_key edge) {
+  return run->face < edge.element ||
+         (run->face == edge.element && run->place < edge.place);
+}
+
+/* ---- Tones --------------------------------------------------------------- */
+
+/* Hands the map the tones: corners of the scene are those of the parts. */
+static bool set_joined_tones(struct join_work *work) {
+  struct part *all = &work->join->all;
+  struct map *map = &work->join->map;
+  if (!all->common.has_tones)
+    return true;
+  map->corner_tone = all->tone.item;
+  all->tone.item = NULL;
+  all->tone.count = all->tone.capacity = 0;
+  map->face_uniform = mem_alloc(all->face.count, 1);
+  for (size_t f = 0; map->face_uniform != NULL && f < all->face.count; f++)
+    map->face_uniform[f] = all->face.item[f].uniform;
+  return map->face_uniform != NULL;
+}
+
 /* ---- All ----------------------------------------------------------------- */
 
 static recto_status make_join(struct join_work *work,
@@ -501,10 +566,14 @@ static recto_status make_join(struct join_work *work,
     status = error_memory(work->error);
   if (status == RECTO_OK)
     status = set_classes(work);
+  if (status == RECTO_OK && !drop_weak_creases(work))
+    status = error_memory(work->error);
   if (status == RECTO_OK)
     status = add_joined_crossings(work);
   if (status == RECTO_OK && join->all.common.edges != RECTO_EDGES_NONE &&
       !set_states(work, options->ink.hidden_by_max > 0))
+    status = error_memory(work->error);
+  if (status == RECTO_OK && !set_joined_tones(work))
     status = error_memory(work->error);
   return status == RECTO_OK ? add_joined_fragments(work) : status;
 }
@@ -522,6 +591,38 @@ recto_status part_join_make(struct part_join *join,
   ARRAY_FREE(&work.fold);
   ARRAY_FREE(&work.wire);
   return status;
+}
+
+uint32_t *part_join_edge_numbers(const struct part_join *join) {
+  const struct part *all = &join->all;
+  size_t edges = join->topology.edge.count, run = 0, face = 0;
+  uint32_t *number = mem_alloc(edges, sizeof *number);
+  uint32_t *next = mem_calloc(all->common.group.count, sizeof *next);
+  for (size_t e = 0; number != NULL && e < edges; e++)
+    number[e] = SCENE_NONE;
+  for (size_t e = 0; number != NULL && next != NULL && e < all->edge.count;
+       e++) {
+    struct part_edge_key key = all->edge.item[e].key;
+    if (key.kind != PART_EDGE_OF_FACE)
+      continue;
+    while (run < all->run.count && is_before_edge(&all->run.item[run], key)) {
+      next[all->run.item[run].group] += all->run.item[run].count;
+      run++;
+    }
+    while (all->face.item[face].number < key.element)
+      face++;
+    if (run < all->run.count && all->run.item[run].face == key.element &&
+        all->run.item[run].place == key.place)
+      number[join->topology
+                 .corner_edge[join->scene.face_start.item[face] + key.place]] =
+          next[all->run.item[run].group];
+  }
+  if (next == NULL) {
+    mem_free(number);
+    number = NULL;
+  }
+  mem_free(next);
+  return number;
 }
 
 void part_join_fini(struct part_join *join) {

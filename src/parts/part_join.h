@@ -25,6 +25,11 @@ struct part_join {
 USE_RESULT recto_status part_join_make(struct part_join *join,
                                        const recto_options *options,
                                        recto_error *error);
+/* The number of each topology edge within its group, of those that the parts
+ * list, which have ids; SCENE_NONE for the others.
+ * Returns an allocated array; NULL when memory ran out. */
+uint32_t *part_join_edge_numbers(const struct part_join *join);
+
 void part_join_fini(struct part_join *join);
 
 #endif

@@ -18,8 +18,8 @@ static bool is_same_drawing(const struct part_common *a,
   return a->id == b->id && a->parts == b->parts && a->edges == b->edges &&
          a->has_fragments == b->has_fragments &&
          a->has_hidden == b->has_hidden &&
-         a->hidden_by_max == b->hidden_by_max &&
-         a->group.count == b->group.count;
+         a->hidden_by_max == b->hidden_by_max && a->has_ids == b->has_ids &&
+         a->has_tones == b->has_tones && a->group.count == b->group.count;
 }
 
 static recto_status report_missing(const struct part *part, size_t count,
@@ -107,6 +107,11 @@ part_crossing_at(const struct merge_work *work, struct origin at) {
   return &work->part[at.part].crossing.item[at.index];
 }
 
+static const struct part_edge_run *part_run_at(const struct merge_work *work,
+                                               struct origin at) {
+  return &work->part[at.part].run.item[at.index];
+}
+
 static int compare_point_origins(const void *a, const void *b, void *user) {
   return compare_numbers(
       part_point_at(user, *(const struct origin *)a)->number,
@@ -123,6 +128,11 @@ static int compare_crossing_origins(const void *a, const void *b, void *user) {
   return part_crossing_compare(
       part_crossing_at(user, *(const struct origin *)a),
       part_crossing_at(user, *(const struct origin *)b));
+}
+
+static int compare_run_origins(const void *a, const void *b, void *user) {
+  return part_edge_run_compare(part_run_at(user, *(const struct origin *)a),
+                               part_run_at(user, *(const struct origin *)b));
 }
 
 /* Lists the items of all parts, in order.
@@ -172,12 +182,19 @@ static recto_status merge_points(struct merge_work *work) {
   return RECTO_OK;
 }
 
-/* Whether two elements, of these two parts, are the same. */
+/* Whether two elements are the same.
+ * p, q  what they are of: a is of the merged parts */
 static bool same_element(const struct part *p, const struct part_element *a,
-                         const struct part *q, const struct part_element *b) {
-  return a->group == b->group && a->count == b->count &&
+                         const struct part *q, const struct part_element *b,
+                         bool wires) {
+  return a->group == b->group && a->in_group == b->in_group &&
+         a->count == b->count &&
          memcmp(p->corner.item + a->corner, q->corner.item + b->corner,
-                a->count * sizeof *p->corner.item) == 0;
+                a->count * sizeof *p->corner.item) == 0 &&
+         a->uniform == b->uniform &&
+         (wires || !q->common.has_tones ||
+          memcmp(p->tone.item + a->corner, q->tone.item + b->corner,
+                 a->count * sizeof *p->tone.item) == 0);
 }
 
 /* The elements of a part: its faces, or its polylines. */
@@ -213,7 +230,9 @@ static bool add_merged_element(struct part *all, const struct part *from,
   struct part_element own = *element;
   own.corner = (uint32_t)all->corner.count;
   for (uint32_t i = 0; i < own.count; i++)
-    if (!ARRAY_PUSH(&all->corner, from->corner.item[element->corner + i]))
+    if (!ARRAY_PUSH(&all->corner, from->corner.item[element->corner + i]) ||
+        (!wires && from->common.has_tones &&
+         !ARRAY_PUSH(&all->tone, from->tone.item[element->corner + i])))
       return false;
   return wires ? ARRAY_PUSH(&all->wire, own) : ARRAY_PUSH(&all->face, own);
 }
@@ -236,7 +255,7 @@ static recto_status merge_elements(struct merge_work *work, bool wires) {
     const struct part_element *last =
         before.count > 0 ? &before.item[before.count - 1] : NULL;
     if (last != NULL && last->number == element->number) {
-      if (!same_element(all, last, &work->part[at.part], element))
+      if (!same_element(all, last, &work->part[at.part], element, wires))
         return contradiction(work, at);
     } else if (all->corner.count + element->count >= SCENE_LIMIT) {
       return error_set(work->error, RECTO_ERROR_LIMIT, NULL, 0,
@@ -389,6 +408,22 @@ static recto_status merge_crossings(struct merge_work *work) {
   return status;
 }
 
+/* ---- Runs ---------------------------------------------------------------- */
+
+/* Each edge is in a run of one part. */
+static recto_status merge_runs(struct merge_work *work) {
+  struct part *all = work->all;
+  if (!ARRAY_RESERVE(&all->run, work->order.count))
+    return error_memory(work->error);
+  for (size_t i = 0; i < work->order.count; i++) {
+    const struct part_edge_run *run = part_run_at(work, work->order.item[i]);
+    if (i > 0 && part_edge_run_compare(&all->run.item[i - 1], run) == 0)
+      return contradiction(work, work->order.item[i]);
+    all->run.item[all->run.count++] = *run;
+  }
+  return RECTO_OK;
+}
+
 /* ---- Fragments ----------------------------------------------------------- */
 
 /* Where the current fragment of a part begins in its lists. */
@@ -471,6 +506,10 @@ static recto_status merge_lists(struct merge_work *work, size_t *count) {
   if (!SORT_LIST(work, crossing, compare_crossing_origins))
     return error_memory(work->error);
   status = merge_crossings(work);
+  if (status == RECTO_OK && !SORT_LIST(work, run, compare_run_origins))
+    return error_memory(work->error);
+  if (status == RECTO_OK)
+    status = merge_runs(work);
   return status == RECTO_OK ? merge_fragments(work) : status;
 }
 

@@ -16,6 +16,7 @@
 #include <string.h>
 
 #include "base/poll.h"
+#include "parts/part_points.h"
 
 enum { LEFT_OUT, OF_RING, KEPT };
 
@@ -107,52 +108,6 @@ bool part_scene_aim(struct face_pick *pick,
 
 /* ---- Local points -------------------------------------------------------- */
 
-static void mark_corners(uint32_t *local, const uint32_t *corner,
-                         size_t count) {
-  for (size_t c = 0; c < count; c++)
-    local[corner[c]] = 1;
-}
-
-static void renumber_corners(const uint32_t *local, uint32_t *corner,
-                             size_t count) {
-  for (size_t c = 0; c < count; c++)
-    corner[c] = local[corner[c]];
-}
-
-/* Copies the points that are marked, and their precision.
- * local  of each point of the model: 1 where it is marked; becomes its number
- *        in the part */
-static bool copy_picked_points(struct part_scene *part,
-                               const struct scene *whole, uint32_t *local) {
-  struct scene *scene = &part->scene;
-  size_t count = 0, range = 0;
-  for (size_t p = 0; p < whole->point.count; p++)
-    count += local[p];
-  part->point_number = mem_alloc(count, sizeof *part->point_number);
-  if (part->point_number == NULL || !ARRAY_RESERVE(&scene->point, count))
-    return false;
-  for (size_t p = 0; p < whole->point.count; p++) {
-    for (; range < whole->precision.count &&
-           whole->precision.item[range].first_point <= p;
-         range++) {
-      struct precision_range own = whole->precision.item[range];
-      own.first_point = (uint32_t)scene->point.count;
-      size_t last = scene->precision.count;
-      if (last > 0 &&
-          scene->precision.item[last - 1].first_point == own.first_point)
-        scene->precision.item[last - 1] = own;
-      else if (!ARRAY_PUSH(&scene->precision, own))
-        return false;
-    }
-    if (local[p] == 0)
-      continue;
-    local[p] = (uint32_t)scene->point.count;
-    part->point_number[scene->point.count] = (uint32_t)p;
-    scene->point.item[scene->point.count++] = whole->point.item[p];
-  }
-  return true;
-}
-
 static void set_scene(struct scene *scene, const struct scene *whole) {
   memcpy(scene->up, whole->up, sizeof scene->up);
   scene->unit_mm = whole->unit_mm;
@@ -169,19 +124,22 @@ static recto_status make_local(struct part_scene_work *work) {
   part->scene = picked->scene;
   part->face_number = picked->face_number.item;
   part->wire_number = picked->wire_number.item;
+  part->face_in_group = picked->face_in_group.item;
+  part->wire_in_group = picked->wire_in_group.item;
   *picked = (struct picked){.face_number = {NULL, 0, 0}};
   struct scene *scene = &part->scene;
   set_scene(scene, whole);
   uint32_t *local = mem_calloc(whole->point.count, sizeof *local);
   bool ok = local != NULL;
   if (ok) {
-    mark_corners(local, scene->corner.item, scene->corner.count);
-    mark_corners(local, scene->wire_corner.item, scene->wire_corner.count);
-    ok = copy_picked_points(part, whole, local);
+    part_points_mark(local, scene->corner.item, scene->corner.count);
+    part_points_mark(local, scene->wire_corner.item, scene->wire_corner.count);
+    ok = part_points_copy(scene, &part->point_number, whole, local);
   }
   if (ok) {
-    renumber_corners(local, scene->corner.item, scene->corner.count);
-    renumber_corners(local, scene->wire_corner.item, scene->wire_corner.count);
+    part_points_renumber(local, scene->corner.item, scene->corner.count);
+    part_points_renumber(local, scene->wire_corner.item,
+                         scene->wire_corner.count);
   }
   mem_free(local);
   part->place = ok ? page_places(work->request->camera, scene) : NULL;
@@ -215,14 +173,14 @@ static recto_status pick_again(struct part_scene_work *work,
 
 /* ---- Faces that are kept ------------------------------------------------- */
 
-/* Sets the box: that of the window, and where fragments are wanted of the faces
- * that it owns, with the margin. */
+/* Sets the box: that of the window, and where that is wanted of the faces that
+ * it owns, with the margin. */
 static void set_kept_box(struct part_scene_work *work) {
   const struct part_window *window = &work->request->window;
   const struct part_scene *part = work->part;
   work->box = *window;
-  for (uint32_t f = 0; work->request->fragments &&
-                       f < scene_face_count(&part->scene) && poll_at(f);
+  for (uint32_t f = 0;
+       work->request->owned && f < scene_face_count(&part->scene) && poll_at(f);
        f++) {
     struct part_window box = box_of_face(part, f);
     if (page_window_owns(window, box.low))
@@ -300,6 +258,12 @@ static recto_status add_ring(struct part_scene_work *work,
   return RECTO_OK;
 }
 
+bool part_scene_owns(const struct part_scene *part,
+                     const struct part_window *window, uint32_t face) {
+  const struct part_window box = box_of_face(part, face);
+  return page_window_owns(window, box.low);
+}
+
 /* ---- Dropping the others ------------------------------------------------- */
 
 static void trim_faces(struct part_scene_work *work, uint8_t *used) {
@@ -317,6 +281,8 @@ static void trim_faces(struct part_scene_work *work, uint8_t *used) {
     }
     part->is_kept[kept] = work->face_state[f] == KEPT;
     part->face_number[kept] = part->face_number[f];
+    if (part->face_in_group != NULL)
+      part->face_in_group[kept] = part->face_in_group[f];
     scene->face_group.item[kept] = scene->face_group.item[f];
     scene->face_start.item[kept++] = corners;
     corners += count;
@@ -342,6 +308,8 @@ static void trim_wires(struct part_scene_work *work, uint8_t *used) {
       scene->wire_corner.item[corners + i] = scene->wire_corner.item[start + i];
     }
     part->wire_number[kept] = part->wire_number[w];
+    if (part->wire_in_group != NULL)
+      part->wire_in_group[kept] = part->wire_in_group[w];
     scene->wire_group.item[kept] = scene->wire_group.item[w];
     scene->wire_start.item[kept++] = corners;
     corners += count;
@@ -353,36 +321,6 @@ static void trim_wires(struct part_scene_work *work, uint8_t *used) {
   scene->wire_corner.count = corners;
 }
 
-/* Drops the points that are not used.
- * local  scratch, one a point */
-static void trim_points(struct part_scene *part, const uint8_t *used,
-                        uint32_t *local) {
-  struct scene *scene = &part->scene;
-  uint32_t kept = 0;
-  size_t range = 0, ranges = 0, last = SCENE_NONE;
-  for (uint32_t p = 0; p < scene->point.count; p++) {
-    for (; range < scene->precision.count &&
-           scene->precision.item[range].first_point <= p;
-         range++) {
-      if (ranges > 0 && last == kept)
-        ranges--;
-      last = kept;
-      scene->precision.item[ranges] = scene->precision.item[range];
-      scene->precision.item[ranges++].first_point = kept;
-    }
-    if (!used[p])
-      continue;
-    local[p] = kept;
-    part->point_number[kept] = part->point_number[p];
-    part->place[kept] = part->place[p];
-    scene->point.item[kept++] = scene->point.item[p];
-  }
-  scene->point.count = kept;
-  scene->precision.count = ranges;
-  renumber_corners(local, scene->corner.item, scene->corner.count);
-  renumber_corners(local, scene->wire_corner.item, scene->wire_corner.count);
-}
-
 static recto_status trim_scene(struct part_scene_work *work) {
   struct part_scene *part = work->part;
   uint8_t *used = mem_calloc(part->scene.point.count, 1);
@@ -392,7 +330,8 @@ static recto_status trim_scene(struct part_scene_work *work) {
   if (ok) {
     trim_wires(work, used);
     trim_faces(work, used);
-    trim_points(part, used, local);
+    part_points_trim(&part->scene, part->point_number, part->place, used,
+                     local);
   }
   mem_free(used);
   mem_free(local);
@@ -438,6 +377,8 @@ void part_scene_fini(struct part_scene *part) {
   mem_free(part->point_number);
   mem_free(part->face_number);
   mem_free(part->wire_number);
+  mem_free(part->face_in_group);
+  mem_free(part->wire_in_group);
   mem_free(part->place);
   mem_free(part->is_kept);
   *part = (struct part_scene){.point_number = NULL};

@@ -1,9 +1,9 @@
 /* part_scene.h - what one part draws of a model: the faces that meet its
  * window, and those that decide what these are.
  *
- * Kept faces   Their boxes meet the window, or if fragments are wanted the box
- *              of the window and of all faces that it owns (those whose box
- *              has its lower left corner in it).
+ * Kept faces   Their boxes meet the window, or if more is wanted of the faces
+ *              that it owns (those whose box has its lower left corner in it),
+ *              the box of the window and of all these.
  * Their ring   All faces with a corner at the place of a corner of a kept one:
  *              so it is known of all kept corners and edges which faces meet
  *              there, which of them are borders, and which points are welded.
@@ -18,7 +18,8 @@
 struct part_scene {
   struct scene scene; /* the groups are borrowed, not owned */
   uint32_t *point_number, *face_number, *wire_number; /* in the model */
-  struct page_place *place;                           /* of each point */
+  uint32_t *face_in_group, *wire_in_group; /* and in their groups, or NULL */
+  struct page_place *place;                /* of each point */
   uint8_t *is_kept; /* one a face: 0: it is only of the ring */
 };
 
@@ -27,7 +28,7 @@ struct part_scene_request {
   struct part_window window;
   int64_t margin; /* grid units: what lies so close to the window meets it */
   int64_t reach;  /* grid units: how far beyond faces are picked at first */
-  bool fragments;
+  bool owned;     /* all about the faces that the window owns is wanted */
 };
 
 /* Aims the pick at the faces that the part is likely to need.
@@ -45,6 +46,10 @@ USE_RESULT recto_status
 part_scene_make(struct part_scene *part, struct face_pick *pick,
                 const struct part_scene_request *request, recto_error *error);
 void part_scene_fini(struct part_scene *part);
+
+/* Whether a face belongs to the window, of all windows. */
+bool part_scene_owns(const struct part_scene *part,
+                     const struct part_window *window, uint32_t face);
 
 /* Finds whether two points of borders at different places lie so close that
  * welding might join them, one of which is a corner of a kept face.

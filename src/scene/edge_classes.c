@@ -309,7 +309,7 @@ bool topology_drop_weak_creases(const struct topology *topology,
       union_find_join(line, topology->edge.item[e].point[0],
                       topology->edge.item[e].point[1]);
   for (size_t e = 0; ok && e < edges; e++)
-    if (start[e] & RECTO_EDGE_CREASE)
+    if (start[e] & class_masks[e] & RECTO_EDGE_CREASE)
       is_strong[union_find_root(line, topology->edge.item[e].point[0])] = 1;
   for (size_t e = 0; ok && e < edges; e++) {
     unsigned rest = class_masks[e] & ~(unsigned)RECTO_EDGE_CREASE;

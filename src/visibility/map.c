@@ -20,6 +20,8 @@ void map_fini(struct map *map) {
   ARRAY_FREE(&map->corner);
   ARRAY_FREE(&map->half_edge);
   ARRAY_FREE(&map->side_line);
+  mem_free(map->corner_tone);
+  mem_free(map->face_uniform);
   map_init(map);
 }
 

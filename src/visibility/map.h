@@ -107,6 +107,12 @@ struct map {
   ARRAY(struct map_corner) corner;
   ARRAY(struct map_half_edge) half_edge; /* loop by loop, in order */
 
+  /* Of a drawing that was joined of parts: the tone at each corner of the
+   * scene, and whether each face is of a uniform region (ink/tone.h); NULL: ink
+   * finds them. */
+  float *corner_tone;
+  uint8_t *face_uniform;
+
   /* The lines of the sides (fragments/planar_subdivision.h), one a corner; kept
    * only where `keeps_side_lines` is set before the map is made, and then in
    * place of the half-edges. */

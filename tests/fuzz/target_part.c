@@ -19,15 +19,27 @@ static void put_u64(uint8_t *to, uint64_t value) {
     to[i] = (uint8_t)(value >> 8 * i);
 }
 
-static void join(const char *path, recto_fill fill, recto_hidden hidden,
+/* What the drawing is to have. */
+struct join_mode {
+  recto_fill fill;
+  recto_hidden hidden;
+  int limit; /* of hiding faces */
+  bool ids;
+  double light[3];
+};
+
+static void join(const char *path, const struct join_mode *mode,
                  struct fuzz_finding *finding) {
   const char *const paths[1] = {path};
   recto_drawing *drawing = NULL;
   recto_options options;
   recto_error error = {0};
   recto_options_init(&options);
-  options.ink.fill = fill;
-  options.ink.hidden = hidden;
+  options.ink.fill = mode->fill;
+  options.ink.hidden = mode->hidden;
+  options.ink.hidden_by_max = mode->limit;
+  options.ink.ids = mode->ids;
+  memcpy(options.ink.light, mode->light, sizeof mode->light);
   recto_status status = recto_join_parts(paths, 1, &options, &drawing, &error);
   if ((status == RECTO_OK) != (drawing != NULL))
     fuzz_found(finding, "status %d and %s drawing", (int)status,
@@ -36,6 +48,14 @@ static void join(const char *path, recto_fill fill, recto_hidden hidden,
     fuzz_found(finding, "refused without a reason");
   recto_drawing_destroy(drawing);
 }
+
+/* With a limit, ids and a light: those of inputs of the corpus. */
+static const struct join_mode modes[] = {
+    {.fill = RECTO_FILL_NONE},
+    {.fill = RECTO_FILL_SHADE, .hidden = RECTO_HIDDEN_DASHED},
+    {.hidden = RECTO_HIDDEN_LAYER, .limit = 1},
+    {.ids = true},
+    {.fill = RECTO_FILL_HATCH, .light = {-1, 2, 1}}};
 
 static void run(const uint8_t *bytes, size_t count,
                 struct fuzz_finding *finding) {
@@ -53,8 +73,8 @@ static void run(const uint8_t *bytes, size_t count,
   if (write(file, own, count) != (ssize_t)count)
     abort();
   snprintf(path, sizeof path, "/proc/self/fd/%d", file);
-  join(path, RECTO_FILL_NONE, RECTO_HIDDEN_NONE, finding);
-  join(path, RECTO_FILL_SHADE, RECTO_HIDDEN_DASHED, finding);
+  for (size_t i = 0; i < sizeof modes / sizeof *modes; i++)
+    join(path, &modes[i], finding);
   close(file);
   free(own);
 }

@@ -47,7 +47,7 @@
 #include "ink/hatch/hatch_lines.h"
 #include "ink/hatch/hatch_runs.h"
 #include "ink/lines/stroke.h"
-#include "ink/hatch/tone.h"
+#include "ink/tone.h"
 
 enum { DIRECTIONS = 3, DIRECTION_DEG = 60, THRESHOLD_BITS = 8 };
 
@@ -326,7 +326,10 @@ bool tone_hatch_add(struct drawing *drawing, const struct sheet *sheet,
   for (int k = 0; k < DIRECTIONS; k++)
     hatch_lines_init(&h.lines[k], sheet, options->ink.pen_mm,
                      options->ink.hatch_angle_deg + DIRECTION_DEG * k);
-  bool ok = tones_init(&h.tones, sheet, scene, options) &&
+  bool ok = (map->corner_tone != NULL
+                 ? tones_copy(&h.tones, sheet, scene, map->corner_tone,
+                              map->face_uniform)
+                 : tones_init(&h.tones, sheet, scene, options)) &&
             add_curved_fragments(&h, map) && add_runs(&h);
   tones_fini(&h.tones);
   for (int k = 0; k < DIRECTIONS; k++)

@@ -7,8 +7,8 @@
  * is linear (Gouraud).  The faces that smooth edges connect are a smooth
  * region.  It is uniform if its tone is the same everywhere, as on a flat
  * wall. */
-#ifndef INK_HATCH_TONE_H
-#define INK_HATCH_TONE_H
+#ifndef INK_TONE_H
+#define INK_TONE_H
 
 #include "drawing/drawing.h"
 #include "view/sheet.h"
@@ -18,12 +18,16 @@
  * hatching. */
 enum { TONE_STEPS = 4096 };
 
+/* On what tones depend beside the model and the camera: the direction to the
+ * light, ambient and fill light, and the pen's width in mm. */
+enum { TONES_LIGHT = 6 };
+void tones_set_light(double light[TONES_LIGHT], const struct camera *camera,
+                     const recto_options *options);
+
 struct tones {
   const struct scene *scene;
+  const struct camera *camera;
   float *corner; /* the tone at each scene corner, 0 to 1 */
-  /* Of each scene corner, projected to the page; NaN in front of the near
-   * plane. */
-  struct drawing_point *position;
   bool *uniform; /* whether each face is of a uniform region */
 };
 
@@ -43,11 +47,19 @@ struct tone {
   bool uniform;  /* the face is of a uniform region */
 };
 
-/* Computes the tones at all corners.  `scene` is borrowed.
+/* Computes the tones at all corners.  The sheet and the scene
+ * are borrowed.
  * Returns false when memory ran out. */
 USE_RESULT bool tones_init(struct tones *tones, const struct sheet *sheet,
                            const struct scene *scene,
                            const recto_options *options);
+/* Takes the tones at all corners as they were found of the whole scene that
+ * this one is a part of.  The sheet and the scene are borrowed.
+ * corner, uniform  one a corner, and one a face
+ * Returns false when memory ran out. */
+USE_RESULT bool tones_copy(struct tones *tones, const struct sheet *sheet,
+                           const struct scene *scene, const float *corner,
+                           const uint8_t *uniform);
 void tones_fini(struct tones *tones);
 
 /* The tone of a face: linear over a triangle, linear on either side of a

@@ -10,9 +10,10 @@
  *               light gives the tone
  *   4 regions   uniform regions get the middle of their tones, and flat ones
  *               the tone of their plane */
-#include "ink/hatch/tone.h"
+#include "ink/tone.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/poll.h"
 #include "base/union_find.h"
@@ -37,14 +38,13 @@ struct tone_work {
   struct light light;
   double crease_deg;
   struct tone_normal *face; /* of each face */
-  struct tone_normal *sum;  /* of each set of corners, at its root */
-  uint32_t *corner_root;    /* disjoint sets of corners */
+  uint32_t *corner_set;     /* of each corner: disjoint sets, then numbered */
+  struct tone_normal *sum;  /* of each set of corners */
   uint32_t *face_root;      /* disjoint sets of faces: smooth regions */
   struct planar_regions planar;
-  double least_flat_area;               /* mm^2 */
-  const struct drawing_point *position; /* of each corner, on the page */
-  bool *beside_flat;   /* of each set of corners, at its root */
-  uint32_t *first_use; /* of each edge: the corner where the first of its
+  double least_flat_area; /* mm^2 */
+  bool *beside_flat;      /* of each set of corners: a flat face has one */
+  uint32_t *first_use;    /* of each edge: the corner where the first of its
                                two faces leaves along it, and this face */
   uint32_t *first_face;
   uint8_t *class_masks; /* of each edge */
@@ -63,8 +63,8 @@ static void join_faces(struct tone_work *w, uint32_t f, uint32_t a, uint32_t g,
                        uint32_t b) {
   planar_regions_join(&w->planar, f, w->face[f].xyz, g, w->face[g].xyz);
   union_find_join(w->face_root, f, g);
-  union_find_join(w->corner_root, a, scene_next_corner(w->scene, g, b));
-  union_find_join(w->corner_root, scene_next_corner(w->scene, f, a), b);
+  union_find_join(w->corner_set, a, scene_next_corner(w->scene, g, b));
+  union_find_join(w->corner_set, scene_next_corner(w->scene, f, a), b);
 }
 
 static void compare_at_edge(struct tone_work *w, uint32_t f, uint32_t a,
@@ -96,15 +96,32 @@ static void visit_smooth_edges(struct tone_work *w, at_smooth_edge *visit) {
     }
 }
 
+/* The projection of a corner; NaN in front of the near plane. */
+static struct drawing_point project_corner(const struct camera *camera,
+                                           const struct scene *scene,
+                                           uint32_t corner) {
+  struct view_point v =
+      camera_view(camera, &scene->point.item[scene->corner.item[corner]]);
+  double s = camera->s;
+  if (camera->perspective)
+    s = v.d >= camera->near_d ? s / v.d : NAN;
+  return (struct drawing_point){camera->middle_mm[0] + s * v.x,
+                                camera->middle_mm[1] + s * v.y};
+}
+
 /* The area of a face on the page, mm^2; 0 where it is not all before the near
  * plane. */
 static double page_area(const struct tone_work *w, uint32_t face) {
+  const struct camera *camera = &w->sheet->camera;
   const uint32_t *start = &w->scene->face_start.item[face];
-  const struct drawing_point *p = w->position, *o = &p[start[0]];
+  struct drawing_point o = project_corner(camera, w->scene, start[0]);
+  struct drawing_point p = project_corner(camera, w->scene, start[0] + 1);
   double twice = 0;
-  for (uint32_t c = start[0] + 1; c + 1 < start[1]; c++)
-    twice += (p[c].x - o->x) * (p[c + 1].y - o->y) -
-             (p[c].y - o->y) * (p[c + 1].x - o->x);
+  for (uint32_t c = start[0] + 1; c + 1 < start[1]; c++) {
+    struct drawing_point next = project_corner(camera, w->scene, c + 1);
+    twice += (p.x - o.x) * (next.y - o.y) - (p.y - o.y) * (next.x - o.x);
+    p = next;
+  }
   return isfinite(twice) ? fabs(twice) / 2 : 0;
 }
 
@@ -124,12 +141,26 @@ static const struct planar_region *flat_of(const struct tone_work *w,
   return planar_regions_flat(&w->planar, face, w->least_flat_area);
 }
 
+/* Numbers the sets of corners, and makes room for what is known of them; false
+ * when memory ran out.  The root of a set is its lowest corner. */
+static bool number_corner_sets(struct tone_work *w) {
+  uint32_t *set = w->corner_set, sets = 0;
+  size_t corners = w->scene->corner.count;
+  for (uint32_t c = 0; c < corners; c++)
+    set[c] = union_find_root(set, c);
+  for (uint32_t c = 0; c < corners; c++)
+    set[c] = set[c] == c ? sets++ : set[set[c]];
+  w->sum = mem_calloc(sets, sizeof *w->sum);
+  w->beside_flat = mem_calloc(sets, sizeof *w->beside_flat);
+  return w->sum != NULL && w->beside_flat != NULL;
+}
+
 /* Marks the sets with corners of flat faces. */
 static void mark_beside_flat(struct tone_work *w) {
   for (uint32_t f = 0; f < scene_face_count(w->scene) && poll_at(f); f++)
     for (uint32_t c = w->scene->face_start.item[f];
          c < w->scene->face_start.item[f + 1] && flat_of(w, f) != NULL; c++)
-      w->beside_flat[union_find_root(w->corner_root, c)] = true;
+      w->beside_flat[w->corner_set[c]] = true;
 }
 
 /* Sums the face normals of each set of corners, weighted by area: where a flat
@@ -138,11 +169,11 @@ static void sum_normals(struct tone_work *w) {
   for (uint32_t f = 0; f < scene_face_count(w->scene) && poll_at(f); f++)
     for (uint32_t c = w->scene->face_start.item[f];
          c < w->scene->face_start.item[f + 1]; c++) {
-      uint32_t root = union_find_root(w->corner_root, c);
-      if (w->beside_flat[root] && flat_of(w, f) == NULL)
+      uint32_t set = w->corner_set[c];
+      if (w->beside_flat[set] && flat_of(w, f) == NULL)
         continue;
       for (int k = 0; k < 3; k++)
-        w->sum[root].xyz[k] += w->face[f].xyz[k];
+        w->sum[set].xyz[k] += w->face[f].xyz[k];
     }
 }
 
@@ -161,26 +192,6 @@ static bool is_away(const struct tone_work *w, uint32_t face) {
                               w->face[face].xyz);
 }
 
-/* The projection of a corner; NaN in front of the near plane. */
-static struct drawing_point project_corner(const struct tone_work *w,
-                                           uint32_t corner) {
-  const struct camera *camera = &w->sheet->camera;
-  const struct scene_point *p =
-      &w->scene->point.item[w->scene->corner.item[corner]];
-  struct view_point v = camera_view(camera, p);
-  double s = camera->s;
-  if (camera->perspective)
-    s = v.d >= camera->near_d ? s / v.d : NAN;
-  return (struct drawing_point){camera->middle_mm[0] + s * v.x,
-                                camera->middle_mm[1] + s * v.y};
-}
-
-static void set_positions(struct tone_work *w, struct tones *tones) {
-  for (uint32_t c = 0; c < w->scene->corner.count && poll_at(c); c++)
-    tones->position[c] = project_corner(w, c);
-  w->position = tones->position;
-}
-
 /* Sets the tone of all corners, and the extreme tones of all regions. */
 static void set_corners(struct tone_work *w, struct tones *tones) {
   for (uint32_t f = 0; f < scene_face_count(w->scene) && poll_at(f); f++) {
@@ -188,7 +199,7 @@ static void set_corners(struct tone_work *w, struct tones *tones) {
     bool away = is_away(w, f);
     for (uint32_t c = w->scene->face_start.item[f];
          c < w->scene->face_start.item[f + 1]; c++) {
-      const double *normal = w->sum[union_find_root(w->corner_root, c)].xyz;
+      const double *normal = w->sum[w->corner_set[c]].xyz;
       float tone = (float)tone_of_normal(w, normal, away);
       tones->corner[c] = tone;
       w->min[region] = fminf(w->min[region], tone);
@@ -219,30 +230,35 @@ static void set_regions(struct tone_work *w, struct tones *tones) {
   }
 }
 
+void tones_set_light(double light[TONES_LIGHT], const struct camera *camera,
+                     const recto_options *options) {
+  const struct light own = light_of(camera, options);
+  memcpy(light, own.towards, sizeof own.towards);
+  light[3] = own.ambient;
+  light[4] = own.fill;
+  light[5] = options->ink.pen_mm;
+}
+
 /* ---- All ----------------------------------------------------------------- */
 
 /* Allocates the work arrays and sets the face normals.  False when memory ran
  * out; release must be called all the same. */
 static bool prepare_tone_work(struct tone_work *w) {
   size_t faces = scene_face_count(w->scene);
-  size_t corners = w->scene->corner.count;
   size_t edges =
       w->sheet->topology != NULL ? w->sheet->topology->edge.count : 0;
   w->face = mem_alloc(faces, sizeof *w->face);
-  w->sum = mem_calloc(corners, sizeof *w->sum);
-  w->corner_root = union_find_create(corners);
+  w->corner_set = union_find_create(w->scene->corner.count);
   w->face_root = union_find_create(faces);
   w->first_use = mem_alloc(edges, sizeof *w->first_use);
   w->first_face = mem_alloc(edges, sizeof *w->first_face);
   w->class_masks = mem_alloc(edges, sizeof *w->class_masks);
   w->min = mem_alloc(faces, sizeof *w->min);
   w->max = mem_alloc(faces, sizeof *w->max);
-  w->beside_flat = mem_calloc(corners, sizeof *w->beside_flat);
   bool ok = planar_regions_init(&w->planar, w->scene);
-  if (!ok || w->beside_flat == NULL || w->face == NULL || w->sum == NULL ||
-      w->corner_root == NULL || w->face_root == NULL || w->first_use == NULL ||
-      w->first_face == NULL || w->class_masks == NULL || w->min == NULL ||
-      w->max == NULL ||
+  if (!ok || w->face == NULL || w->corner_set == NULL || w->face_root == NULL ||
+      w->first_use == NULL || w->first_face == NULL || w->class_masks == NULL ||
+      w->min == NULL || w->max == NULL ||
       (edges > 0 && !topology_class_masks(w->sheet->topology, w->scene,
                                           w->crease_deg, w->class_masks)))
     return false;
@@ -259,7 +275,7 @@ static bool prepare_tone_work(struct tone_work *w) {
 static void release_tone_work(struct tone_work *w) {
   mem_free(w->face);
   mem_free(w->sum);
-  mem_free(w->corner_root);
+  mem_free(w->corner_set);
   mem_free(w->face_root);
   mem_free(w->first_use);
   mem_free(w->first_face);
@@ -270,22 +286,43 @@ static void release_tone_work(struct tone_work *w) {
   planar_regions_fini(&w->planar);
 }
 
+static bool allocate_tones(struct tones *tones, const struct sheet *sheet,
+                           const struct scene *scene) {
+  *tones = (struct tones){.scene = scene, .camera = &sheet->camera};
+  tones->corner = mem_alloc(scene->corner.count, sizeof *tones->corner);
+  tones->uniform = mem_alloc(scene_face_count(scene), sizeof *tones->uniform);
+  return tones->corner != NULL && tones->uniform != NULL;
+}
+
+bool tones_copy(struct tones *tones, const struct sheet *sheet,
+                const struct scene *scene, const float *corner,
+                const uint8_t *uniform) {
+  bool ok = allocate_tones(tones, sheet, scene);
+  if (ok) {
+    for (size_t c = 0; c < scene->corner.count; c++)
+      tones->corner[c] = corner[c];
+    for (uint32_t f = 0; f < scene_face_count(scene); f++)
+      tones->uniform[f] = uniform[f] != 0;
+    ok = !poll_is_cancelled();
+  }
+  if (!ok)
+    tones_fini(tones);
+  return ok;
+}
+
 bool tones_init(struct tones *tones, const struct sheet *sheet,
                 const struct scene *scene, const recto_options *options) {
   struct tone_work w = {
       .scene = scene, .sheet = sheet, .crease_deg = options->mesh.crease_deg};
   w.light = light_of(&sheet->camera, options);
   w.least_flat_area = pow(EVEN_PENS * options->ink.pen_mm, 2);
-  *tones = (struct tones){.scene = scene};
-  tones->corner = mem_alloc(scene->corner.count, sizeof *tones->corner);
-  tones->position = mem_alloc(scene->corner.count, sizeof *tones->position);
-  tones->uniform = mem_alloc(scene_face_count(scene), sizeof *tones->uniform);
-  bool ok = tones->corner != NULL && tones->position != NULL &&
-            tones->uniform != NULL && prepare_tone_work(&w);
+  bool ok = allocate_tones(tones, sheet, scene) && prepare_tone_work(&w);
   if (ok) {
-    set_positions(&w, tones);
     if (sheet->topology != NULL && sheet->topology->corner_edge != NULL)
       join_smooth_edges(&w);
+    ok = number_corner_sets(&w);
+  }
+  if (ok) {
     mark_beside_flat(&w);
     sum_normals(&w);
     set_corners(&w, tones);
@@ -300,20 +337,26 @@ bool tones_init(struct tones *tones, const struct sheet *sheet,
 
 void tones_fini(struct tones *tones) {
   mem_free(tones->corner);
-  mem_free(tones->position);
   mem_free(tones->uniform);
   *tones = (struct tones){0};
 }
 
 /* ---- Over a face --------------------------------------------------------- */
 
+static struct drawing_point tone_position(const struct tones *tones,
+                                          uint32_t corner) {
+  return project_corner(tones->camera, tones->scene, corner);
+}
+
 /* The plane through the tones of the corners o, a and b, with its origin at o.
  * False where the corners are collinear on the page. */
 static bool find_plane(const struct tones *tones, uint32_t o, uint32_t a,
                        uint32_t b, struct tone_plane *plane) {
-  const struct drawing_point *position = tones->position;
-  double ax = position[a].x - position[o].x, ay = position[a].y - position[o].y;
-  double bx = position[b].x - position[o].x, by = position[b].y - position[o].y;
+  struct drawing_point at_o = tone_position(tones, o);
+  struct drawing_point at_a = tone_position(tones, a);
+  struct drawing_point at_b = tone_position(tones, b);
+  double ax = at_a.x - at_o.x, ay = at_a.y - at_o.y;
+  double bx = at_b.x - at_o.x, by = at_b.y - at_o.y;
   double at = tones->corner[o];
   double ta = tones->corner[a] - at, tb = tones->corner[b] - at;
   double area = ax * by - ay * bx;
@@ -344,7 +387,7 @@ static bool find_planes(const struct tones *tones, uint32_t first,
     return true;
   if (!find_plane(tones, first, first + 2, first + 3, &tone->plane[1]))
     return false;
-  struct drawing_point p = tones->position[first + 1];
+  struct drawing_point p = tone_position(tones, first + 1);
   tone->planes = 2;
   tone->take_max = value_of(tone, 0, p) >= value_of(tone, 1, p);
   return true;
@@ -353,7 +396,7 @@ static bool find_planes(const struct tones *tones, uint32_t first,
 struct tone tones_of_face(const struct tones *tones, uint32_t face) {
   uint32_t first = tones->scene->face_start.item[face];
   uint32_t count = tones->scene->face_start.item[face + 1] - first;
-  struct tone tone = {.origin = tones->position[first],
+  struct tone tone = {.origin = tone_position(tones, first),
                       .uniform = tones->uniform[face]};
   double sum = 0;
   for (uint32_t c = first; c < first + count; c++) {

@@ -1,0 +1,31 @@
+/* part_tones.h - the tones of tone hatching for the faces of a part. */
+#ifndef API_PART_TONES_H
+#define API_PART_TONES_H
+
+#include "parts/part_scene.h"
+#include "view/camera.h"
+
+/* The tones of a part's scene, as of ink/tone.h.  Zero-initialised is
+ * empty. */
+struct part_tones {
+  float *corner;    /* at each corner of the scene */
+  uint8_t *uniform; /* whether each face is of a uniform region */
+};
+
+/* Whether options hatch by tone. */
+bool part_tones_are_wanted(const recto_options *options);
+
+/* Finds the tones.  They depend on faces that may lie in any window, so the
+ * whole model is held for it, with its edges.
+ * part    its scene; of faces of the source
+ * Errors  RECTO_ERROR_MEMORY, _CANCELLED, those of face_pick_pass; end with
+ *         part_tones_fini either way */
+USE_RESULT recto_status part_tones_find(struct part_tones *tones,
+                                        const struct part_scene *part,
+                                        const struct face_source *source,
+                                        const struct camera *camera,
+                                        const recto_options *options,
+                                        recto_error *error);
+void part_tones_fini(struct part_tones *tones);
+
+#endif
