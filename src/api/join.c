@@ -159,10 +159,10 @@ static void report_join(struct join *join) {
   const struct part_join *joined = &join->join;
   report_count(report, "join", "parts", joined->all.common.parts);
   report_count(report, "join", "file_bytes", join->bytes);
-  report_count(report, "join", "faces", joined->all.face.count);
-  report_count(report, "join", "edges", joined->all.edge.count);
-  report_count(report, "join", "intersections", joined->all.crossing.count);
-  report_count(report, "join", "fragments", joined->all.fragment.count);
+  report_count(report, "join", "faces", joined->counts.faces);
+  report_count(report, "join", "edges", joined->counts.edges);
+  report_count(report, "join", "intersections", joined->counts.intersections);
+  report_count(report, "join", "fragments", joined->counts.fragments);
   stats_add_drawing(report, &join->made->drawing, &join->options);
   report_count(report, "memory", "peak_bytes", mem_peak_bytes());
 }

@@ -120,11 +120,16 @@ int part_crossing_compare(const struct part_crossing *a,
 
 /* A corner of a fragment, and the side that starts there. */
 struct part_corner {
-  int64_t x, y;              /* 1 / MAP_CORNER_SCALE grid units */
-  uint8_t side;              /* enum map_side */
-  struct part_edge_key edge; /* MAP_SIDE_EDGE, _OCCLUDER */
-  uint32_t face;             /* MAP_SIDE_INTERSECTION: the other one */
-  uint64_t line;             /* planar_subdivision.h; 0 for that of an edge */
+  int64_t x, y; /* 1 / MAP_CORNER_SCALE grid units */
+  uint8_t side; /* enum map_side */
+  union {
+    struct part_edge_key edge; /* MAP_SIDE_EDGE, _OCCLUDER */
+    struct {
+      uint32_t line[2]; /* halves of planar_subdivision.h's, the low one first;
+                           that of an edge is 0 */
+      uint32_t face;    /* MAP_SIDE_INTERSECTION: the other one */
+    } of;
+  } along;
 };
 
 struct part_fragment {

@@ -203,13 +203,17 @@ static bool collect_corner(struct collection *c, uint32_t corner) {
       .x = (int64_t)(from->x * MAP_CORNER_SCALE),
       .y = (int64_t)(from->y * MAP_CORNER_SCALE),
       .side = from->side,
-      .line = map->side_line.item[corner],
   };
   if (from->side == MAP_SIDE_EDGE || from->side == MAP_SIDE_OCCLUDER) {
-    own.edge = key_of(c, from->id);
+    own.along.edge = key_of(c, from->id);
     need_edge(c, from->id);
-  } else if (from->side == MAP_SIDE_INTERSECTION) {
-    own.face = c->from->scene->face_number[from->id];
+    return ARRAY_PUSH(&c->part->fragment_corner, own);
+  }
+  uint64_t line = map->side_line.item[corner];
+  own.along.of.line[0] = (uint32_t)line;
+  own.along.of.line[1] = (uint32_t)(line >> 32);
+  if (from->side == MAP_SIDE_INTERSECTION) {
+    own.along.of.face = c->from->scene->face_number[from->id];
     c->face_needed[from->id] = 1;
   }
   return ARRAY_PUSH(&c->part->fragment_corner, own);

@@ -373,16 +373,17 @@ static void code_corner(struct byte_codec *codec, struct part_corner *corner) {
   byte_codec_i64(codec, &corner->y);
   byte_codec_u8(codec, &corner->side);
   if (corner->side == MAP_SIDE_EDGE || corner->side == MAP_SIDE_OCCLUDER) {
-    code_key(codec, &corner->edge);
+    code_key(codec, &corner->along.edge);
+    require(codec, corner->along.edge.kind <= PART_EDGE_FOLD);
   } else {
-    byte_codec_u64(codec, &corner->line);
+    byte_codec_u32(codec, &corner->along.of.line[0]);
+    byte_codec_u32(codec, &corner->along.of.line[1]);
     if (corner->side == MAP_SIDE_INTERSECTION)
-      byte_codec_u32(codec, &corner->face);
+      byte_codec_u32(codec, &corner->along.of.face);
   }
-  require(codec, corner->side <= MAP_SIDE_CLIP &&
-                     corner->edge.kind <= PART_EDGE_FOLD &&
-                     corner->x >= -most && corner->x <= most &&
-                     corner->y >= -most && corner->y <= most);
+  require(codec, corner->side <= MAP_SIDE_CLIP && corner->x >= -most &&
+                     corner->x <= most && corner->y >= -most &&
+                     corner->y <= most);
 }
 
 static void code_loops(struct byte_codec *codec, struct part *part,

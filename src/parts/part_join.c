@@ -4,7 +4,9 @@
  *   scene      all faces, polylines and points of the parts
  *   sheet      laid out by the camera of the whole; intersections are appended
  *   edges      their classes and where they are visible
- *   fragments  and what runs along their sides */
+ *   fragments  and what runs along their sides
+ *
+ * What the parts said is freed once it is there. */
 #include "parts/part_join.h"
 
 #include <string.h>
@@ -478,17 +480,19 @@ static recto_status add_fragment_corner(struct join_work *work,
   struct map_corner corner = {(double)from->x / MAP_CORNER_SCALE,
                               (double)from->y / MAP_CORNER_SCALE, from->side,
                               SHEET_NONE};
+  uint64_t line = 0;
   bool ok = true;
   if (from->side == MAP_SIDE_EDGE || from->side == MAP_SIDE_OCCLUDER) {
-    corner.id = find_sheet_edge(work, from->edge);
+    corner.id = find_sheet_edge(work, from->along.edge);
     ok = corner.id != SHEET_NONE && has_length(work, corner.id);
-  } else if (from->side == MAP_SIDE_INTERSECTION) {
-    ok = find_face(work, from->face, &corner.id);
+  } else {
+    line = (uint64_t)from->along.of.line[1] << 32 | from->along.of.line[0];
   }
+  if (from->side == MAP_SIDE_INTERSECTION)
+    ok = find_face(work, from->along.of.face, &corner.id);
   if (!ok)
     return misfit(work);
-  return ARRAY_PUSH(&map->corner, corner) &&
-                 ARRAY_PUSH(&map->side_line, from->line)
+  return ARRAY_PUSH(&map->corner, corner) && ARRAY_PUSH(&map->side_line, line)
              ? RECTO_OK
              : error_memory(work->error);
 }
@@ -518,7 +522,11 @@ static recto_status add_joined_fragments(struct join_work *work) {
     if (!ok)
       return error_memory(work->error);
   }
-  if (status != RECTO_OK || all->fragment.count == 0)
+  bool has_fragments = all->fragment.count > 0;
+  ARRAY_FREE(&work->join->all.fragment);
+  ARRAY_FREE(&work->join->all.loop);
+  ARRAY_FREE(&work->join->all.fragment_corner);
+  if (status != RECTO_OK || !has_fragments)
     return status;
   return map_assembly_link_sides(map, &work->join->sheet)
              ? RECTO_OK
@@ -557,6 +565,8 @@ static recto_status make_join(struct join_work *work,
                               const recto_options *options) {
   struct part_join *join = work->join;
   recto_status status = make_joined_scene(work);
+  ARRAY_FREE(&join->all.point);
+  ARRAY_FREE(&join->all.corner);
   if (status == RECTO_OK)
     status = topology_init_welded(&join->topology, &join->scene, work->error);
   if (status == RECTO_OK)
@@ -573,6 +583,11 @@ static recto_status make_join(struct join_work *work,
   if (status == RECTO_OK && join->all.common.edges != RECTO_EDGES_NONE &&
       !set_states(work, options->ink.hidden_by_max > 0))
     status = error_memory(work->error);
+  ARRAY_FREE(&join->all.crossing);
+  ARRAY_FREE(&join->all.interval);
+  ARRAY_FREE(&join->all.over_limit);
+  mem_free(work->visibility);
+  work->visibility = NULL;
   if (status == RECTO_OK && !set_joined_tones(work))
     status = error_memory(work->error);
   return status == RECTO_OK ? add_joined_fragments(work) : status;
@@ -581,6 +596,9 @@ static recto_status make_join(struct join_work *work,
 recto_status part_join_make(struct part_join *join,
                             const recto_options *options, recto_error *error) {
   struct join_work work = {.join = join, .all = &join->all, .error = error};
+  join->counts = (struct part_join_counts){
+      join->all.face.count, join->all.edge.count, join->all.crossing.count,
+      join->all.fragment.count};
   recto_status status = make_join(&work, options);
   mem_free(work.points.at);
   mem_free(work.faces.at);

@@ -6,8 +6,15 @@
 #include "parts/part_merge.h"
 #include "scene/topology.h"
 
+/* How much the parts say. */
+struct part_join_counts {
+  size_t faces, edges, intersections, fragments;
+};
+
 struct part_join {
-  struct part all;    /* the parts, merged */
+  struct part all; /* the parts, merged; part_join_make leaves what numbers
+                      faces, polylines and edges */
+  struct part_join_counts counts;
   struct scene scene; /* the faces that ink needs, and their points */
   struct topology topology;
   struct sheet sheet;

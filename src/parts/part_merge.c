@@ -1,7 +1,8 @@
 /* part_merge.c - all parts of a drawing as one.
  *
  * Each list of a part is ascending, so the lists of all parts are appended to
- * each other, sorted, and then gone through by groups of equal items. */
+ * each other, sorted, and then gone through by groups of equal items.  What is
+ * merged is freed before the next list. */
 #include "parts/part_merge.h"
 
 #include <string.h>
@@ -152,6 +153,13 @@ static bool sort_origins(struct merge_work *work, const size_t *count,
 #define SORT_LIST(work, list, compare)                                         \
   (list_counts((work), count, offsetof(struct part, list.count)),              \
    sort_origins((work), count, (compare)))
+
+/* Frees a list of all parts. */
+#define FREE_LISTS(work, list)                                                 \
+  do {                                                                         \
+    for (size_t p_ = 0; p_ < (work)->parts; p_++)                              \
+      ARRAY_FREE(&(work)->part[p_].list);                                      \
+  } while (0)
 
 static void list_counts(const struct merge_work *work, size_t *count,
                         size_t offset) {
@@ -492,15 +500,21 @@ static recto_status merge_lists(struct merge_work *work, size_t *count) {
   if (!SORT_LIST(work, point, compare_point_origins))
     return error_memory(work->error);
   status = merge_points(work);
+  FREE_LISTS(work, point);
   if (status == RECTO_OK)
     status = merge_elements(work, false);
   if (status == RECTO_OK)
     status = merge_elements(work, true);
   if (status != RECTO_OK)
     return status;
+  FREE_LISTS(work, face);
+  FREE_LISTS(work, wire);
+  FREE_LISTS(work, corner);
+  FREE_LISTS(work, tone);
   if (!SORT_LIST(work, edge, compare_edge_origins))
     return error_memory(work->error);
   status = merge_edges(work);
+  FREE_LISTS(work, edge);
   if (status != RECTO_OK)
     return status;
   if (!SORT_LIST(work, crossing, compare_crossing_origins))
@@ -510,6 +524,10 @@ static recto_status merge_lists(struct merge_work *work, size_t *count) {
     return error_memory(work->error);
   if (status == RECTO_OK)
     status = merge_runs(work);
+  FREE_LISTS(work, crossing);
+  FREE_LISTS(work, interval);
+  FREE_LISTS(work, over_limit);
+  FREE_LISTS(work, run);
   return status == RECTO_OK ? merge_fragments(work) : status;
 }
 
