@@ -9,6 +9,7 @@
 #include <string.h>
 #include <cmocka.h>
 
+#include "geom/line_key.h"
 #include "visibility/fragments/planar_subdivision.h"
 
 /* Coordinates in mm may be off by this much, a nanometre. */

@@ -1,6 +1,7 @@
 /* test_line.c - exact lines and corners, compared with rational arithmetic. */
 #include "exact_fixture/rational.h"
 #include "exact_fixture/sheet.h"
+#include "geom/line_key.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,4 +1,5 @@
-/* group_numbers.c - numbers faces and edges within their groups. */
+/* group_numbers.c - numbers faces and edges within their groups, and within the
+ * scene. */
 #include "api/group_numbers.h"
 
 #include "base/poll.h"
@@ -99,4 +100,20 @@ bool group_numbers_set(struct drawing *drawing, const struct scene *scene,
   mem_free(numbers.edge);
   mem_free(numbers.wire);
   return ok;
+}
+
+/* ---- Within the scene ---------------------------------------------------- */
+
+void source_numbers_set(struct drawing *drawing, const struct scene *scene) {
+  for (size_t i = 0; i < drawing->stroke.count; i++) {
+    struct drawing_stroke *stroke = &drawing->stroke.item[i];
+    uint32_t *face = &stroke->face;
+    *face = *face == DRAWING_NONE ? *face : scene_face_number(scene, *face);
+    if (stroke->edge_class == RECTO_EDGE_WIRE && scene->cut != NULL)
+      stroke->edge = scene->cut->wire[stroke->edge];
+  }
+  for (size_t i = 0; i < drawing->fill.count; i++) {
+    uint32_t *face = &drawing->fill.item[i].face;
+    *face = *face == DRAWING_NONE ? *face : scene_face_number(scene, *face);
+  }
 }

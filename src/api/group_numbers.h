@@ -1,4 +1,5 @@
-/* group_numbers.h - numbers faces and edges within their groups. */
+/* group_numbers.h - numbers faces and edges within their groups, and within the
+ * scene. */
 #ifndef API_GROUP_NUMBERS_H
 #define API_GROUP_NUMBERS_H
 
@@ -18,5 +19,10 @@ USE_RESULT bool group_numbers_set(struct drawing *drawing,
                                   const struct scene *scene,
                                   const struct scene *whole,
                                   const struct topology *topology);
+
+/* Gives faces the numbers that they have in the scene's sources, where faces
+ * that were skipped are counted too, and polylines those that they had before
+ * they were cut. */
+void source_numbers_set(struct drawing *drawing, const struct scene *scene);
 
 #endif

@@ -13,6 +13,7 @@ librecto_core_la_SOURCES += \
   %D%/join.c \
   %D%/letter_places.c %D%/letter_places.h \
   %D%/mesh.c \
+  %D%/method.c %D%/method.h \
   %D%/judge_input.c %D%/judge_input.h \
   %D%/options.c %D%/options.h \
   %D%/output.c \

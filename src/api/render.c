@@ -13,6 +13,7 @@
 #include "api/clip_warning.h"
 #include "api/group_numbers.h"
 #include "api/handle.h"
+#include "api/method.h"
 #include "api/output_format.h"
 #include "api/render.h"
 #include "api/render_warnings.h"
@@ -51,32 +52,6 @@ struct render {
   struct drawing *drawing; /* in it */
   struct report *report;
 };
-
-/* ---- The method ---------------------------------------------------------- */
-
-bool recto_method_is_available(recto_method method) {
-  return method == RECTO_METHOD_AUTO || solver_by_method(method) != NULL;
-}
-
-static recto_status check_method(const recto_options *options,
-                                 recto_error *error) {
-  if (!recto_method_is_available(options->solver.method))
-    return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
-                     "method %s is not available in this build",
-                     recto_method_name(options->solver.method));
-  return RECTO_OK;
-}
-
-static const struct solver *
-choose_method(struct render *render, const struct solver_request *request) {
-  recto_method method = render->options->solver.method;
-  const char *why = "requested";
-  const struct solver *solver =
-      method == RECTO_METHOD_AUTO ? solver_choose(&render->sheet, request, &why)
-                                  : solver_by_method(method);
-  stats_add_method(render->report, method, solver, why, request);
-  return solver;
-}
 
 /* ---- Stages -------------------------------------------------------------- */
 
@@ -230,7 +205,8 @@ static recto_status solve_visibility(struct render *render,
   request.fragments = needs_fragments(render);
   request.hidden |= (options->results & RECTO_RESULT_EDGES) != 0;
   request.threads = parallel_threads();
-  return choose_method(render, &request)
+  return method_choose(render->options->solver.method, &render->sheet, &request,
+                       render->report)
       ->solve(&render->sheet, &request, &render->map, render->report, error);
 }
 
@@ -353,26 +329,6 @@ static recto_status run_stages(struct render *render, recto_error *error) {
   return RECTO_OK;
 }
 
-/* ---- The numbers of faces and polylines ---------------------------------- */
-
-/* Gives faces the numbers that they have in the scene's sources, where faces
- * that were skipped are counted too, and polylines those that they had before
- * they were cut. */
-static void number_elements(struct drawing *drawing,
-                            const struct scene *scene) {
-  for (size_t i = 0; i < drawing->stroke.count; i++) {
-    struct drawing_stroke *stroke = &drawing->stroke.item[i];
-    uint32_t *face = &stroke->face;
-    *face = *face == DRAWING_NONE ? *face : scene_face_number(scene, *face);
-    if (stroke->edge_class == RECTO_EDGE_WIRE && scene->cut != NULL)
-      stroke->edge = scene->cut->wire[stroke->edge];
-  }
-  for (size_t i = 0; i < drawing->fill.count; i++) {
-    uint32_t *face = &drawing->fill.item[i].face;
-    *face = *face == DRAWING_NONE ? *face : scene_face_number(scene, *face);
-  }
-}
-
 /* ---- The whole render ---------------------------------------------------- */
 
 /* Reports errors in the lists of pens before the work, and warns of unused
@@ -414,7 +370,7 @@ static void warn_and_report(const struct render *render) {
 }
 
 static recto_status run_and_report(struct render *render, recto_error *error) {
-  recto_status status = check_method(render->options, error);
+  recto_status status = method_check(render->options, error);
   if (status == RECTO_OK)
     status = check_pens(render, error);
   if (status != RECTO_OK)
@@ -433,7 +389,7 @@ static recto_status run_and_report(struct render *render, recto_error *error) {
                             render->sheet.topology)) ||
         !rounded_warn(render->drawing, scene, render->options))
       status = error_memory(error);
-    number_elements(render->drawing, scene);
+    source_numbers_set(render->drawing, scene);
     stats_add_seconds(render->report, "render_cpu_s", clock_cpu() - cpu);
     stats_add_seconds(render->report, "render_wall_s", clock_wall() - wall);
     warn_and_report(render);

@@ -13,7 +13,7 @@
  * They are made in two passes over the same numbers: after number_lists_init
  * each is put into its list to be counted and, after number_lists_allocate,
  * once more to be stored.  A list has its numbers in the reverse of the order
- * in which the second pass puts them.  */
+ * in which the second pass puts them. */
 struct number_lists {
   uint32_t *start, *item;
 };

@@ -18,7 +18,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/hash.h"
 #include "geom/wide.h"
 
 void geom_line_through(struct geom_line *line, struct geom_point p,
@@ -107,12 +106,12 @@ struct geom_line geom_line_reversed(const struct geom_line *line) {
 
 /* ---- Exact coefficients -------------------------------------------------- */
 
-static void exact_line(struct wide l[3], const struct geom_line *line) {
+void geom_line_exact(struct wide l[3], const struct geom_line *line) {
   if (line->is_grid_line) {
-    int64_t a = (int64_t)line->y0 - line->y1, b = (int64_t)line->x1 - line->x0;
-    l[0] = wide_of_int128(a);
-    l[1] = wide_of_int128(b);
-    l[2] = wide_of_int128(-(a * line->x0 + b * line->y0));
+    struct geom_line_integers n = geom_line_integers_of(line);
+    l[0] = wide_of_int128(n.a);
+    l[1] = wide_of_int128(n.b);
+    l[2] = wide_of_int128(n.c);
     return;
   }
   for (int k = 0; k < 3; k++)
@@ -127,8 +126,8 @@ void geom_corner_exact(const struct geom_corner *corner, struct wide h[3]) {
     h[2] = wide_of_int128(1);
     return;
   }
-  exact_line(p, corner->l1);
-  exact_line(q, corner->l2);
+  geom_line_exact(p, corner->l1);
+  geom_line_exact(q, corner->l2);
   wide_cross(&h[0], &p[1], &q[2], &q[1], &p[2]);
   wide_cross(&h[1], &p[2], &q[0], &q[2], &p[0]);
   wide_cross(&h[2], &p[0], &q[1], &q[0], &p[1]);
@@ -139,35 +138,25 @@ void geom_corner_exact(const struct geom_corner *corner, struct wide h[3]) {
 
 /* ---- The same of grid lines, in machine words ---------------------------- */
 
-/* a, b < 2^31, c < 2^62 */
-struct line_coefficients {
-  int64_t a, b, c;
-};
-
 /* x, y < 2^94, 0 < w < 2^63 */
 struct corner_integers {
   int128 x, y;
   int64_t w;
 };
 
-static struct line_coefficients coefficients_of(const struct geom_line *line) {
-  int64_t a = (int64_t)line->y0 - line->y1, b = (int64_t)line->x1 - line->x0;
-  return (struct line_coefficients){a, b, -(a * line->x0 + b * line->y0)};
-}
-
 /* The corner as homogeneous integers; false where one of its lines is no grid
  * line. */
 static bool grid_lines_meet(struct corner_integers *h,
                             const struct geom_corner *corner) {
-  struct line_coefficients p, q;
+  struct geom_line_integers p, q;
   if (corner->l1 == NULL) {
     *h = (struct corner_integers){corner->ix, corner->iy, 1};
     return true;
   }
   if (!corner->l1->is_grid_line || !corner->l2->is_grid_line)
     return false;
-  p = coefficients_of(corner->l1);
-  q = coefficients_of(corner->l2);
+  p = geom_line_integers_of(corner->l1);
+  q = geom_line_integers_of(corner->l2);
   h->x = (int128)p.b * q.c - (int128)q.b * p.c;
   h->y = (int128)p.c * q.a - (int128)q.c * p.a;
   h->w = p.a * q.b - q.a * p.b;
@@ -179,99 +168,6 @@ static bool grid_lines_meet(struct corner_integers *h,
   return true;
 }
 
-/* ---- Keys of lines ------------------------------------------------------- */
-
-static uint64_t common_divisor(uint64_t a, uint64_t b) {
-  while (b != 0) {
-    uint64_t rest = a % b;
-    a = b;
-    b = rest;
-  }
-  return a;
-}
-
-static uint64_t magnitude_64(int64_t a) {
-  return a < 0 ? (uint64_t)-a : (uint64_t)a;
-}
-
-/* Mixes the coefficients, which have no common divisor, so that few lines share
- * a key that are different. */
-static uint64_t hash_line(struct line_coefficients l) {
-  bool turned = l.a < 0 || (l.a == 0 && l.b < 0);
-  const uint64_t part[3] = {(uint64_t)l.a, (uint64_t)l.b, (uint64_t)l.c};
-  uint64_t sum = 0;
-  for (int k = 0; k < 3; k++)
-    sum = hash_add(sum, turned ? 0 - part[k] : part[k]);
-  return sum;
-}
-
-/* The same integers for a plane intersection; false where they are too
- * large. */
-static bool reduce_coefficients(const struct geom_line *line,
-                                struct line_coefficients *to) {
-  struct wide exact[3];
-  int64_t reduced[3];
-  exact_line(exact, line);
-  if (!wide_reduce(exact, reduced))
-    return false;
-  *to = (struct line_coefficients){reduced[0], reduced[1], reduced[2]};
-  return true;
-}
-
-/* Residues are modulo the prime 2^61 - 1, so that 2^64 is 8. */
-#define RESIDUE_PRIME ((UINT64_C(1) << 61) - 1)
-
-static uint64_t multiply_residues(uint64_t a, uint64_t b) {
-  return (uint64_t)((uint128)a * b % RESIDUE_PRIME);
-}
-
-/* The key of a plane intersection whose integers are too large to be reduced:
- * the residues of its coefficients, divided by the first that is not 0. */
-static uint64_t key_of_residues(const struct geom_line *line) {
-  uint64_t residue[3], inverse = 1, power;
-  int first = 2;
-  for (int k = 2; k >= 0; k--) {
-    residue[k] = 0;
-    for (int i = GEOM_LINE_LIMBS; i-- > 0;)
-      residue[k] = (uint64_t)(((uint128)residue[k] * 8 + line->limb[k][i]) %
-                              RESIDUE_PRIME);
-    if (line->sign[k] < 0 && residue[k] != 0)
-      residue[k] = RESIDUE_PRIME - residue[k];
-    if (residue[k] != 0)
-      first = k;
-  }
-  /* By Fermat's little theorem. */
-  power = residue[first];
-  for (uint64_t bits = RESIDUE_PRIME - 2; bits != 0; bits >>= 1) {
-    if (bits & 1)
-      inverse = multiply_residues(inverse, power);
-    power = multiply_residues(power, power);
-  }
-  return hash_line((struct line_coefficients){
-      (int64_t)multiply_residues(residue[0], inverse),
-      (int64_t)multiply_residues(residue[1], inverse),
-      (int64_t)multiply_residues(residue[2], inverse)});
-}
-
-bool geom_line_key(const struct geom_line *line, uint64_t *key) {
-  struct line_coefficients reduced;
-  if (line->is_grid_line) {
-    int64_t divisor;
-    reduced = coefficients_of(line);
-    /* It divides c too. */
-    divisor = (int64_t)common_divisor(magnitude_64(reduced.a),
-                                      magnitude_64(reduced.b));
-    reduced.a /= divisor;
-    reduced.b /= divisor;
-    reduced.c /= divisor;
-  } else if (!reduce_coefficients(line, &reduced)) {
-    *key = key_of_residues(line);
-    return false;
-  }
-  *key = hash_line(reduced);
-  return true;
-}
-
 /* ---- Predicates ---------------------------------------------------------- */
 
 static int side_exact(const struct geom_line *line,
@@ -279,11 +175,11 @@ static int side_exact(const struct geom_line *line,
   struct corner_integers c;
   struct wide l[3], h[3], ax, by, sum, value;
   if (line->is_grid_line && grid_lines_meet(&c, corner)) {
-    struct line_coefficients n =
-        coefficients_of(line); /* 2^125 each: the sum fits */
+    struct geom_line_integers n =
+        geom_line_integers_of(line); /* 2^125 each: the sum fits */
     return geom_sign128(n.a * c.x + n.b * c.y + (int128)n.c * c.w);
   }
-  exact_line(l, line);
+  geom_line_exact(l, line);
   geom_corner_exact(corner, h);
   wide_multiply(&ax, &l[0], &h[0]);
   wide_multiply(&by, &l[1], &h[1]);
@@ -379,11 +275,12 @@ static int product_exact(const struct geom_line *l1, const struct geom_line *l2,
                          bool dot) {
   struct wide p[3], q[3], value;
   if (l1->is_grid_line && l2->is_grid_line) {
-    struct line_coefficients m = coefficients_of(l1), n = coefficients_of(l2);
+    struct geom_line_integers m = geom_line_integers_of(l1),
+                              n = geom_line_integers_of(l2);
     return geom_sign64(dot ? m.a * n.a + m.b * n.b : m.a * n.b - n.a * m.b);
   }
-  exact_line(p, l1);
-  exact_line(q, l2);
+  geom_line_exact(p, l1);
+  geom_line_exact(q, l2);
   if (dot) {
     wide_negate(&q[1]);
     wide_cross(&value, &p[0], &q[0], &p[1], &q[1]);

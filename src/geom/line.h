@@ -50,9 +50,21 @@ void geom_line_level(struct geom_line *line, struct ratio height);
 /* The same line in the opposite direction. */
 struct geom_line geom_line_reversed(const struct geom_line *line);
 
-/* A hash: lines that are the same, in either direction, have the same key, and
- * few others do.  Returns false where no two grid points can have it. */
-bool geom_line_key(const struct geom_line *line, uint64_t *key);
+/* The integers a, b, c of a line: of grid lines a, b < 2^31, c < 2^62. */
+struct geom_line_integers {
+  int64_t a, b, c;
+};
+
+static inline struct geom_line_integers
+geom_line_integers_of(const struct geom_line *grid_line) {
+  int64_t a = (int64_t)grid_line->y0 - grid_line->y1;
+  int64_t b = (int64_t)grid_line->x1 - grid_line->x0;
+  return (struct geom_line_integers){a, b,
+                                     -(a * grid_line->x0 + b * grid_line->y0)};
+}
+
+/* The exact coefficients a, b, c of any line. */
+void geom_line_exact(struct wide l[3], const struct geom_line *line);
 
 struct geom_corner {
   double x, y; /* grid units, nearest or so: for boxes and filters */

@@ -74,6 +74,7 @@ librecto_core_la_SOURCES += \
   %D%/scan/facets.c %D%/scan/facets.h \
   %D%/scan/trapezoids.c %D%/scan/trapezoids.h \
   %D%/scanline_zbuffer/scanline_zbuffer.c %D%/scanline_zbuffer/scanline_zbuffer.h \
+  %D%/tiles/tile_states.c %D%/tiles/tile_states.h \
   %D%/tiles/tiles.c \
   %D%/warnock/warnock.c %D%/warnock/warnock_edges.c \
   %D%/warnock/warnock_faces.c \

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/poll.h"
+#include "geom/line_key.h"
 #include "base/sort.h"
 
 /* The cells are as small as possible with at most

@@ -12,6 +12,7 @@
 #include "base/parallel.h"
 #include "base/poll.h"
 #include "base/sort.h"
+#include "geom/line_key.h"
 
 /* In side_lines: the side lies on the line of its edge. */
 #define OF_EDGE 0

@@ -1,0 +1,217 @@
+/* tile_states.c - decides edges and faces by the tiles that they overlap: those
+ * on which all tiles agree are visible or hidden, the others are deferred. */
+#include "visibility/tiles/tile_states.h"
+
+#include "base/parallel.h"
+#include "base/poll.h"
+#include "visibility/pairwise/edge_query.h"
+
+bool tile_states_init(struct tile_states *states, const struct sheet *sheet,
+                      const struct tile_classification *tiles,
+                      const struct occlusion_culling *culling) {
+  *states =
+      (struct tile_states){.sheet = sheet, .tiles = tiles, .culling = culling};
+  states->wanted = mem_calloc(triangle_grid_cell_count(&tiles->grid), 1);
+  return states->wanted != NULL;
+}
+
+void tile_states_fini(struct tile_states *states) {
+  mem_free(states->wanted);
+  mem_free(states->face_state);
+  ARRAY_FREE(&states->edge);
+  ARRAY_FREE(&states->face);
+}
+
+/* ---- Tiles --------------------------------------------------------------- */
+
+/* The state within a tile of an edge or face with depths in these buckets;
+ * MAP_MIXED if the tile does not decide it.
+ * wire  the edge is not known to lie in a layer of faces: it has no face, or is
+ *       an intersection */
+static enum map_state state_in_tile(const struct tile *tile, int low, int high,
+                                    bool wire) {
+  if (tile->state == TILE_MIXED)
+    return MAP_MIXED;
+  if (tile->state == TILE_EMPTY)
+    return MAP_VISIBLE;
+  if (wire)
+    return high < tile->front - 1 ? MAP_HIDDEN : MAP_MIXED;
+  return low >= tile->front ? MAP_VISIBLE : MAP_HIDDEN;
+}
+
+/* Visits the tiles that the segment crosses.  Returns the state on which all
+ * agree, or MAP_MIXED.
+ * mark  marks the tiles as wanted instead */
+static enum map_state state_along(struct tile_states *states,
+                                  struct geom_point p, struct geom_point q,
+                                  bool wire, bool mark) {
+  const struct triangle_grid *grid = &states->tiles->grid;
+  struct cell_range r = triangle_grid_cells(grid, box2_of_segment(p, q));
+  int low = tile_bucket(p.z < q.z ? p.z : q.z),
+      high = tile_bucket(p.z > q.z ? p.z : q.z), state = -1;
+  for (int y = r.y0; y <= r.y1; y++) {
+    int x0, x1;
+    triangle_grid_row(grid, p, q, r, y, &x0, &x1);
+    for (int x = x0; x <= x1; x++) {
+      size_t i = triangle_grid_index(grid, x, y);
+      int now = (int)state_in_tile(&states->tiles->tile[i], low, high, wire);
+      if (mark) {
+        states->more_wanted |= !states->wanted[i];
+        states->wanted[i] = 1;
+      } else {
+        if (now == MAP_MIXED || (state >= 0 && state != now))
+          return MAP_MIXED;
+        state = now;
+      }
+    }
+  }
+  return state < 0 ? MAP_MIXED : (enum map_state)state;
+}
+
+/* The state on which all tiles of a range agree, or MAP_MIXED, from one depth
+ * bucket to another. */
+static enum map_state state_in_range(const struct tile_classification *tiles,
+                                     struct cell_range r, int low, int high,
+                                     bool wire) {
+  int state = -1;
+  for (int y = r.y0; y <= r.y1; y++)
+    for (int x = r.x0; x <= r.x1; x++) {
+      size_t i = (size_t)y * (size_t)tiles->grid.columns + (size_t)x;
+      int now = (int)state_in_tile(&tiles->tile[i], low, high, wire);
+      if (now == MAP_MIXED || (state >= 0 && state != now))
+        return MAP_MIXED;
+      state = now;
+    }
+  return (enum map_state)state;
+}
+
+/* ---- Edges --------------------------------------------------------------- */
+
+/* The state of an edge.  Usually all tiles of its bounding box agree, so that
+ * it need not be traced through them. */
+static enum map_state state_of_edge(struct tile_states *states,
+                                    struct geom_point p, struct geom_point q,
+                                    bool wire) {
+  struct cell_range r =
+      triangle_grid_cells(&states->tiles->grid, box2_of_segment(p, q));
+  if (r.x1 - r.x0 + r.y1 - r.y0 > 2)
+    return state_along(states, p, q, wire, false);
+  enum map_state state =
+      state_in_range(states->tiles, r, tile_bucket(p.z < q.z ? p.z : q.z),
+                     tile_bucket(p.z > q.z ? p.z : q.z), wire);
+  return state == MAP_MIXED && r.x0 < r.x1 && r.y0 < r.y1
+             ? state_along(states, p, q, wire, false)
+             : state;
+}
+
+/* What the ranges of edges have in common. */
+struct classification_work {
+  struct tile_states *states;
+  struct map *map;
+  size_t from; /* the first edge */
+};
+
+static bool classify_edge_range(void *user, struct parallel_range range) {
+  const struct classification_work *work = user;
+  const struct sheet *sheet = work->states->sheet;
+  for (size_t e = work->from + range.begin; e < work->from + range.end; e++) {
+    const struct sheet_edge *edge = &sheet->edge.item[e];
+    if (e + MEM_PREFETCH_AHEAD < sheet->edge.count) {
+      MEM_PREFETCH(&sheet->point.item[edge[MEM_PREFETCH_AHEAD].point[0]]);
+      MEM_PREFETCH(&sheet->point.item[edge[MEM_PREFETCH_AHEAD].point[1]]);
+    }
+    struct geom_segment s = sheet_ends(sheet, edge->point);
+    bool wire = edge->triangle[0] == SHEET_NONE ||
+                edge->edge_class == RECTO_EDGE_INTERSECTION;
+    if (!poll_at(e))
+      return false;
+    if (sheet_edge_is_drawn(sheet, e))
+      work->map->edge_state[e] =
+          work->from > 0 &&
+                  occlusion_culling_hides(work->states->culling, s.p, s.q)
+              ? MAP_HIDDEN
+              : (uint8_t)state_of_edge(work->states, s.p, s.q, wire);
+  }
+  return true;
+}
+
+bool tile_states_add_edges(struct tile_states *states, size_t from,
+                           struct map *map) {
+  const struct sheet *sheet = states->sheet;
+  size_t count = sheet->edge.count - from;
+  struct classification_work classification = {states, map, from};
+  if (!edge_intervals_open_map(map, sheet->edge.count) ||
+      !parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
+                       PARALLEL_ITEMS, classify_edge_range, &classification))
+    return false;
+  for (size_t e = from; e < sheet->edge.count; e++) {
+    if (map->edge_state[e] != MAP_MIXED)
+      continue;
+    if (!ARRAY_PUSH(&states->edge, (uint32_t)e))
+      return false;
+    struct geom_segment s = sheet_ends(sheet, sheet->edge.item[e].point);
+    (void)state_along(states, s.p, s.q, false, true);
+  }
+  return true;
+}
+
+/* ---- Faces --------------------------------------------------------------- */
+
+/* The state of a triangle: that on which all tiles of its bounding box agree,
+ * or MAP_MIXED. */
+static enum map_state state_of_face(const struct tile_states *states,
+                                    size_t t) {
+  struct footprint print = states->tiles->footprint[t];
+  return state_in_range(
+      states->tiles,
+      footprint_cells(&states->tiles->grid, states->sheet, t, print), print.low,
+      print.high, false);
+}
+
+/* Marks the tiles of a triangle's bounding box as wanted, but for those in
+ * which it is visible: nothing there occludes it or is in contact with it. */
+static void want_face_tiles(struct tile_states *states, uint32_t t) {
+  const struct triangle_grid *grid = &states->tiles->grid;
+  struct footprint print = states->tiles->footprint[t];
+  struct cell_range r = footprint_cells(grid, states->sheet, t, print);
+  for (int y = r.y0; y <= r.y1; y++)
+    for (int x = r.x0; x <= r.x1; x++) {
+      size_t i = triangle_grid_index(grid, x, y);
+      if (state_in_tile(&states->tiles->tile[i], print.low, print.high,
+                        false) != MAP_VISIBLE)
+        states->wanted[i] = 1;
+    }
+}
+
+static bool classify_face_range(void *user, struct parallel_range range) {
+  struct tile_states *states = user;
+  for (size_t t = range.begin; t < range.end; t++) {
+    if (!poll_at(t))
+      return false;
+    enum map_state state = MAP_MIXED;
+    if (sheet_is_edge_on(states->sheet, t))
+      state = MAP_HIDDEN;
+    else if (sheet_is_filled(states->sheet, t))
+      state = state_of_face(states, t);
+    states->face_state[t] = (uint8_t)state;
+  }
+  return true;
+}
+
+bool tile_states_find_faces(struct tile_states *states) {
+  size_t n = states->sheet->triangle.count;
+  states->face_state = mem_alloc(n, 1);
+  if (states->face_state == NULL ||
+      !parallel_ranges(parallel_workers(n, PARALLEL_ITEMS), n, PARALLEL_ITEMS,
+                       classify_face_range, states))
+    return false;
+  for (size_t t = 0; t < n; t++) {
+    if (states->face_state[t] != MAP_MIXED ||
+        !sheet_is_filled(states->sheet, t))
+      continue;
+    if (!ARRAY_PUSH(&states->face, (uint32_t)t))
+      return false;
+    want_face_tiles(states, (uint32_t)t);
+  }
+  return true;
+}
