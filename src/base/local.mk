@@ -4,11 +4,13 @@ librecto_core_la_SOURCES += \
   %D%/clock.c %D%/clock.h \
   %D%/decimal.c %D%/decimal.h \
   %D%/digits.h \
+  %D%/file_attributes.c %D%/file_attributes.h \
   %D%/gunzip.c %D%/gunzip.h \
   %D%/gzip.c %D%/gzip.h \
   %D%/hash.h \
   %D%/input.c %D%/input.h \
   %D%/line_blocks.c %D%/line_blocks.h \
+  %D%/links.c %D%/links.h \
   %D%/memory.c %D%/memory.h \
   %D%/number.c %D%/number.h \
   %D%/number_format.c \

@@ -12,92 +12,16 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
-#include <sys/xattr.h>
 #include <unistd.h>
 
+#include "base/file_attributes.h"
+#include "base/links.h"
 #include "base/memory.h"
 
 enum {
   NAME_SIZE = 64, /* of a temporary file */
   DESCRIPTOR_NAME_SIZE = 32
 };
-
-/* ---- Paths --------------------------------------------------------------- */
-
-static bool is_same_stat(const struct stat *a, const struct stat *b) {
-  return a->st_dev == b->st_dev && a->st_ino == b->st_ino;
-}
-
-/* The length of the path's folder, the last slash included. */
-static size_t folder_length(const char *path) {
-  const char *slash = strrchr(path, '/');
-  return slash != NULL ? (size_t)(slash + 1 - path) : 0;
-}
-
-/* What the link at `path` says, as seen from here; NULL with *failed false
- * where there is no link. */
-static char *read_link(const char *path, bool *failed) {
-  struct stat attributes;
-  *failed = false;
-  if (lstat(path, &attributes) != 0 || !S_ISLNK(attributes.st_mode))
-    return NULL;
-  size_t folder = folder_length(path);
-  char *to = mem_alloc(folder + PATH_MAX, 1);
-  ssize_t length = to != NULL ? readlink(path, to + folder, PATH_MAX - 1) : -1;
-  *failed = length <= 0;
-  if (*failed) {
-    mem_free(to);
-    return NULL;
-  }
-  to[folder + (size_t)length] = '\0';
-  if (to[folder] == '/')
-    memmove(to, to + folder, (size_t)length + 1);
-  else
-    memcpy(to, path, folder);
-  return to;
-}
-
-/* Whether what the system finds at `link` is not at the path that the link
- * says: /proc has such links to what is open, which may have no path. */
-static bool leads_elsewhere(const char *link, const char *says) {
-  struct stat there, said;
-  return stat(link, &there) == 0 &&
-         (stat(says, &said) != 0 || !is_same_stat(&there, &said));
-}
-
-/* The path with its symbolic links followed, so that a link is kept and the
- * file behind it is replaced, or made where there is none.  A ring of links is
- * left for the system to complain of. */
-static char *follow_links(const char *path) {
-  enum { LINKS_MAX = 40 };
-  char *here = mem_copy_text(path);
-  bool failed = here == NULL;
-  for (int i = 0; i < LINKS_MAX && !failed && path_descriptor(here) < 0; i++) {
-    char *to = read_link(here, &failed);
-    if (to == NULL)
-      break;
-    if (leads_elsewhere(here, to)) {
-      mem_free(to);
-      break;
-    }
-    mem_free(here);
-    here = to;
-  }
-  if (failed) {
-    mem_free(here);
-    return NULL;
-  }
-  return here;
-}
-
-/* The folder that the file is to appear in, as a path. */
-static char *folder_of(const char *path) {
-  size_t length = folder_length(path);
-  char *folder = mem_copy_text(length > 0 ? path : ".");
-  if (folder != NULL && length > 0)
-    folder[length] = '\0';
-  return folder;
-}
 
 static recto_status io_error(const struct target *target, const char *what,
                              recto_error *error) {
@@ -136,7 +60,7 @@ static bool create_nameless(struct target *target, const char *folder) {
 static bool try_names(struct target *target,
                       bool (*make)(struct target *target, const char *name)) {
   enum { TRIES = 1000 };
-  size_t folder = folder_length(target->path);
+  size_t folder = links_folder_length(target->path);
   char *name = mem_alloc(folder + NAME_SIZE, 1);
   if (name == NULL) {
     errno = ENOMEM;
@@ -171,7 +95,7 @@ static bool make_link(struct target *target, const char *name) {
 }
 
 static recto_status create_file(struct target *target, recto_error *error) {
-  char *folder = folder_of(target->path);
+  char *folder = links_folder(target->path);
   if (folder == NULL)
     return error_memory(error);
   bool there = stat(folder, &target->folder) == 0;
@@ -191,52 +115,6 @@ static void remove_temporary(struct target *target) {
     unlink(target->temporary);
   mem_free(target->temporary);
   target->temporary = NULL;
-}
-
-/* ---- What belongs to a file ---------------------------------------------- */
-
-/* Attributes that only the system may set are not copied. */
-static bool is_user_attribute(const char *attribute) {
-  return strncmp(attribute, "user.", 5) == 0 ||
-         strcmp(attribute, "system.posix_acl_access") == 0;
-}
-
-static bool copy_attribute(const char *from, int to, const char *name) {
-  enum { MOST = 1 << 16 }; /* of the system */
-  char *value = mem_alloc(MOST, 1);
-  ssize_t size = value != NULL ? getxattr(from, name, value, MOST) : -1;
-  bool ok = size >= 0 && fsetxattr(to, name, value, (size_t)size, 0) == 0;
-  mem_free(value);
-  return ok || !is_user_attribute(name);
-}
-
-/* Access lists are such attributes.  They are read by the path: also of a file
- * that may not be opened, names and access list can be read. */
-static bool copy_attributes(const char *from, int to) {
-  ssize_t size = listxattr(from, NULL, 0);
-  if (size <= 0)
-    return size == 0 || errno == ENOTSUP;
-  char *names = mem_alloc((size_t)size, 1);
-  size = names != NULL ? listxattr(from, names, (size_t)size) : -1;
-  bool ok = size >= 0;
-  for (ssize_t at = 0; ok && at < size; at += (ssize_t)strlen(names + at) + 1)
-    ok = copy_attribute(from, to, names + at);
-  mem_free(names);
-  return ok;
-}
-
-/* Gives the new file what belongs to the old one; false where it cannot. */
-static bool inherit_attributes(struct target *target) {
-  struct stat made;
-  int to = target->descriptor;
-  const struct stat *old = &target->old;
-  if (fstat(to, &made) != 0)
-    return false;
-  bool is_owned = made.st_uid == old->st_uid && made.st_gid == old->st_gid;
-  if (!is_owned && fchown(to, old->st_uid, old->st_gid) != 0)
-    return false;
-  return copy_attributes(target->path, to) &&
-         fchmod(to, old->st_mode & 07777) == 0;
 }
 
 /* ---- Opening ------------------------------------------------------------- */
@@ -260,11 +138,12 @@ static recto_status open_descriptor(struct target *target, int descriptor,
 
 static recto_status replace(struct target *target, recto_error *error) {
   recto_error why;
-  bool is_too_long = folder_length(target->path) + NAME_SIZE > PATH_MAX;
+  bool is_too_long = links_folder_length(target->path) + NAME_SIZE > PATH_MAX;
   if (target->old.st_nlink > 1 || is_too_long)
     return open_in_place(target, error);
   recto_status status = create_file(target, &why);
-  if (status == RECTO_OK && inherit_attributes(target))
+  if (status == RECTO_OK &&
+      file_attributes_copy(target->path, &target->old, target->descriptor))
     return RECTO_OK;
   if (status == RECTO_OK) {
     close(target->descriptor);
@@ -289,7 +168,7 @@ static recto_status query_target(struct target *target, recto_error *error) {
 }
 
 static recto_status open_path(struct target *target, recto_error *error) {
-  target->path = follow_links(target->name);
+  target->path = links_follow(target->name);
   if (target->path == NULL)
     return error_memory(error);
   int descriptor = path_descriptor(target->path);
@@ -351,10 +230,10 @@ bool target_is_same(const struct target *a, const struct target *b) {
   struct stat one, two;
   bool there = find_old(a, &one), other_there = find_old(b, &two);
   if (there && other_there) /* much may well go to one terminal */
-    return is_same_stat(&one, &two) && !S_ISCHR(one.st_mode);
-  return !there && !other_there && is_same_stat(&a->folder, &b->folder) &&
-         strcmp(a->path + folder_length(a->path),
-                b->path + folder_length(b->path)) == 0;
+    return links_same_file(&one, &two) && !S_ISCHR(one.st_mode);
+  return !there && !other_there && links_same_file(&a->folder, &b->folder) &&
+         strcmp(a->path + links_folder_length(a->path),
+                b->path + links_folder_length(b->path)) == 0;
 }
 
 bool target_paths_are_same(const char *a, const char *b) {
@@ -507,7 +386,7 @@ bool target_commit(struct target *target, bool keep_old) {
 void target_roll_back(struct target *target) {
   struct stat there, own;
   if (!target->committed || lstat(target->path, &there) != 0 ||
-      fstat(target->descriptor, &own) != 0 || !is_same_stat(&there, &own))
+      fstat(target->descriptor, &own) != 0 || !links_same_file(&there, &own))
     return;
   if (target->exchanged)
     (void)exchange(target);

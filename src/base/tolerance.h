@@ -266,7 +266,7 @@
  * Derivation  a cut's points are rounded to 2^-37 of the scene's extent, and
  *             doubles place the crossing of a ray and a triangle within 2^-40
  *             of it: this is well above, and a tenth of a micrometre on A4.
- * Users       judge/judge.c, judge/winding.c
+ * Users       judge/judge_context.c, judge/winding.c
  * Ten times   lines within a micrometre of a cut are left open. */
 #define TOLERANCE_JUDGE_CUT_SHARE 1e-9
 

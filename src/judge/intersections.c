@@ -8,12 +8,11 @@
 #include "base/sort.h"
 #include "base/tolerance.h"
 #include "judge/camera.h"
-#include "judge/clipped_triangle.h"
+#include "judge/face_sides.h"
 #include "judge/grid.h"
+#include "judge/near_polygon.h"
 #include "judge/sampler.h"
 #include "judge/traversal.h"
-
-enum { FEW_CORNERS = 32 };
 
 struct intersection_finder {
   struct judge_edges *edges;
@@ -21,9 +20,7 @@ struct intersection_finder {
   const struct judge_camera *camera;
   double ray_offset_mm;
   uint32_t current; /* the triangle whose neighbours are looked up */
-  /* The sides of faces with more than FEW_CORNERS: their keys, in ascending
-   * order, and the corners where they start. */
-  ARRAY(struct sort_key) side;
+  struct face_sides sides;
 };
 
 /* ---- On the page --------------------------------------------------------- */
@@ -91,10 +88,6 @@ static struct triangle_cut cut_by_plane(const struct judge_triangle *t,
   return cut;
 }
 
-static bool is_same_point3(struct judge_point3 a, struct judge_point3 b) {
-  return a.x == b.x && a.y == b.y && a.z == b.z;
-}
-
 /* The corners that two triangles share; returns their number. */
 static unsigned find_shared_corners(const struct judge_triangle *s,
                                     const struct judge_triangle *t,
@@ -102,7 +95,7 @@ static unsigned find_shared_corners(const struct judge_triangle *s,
   unsigned shared = 0;
   for (int i = 0; i < 3; i++) {
     int k = 0;
-    while (k < 3 && !is_same_point3(s->p[i], t->p[k]))
+    while (k < 3 && !judge_point3_is_same(s->p[i], t->p[k]))
       k++;
     if (k < 3)
       corner[shared++] = s->p[i];
@@ -123,76 +116,6 @@ static void snap_to_corner(const struct judge_triangle *s,
   *(is_first ? a : b) = corner[0];
 }
 
-/* ---- Sides of faces ------------------------------------------------------ */
-
-static uint32_t corner_count(const struct scene *scene, uint32_t face) {
-  return scene->face_start.item[face + 1] - scene->face_start.item[face];
-}
-
-/* A hash of a face and the ends of a side, in either order. */
-static uint64_t side_key(uint32_t face, const struct judge_point3 end[2]) {
-  uint64_t key = face;
-  for (int k = 0; k < 2; k++) {
-    uint64_t of_end = hash_add_double(0, end[k].x + 0.0);
-    of_end = hash_add_double(of_end, end[k].y + 0.0);
-    key += hash_add_double(of_end, end[k].z + 0.0) * HASH_GOLDEN;
-  }
-  return key;
-}
-
-/* The ends of the side of a face that starts at its corner i. */
-static void side_ends(const struct scene *scene, uint32_t face, uint32_t i,
-                      struct judge_point3 end[2]) {
-  const uint32_t *corner = scene->corner.item + scene->face_start.item[face];
-  end[0] = judge_point3_at(scene, corner[i]);
-  end[1] = judge_point3_at(
-      scene, corner[i + 1 < corner_count(scene, face) ? i + 1 : 0]);
-}
-
-/* Returns false when memory ran out. */
-static bool hash_large_face_sides(struct intersection_finder *finder) {
-  const struct scene *scene = finder->all->scene;
-  struct judge_point3 end[2];
-  for (uint32_t f = 0; f < scene_face_count(scene); f++)
-    for (uint32_t i = 0, count = corner_count(scene, f);
-         count > FEW_CORNERS && i < count; i++) {
-      side_ends(scene, f, i, end);
-      struct sort_key key = {side_key(f, end), i};
-      if (!poll_at(i + 1) || !ARRAY_PUSH(&finder->side, key))
-        return false;
-    }
-  return sort_keys_alone(finder->side.item, finder->side.count);
-}
-
-static bool is_side_at(const struct scene *scene, uint32_t face, uint32_t i,
-                       const struct judge_point3 end[2]) {
-  struct judge_point3 at[2];
-  side_ends(scene, face, i, at);
-  return (is_same_point3(at[0], end[0]) && is_same_point3(at[1], end[1])) ||
-         (is_same_point3(at[0], end[1]) && is_same_point3(at[1], end[0]));
-}
-
-/* Whether a face has a side between two corners. */
-static bool has_side(const struct intersection_finder *finder, uint32_t face,
-                     const struct judge_point3 end[2]) {
-  const struct scene *scene = finder->all->scene;
-  const struct sort_key *side = finder->side.item;
-  uint32_t count = corner_count(scene, face);
-  if (count <= FEW_CORNERS) {
-    for (uint32_t i = 0; i < count; i++)
-      if (is_side_at(scene, face, i, end))
-        return true;
-    return false;
-  }
-  uint64_t key = side_key(face, end);
-  size_t k;
-  LOWER_BOUND(k, 0, finder->side.count, side[k].key < key);
-  for (; k < finder->side.count && side[k].key == key; k++)
-    if (side[k].value < count && is_side_at(scene, face, side[k].value, end))
-      return true;
-  return false;
-}
-
 /* ---- Sides in common ----------------------------------------------------- */
 
 /* The triangles of one surface at a side between two corners: those of one face
@@ -210,11 +133,12 @@ static bool add_to_surface(void *user, uint32_t i) {
   const struct judge_triangle *t = &surface->finder->all->triangle.item[i];
   unsigned shared = 0;
   for (int k = 0; k < 3; k++)
-    shared += is_same_point3(t->p[k], surface->corner[0]) ||
-              is_same_point3(t->p[k], surface->corner[1]);
-  if (shared < 2 || (surface->face == SCENE_NONE
-                         ? !has_side(surface->finder, t->face, surface->corner)
-                         : t->face != surface->face))
+    shared += judge_point3_is_same(t->p[k], surface->corner[0]) ||
+              judge_point3_is_same(t->p[k], surface->corner[1]);
+  if (shared < 2 ||
+      (surface->face == SCENE_NONE
+           ? !face_has_side(&surface->finder->sides, t->face, surface->corner)
+           : t->face != surface->face))
     return true;
   if (surface->count < 2)
     surface->triangle[surface->count] = i;
@@ -228,7 +152,7 @@ static struct side_surface surface_at(const struct intersection_finder *finder,
                                       const struct judge_triangle *t,
                                       const struct judge_point3 corner[2],
                                       uint32_t other) {
-  bool of_all = has_side(finder, t->face, corner);
+  bool of_all = face_has_side(&finder->sides, t->face, corner);
   struct side_surface surface = {.finder = finder,
                                  .corner = corner,
                                  .face = of_all ? SCENE_NONE : t->face};
@@ -255,7 +179,7 @@ static bool is_clipped(const struct judge_camera *camera,
                        const struct judge_triangle *t) {
   struct judge_clipped_triangle clipped = judge_clip_triangle(camera, t);
   for (unsigned i = 0; i < 3; i++)
-    if (clipped.count != 3 || !is_same_point3(clipped.p[i], t->p[i]))
+    if (clipped.count != 3 || !judge_point3_is_same(clipped.p[i], t->p[i]))
       return true;
   return false;
 }
@@ -340,7 +264,8 @@ static bool add_shared(struct intersection_finder *finder, uint32_t other,
   const struct judge_triangles *all = finder->all;
   const struct judge_triangle *s = &all->triangle.item[finder->current];
   const struct judge_triangle *t = &all->triangle.item[other];
-  if (has_side(finder, s->face, corner) && has_side(finder, t->face, corner))
+  if (face_has_side(&finder->sides, s->face, corner) &&
+      face_has_side(&finder->sides, t->face, corner))
     return true;
   struct side_surface one = surface_at(finder, s, corner, t->face),
                       two = surface_at(finder, t, corner, s->face);
@@ -437,47 +362,6 @@ static bool add_common(struct intersection_finder *finder,
 
 /* ---- Nearly in one plane ------------------------------------------------- */
 
-/* A triangle clipped to what is drawn, by a slab and by three sides has 13
- * corners at most. */
-enum { NEAR_CORNERS = 13 };
-struct near_polygon {
-  struct judge_point3 p[NEAR_CORNERS];
-  unsigned count;
-};
-
-/* Keeps what is at most `most` before a plane. */
-static void clip_near(struct near_polygon *polygon, struct judge_point3 normal,
-                      struct judge_point3 at, double most) {
-  struct near_polygon kept = {.count = 0};
-  for (unsigned i = 0; i < polygon->count; i++) {
-    struct judge_point3 a = polygon->p[i],
-                        b = polygon->p[(i + 1) % polygon->count];
-    double da = point3_dot(normal, point3_sub(a, at)) - most,
-           db = point3_dot(normal, point3_sub(b, at)) - most;
-    if (da <= 0 && kept.count < NEAR_CORNERS)
-      kept.p[kept.count++] = a;
-    if ((da <= 0) != (db <= 0) && kept.count < NEAR_CORNERS)
-      kept.p[kept.count++] = point3_along(a, da / (da - db), point3_sub(b, a));
-  }
-  *polygon = kept;
-}
-
-/* The part of s beside t and nearer to its plane than `by`.
- * drawn  of s: it may reach behind the eye */
-static struct near_polygon near_part(const struct judge_clipped_triangle *drawn,
-                                     const struct judge_triangle *t,
-                                     double by) {
-  struct near_polygon part = {.count = drawn->count};
-  memcpy(part.p, drawn->p, sizeof drawn->p);
-  struct judge_point3 n = t->normal, back = {-n.x, -n.y, -n.z};
-  clip_near(&part, n, t->p[0], by);
-  clip_near(&part, back, t->p[0], by);
-  for (int k = 0; k < 3; k++)
-    clip_near(&part, point3_cross(point3_sub(t->p[(k + 1) % 3], t->p[k]), n),
-              t->p[k], 0);
-  return part;
-}
-
 /* Adds where two nearly parallel triangles may intersect on the page grid,
  * wherever they do in the scene: as a segment, and how far from it.  The grid's
  * rounding of either is a tenth of the judge's. */
@@ -490,8 +374,8 @@ static bool add_near(struct intersection_finder *finder, uint32_t other) {
     rounding =
         fmax(rounding, judge_rounding_at(finder->camera, finder->ray_offset_mm,
                                          drawn.p[k]));
-  struct near_polygon part = near_part(&drawn, t, 0.2 * rounding);
-  struct judge_point2 at[NEAR_CORNERS] = {{0, 0}};
+  struct near_polygon part = near_polygon_of(&drawn, t, 0.2 * rounding);
+  struct judge_point2 at[NEAR_POLYGON_CORNERS] = {{0, 0}};
   unsigned a = 0, b = 0;
   double longest = 0, moved = 0;
   for (unsigned i = 0; i < part.count; i++) {
@@ -548,7 +432,7 @@ bool judge_edges_add_intersections(struct judge_edges *edges,
                                        .all = all,
                                        .camera = camera,
                                        .ray_offset_mm = ray_offset_mm};
-  bool ok = hash_large_face_sides(&finder);
+  bool ok = face_sides_init(&finder.sides, all->scene);
   for (uint32_t i = 0; ok && i < all->triangle.count; i++) {
     const struct judge_triangle *triangle = &all->triangle.item[i];
     struct judge_box box = judge_triangle_box(triangle);
@@ -556,6 +440,6 @@ bool judge_edges_add_intersections(struct judge_edges *edges,
     ok = poll_at(i) && judge_triangles_near(all, &box, triangle->face,
                                             intersect_with, &finder);
   }
-  ARRAY_FREE(&finder.side);
+  face_sides_fini(&finder.sides);
   return ok;
 }

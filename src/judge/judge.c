@@ -4,90 +4,13 @@
 #include <string.h>
 
 #include "base/poll.h"
-#include "base/tolerance.h"
 #include "judge/camera.h"
 #include "judge/cut_edges.h"
-#include "judge/edges.h"
-#include "judge/sampler.h"
-#include "judge/contact.h"
-#include "judge/grid.h"
+#include "judge/judge_context.h"
 #include "judge/missing_run.h"
-#include "judge/open_surfaces.h"
-
-struct judge_context {
-  const struct judge_drawing *drawing;
-  const struct judge_camera *camera;
-  struct judge_options options;
-  struct judge_triangles all;
-  struct judge_sampler sampler;
-  struct judge_edges edges;
-  struct judge_segment *image, *ink; /* of the edges; of the strokes */
-  ARRAY(uint32_t) shallow;           /* edges that near_mm says something of */
-  uint32_t inks, drops; /* segments of ink; of dropped strokes, after these */
-  double grid; /* upper bound of the rounding to the page grid, scene units */
-  struct judge_grid by_image, by_ink;
-  uint32_t long_edge;     /* the edge of the last sample, if that was on a line
-                         without ink that is long enough; SCENE_NONE */
-  double work, work_done; /* mm to be sampled, and sampled so far */
-  unsigned samples;       /* taken so far */
-  struct judge_verdict *verdict;
-};
+#include "judge/segment_sampler.h"
 
 /* ---- Samples ------------------------------------------------------------- */
-
-/* Distributes samples over segments laid end to end. */
-struct segment_sampler {
-  double step;     /* mm; each: approximate */
-  bool each;       /* every segment is sampled by itself */
-  double length;   /* of the current segment */
-  uint32_t count;  /* each: samples on the current segment */
-  uint32_t done;   /* each: of these, taken so far */
-  double behind;   /* not each: total length of the previous segments */
-  uint64_t passed; /* not each: samples taken so far */
-};
-
-static struct segment_sampler sampler_of(const struct judge_options *options,
-                                         double length) {
-  struct segment_sampler sampler = {.step = options->step_mm,
-                                    .each = options->samples == 0};
-  if (!sampler.each)
-    sampler.step = length / (double)options->samples;
-  return sampler;
-}
-
-static void start_piece(struct segment_sampler *sampler, double length) {
-  sampler->length = length;
-  sampler->done = 0;
-  if (sampler->each)
-    sampler->count = (uint32_t)fmin(ceil(length / sampler->step) + 1, 1e8);
-}
-
-/* The next sample of the segment, inside it: its ends belong to other segments,
- * too.  Where samples are spread over all segments, one lies in each step,
- * jittered by the golden ratio so that it does not alias with the segments.
- * t   0 to 1
- * mm  set to the length that the sample stands for
- * Returns false where the segment has no more samples. */
-static bool next_sample(struct segment_sampler *sampler, double *t,
-                        double *mm) {
-  if (sampler->each) {
-    *mm = sampler->length / sampler->count;
-    *t = (sampler->done + 0.5) / sampler->count;
-    return sampler->done++ < sampler->count;
-  }
-  const double golden = 0.6180339887498949;
-  double k = (double)sampler->passed, whole;
-  double at =
-      (k + modf((k + 0.5) * golden, &whole)) * sampler->step - sampler->behind;
-  if (!(at < sampler->length)) {
-    sampler->behind += sampler->length;
-    return false;
-  }
-  sampler->passed++;
-  *t = fmax(at, 0) / sampler->length;
-  *mm = sampler->step;
-  return true;
-}
 
 static void count_sample(struct judge_count *count, double mm) {
   count->samples++;
@@ -287,12 +210,13 @@ static void judge_all_ink(struct judge_context *context) {
   double all = 0;
   for (uint32_t i = 0; i < context->inks; i++)
     all += judge_segment_mm(&context->ink[i]);
-  struct segment_sampler sampler = sampler_of(&context->options, all);
+  struct segment_sampler sampler = segment_sampler_of(&context->options, all);
   context->work = 2 * all; /* the edges are estimated to take as long again */
   for (uint32_t i = 0; i < context->inks; i++) {
     double t, mm;
-    start_piece(&sampler, judge_segment_mm(&context->ink[i]));
-    while (next_sample(&sampler, &t, &mm) && report_progress(context, mm))
+    segment_sampler_start(&sampler, judge_segment_mm(&context->ink[i]));
+    while (segment_sampler_next(&sampler, &t, &mm) &&
+           report_progress(context, mm))
       judge_ink_sample(context, &context->ink[i], point_on(&context->ink[i], t),
                        mm);
   }
@@ -415,7 +339,7 @@ static void judge_all_edges(struct judge_context *context) {
   for (uint32_t i = 0; i < context->edges.edge.count && poll_at(i); i++)
     all +=
         visible_part(context, i, &part, &t0, &t1) ? judge_segment_mm(&part) : 0;
-  struct segment_sampler sampler = sampler_of(&context->options, all);
+  struct segment_sampler sampler = segment_sampler_of(&context->options, all);
   /* The strokes were the first half of the work. */
   context->work = 2 * all;
   context->work_done = all;
@@ -423,105 +347,14 @@ static void judge_all_edges(struct judge_context *context) {
     double t, mm;
     if (!visible_part(context, i, &part, &t0, &t1))
       continue;
-    start_piece(&sampler, judge_segment_mm(&part));
-    while (next_sample(&sampler, &t, &mm) && report_progress(context, mm))
+    segment_sampler_start(&sampler, judge_segment_mm(&part));
+    while (segment_sampler_next(&sampler, &t, &mm) &&
+           report_progress(context, mm))
       judge_edge_sample(context, i, point_on(&part, t), t0 + (t1 - t0) * t, mm);
   }
 }
 
-/* ---- Preparation --------------------------------------------------------- */
-
-static void collect_strokes(struct judge_context *context, enum judge_role role,
-                            uint32_t *count) {
-  const struct judge_drawing *drawing = context->drawing;
-  for (size_t i = 0; i < drawing->stroke.count; i++) {
-    const struct judge_stroke *stroke = &drawing->stroke.item[i];
-    (void)poll_at(i);
-    for (uint32_t k = 1; stroke->role == role && k < stroke->count; k++) {
-      const struct judge_point2 *at =
-          &drawing->point.item[stroke->point + k - 1];
-      context->ink[context->inks + context->drops] =
-          (struct judge_segment){at[0], at[1]};
-      ++*count;
-    }
-  }
-}
-
-static bool collect_ink(struct judge_context *context) {
-  context->ink = mem_alloc(context->drawing->point.count, sizeof *context->ink);
-  if (context->ink == NULL)
-    return false;
-  collect_strokes(context, JUDGE_INK, &context->inks);
-  collect_strokes(context, JUDGE_DROPPED, &context->drops);
-  return true;
-}
-
-static bool collect_images(struct judge_context *context) {
-  size_t count = context->edges.edge.count;
-  context->image = mem_alloc(count, sizeof *context->image);
-  if (context->image == NULL)
-    return false;
-  for (size_t i = 0; i < count && poll_at(i); i++) {
-    const struct judge_edge *edge = &context->edges.edge.item[i];
-    context->image[i] = (struct judge_segment){edge->at[0], edge->at[1]};
-    if (edge->source.near_mm > context->options.lateral_mm &&
-        !ARRAY_PUSH(&context->shallow, (uint32_t)i))
-      return false;
-  }
-  return true;
-}
-
-/* The largest rounding error at the corners of the scene's bounding box. */
-static double largest_rounding(const struct judge_context *context) {
-  double most = 0;
-  for (int corner = 0; context->all.nodes > 0 && corner < 8; corner++) {
-    const struct judge_box *box = &context->all.node[0].box;
-    struct judge_point3 at = {(corner & 1 ? box->high : box->low)[0],
-                              (corner & 2 ? box->high : box->low)[1],
-                              (corner & 4 ? box->high : box->low)[2]};
-    most = fmax(most, judge_rounding_at(context->camera,
-                                        context->sampler.ray_offset_mm, at));
-  }
-  return most;
-}
-
-/* What is removed of the triangles, with the limits of doubles. */
-static void set_removed(struct judge_context *context) {
-  struct judge_removed *removed = &context->all.removed;
-  *removed = context->options.removed;
-  removed->near = context->all.size * TOLERANCE_JUDGE_CUT_SHARE;
-  for (size_t t = 0; removed->planes > 0 && t < context->all.triangle.count;
-       t++)
-    removed->contact =
-        fmax(removed->contact, context->all.triangle.item[t].contact);
-}
-
-/* Builds triangles, edges and grids; false when memory ran out. */
-static bool build_context(struct judge_context *context,
-                          const struct scene *scene) {
-  const struct judge_camera *camera = context->camera;
-  double width = camera->width_mm, height = camera->height_mm;
-  const double cells = 400;
-  double cell = fmax(width, height) / cells;
-  if (!judge_triangles_init(&context->all, scene, context->options.given,
-                            context->options.contact) ||
-      !judge_contact_set(&context->all, &context->options))
-    return false;
-  set_removed(context);
-  context->sampler = (struct judge_sampler){&context->all, camera,
-                                            context->options.ray_offset_mm};
-  context->grid = largest_rounding(context);
-  return judge_edges_init(&context->edges, &context->all, camera,
-                          &context->options) &&
-         judge_mark_borders(&context->all, context->edges.border) &&
-         collect_images(context) && collect_ink(context) &&
-         judge_grid_init(&context->by_image, context->image,
-                         (uint32_t)context->edges.edge.count, width, height,
-                         cell, context->options.lateral_mm) &&
-         judge_grid_init(&context->by_ink, context->ink,
-                         context->inks + context->drops, width, height, cell,
-                         context->options.ink_distance_mm);
-}
+/* -------------------------------------------------------------------------- */
 
 bool judge_drawing(struct judge_verdict *verdict,
                    const struct judge_drawing *drawing,
@@ -533,19 +366,12 @@ bool judge_drawing(struct judge_verdict *verdict,
                                   .long_edge = SCENE_NONE,
                                   .verdict = verdict};
   memset(verdict, 0, sizeof *verdict);
-  bool ok = build_context(&context, scene) && !poll_is_cancelled();
+  bool ok = judge_context_build(&context, scene) && !poll_is_cancelled();
   if (ok) {
     judge_all_ink(&context);
     judge_all_edges(&context);
     ok = !poll_is_cancelled();
   }
-  judge_grid_fini(&context.by_image);
-  judge_grid_fini(&context.by_ink);
-  ARRAY_FREE(&context.shallow);
-  mem_free(context.image);
-  mem_free(context.ink);
-  judge_edges_fini(&context.edges);
-  ok = ok && poll_now();
-  judge_triangles_fini(&context.all);
-  return ok;
+  judge_context_fini(&context);
+  return ok && !poll_is_cancelled();
 }

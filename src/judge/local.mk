@@ -9,17 +9,21 @@ librecto_core_la_SOURCES += \
   %D%/edge_list.c %D%/edge_list.h \
   %D%/edge_classes.c %D%/edge_classes.h \
   %D%/edges.c %D%/edges.h \
+  %D%/face_sides.c %D%/face_sides.h \
   %D%/folds.c %D%/folds.h \
   %D%/grid.c %D%/grid.h \
   %D%/intersections.c %D%/intersections.h \
   %D%/judge.c %D%/judge.h \
+  %D%/judge_context.c %D%/judge_context.h \
   %D%/missing_run.c %D%/missing_run.h \
+  %D%/near_polygon.c %D%/near_polygon.h \
   %D%/open_surfaces.c %D%/open_surfaces.h \
   %D%/options.c %D%/options.h \
   %D%/point.h \
   %D%/ray.c %D%/ray.h \
   %D%/removed.h \
   %D%/sampler.c %D%/sampler.h \
+  %D%/segment_sampler.c %D%/segment_sampler.h \
   %D%/traversal.c %D%/traversal.h \
   %D%/triangles.c %D%/triangles.h \
   %D%/triangulation.c %D%/triangulation.h \

@@ -47,5 +47,9 @@ static inline double point3_length(struct judge_point3 a) {
 static inline struct judge_point3 point3_unit(struct judge_point3 a) {
   return point3_along(judge_point3_of(0, 0, 0), 1 / point3_length(a), a);
 }
+static inline bool judge_point3_is_same(struct judge_point3 a,
+                                        struct judge_point3 b) {
+  return a.x == b.x && a.y == b.y && a.z == b.z;
+}
 
 #endif
