@@ -296,6 +296,113 @@ static void gaps_of_visible_lines_are_known(void **state) {
   ink_fixture_end(&k);
 }
 
+/* ---- Hidden lines that continue visible ones ----------------------------- */
+
+/* Draws a line from x = 2 to 62 along y = 10 whose part of `from` to `to` 60ths
+ * is hidden, with another visible line from 62 on in that direction, by dashes
+ * of 4 mm and gaps of 1 mm. */
+static void draw_continued(struct ink_fixture *k, int from, int to,
+                           double angle_deg) {
+  static recto_dash dash;
+  double angle = angle_deg * acos(-1) / 180;
+  dash = dash_of("4:1", 0);
+  ink_fixture_start(k);
+  k->options.ink.dash = &dash;
+  k->options.ink.dash_count = 1;
+  k->options.ink.hidden = RECTO_HIDDEN_DASHED;
+  uint32_t q = ink_fixture_point(k, 62, 10);
+  uint32_t edge =
+      ink_fixture_edge(k, ink_fixture_point(k, 2, 10), q, SILHOUETTE);
+  ink_fixture_hide(k, edge);
+  if (from > 0)
+    ink_fixture_show(k, edge, 0, from, 60);
+  if (to < 60)
+    ink_fixture_show(k, edge, to, 60, 60);
+  if (angle_deg < 360)
+    ink_fixture_edge(
+        k, q, ink_fixture_point(k, 62 + 20 * cos(angle), 10 + 20 * sin(angle)),
+        CREASE);
+  ink_fixture_draw(k);
+}
+
+/* The hidden strokes lie from x to x, with gaps of 1 mm between them. */
+static void assert_hidden_from(const struct ink_fixture *k, double from,
+                               double to) {
+  double low = 100, high = 0, length = 0, hidden = 0;
+  for (size_t i = 0; i < k->drawing.stroke.count; i++) {
+    if (!k->drawing.stroke.item[i].hidden)
+      continue;
+    low = fmin(low, start_of(k, i));
+    high = fmax(high, start_of(k, i) + ink_fixture_stroke_length(k, i));
+    length += ink_fixture_stroke_length(k, i);
+    hidden++;
+  }
+  assert_near(low, from);
+  assert_near(high, to);
+  assert_near(length + hidden - 1, to - from);
+}
+
+static void hidden_line_begins_with_a_gap_after_a_visible_one(void **state) {
+  struct ink_fixture k;
+  (void)state;
+  draw_continued(&k, 0, 60, 360); /* there is no other line */
+  assert_hidden_from(&k, 2, 62);
+  ink_fixture_end(&k);
+  draw_continued(&k, 20, 60, 360); /* the line goes behind something */
+  assert_hidden_from(&k, 23, 62);
+  ink_fixture_end(&k);
+  draw_continued(&k, 20, 40, 360); /* and comes out again */
+  assert_hidden_from(&k, 23, 41);
+  ink_fixture_end(&k);
+  draw_continued(&k, 0, 60, 25); /* another line continues it */
+  assert_hidden_from(&k, 2, 61);
+  ink_fixture_end(&k);
+  draw_continued(&k, 0, 60, 35); /* or makes a corner with it */
+  assert_hidden_from(&k, 2, 62);
+  ink_fixture_end(&k);
+}
+
+static void gap_before_a_short_hidden_line_is_as_long_as_it(void **state) {
+  struct ink_fixture k;
+  (void)state;
+  for (int sixtieths = 1; sixtieths <= 3; sixtieths++) {
+    double third = sixtieths / 3.0;
+    draw_continued(&k, 20, 20 + sixtieths, 360);
+    assert_hidden_from(&k, 22 + third, 22 + 2 * third);
+    ink_fixture_end(&k);
+  }
+}
+
+static void gaps_come_at_ends_and_not_at_corners(void **state) {
+  const recto_dash dash = dash_of("4:1", 0);
+  struct ink_fixture k;
+  (void)state;
+  ink_fixture_start(&k);
+  k.options.ink.dash = &dash;
+  k.options.ink.dash_count = 1;
+  k.options.ink.hidden = RECTO_HIDDEN_DASHED;
+  uint32_t p = ink_fixture_point(&k, 10, 10), q = ink_fixture_point(&k, 30, 10);
+  ink_fixture_edge(&k, ink_fixture_point(&k, 2, 10), p, CREASE);
+  uint32_t first = ink_fixture_edge(&k, p, q, CREASE);
+  ink_fixture_hide(&k, first);
+  uint32_t r = ink_fixture_point(&k, 30, 40);
+  ink_fixture_hide(&k, ink_fixture_edge(&k, q, r, CREASE));
+  ink_fixture_edge(&k, r, ink_fixture_point(&k, 30, 60), CREASE);
+  ink_fixture_draw(&k);
+  double length = 0;
+  for (size_t i = 0; i < k.drawing.stroke.count; i++)
+    length +=
+        k.drawing.stroke.item[i].hidden ? ink_fixture_stroke_length(&k, i) : 0;
+  assert_near(ink_fixture_distance(&k, 10.5, 10), 0.5);
+  assert_near(ink_fixture_distance(&k, 11, 10), 0);
+  assert_near(ink_fixture_distance(&k, 30, 10), 0);
+  assert_near(ink_fixture_distance(&k, 30, 39), 0);
+  assert_near(ink_fixture_distance(&k, 30, 39.5), 0.5);
+  /* 4 dashes on 19 mm, 6 on 29 mm. */
+  assert_near(length, 19 - 3 + 29 - 5);
+  ink_fixture_end(&k);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(line_types_have_the_lengths_of_the_standard),
@@ -310,6 +417,9 @@ int main(void) {
       cmocka_unit_test(last_pattern_for_a_line_counts),
       cmocka_unit_test(lines_of_another_class_do_not_continue_dashes),
       cmocka_unit_test(gaps_of_visible_lines_are_known),
+      cmocka_unit_test(hidden_line_begins_with_a_gap_after_a_visible_one),
+      cmocka_unit_test(gap_before_a_short_hidden_line_is_as_long_as_it),
+      cmocka_unit_test(gaps_come_at_ends_and_not_at_corners),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -77,6 +77,7 @@ static recto_status make_paths(const struct ink *ink, struct ink_paths *paths,
     status = error_memory(error);
   if (status != RECTO_OK)
     return status;
+  paths_find_continued(paths, graph);
   paths_straighten(paths, step);
   if (ink->options->ink.simplify_mm > 0)
     status = paths_simplify(
@@ -122,6 +123,7 @@ static struct drawing_point point_mm(const struct ink *ink,
 static bool copy_points(const struct ink *ink, const struct ink_paths *paths,
                         const struct ink_path *path, struct stroke_line *line) {
   line->closed = path->closed;
+  memcpy(line->is_continued, path->is_continued, sizeof line->is_continued);
   line->point.count = 0;
   if (!ARRAY_RESERVE(&line->point, path->count))
     return false;

@@ -25,6 +25,7 @@ librecto_core_la_SOURCES += \
   %D%/hatch/inset.c %D%/hatch/inset.h \
   %D%/hatch/tone_hatch.c %D%/hatch/tone_hatch.h \
   %D%/lines/chain.c \
+  %D%/lines/continued_ends.c \
   %D%/lines/covered.c \
   %D%/lines/crease_lines.c %D%/lines/crease_lines.h \
   %D%/lines/dash.c \

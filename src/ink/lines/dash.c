@@ -2,7 +2,8 @@
  * pens.
  *
  * Dashing starts anew at each corner of a line, so that every edge of a box
- * begins and ends with ink.  The pattern is repeated as often as brings the
+ * begins and ends with ink, but where it continues a visible line: there a gap
+ * shows where that one ends.  The pattern is repeated as often as brings the
  * longest dashes nearest to their length; the difference is spread over all of
  * these.  Gaps, and dashes that are shorter, such as dots, keep their lengths.
  * Source  [ISO128], part 21 */
@@ -128,11 +129,11 @@ static bool fit_pattern(struct fitted_pattern *fitted,
 
 /* ---- Dashes -------------------------------------------------------------- */
 
-/* Dashes a line without corners. */
-static bool add_dashes(struct drawing *drawing,
-                       const struct drawing_stroke *like,
-                       const struct stroke_line *line,
-                       const struct dash_pattern *pattern) {
+/* Dashes a line without corners that begins and ends with a dash. */
+static bool add_dashes_and_gaps(struct drawing *drawing,
+                                const struct drawing_stroke *like,
+                                const struct stroke_line *line,
+                                const struct dash_pattern *pattern) {
   struct fitted_pattern fitted;
   if (!fit_pattern(&fitted, pattern, stroke_line_length(line), line->closed))
     return stroke_add(drawing, like, line->point.item, line->point.count,
@@ -166,18 +167,43 @@ static bool add_dashes(struct drawing *drawing,
   return ok;
 }
 
+/* Dashes a line without corners.  Where a gap comes before the first dash or
+ * after the last, it is as long as the dash that is left at most. */
+static bool add_dashes(struct drawing *drawing,
+                       const struct drawing_stroke *like,
+                       const struct stroke_line *line,
+                       const struct dash_pattern *pattern) {
+  const bool *at = line->is_continued;
+  if (line->closed || !(at[0] || at[1]))
+    return add_dashes_and_gaps(drawing, like, line, pattern);
+  struct cursor cursor = {.line = line};
+  struct stroke_line inner = {0};
+  double length = stroke_line_length(line);
+  double gap =
+      fmin(pattern->mm[pattern->count - 1], length / (1 + at[0] + at[1]));
+  bool ok = cut_piece(&cursor, at[0] ? gap : 0, at[1] ? length - gap : length,
+                      &inner);
+  if (ok && !at[1]) /* the very end, unrounded */
+    inner.point.item[inner.point.count - 1] =
+        line->point.item[line->point.count - 1];
+  ok = ok && add_dashes_and_gaps(drawing, like, &inner, pattern);
+  ARRAY_FREE(&inner.point);
+  return ok;
+}
+
 /* ---- Corners ------------------------------------------------------------- */
 
-/* A line has a corner where it turns by more than 30 degrees (the cosine of
- * which this is): a box has corners, a circle of 16 sides has none. */
-#define CORNER_COSINE 0.8660254037844386
+bool stroke_turns_sharply(struct drawing_point p, struct drawing_point q,
+                          struct drawing_point r) {
+  const double cosine = 0.8660254037844386; /* of 30 degrees */
+  double dot = (q.x - p.x) * (r.x - q.x) + (q.y - p.y) * (r.y - q.y);
+  return dot < cosine * drawing_distance(p, q) * drawing_distance(q, r);
+}
 
 static bool is_line_corner(const struct stroke_line *line, size_t i) {
   size_t count = line->point.count;
-  struct drawing_point p = line->point.item[i > 0 ? i - 1 : count - 1];
-  struct drawing_point q = line->point.item[i], r = corner(line, i + 1);
-  double dot = (q.x - p.x) * (r.x - q.x) + (q.y - p.y) * (r.y - q.y);
-  return dot < CORNER_COSINE * drawing_distance(p, q) * drawing_distance(q, r);
+  return stroke_turns_sharply(line->point.item[i > 0 ? i - 1 : count - 1],
+                              line->point.item[i], corner(line, i + 1));
 }
 
 /* The next corner after point i, with indices that continue past the end of a
@@ -207,6 +233,8 @@ bool stroke_add_dashed(struct drawing *drawing,
   for (size_t i = first, next; ok && i < end; i = next) {
     next = find_next_corner(line, i, end);
     piece.point.count = 0;
+    piece.is_continued[0] = line->is_continued[0] && i == first;
+    piece.is_continued[1] = line->is_continued[1] && next == end;
     for (size_t k = i; ok && k <= next; k++)
       ok = ARRAY_PUSH(&piece.point, line->point.item[k % count]);
     ok = ok && add_dashes(drawing, like, &piece, pattern);

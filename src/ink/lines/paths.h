@@ -16,6 +16,7 @@ struct ink_path {
   bool hidden, closed;
   bool is_free, is_weak; /* see paths_find_free_ends, paths_find_weak */
   bool is_covered;       /* see paths_find_covered */
+  bool is_continued[2];  /* at its ends, see paths_find_continued */
 };
 
 struct ink_paths {
@@ -78,6 +79,13 @@ USE_RESULT bool paths_find_weak(struct ink_paths *paths,
                                 const struct segment_graph *graph,
                                 const struct sheet *sheet,
                                 const struct crease_angles *angles);
+
+/* Sets is_continued of the ends of hidden open paths at which a visible line
+ * goes on in about their direction (stroke_turns_sharply): it passes behind
+ * something there.
+ * Cost  linear in the hidden paths and the ends at their nodes */
+void paths_find_continued(struct ink_paths *paths,
+                          const struct segment_graph *graph);
 
 /* Removes points within TOLERANCE_COLLINEAR_UNITS of the straight line that
  * remains without them, if they are in order along it.  For approximate points

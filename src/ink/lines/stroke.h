@@ -9,7 +9,13 @@
 struct stroke_line {
   ARRAY(struct drawing_point) point;
   bool closed;
+  bool is_continued[2]; /* an open one at its ends: by a line without gaps */
 };
+
+/* Whether a line turns by more than 30 degrees at its middle point: a box has
+ * such corners, a circle of 16 sides has none. */
+bool stroke_turns_sharply(struct drawing_point p, struct drawing_point q,
+                          struct drawing_point r);
 
 /* Length in mm, including the closing side. */
 static inline double stroke_line_length(const struct stroke_line *line) {
@@ -24,7 +30,8 @@ USE_RESULT bool stroke_add(struct drawing *drawing,
 
 /* Appends the line as dashes.  They begin and end at the ends of the line and
  * at every corner, with the first dash of the pattern; around a loop without
- * corners they are spread evenly.
+ * corners they are spread evenly.  At an end where the line is continued a gap
+ * comes first, the last of the pattern.
  * pattern  of at least a dash and a gap: gaps and short dashes are exact, the
  *          longest ones are fitted to the length; where a gap is wider than all
  *          dashes, all lengths are
