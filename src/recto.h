@@ -282,7 +282,7 @@ typedef struct recto_weight {
 /* A pattern of dashes, and the lines that it is for.  Dashes begin and end at
  * the ends of lines and at corners, but where a hidden line continues a visible
  * one a gap comes first; gaps and short dashes are exact, and the longest ones
- * are fitted to the line; where a gap is wider than all dashes, all lengths are.
+ * are fitted to the line; where a gap is wider than all dashes, all are.
  * A line that is too short for two dashes is drawn whole. */
 typedef struct recto_dash {
   recto_lines lines;             /* RECTO_LINES_HIDDEN, RECTO_LINES_OF_CLASS */
