@@ -509,8 +509,9 @@ typedef struct recto_output_options {
    * the model's file, where there is one alone, and a sentence about the view;
    * "": none. */
   const char *title, *description;
-  const char *id_prefix; /* SVG: what all ids begin with: a letter or _, then
-                            also digits, - and .; NULL: nothing */
+  const char *id_prefix; /* SVG: what all ids begin with, and a second name of
+                            every class: a letter or _, then letters, digits, -,
+                            _ and points; NULL: nothing, and no second name */
   recto_background background;
   uint32_t background_colour; /* 0xRRGGBB, of RECTO_BACKGROUND_COLOUR; not in
                                  HPGL */

@@ -95,6 +95,7 @@ dist_check_SCRIPTS += \
   %D%/test_cli_messages.sh \
   %D%/test_cli_outputs.sh \
   %D%/test_cli_progress.sh \
+  %D%/test_cli_repeated.sh \
   %D%/test_cli_signals.sh \
   %D%/test_completion.sh \
   %D%/test_header.sh \

@@ -46,9 +46,19 @@ struct arguments {
   int view_hidden_count;
 
   /* Which options were given, for rules that depend on several. */
-  bool view_given, direction_given, eye_given, fov_given;
+  bool view_given, azimuth_given, elevation_given, eye_given, fov_given;
   bool ortho, landscape, portrait;
-  bool seen[MAX_OPTIONS]; /* by the option's index in the table */
+  /* By the option's index in the table. */
+  bool seen[MAX_OPTIONS];
+  bool is_replaced[MAX_OPTIONS];     /* by a value that was given later */
+  const char *text[MAX_OPTIONS];     /* the last value; NULL: none */
+  const char *replaced[MAX_OPTIONS]; /* the one before, if another */
+
+  /* The items of all lists. */
+  struct list_item {
+    const char *option, *name, *value; /* one name for both spellings */
+  } * item;
+  size_t item_count;
 
   /* What the options' arrays refer to. */
   recto_sheet_view sheet_view[SHEET_VIEWS_MAX];

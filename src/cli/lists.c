@@ -132,18 +132,42 @@ recto_status lists_set_weight(struct arguments *a, const char *name,
 
 /* ---- Lists --------------------------------------------------------------- */
 
-/* The value that an earlier item of the list gives to the name, where it is a
- * different one; else NULL.
- * first  the list's first name; NUL ends each name and each value */
-static const char *find_other_value(const char *first, const char *name,
-                                    const char *value) {
-  while (first < name) {
-    const char *its = first + strlen(first) + 1;
-    if (strcmp(first, name) == 0 && strcmp(its, value) != 0)
-      return its;
-    first = its + strlen(its) + 1;
+/* The value of the name in the lists of that option, if it is a different one;
+ * else NULL. */
+static const char *find_other_value(const struct arguments *a,
+                                    const struct list_item *item) {
+  for (size_t i = 0; i < a->item_count; i++) {
+    const struct list_item *other = &a->item[i];
+    if (strcmp(other->option, item->option) == 0 &&
+        strcmp(other->name, item->name) == 0 &&
+        strcmp(other->value, item->value) != 0)
+      return other->value;
   }
   return NULL;
+}
+
+static bool keep_item(struct arguments *a, const struct list_item *item) {
+  struct list_item *grown =
+      realloc(a->item, (a->item_count + 1) * sizeof *grown);
+  if (grown == NULL)
+    return false;
+  grown[a->item_count++] = *item;
+  a->item = grown;
+  return true;
+}
+
+/* Forgets the items of the lists of that option. */
+static void forget_items(struct arguments *a, const char *option) {
+  size_t kept = 0;
+  for (size_t i = 0; i < a->item_count; i++)
+    if (strcmp(a->item[i].option, option) != 0)
+      a->item[kept++] = a->item[i];
+  a->item_count = kept;
+}
+
+/* The option's name, one for both spellings of a word. */
+static const char *list_name(const struct option_entry *entry) {
+  return strcmp(entry->name, "pen-color") == 0 ? "pen-colour" : entry->name;
 }
 
 static bool refuse_item(const struct option_entry *entry, const char *item,
@@ -157,6 +181,7 @@ bool lists_parse(struct arguments *arguments, const struct option_entry *entry,
                  char *list, char message[MESSAGE_SIZE]) {
   if (entry->words != NULL && strcmp(list, entry->words) == 0) {
     arguments->options.ink.weight_count = 0;
+    forget_items(arguments, list_name(entry));
     return true;
   }
   for (char *name = list, *end; name != NULL; name = end) {
@@ -167,7 +192,8 @@ bool lists_parse(struct arguments *arguments, const struct option_entry *entry,
     if (value == NULL || value == name || value[1] == '\0')
       return refuse_item(entry, name, message);
     *value++ = '\0';
-    const char *other = find_other_value(list, name, value);
+    const struct list_item item = {list_name(entry), name, value};
+    const char *other = find_other_value(arguments, &item);
     if (other != NULL) {
       snprintf(message, MESSAGE_SIZE,
                "--%s: two values for one name: \"%.60s=%.20s\" and "
@@ -175,7 +201,9 @@ bool lists_parse(struct arguments *arguments, const struct option_entry *entry,
                entry->name, name, other, name, value);
       return false;
     }
-    recto_status status = entry->parse_item(arguments, name, value);
+    recto_status status = keep_item(arguments, &item)
+                              ? entry->parse_item(arguments, name, value)
+                              : RECTO_ERROR_MEMORY;
     if (status == RECTO_ERROR_MEMORY) {
       snprintf(message, MESSAGE_SIZE, "out of memory");
       return false;

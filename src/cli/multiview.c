@@ -160,7 +160,8 @@ bool multiview_settle(struct arguments *a, char message[MESSAGE_SIZE]) {
       wrong = "--view-names is for --sheet and --views";
   } else if (is_one && (a->eye_given || a->view_count > 1)) {
     wrong = "--detail takes one --view, without --camera";
-  } else if (!is_one && (a->view_given || a->direction_given || a->eye_given)) {
+  } else if (!is_one && (a->view_given || a->azimuth_given ||
+                         a->elevation_given || a->eye_given)) {
     wrong = "--sheet and --views say what is seen from where: leave out "
             "--view, --azimuth, --elevation and --camera";
   } else if (a->turntable > 0) {

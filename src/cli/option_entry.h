@@ -86,6 +86,8 @@ struct option_entry {
   /* The conditions under which the option has an effect: all of them. */
   enum option_use use[OPTION_USES];
   bool of_parts; /* a join takes it from the parts */
+  bool adds;     /* given again, it adds a value; else it replaces the first */
+  bool is_file;  /* given again, another value is an error */
 };
 
 #endif

@@ -205,12 +205,26 @@ static const char *name_instead(const struct arguments *a, uint64_t bits) {
                                  : "a run without --check";
 }
 
+/* Warns of a value that a later one of the same option replaces. */
+static void warn_of_replaced(const struct arguments *arguments, int i,
+                             option_scope_warn_fn warn) {
+  const char *name = option_table[i].name;
+  const char *value[] = {arguments->replaced[i], arguments->text[i]};
+  char text[MESSAGE_SIZE];
+  snprintf(text, sizeof text, "--%s%s%.60s is not used: --%s%s%.60s is later",
+           name, value[0] != NULL ? "=" : "", value[0] != NULL ? value[0] : "",
+           name, value[1] != NULL ? "=" : "", value[1] != NULL ? value[1] : "");
+  warn("", 0, text);
+}
+
 void option_scope_warn(const struct arguments *arguments,
                        option_scope_warn_fn warn) {
   uint64_t requests = find_requests(arguments);
   for (int i = 0; !option_is_end(&option_table[i]); i++) {
     const struct option_entry *entry = &option_table[i];
     char text[MESSAGE_SIZE];
+    if (arguments->is_replaced[i])
+      warn_of_replaced(arguments, i, warn);
     if (arguments->seen[i] && arguments->joins && entry->of_parts) {
       snprintf(text, sizeof text, "--%s is for parts; --join does not use it",
                entry->name);

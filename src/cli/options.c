@@ -50,8 +50,10 @@ static bool parse_view(struct arguments *arguments, const char *text) {
       if (arguments->view_count == VIEWS_MAX)
         return false;
       arguments->view[arguments->view_count++] = view;
-      arguments->options.camera.azimuth_deg = view.azimuth_deg;
-      arguments->options.camera.elevation_deg = view.elevation_deg;
+      if (!arguments->azimuth_given)
+        arguments->options.camera.azimuth_deg = view.azimuth_deg;
+      if (!arguments->elevation_given)
+        arguments->options.camera.elevation_deg = view.elevation_deg;
       return true;
     }
   return false;
@@ -238,7 +240,7 @@ static bool parse_part(struct arguments *arguments, const char *text) {
 
 const struct option_entry option_table[] = {
     {OPTION_TEXT, "output", 'o', "FILE", "a file", "- for standard output",
-     .offset = AT(output)},
+     .offset = AT(output), .is_file = true},
     {OPTION_TEXT, "format", 0, "NAME", "a format",
      "output format; else by extension, svg for -", .offset = AT(format),
      .word = recto_output_format_name},
@@ -286,7 +288,7 @@ const struct option_entry option_table[] = {
     {OPTION_PARSED, "view", 0, "NAME",
      "iso, front, back, left, right, top, bottom, dimetric or trimetric",
      "iso (default) front back left right top bottom", .given = AT(view_given),
-     .parse = parse_view, .word = name_view, .of_parts = true},
+     .parse = parse_view, .word = name_view, .of_parts = true, .adds = true},
     {OPTION_PARSED, "sheet", 0, "HOW", "first or third",
      "front, top, side on one page: first or third angle",
      .parse = multiview_parse, .words = "first third"},
@@ -306,7 +308,7 @@ const struct option_entry option_table[] = {
      "three lengths of the page, the third a radius of at least 0.01 mm, and a "
      "scale above 0",
      "circle of the page drawn again beside it, larger",
-     .parse = multiview_parse_detail},
+     .parse = multiview_parse_detail, .adds = true},
     {OPTION_INT, "turntable", 0, "N", "a number from 1 to 100000",
      "N drawings all around, to files such as a%03d.svg",
      .offset = AT(turntable), .least = 1, .most = 100000,
@@ -316,11 +318,11 @@ const struct option_entry option_table[] = {
      .use = {USED_BY_TURNTABLE}},
     {OPTION_NUMBER, "azimuth", 0, "DEG", "an angle in degrees",
      "turn the eye to the right, from the front",
-     .offset = AT(options.camera.azimuth_deg), .given = AT(direction_given),
+     .offset = AT(options.camera.azimuth_deg), .given = AT(azimuth_given),
      .least = -DBL_MAX, .most = DBL_MAX, .of_parts = true},
     {OPTION_NUMBER, "elevation", 0, "DEG", "an angle from -90 to 90",
      "raise the eye", .offset = AT(options.camera.elevation_deg),
-     .given = AT(direction_given), .least = -90, .most = 90, .of_parts = true},
+     .given = AT(elevation_given), .least = -90, .most = 90, .of_parts = true},
     {OPTION_VECTOR, "camera", 'c', "X,Y,Z", "three numbers such as 1,2,3",
      "the eye's place, in model units", .offset = AT(options.camera.eye),
      .given = AT(eye_given), .of_parts = true},
@@ -360,7 +362,7 @@ const struct option_entry option_table[] = {
     {OPTION_PARSED, "cut", 0, "PLANE",
      "x=2, y<3 or NX,NY,NZ,D with a normal other than 0, at most three times",
      "cut off what is beyond all planes: x=2 y<3 A,B,C,D", .parse = parse_cut,
-     .of_parts = true},
+     .of_parts = true, .adds = true},
     {OPTION_WORD, "cut-fill", 0, "HOW", "hatch, solid or none",
      "cut faces: hatch (default) solid none",
      .offset = AT(options.mesh.cut_fill), .words = "hatch solid none",
@@ -547,12 +549,13 @@ const struct option_entry option_table[] = {
     HEADING("Reports"),
     {OPTION_TEXT, "stats", 0, "[=FILE]", "a file",
      "counts, times and choices as JSON", .offset = AT(stats_file),
-     .given = AT(stats)},
+     .given = AT(stats), .is_file = true},
     {OPTION_PARSED, "verify", 0, "[=N]", "a number from 1 to 10000000",
      "test N points, 4000, by a ray caster; fail if wrong",
      .parse = parse_verify},
     {OPTION_TEXT, "check", 0, "FILE", "a file",
-     "judge this SVG drawing of the model", .offset = AT(check_file)},
+     "judge this SVG drawing of the model", .offset = AT(check_file),
+     .is_file = true},
     {OPTION_PARSED, "tolerance", 0, "LENGTH",
      "a length or a share such as 0.5%",
      "--check: so much false, or missing, is right (0)",

@@ -119,6 +119,32 @@ static void explain_absent(const struct option_entry *entry,
            entry->name);
 }
 
+static bool is_same_text(const char *a, const char *b) {
+  return a == NULL || b == NULL ? a == b : strcmp(a, b) == 0;
+}
+
+/* Notes that the option was given, and which value of it is replaced. */
+static bool note_value(struct arguments *arguments,
+                       const struct option_entry *entry, const char *text,
+                       char message[MESSAGE_SIZE]) {
+  size_t i = (size_t)(entry - option_table);
+  const char *before = arguments->text[i];
+  bool is_new = !arguments->seen[i] || is_same_text(before, text);
+  arguments->seen[i] = true;
+  arguments->text[i] = text;
+  if (is_new || entry->adds || entry->kind == OPTION_LIST)
+    return true;
+  if (entry->is_file && before != NULL && text != NULL) {
+    snprintf(message, MESSAGE_SIZE,
+             "--%s takes one file, not both \"%.60s\" and \"%.60s\"",
+             entry->name, before, text);
+    return false;
+  }
+  arguments->is_replaced[i] = true;
+  arguments->replaced[i] = before;
+  return true;
+}
+
 static bool parse_option(struct arguments *arguments,
                          const struct option_entry *entry, char *text,
                          char message[MESSAGE_SIZE]) {
@@ -134,7 +160,8 @@ static bool parse_option(struct arguments *arguments,
              entry->name, entry->expected, text);
     return false;
   }
-  arguments->seen[entry - option_table] = true;
+  if (!note_value(arguments, entry, text, message))
+    return false;
   if (entry->given != 0)
     *((bool *)((char *)arguments + entry->given)) = true;
   return true;
@@ -163,7 +190,8 @@ static void explain_getopt_error(int code, char **argv,
 
 static bool settle_camera(struct arguments *a, char message[MESSAGE_SIZE]) {
   const char *wrong = NULL;
-  if (a->eye_given && (a->view_given || a->direction_given))
+  bool turned = a->azimuth_given || a->elevation_given;
+  if (a->eye_given && (a->view_given || turned))
     wrong = "--camera and --view, --azimuth or --elevation exclude each other";
   else if (a->eye_given && a->turntable > 0)
     wrong = "--camera and --turntable exclude each other";
@@ -174,7 +202,7 @@ static bool settle_camera(struct arguments *a, char message[MESSAGE_SIZE]) {
         "the page: leave out --scale and --no-fit, or --tight";
   else if (a->turntable > 0 && a->view_count > 1)
     wrong = "--turntable takes one --view to begin with";
-  else if (a->view_count > 1 && a->direction_given)
+  else if (a->view_count > 1 && turned)
     wrong = "--azimuth and --elevation take one --view to begin with";
   else if (a->ortho && a->fov_given)
     wrong = "--ortho and --fov exclude each other";
@@ -279,6 +307,8 @@ void arguments_fini(struct arguments *arguments) {
   arguments->pen_use = NULL;
   free(arguments->cut_hatch);
   arguments->cut_hatch = NULL;
+  free(arguments->item);
+  arguments->item = NULL;
 }
 
 bool arguments_parse(struct arguments *arguments, int argc, char **argv,
