@@ -84,6 +84,16 @@ claim "--quiet clips in silence" eval \
   'run 0 square.obj -q -o fits.svg ${large[@]} && silent'
 claim "--fit and --page help with --scale" eval \
   'run 0 square.obj -o a.svg ${large[@]} && warned ".*--fit .*--scale .*--page"'
+# A model in metres is a square of 3 mm on A4 at 1:100; a fiftieth is 4.2 mm.
+tiny=': the drawing is 3 mm wide and 3 mm high: --unit says how large '
+claim "a tiny drawing at a scale may have another unit" eval \
+  'run 0 square.obj --view front -o a.svg --scale 1:100 && says "$tiny" &&
+   run 0 square.obj --view front -o a.svg --scale 1:100 --unit m -p 2000x2000mm &&
+   ! grep -q "$tiny" err'
+claim "one that is a little larger is none" eval \
+  'run 0 square.obj --view front -o a.svg --scale 1:70 && silent'
+claim "one that fits a small page is none" eval \
+  'run 0 square.obj --view front -o a.svg --scale 1:100 -p 50x50mm && silent'
 claim "--landscape may help" eval \
   'run 0 wide.obj -o a.svg --view front --scale 1:1 --portrait && warned ".*--landscape" &&
    run 0 wide.obj -o a.svg --view front --scale 1:1 --landscape && silent'

@@ -352,8 +352,10 @@ static recto_status check_pens(const struct render *render,
 /* Warns of what is seldom intended, and reports what was drawn. */
 static void warn_and_report(const struct render *render) {
   bool is_outside = render->triangles == 0 && render->sheet.edge.count == 0;
-  if (!render->request->may_be_empty)
+  if (!render->request->may_be_empty) {
     warn_of_empty_page(render->options, render->drawing, is_outside);
+    warn_of_tiny_drawing(render->options, render->drawing);
+  }
   warn_of_near_plane(
       render->options, (unsigned long)render->sheet.cut_near,
       ldexp(render->camera.near_d, render->prepared->rescaled.exponent));

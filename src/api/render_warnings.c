@@ -63,6 +63,31 @@ void warn_of_empty_page(const recto_options *options,
     warn_of_nothing(options);
 }
 
+void warn_of_tiny_drawing(const recto_options *o,
+                          const struct drawing *drawing) {
+  double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+  if (o->warning == NULL || o->camera.fit != RECTO_FIT_SCALE ||
+      drawing->point.count == 0)
+    return;
+  for (size_t i = 0; i < drawing->point.count; i++) {
+    const double at[] = {drawing->point.item[i].x, drawing->point.item[i].y};
+    for (int k = 0; k < 2; k++) {
+      low[k] = fmin(low[k], at[k]);
+      high[k] = fmax(high[k], at[k]);
+    }
+  }
+  double width = high[0] - low[0], height = high[1] - low[1];
+  if (fmax(width, height) >= fmin(drawing->width_mm, drawing->height_mm) / 50)
+    return;
+  char text[160];
+  snprintf(
+      text, sizeof text,
+      "the drawing is %.3g mm wide and %.3g mm high: --unit says how large "
+      "a unit of the model is, and --fit fills the page",
+      width, height);
+  o->warning(o->user, "", 0, text);
+}
+
 void warn_of_near_plane(const recto_options *o, unsigned long cut,
                         double near) {
   if (cut == 0 || o->warning == NULL)

@@ -1,5 +1,5 @@
 /* render_warnings.h - warnings of what is seldom intended: a torn mesh, an open
- * cut, an empty drawing, faces that the near plane clips. */
+ * cut, an empty drawing or a tiny one, faces that the near plane clips. */
 #ifndef API_RENDER_WARNINGS_H
 #define API_RENDER_WARNINGS_H
 
@@ -24,6 +24,11 @@ void warn_of_nothing(const recto_options *options);
  * is_outside  nothing of the scene is inside the page's margins */
 void warn_of_empty_page(const recto_options *options,
                         const struct drawing *drawing, bool is_outside);
+
+/* Warns if a drawing at a true scale is smaller than a fiftieth of the page: the
+ * model's unit is then seldom the one that was taken for it. */
+void warn_of_tiny_drawing(const recto_options *options,
+                          const struct drawing *drawing);
 
 /* Warns of faces that the default near plane clips, which it does where depths
  * would otherwise become too coarse.
