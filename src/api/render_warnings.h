@@ -25,8 +25,8 @@ void warn_of_nothing(const recto_options *options);
 void warn_of_empty_page(const recto_options *options,
                         const struct drawing *drawing, bool is_outside);
 
-/* Warns if a drawing at a true scale is smaller than a fiftieth of the page: the
- * model's unit is then seldom the one that was taken for it. */
+/* Warns if a drawing at a true scale is smaller than a fiftieth of its page:
+ * then the model's unit is seldom the one that was assumed. */
 void warn_of_tiny_drawing(const recto_options *options,
                           const struct drawing *drawing);
 

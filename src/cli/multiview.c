@@ -140,6 +140,12 @@ static void take_one_view(struct arguments *a) {
   sheet->view_count = 1;
 }
 
+/* Whether options say what is seen from where. */
+static bool is_aimed(const struct arguments *a) {
+  return a->view_given || a->azimuth_given || a->elevation_given ||
+         a->eye_given;
+}
+
 bool multiview_settle(struct arguments *a, char message[MESSAGE_SIZE]) {
   recto_sheet_options *sheet = &a->options.sheet;
   const char *wrong = NULL;
@@ -160,8 +166,7 @@ bool multiview_settle(struct arguments *a, char message[MESSAGE_SIZE]) {
       wrong = "--view-names is for --sheet and --views";
   } else if (is_one && (a->eye_given || a->view_count > 1)) {
     wrong = "--detail takes one --view, without --camera";
-  } else if (!is_one && (a->view_given || a->azimuth_given ||
-                         a->elevation_given || a->eye_given)) {
+  } else if (!is_one && is_aimed(a)) {
     wrong = "--sheet and --views say what is seen from where: leave out "
             "--view, --azimuth, --elevation and --camera";
   } else if (a->turntable > 0) {
