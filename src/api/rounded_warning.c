@@ -13,7 +13,7 @@
 
 /* So many times larger than the mean is a large face; facets of a curved
  * surface are about as large as each other. */
-#define LARGE_FACE 2.0
+#define LARGE_FACE 4.0
 
 /* Flats with rounded edges that are such a share of all faces are what the part
  * is made of. */
@@ -49,17 +49,38 @@ static bool set_normals(struct rounded *r) {
   return r->normal != NULL;
 }
 
-/* Whether large faces are a large share of all. */
-static bool has_large_faces(const struct rounded *r) {
-  uint32_t faces = scene_face_count(r->scene);
-  double all = 0, large = 0;
-  for (uint32_t f = 0; f < faces; f++)
-    all += vector_length(r->normal[f]);
-  for (uint32_t f = 0; f < faces; f++) {
-    double area = vector_length(r->normal[f]);
-    large += area * faces > LARGE_FACE * all ? area : 0;
+/* Twice the area of a face, fast; 0 or infinite where squares of coordinates
+ * are beyond the range of doubles. */
+static double twice_area(const struct scene *scene, uint32_t face) {
+  const uint32_t *start = &scene->face_start.item[face];
+  const uint32_t *corner = scene->corner.item;
+  const struct scene_point *point = scene->point.item;
+  const struct scene_point *p = &point[corner[start[0]]];
+  double sum[3] = {0, 0, 0}, cross[3];
+  for (uint32_t c = start[0] + 1; c + 1 < start[1]; c++) {
+    const struct scene_point *q = &point[corner[c]], *r = &point[corner[c + 1]];
+    const double to_q[] = {q->x - p->x, q->y - p->y, q->z - p->z};
+    const double to_r[] = {r->x - p->x, r->y - p->y, r->z - p->z};
+    vector_cross(to_q, to_r, cross);
+    for (int k = 0; k < 3; k++)
+      sum[k] += cross[k];
   }
-  return large > LARGE_SHARE * all;
+  return sqrt(vector_dot(sum, sum));
+}
+
+/* Sets *found: whether large faces are a large share of all.  False when memory
+ * ran out. */
+static bool find_large_faces(const struct scene *scene, bool *found) {
+  uint32_t faces = scene_face_count(scene);
+  double *area = mem_alloc(faces, sizeof *area);
+  double all = 0, large = 0;
+  for (uint32_t f = 0; area != NULL && f < faces; f++)
+    all += area[f] = twice_area(scene, f);
+  for (uint32_t f = 0; area != NULL && f < faces && poll_at(f); f++)
+    large += area[f] * faces > LARGE_FACE * all ? area[f] : 0;
+  *found = large > LARGE_SHARE * all;
+  mem_free(area);
+  return area != NULL;
 }
 
 /* The faces at edge e if it is smooth. */
@@ -117,10 +138,9 @@ static bool prepare_flats(struct rounded *r, double crease_deg) {
 static bool find_rounded_flats(const struct scene *scene, double crease_deg,
                                bool *found) {
   struct rounded r = {.scene = scene};
-  bool ok = set_normals(&r);
-  *found = ok && has_large_faces(&r);
-  if (*found) {
-    ok = prepare_flats(&r, crease_deg);
+  bool ok = find_large_faces(scene, found);
+  if (ok && *found) {
+    ok = set_normals(&r) && prepare_flats(&r, crease_deg);
     if (ok)
       find_flats(&r);
     *found = ok && has_rounded_flats(&r);
