@@ -19,10 +19,14 @@ split_blocks() {
 
 missing_tool() {
   local tool
-  for tool in hp2xx inkscape pdflatex python3; do
+  for tool in hp2xx inkscape pdflatex latex dvips python3; do
     grep -q "^ *$tool " "$1" && ! command -v "$tool" >/dev/null &&
       echo "$tool is not installed" && return
   done
+  if grep -q 'usepackage{svg}' "$1"; then
+    kpsewhich svg.sty >/dev/null || { echo "no svg.sty" && return; }
+    command -v inkscape >/dev/null || { echo "no Inkscape" && return; }
+  fi
   grep -qE -- '-o .*\.(pdf|eps|ps|png)' "$1" && ! recto --help | grep -q '\<pdf\>' &&
     echo "recto was built without cairo"
 }
