@@ -7,18 +7,49 @@ static void fail_for_memory(struct byte_codec *codec) {
   codec->failed = codec->out_of_memory = true;
 }
 
+/* The loops over bytes below are written out, as compilers make one load or
+ * store of those. */
+static inline uint64_t load_u16(const unsigned char *at) {
+  return (uint64_t)at[0] | (uint64_t)at[1] << 8;
+}
+
+static inline uint64_t load_u32(const unsigned char *at) {
+  return (uint64_t)at[0] | (uint64_t)at[1] << 8 | (uint64_t)at[2] << 16 |
+         (uint64_t)at[3] << 24;
+}
+
+static inline uint64_t load_u64(const unsigned char *at) {
+  return (uint64_t)at[0] | (uint64_t)at[1] << 8 | (uint64_t)at[2] << 16 |
+         (uint64_t)at[3] << 24 | (uint64_t)at[4] << 32 | (uint64_t)at[5] << 40 |
+         (uint64_t)at[6] << 48 | (uint64_t)at[7] << 56;
+}
+
+/* Writes the `size` low bytes of a number. */
+static void store_number(struct byte_codec *codec, uint64_t value,
+                         size_t size) {
+  enum { MOST = 8 };
+  if (codec->bytes.capacity - codec->bytes.count < MOST &&
+      !ARRAY_RESERVE(&codec->bytes, MOST)) {
+    fail_for_memory(codec);
+    return;
+  }
+  char *to = codec->bytes.item + codec->bytes.count;
+  to[0] = (char)(value & 0xff);
+  to[1] = (char)(value >> 8 & 0xff);
+  to[2] = (char)(value >> 16 & 0xff);
+  to[3] = (char)(value >> 24 & 0xff);
+  to[4] = (char)(value >> 32 & 0xff);
+  to[5] = (char)(value >> 40 & 0xff);
+  to[6] = (char)(value >> 48 & 0xff);
+  to[7] = (char)(value >> 56 & 0xff);
+  codec->bytes.count += size;
+}
+
 /* Writes or reads the `size` low bytes of a number. */
-static void code_number(struct byte_codec *codec, uint64_t *value,
-                        size_t size) {
+static inline void code_number(struct byte_codec *codec, uint64_t *value,
+                               size_t size) {
   if (codec->writes) {
-    if (!ARRAY_RESERVE(&codec->bytes, size)) {
-      fail_for_memory(codec);
-      return;
-    }
-    char *to = codec->bytes.item + codec->bytes.count;
-    for (size_t i = 0; i < size; i++)
-      to[i] = (char)(*value >> 8 * i & 0xff);
-    codec->bytes.count += size;
+    store_number(codec, *value, size);
     return;
   }
   *value = 0;
@@ -26,8 +57,10 @@ static void code_number(struct byte_codec *codec, uint64_t *value,
     codec->failed = true;
     return;
   }
-  for (size_t i = 0; i < size; i++)
-    *value |= (uint64_t)codec->at[i] << 8 * i;
+  *value = size == 1   ? codec->at[0]
+           : size == 2 ? load_u16(codec->at)
+           : size == 4 ? load_u32(codec->at)
+                       : load_u64(codec->at);
   codec->at += size;
   codec->left -= size;
 }
@@ -175,10 +208,14 @@ uint64_t byte_codec_checksum(const void *bytes, size_t count) {
   const unsigned char *at = bytes;
   fill_tables(table);
   for (; count >= TABLES; count -= TABLES, at += TABLES) {
-    uint64_t next = 0;
-    for (int k = 0; k < TABLES; k++)
-      next ^= table[TABLES - 1 - k][(sum >> (56 - 8 * k) & 0xff) ^ at[k]];
-    sum = next;
+    uint64_t word = sum ^ ((uint64_t)at[0] << 56 | (uint64_t)at[1] << 48 |
+                           (uint64_t)at[2] << 40 | (uint64_t)at[3] << 32 |
+                           (uint64_t)at[4] << 24 | (uint64_t)at[5] << 16 |
+                           (uint64_t)at[6] << 8 | (uint64_t)at[7]);
+    sum = table[7][word >> 56] ^ table[6][word >> 48 & 0xff] ^
+          table[5][word >> 40 & 0xff] ^ table[4][word >> 32 & 0xff] ^
+          table[3][word >> 24 & 0xff] ^ table[2][word >> 16 & 0xff] ^
+          table[1][word >> 8 & 0xff] ^ table[0][word & 0xff];
   }
   for (size_t i = 0; i < count; i++)
     sum = sum << 8 ^ table[0][(sum >> 56 ^ at[i]) & 0xff];
