@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "ink/ink.h"
+#include "tests/valgrind.h"
 
 /* Sheet, map, scene and options on a page of 100 x 100 mm, with one group and
  * a pen of 0.3 mm; no stroke is too short.  Each function fails the test when
@@ -95,9 +96,5 @@ double ink_fixture_distance(const struct ink_fixture *k, double x_mm,
 #define INK_FIXTURE_COUNT(array) ((uint32_t)(sizeof(array) / sizeof *(array)))
 /* "points, count" of an array of pairs. */
 #define INK_FIXTURE_XY(array) (array), INK_FIXTURE_COUNT(array) / 2
-
-static inline bool is_under_valgrind(void) {
-  return getenv("RECTO_VALGRIND") != NULL;
-}
 
 #endif

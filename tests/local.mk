@@ -77,7 +77,8 @@ unit_tests += %D%/test_verify
 %C%_test_verify_LDADD = %D%/scenes/libscenes.la $(LDADD)
 
 EXTRA_DIST += %D%/README.md %D%/tap.sh %D%/unit.sh %D%/cli.sh %D%/manifest.sh \
-  %D%/memory_faults.h %D%/polled.h %D%/box_mesh.h %D%/svg_text.h
+  %D%/memory_faults.h %D%/memory_peak.h %D%/ink_faults.h %D%/near.h \
+  %D%/valgrind.h %D%/polled.h %D%/box_mesh.h %D%/svg_text.h
 dist_check_SCRIPTS += \
   %D%/test_abi.sh \
   %D%/test_bootstrap.sh \

@@ -11,7 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -20,6 +19,7 @@
 #include "scene/read.h"
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/solver_named.h"
+#include "tests/memory_peak.h"
 
 /* Methods with a number of lines or a pitch; those there are are tried. */
 static const char *const by_line[] = {"zbuffer", "scanline-zbuffer", "watkins",
@@ -239,33 +239,29 @@ static void z_buffers_agree_on_every_model(void **state) {
 
 /* ---- Memory -------------------------------------------------------------- */
 
-/* The peak in bytes of a process that puts a face over all of a page that is
- * `lines` high and 512 pixels wide, with nothing to write down. */
+struct page_run {
+  const struct solver *solver;
+  int lines;
+};
+
+/* Puts a face over all of a page that is `lines` high and 512 pixels wide, with
+ * nothing to write down. */
+static bool cover_page(const void *user) {
+  const struct page_run *run = user;
+  struct scene scene;
+  recto_options options;
+  struct trial trial;
+  recto_options_init(&options);
+  scene_init(&scene);
+  build_parallelogram(&scene, vector_of(0, 0, 0), vector_of(51.2, 0, 0),
+                      vector_of(0, run->lines / 10.0, 9));
+  scenes_view_page(&options, 51.2, run->lines / 10.0);
+  trial_run(&trial, &scene, &options, run->solver, run->lines, 0);
+  return trial.status == RECTO_OK;
+}
+
 static size_t peak_of(const struct solver *solver, int lines) {
-  int end[2];
-  size_t peak = 0;
-  assert_int_equal(pipe(end), 0);
-  pid_t child = fork();
-  assert_true(child >= 0);
-  if (child == 0) {
-    struct scene scene;
-    recto_options options;
-    struct trial trial;
-    recto_options_init(&options);
-    scene_init(&scene);
-    build_parallelogram(&scene, vector_of(0, 0, 0), vector_of(51.2, 0, 0),
-                        vector_of(0, lines / 10.0, 9));
-    scenes_view_page(&options, 51.2, lines / 10.0);
-    trial_run(&trial, &scene, &options, solver, lines, 0);
-    peak = trial.status == RECTO_OK ? mem_peak_bytes() : 0;
-    _exit(write(end[1], &peak, sizeof peak) != sizeof peak);
-  }
-  assert_int_equal(read(end[0], &peak, sizeof peak), sizeof peak);
-  close(end[0]);
-  close(end[1]);
-  assert_int_equal(waitpid(child, NULL, 0), child);
-  assert_true(peak > 0);
-  return peak;
+  return memory_peak_of(cover_page, &(struct page_run){solver, lines});
 }
 
 static void scan_line_memory_does_not_grow_with_the_lines(void **state) {

@@ -11,6 +11,7 @@
 #include "scene/angle.h"
 #include "tests/scenes/random.h"
 #include "tests/scenes/scenes.h"
+#include "tests/near.h"
 #include "view/camera_aim.h"
 #include "view/camera_axes.h"
 #include "view/project.h"
@@ -101,11 +102,6 @@ static struct rectangle rectangle_of(const struct camera *camera,
     r.high[1] = fmax(r.high[1], seen.y_mm);
   }
   return r;
-}
-
-static void assert_near(double a, double b, double within) {
-  if (!(fabs(a - b) <= within))
-    fail_msg("%.17g is not within %g of %.17g", a, within, b);
 }
 
 static void fill_box(struct scene *scene) {
@@ -210,14 +206,14 @@ static double dot(const double a[3], const double b[3]) {
 
 static void assert_orthonormal(const struct camera_axes *f) {
   const double tight = 1e-15;
-  assert_near(dot(f->right, f->right), 1, 4 * tight);
-  assert_near(dot(f->up, f->up), 1, 4 * tight);
-  assert_near(dot(f->back, f->back), 1, 4 * tight);
-  assert_near(dot(f->right, f->up), 0, tight);
-  assert_near(dot(f->up, f->back), 0, tight);
-  assert_near(dot(f->back, f->right), 0, tight);
-  assert_near(f->right[1] * f->up[2] - f->right[2] * f->up[1], f->back[0],
-              tight);
+  assert_within(dot(f->right, f->right), 1, 4 * tight);
+  assert_within(dot(f->up, f->up), 1, 4 * tight);
+  assert_within(dot(f->back, f->back), 1, 4 * tight);
+  assert_within(dot(f->right, f->up), 0, tight);
+  assert_within(dot(f->up, f->back), 0, tight);
+  assert_within(dot(f->back, f->right), 0, tight);
+  assert_within(f->right[1] * f->up[2] - f->right[2] * f->up[1], f->back[0],
+                tight);
 }
 
 static void frames_are_orthonormal_and_right_handed(void **state) {
@@ -240,7 +236,7 @@ static void frames_are_orthonormal_and_right_handed(void **state) {
     assert_true(dot(f.up, up) > 0);
     const double away[3] = {eye[0] - target[0], eye[1] - target[1],
                             eye[2] - target[2]};
-    assert_near(dot(away, f.back), sqrt(dot(away, away)), 1e-13);
+    assert_within(dot(away, f.back), sqrt(dot(away, away)), 1e-13);
   }
 }
 
@@ -276,7 +272,7 @@ static void a_little_tilt_of_up_turns_the_frame_a_little(void **state) {
     struct camera_axes f = camera_axes_from_direction(a, 30, 20);
     struct camera_axes g = camera_axes_from_direction(b, 30, 20);
     for (int k = 0; k < 3; k++)
-      assert_near(f.right[k], g.right[k], 1e-5);
+      assert_within(f.right[k], g.right[k], 1e-5);
   }
 }
 
@@ -322,7 +318,7 @@ static void assert_fits(const struct camera *camera, const struct scene *scene,
   bool touches = false;
   for (int k = 0; k < 2; k++) {
     double page = camera->page_mm[k];
-    assert_near(r.low[k] + r.high[k], page, 1e-9);
+    assert_within(r.low[k] + r.high[k], page, 1e-9);
     assert_true(r.low[k] >= margin - 1e-9);
     touches = touches || fabs(r.low[k] - margin) < 1e-9;
   }
@@ -397,17 +393,17 @@ static void without_fit_fov_spans_the_printable_height(void **state) {
   options.camera.up[1] = 1;
   struct camera camera = aim(&scene, &options);
   double s = (100 - 2 * 10) / (2 * tan(20 * acos(-1) / 180));
-  assert_near(camera.s, s, s * 4e-16);
+  assert_within(camera.s, s, s * 4e-16);
   for (size_t p = 0; p < scene.point.count; p++) {
     const struct scene_point *q = &scene.point.item[p];
     struct seen seen = see_point(&camera, &scene, p);
     double d = 30 - q->z;
-    assert_near(seen.x_mm, 100 + s * (q->x - 3) / d, 1e-12 * 100);
-    assert_near(seen.y_mm, 50 + s * (q->y - 5) / d, 1e-12 * 100);
+    assert_within(seen.x_mm, 100 + s * (q->x - 3) / d, 1e-12 * 100);
+    assert_within(seen.y_mm, 50 + s * (q->y - 5) / d, 1e-12 * 100);
   }
   /* The edge of the field of view is the edge of the printable height. */
-  assert_near(see(&camera, 3, 5 + 30 * tan(20 * acos(-1) / 180), 0).y_mm, 90,
-              1e-10);
+  assert_within(see(&camera, 3, 5 + 30 * tan(20 * acos(-1) / 180), 0).y_mm, 90,
+                1e-10);
   scene_fini(&scene);
 }
 
@@ -421,14 +417,14 @@ static void without_fit_an_orthographic_view_is_true_to_scale(void **state) {
   target_at(&options, 1, 2, 1e3);
   struct camera camera = aim(&scene, &options);
   struct seen seen = see(&camera, 2, 4, 0);
-  assert_near(seen.x_mm, 101, 1e-12);
-  assert_near(seen.y_mm, 52, 1e-12);
+  assert_within(seen.x_mm, 101, 1e-12);
+  assert_within(seen.y_mm, 52, 1e-12);
   options.camera.has_target =
       false; /* the middle of the scene is 0.5, 1, 0.25 */
   camera = aim(&scene, &options);
   seen = see(&camera, 0.5, 1, 9);
-  assert_near(seen.x_mm, 100, 1e-12);
-  assert_near(seen.y_mm, 50, 1e-12);
+  assert_within(seen.x_mm, 100, 1e-12);
+  assert_within(seen.y_mm, 50, 1e-12);
   scene_fini(&scene);
 }
 
@@ -445,12 +441,12 @@ static void a_scale_is_kept_at_the_target(void **state) {
     target_at(&options, 1, 2, 0);
     struct camera camera = aim(&scene, &options);
     struct seen seen = see(&camera, 1, 2, 0);
-    assert_near(seen.x_mm, 100, 1e-10);
-    assert_near(seen.y_mm, 50, 1e-10);
+    assert_within(seen.x_mm, 100, 1e-10);
+    assert_within(seen.y_mm, 50, 1e-10);
     seen =
         see(&camera, 1 + camera.right[0], 2 + camera.right[1], camera.right[2]);
-    assert_near(seen.x_mm, 102.5, 1e-10);
-    assert_near(seen.y_mm, 50, 1e-10);
+    assert_within(seen.x_mm, 102.5, 1e-10);
+    assert_within(seen.y_mm, 50, 1e-10);
   }
   scene_fini(&scene);
 }
@@ -523,7 +519,7 @@ static void a_near_distance_counts_from_the_eye(void **state) {
     target_at(&options, 0, 0, 0);
     struct camera camera = aim(&scene, &options);
     double at_18 = see(&camera, 0, 0, 2).d;
-    assert_near(camera.near_d, at_18, 1e-12);
+    assert_within(camera.near_d, at_18, 1e-12);
     assert_true(camera.d_min == camera.near_d);
   }
   scene_fini(&scene);
@@ -536,8 +532,8 @@ static void assert_section_at(const struct scene *scene,
   assert_int_equal(camera_find_section(&section, scene, options, NULL),
                    RECTO_OK);
   assert_true(section.is_within);
-  assert_near(section.normal[2], 1, 1e-15);
-  assert_near(section.offset, z, 1e-12);
+  assert_within(section.normal[2], 1, 1e-15);
+  assert_within(section.offset, z, 1e-12);
 }
 
 static void a_section_counts_from_the_eye_or_the_nearest_point(void **state) {
@@ -575,7 +571,7 @@ static void an_orthographic_eye_sees_what_is_behind_it_too(void **state) {
   eye_at(&options, 0, 0, 1);
   target_at(&options, 0, 0, 0);
   struct camera camera = aim(&scene, &options);
-  assert_near(camera.d_max - camera.d_min, 6.5, 1e-12);
+  assert_within(camera.d_max - camera.d_min, 6.5, 1e-12);
   assert_true(camera.d_min > 0);
   scene_fini(&scene);
 }
@@ -676,10 +672,10 @@ static void a_far_eye_sees_what_an_orthographic_one_does(void **state) {
     for (size_t p = 0; p < scene.point.count; p++) {
       struct seen near = see_point(&level, &scene, p);
       struct seen seen = see_point(&camera, &scene, p);
-      assert_near(seen.x_mm, near.x_mm, 4 * 0x1p-20);
-      assert_near(seen.y_mm, near.y_mm, 4 * 0x1p-20);
+      assert_within(seen.x_mm, near.x_mm, 4 * 0x1p-20);
+      assert_within(seen.y_mm, near.y_mm, 4 * 0x1p-20);
     }
-    assert_near(shape_of(&camera, &scene), shape_of(&level, &scene), 1e-6);
+    assert_within(shape_of(&camera, &scene), shape_of(&level, &scene), 1e-6);
   }
   scene_fini(&scene);
 }
@@ -697,14 +693,14 @@ static void a_far_eye_keeps_scale_and_distances(void **state) {
   struct camera camera = aim(&scene, &options);
   assert_false(camera.perspective);
   double height = 2 * far * tan(acos(-1) / 180 * 0.5e-9);
-  assert_near(camera.s / (80 / height), 1, 1e-9);
-  assert_near(see(&camera, 0, 0, 0).x_mm, 100, 1e-9);
+  assert_within(camera.s / (80 / height), 1, 1e-9);
+  assert_within(see(&camera, 0, 0, 0).x_mm, 100, 1e-9);
   options.camera.fit = RECTO_FIT_SCALE;
   options.camera.scale = 7;
-  assert_near(aim(&scene, &options).s, 7, 1e-9);
+  assert_within(aim(&scene, &options).s, 7, 1e-9);
   options.camera.near_distance = far + 1;
   camera = aim(&scene, &options);
-  assert_near(camera.near_d - see(&camera, 0, 0, 0).d, 1, 1e-3);
+  assert_within(camera.near_d - see(&camera, 0, 0, 0).d, 1, 1e-3);
   options.camera.kind = RECTO_CAMERA_DIRECTION;
   options.camera.near_distance = 1; /* from an eye as far, so nothing is cut */
   camera = aim(&scene, &options);
@@ -762,7 +758,7 @@ static void contact_follows_the_precision_by_default(void **state) {
   fill_box(&scene);
   recto_options options = plain_options();
   struct camera camera = aim(&scene, &options);
-  assert_near(camera.size, sqrt(9 + 36 + 6.5 * 6.5), 1e-14);
+  assert_within(camera.size, sqrt(9 + 36 + 6.5 * 6.5), 1e-14);
   assert_true(camera.contact < 0);
   assert_true(camera.unstated.relative == 0x1p-24);
   assert_true(camera.contact_most > 0 && camera.contact_most < 1e-5);
@@ -812,7 +808,7 @@ static void a_plate_seen_edge_on_fits_by_its_other_extent(void **state) {
   build_parallelogram(&scene, vector_of(0, 0, 0), vector_of(3, 0, 0),
                       vector_of(0, 0, 3));
   struct camera camera = aim(&scene, &options);
-  assert_near(camera.s, 180 / 3.0, 1e-12);
+  assert_within(camera.s, 180 / 3.0, 1e-12);
   scene_fini(&scene);
 }
 
@@ -872,8 +868,8 @@ static void units_and_places_move_nothing_on_the_page(void **state) {
       struct camera after = aim(&scene, &options);
       for (size_t p = 0; p < 8; p++) {
         struct seen moved = see_point(&after, &scene, p);
-        assert_near(moved.x_mm, seen[p].x_mm, within[i]);
-        assert_near(moved.y_mm, seen[p].y_mm, within[i]);
+        assert_within(moved.x_mm, seen[p].x_mm, within[i]);
+        assert_within(moved.y_mm, seen[p].y_mm, within[i]);
       }
       scene_fini(&scene);
     }
@@ -899,9 +895,9 @@ static void the_matrix_is_the_camera(void **state) {
         h[r] = m[4 * r] * q->x + m[4 * r + 1] * q->y + m[4 * r + 2] * q->z +
                m[4 * r + 3];
       struct seen seen = see_point(&camera, &scene, p);
-      assert_near(h[0] / h[2], seen.x_mm, 1e-11);
-      assert_near(h[1] / h[2], seen.y_mm, 1e-11);
-      assert_near(h[2], perspective ? seen.d : 1, 1e-13);
+      assert_within(h[0] / h[2], seen.x_mm, 1e-11);
+      assert_within(h[1] / h[2], seen.y_mm, 1e-11);
+      assert_within(h[2], perspective ? seen.d : 1, 1e-13);
     }
   }
   scene_fini(&scene);

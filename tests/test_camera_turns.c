@@ -2,6 +2,7 @@
  * where it changes by more, edges or faces are there to name whose topology
  * changed. */
 #include "tests/measure/turns.h"
+#include "tests/valgrind.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -45,7 +46,7 @@ static int check_scene(int index) {
   struct scene scene;
   recto_options options;
   struct trial before;
-  int jumps = 0, each = getenv("RECTO_VALGRIND") ? EACH_SLOW : EACH;
+  int jumps = 0, each = is_under_valgrind() ? EACH_SLOW : EACH;
   turn_scene(&scene, &options, index);
   trial_run(&before, &scene, &options, &solver_tiles, 0, TRIAL_BOTH);
   assert_int_equal(before.status, RECTO_OK);

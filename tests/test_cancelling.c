@@ -12,6 +12,7 @@
 #include "tests/sheet_fixture.h"
 #include "tests/temporary.h"
 #include "tests/scenes/solver_named.h"
+#include "tests/valgrind.h"
 #include "visibility/solver.h"
 
 struct listener {
@@ -122,8 +123,7 @@ static bool is_heard(const struct solver *solver, struct sheet_fixture *fixture,
   assert_int_equal(status, patience.stopped ? RECTO_ERROR_CANCELLED : RECTO_OK);
   if (patience.longest >= 1)
     print_message("%s: %.2f s\n", solver_name(solver), patience.longest);
-  return patience.longest <
-         (getenv("RECTO_VALGRIND") != NULL ? 20 : 1) * SILENCE_S;
+  return patience.longest < (is_under_valgrind() ? 20 : 1) * SILENCE_S;
 }
 
 static void hear_all(struct sheet_fixture *fixture) {

@@ -38,17 +38,10 @@ static int size_of_scene(uint64_t *r) {
 }
 
 static void triangle(uint64_t *r, int size, struct geom_point p[3]) {
-  int64_t area;
   do {
     for (int k = 0; k < 3; k++)
       p[k] = point(r, size);
-    area = geom_orient2d(p[0], p[1], p[2]);
-  } while (area == 0);
-  if (area < 0) {
-    struct geom_point swap = p[1];
-    p[1] = p[2];
-    p[2] = swap;
-  }
+  } while (!exact_turn_triangle(p));
 }
 
 static void *take(struct arena *arena, size_t count, size_t size) {

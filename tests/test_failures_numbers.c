@@ -5,8 +5,6 @@
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -14,6 +12,8 @@
 #include "base/sanitizer.h"
 #include "tests/comma_locale.h"
 #include "tests/judged.h"
+#include "tests/valgrind.h"
+#include "tests/memory_peak.h"
 
 static char *draw(const struct scene *scene, const recto_options *options) {
   size_t length;
@@ -22,26 +22,26 @@ static char *draw(const struct scene *scene, const recto_options *options) {
 
 /* ---- Memory -------------------------------------------------------------- */
 
-/* The peak memory in bytes of a process that fills a scene and solves it. */
+struct scene_run {
+  void (*fill)(struct scene *, recto_options *, unsigned);
+  unsigned n;
+};
+
+static bool fill_and_solve(const void *user) {
+  const struct scene_run *run = user;
+  struct scene scene;
+  recto_options options;
+  struct pipeline pipeline;
+  recto_options_init(&options);
+  scene_init(&scene);
+  run->fill(&scene, &options, run->n);
+  pipeline_run(&pipeline, &scene, &options, &solver_newell);
+  return pipeline.status == RECTO_OK;
+}
+
 static double measure(void (*fill)(struct scene *, recto_options *, unsigned),
                       unsigned n) {
-  pid_t child = fork();
-  assert_true(child >= 0);
-  if (child == 0) {
-    struct scene scene;
-    recto_options options;
-    struct pipeline pipeline;
-    recto_options_init(&options);
-    scene_init(&scene);
-    fill(&scene, &options, n);
-    pipeline_run(&pipeline, &scene, &options, &solver_newell);
-    _exit(pipeline.status == RECTO_OK ? 0 : 1);
-  }
-  int status;
-  struct rusage usage;
-  assert_int_equal(wait4(child, &status, 0, &usage), child);
-  assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 0);
-  return 1024.0 * (double)usage.ru_maxrss;
+  return (double)memory_peak_of(fill_and_solve, &(struct scene_run){fill, n});
 }
 
 static void fill_soup(struct scene *scene, recto_options *options, unsigned n) {
@@ -63,7 +63,7 @@ static void memory_grows_with_the_faces_and_no_faster(void **state) {
 #if SANITIZER_OF_ADDRESSES
   skip(); /* its own bookkeeping is what would be measured */
 #endif
-  if (getenv("RECTO_VALGRIND") != NULL)
+  if (is_under_valgrind())
     skip();
   double none = measure(scenes_fan, 4);
   for (size_t i = 0; i < sizeof scene / sizeof *scene; i++) {

@@ -13,6 +13,7 @@
 #include "scene/read.h"
 #include "tests/reading.h"
 #include "tests/scenes/random.h"
+#include "tests/valgrind.h"
 
 enum { SIZE_MAX_FUZZED = 4096 };
 
@@ -22,7 +23,7 @@ struct file {
 };
 
 static int rounds(int count) {
-  return getenv("RECTO_VALGRIND") ? count / 100 : count;
+  return is_under_valgrind() ? count / 100 : count;
 }
 
 static void put(struct file *file, const char *text) {

@@ -24,6 +24,7 @@
 #include "tests/reading.h"
 #include "tests/scenes/random.h"
 #include "tests/temporary.h"
+#include "tests/valgrind.h"
 
 static const char off[] = "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
                           "3 0 1 2\n3 0 2 3\n";
@@ -409,7 +410,7 @@ static void a_form_cut_short_is_refused(void **state) {
 }
 
 static void a_form_of_any_bytes_is_survived(void **state) {
-  int rounds = getenv("RECTO_VALGRIND") ? 400 : 40000, taken = 0;
+  int rounds = is_under_valgrind() ? 400 : 40000, taken = 0;
   (void)state;
   for (int seed = 0; seed < rounds; seed++) {
     struct random random = {(uint64_t)seed};

@@ -15,6 +15,7 @@
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/random.h"
 #include "tests/scenes/solver_named.h"
+#include "tests/ink_faults.h"
 
 /* ---- Merged against not merged ------------------------------------------- */
 
@@ -301,7 +302,7 @@ static void merging_fails_cleanly_when_memory_runs_out(void **state) {
   options.mesh.crease_deg = 100;
   pipeline_run(&p, &scene, &options, solver_named("tiles"));
   assert_int_equal(p.status, RECTO_OK);
-  pipeline_fail_each_allocation(&p, &scene, &options);
+  ink_fail_each_allocation(&p, &scene, &options);
   scene_fini(&scene);
   pipeline_fini(&p);
 }

@@ -14,6 +14,7 @@
 #include "tests/ink_fixture.h"
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/random.h"
+#include "tests/valgrind.h"
 
 /* The unit of these drawings, in grid units and in mm. */
 enum { UNIT = 1024, BIG = 20000 * UNIT };
@@ -417,7 +418,7 @@ static void no_ink_is_lost_by_more_than_two_units(void **state) {
 static void thousands_of_near_rings_take_bounded_time(void **state) {
   enum { SIDES = 32, RINGS = 3000 };
   (void)state;
-  int rings = getenv("RECTO_VALGRIND") ? 50 : RINGS;
+  int rings = is_under_valgrind() ? 50 : RINGS;
   struct ink_fixture k;
   start(&k);
   for (int ring = 0; ring < rings; ring++) {

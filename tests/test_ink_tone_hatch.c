@@ -12,6 +12,7 @@
 #include "tests/ink_fixture.h"
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/random.h"
+#include "tests/ink_faults.h"
 
 static double pi(void) { return acos(-1); }
 
@@ -461,7 +462,7 @@ static void hatching_fails_cleanly_when_memory_runs_out(void **state) {
   p.sheet.face_group = scene.face_group.item;
   for (int lit = 0; lit < 2; lit++) {
     options.ink.light[2] = lit;
-    pipeline_fail_each_allocation(&p, &scene, &options);
+    ink_fail_each_allocation(&p, &scene, &options);
   }
   scene_fini(&scene);
   pipeline_fini(&p);

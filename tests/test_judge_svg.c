@@ -12,6 +12,7 @@
 
 #include "judge/grid.h"
 #include "judge/svg/svg.h"
+#include "tests/near.h"
 
 /* The page, and how far beyond it ink is kept. */
 enum { WIDTH = 200, HEIGHT = 100, MARGIN = 25 };
@@ -59,49 +60,45 @@ static double drawn_of(const char *data) {
   return mm;
 }
 
-static void assert_near(double a, double b, double off) {
-  if (!(fabs(a - b) <= off))
-    fail_msg("%.17g is not %.17g", a, b);
-}
-
 /* ---- Places far away ----------------------------------------------------- */
 
 static void lines_are_cut_to_the_page(void **state) {
   (void)state;
   /* One coordinate does not undo the rest. */
-  assert_near(drawn_of("M0 0L90 0M5 5L1e300 1e300"), 90 + 120 * sqrt(2), 1e-9);
-  assert_near(drawn_of("M5 5L1e300 1e300L6 6"), 120 * sqrt(2) + 119 * sqrt(2),
-              1e-9);
-  assert_near(drawn_of("M-1e300 50L1e300 50"), WIDTH + 2 * MARGIN, 1e-9);
-  assert_near(drawn_of("M10-1e9V1e9"), HEIGHT + 2 * MARGIN, 1e-9);
-  assert_near(drawn_of("M-1e300-1e300L-1e300 1e300"), 0, 0);
-  assert_near(drawn_of("M-1000 50L50-1000"), 0, 0);
-  assert_near(drawn_of("M300 50L50 300"), 0, 0);
-  assert_near(drawn_of("M0 0L1e-300 1e-300"), 0, 1e-9);
+  assert_within(drawn_of("M0 0L90 0M5 5L1e300 1e300"), 90 + 120 * sqrt(2),
+                1e-9);
+  assert_within(drawn_of("M5 5L1e300 1e300L6 6"), 120 * sqrt(2) + 119 * sqrt(2),
+                1e-9);
+  assert_within(drawn_of("M-1e300 50L1e300 50"), WIDTH + 2 * MARGIN, 1e-9);
+  assert_within(drawn_of("M10-1e9V1e9"), HEIGHT + 2 * MARGIN, 1e-9);
+  assert_within(drawn_of("M-1e300-1e300L-1e300 1e300"), 0, 0);
+  assert_within(drawn_of("M-1000 50L50-1000"), 0, 0);
+  assert_within(drawn_of("M300 50L50 300"), 0, 0);
+  assert_within(drawn_of("M0 0L1e-300 1e-300"), 0, 1e-9);
   /* Out and back in: two strokes. */
-  assert_near(drawn_of("M0 10H300V20H0"), 2 * (WIDTH + MARGIN), 1e-9);
+  assert_within(drawn_of("M0 10H300V20H0"), 2 * (WIDTH + MARGIN), 1e-9);
   /* Nothing is cut that is on the page. */
-  assert_near(drawn_of("M0 0H200V100H0Z"), 2 * (WIDTH + HEIGHT), 0);
+  assert_within(drawn_of("M0 0H200V100H0Z"), 2 * (WIDTH + HEIGHT), 0);
 }
 
 static void curves_are_cut_to_the_page(void **state) {
   (void)state;
   /* A quarter of a circle round a corner: as by many pieces. */
-  assert_near(drawn_of("M90 0A90 90 0 0 1 0 90"), 45 * acos(-1), 0.1);
+  assert_within(drawn_of("M90 0A90 90 0 0 1 0 90"), 45 * acos(-1), 0.1);
   /* From far away, straight through. */
-  assert_near(drawn_of("M-1e9 50C-1e8 50 1e8 50 1e9 50"), WIDTH + 2 * MARGIN,
-              1e-6);
-  assert_near(drawn_of("M-1e30 50C0 1e30 0 1e30 1e30 50"), 0, 0);
+  assert_within(drawn_of("M-1e9 50C-1e8 50 1e8 50 1e9 50"), WIDTH + 2 * MARGIN,
+                1e-6);
+  assert_within(drawn_of("M-1e30 50C0 1e30 0 1e30 1e30 50"), 0, 0);
   for (int k = 3; k <= 300; k += 27) {
     char data[100];
     snprintf(data, sizeof data, "M0 0c1e%d 0 0 1e%d 9 9", k, k);
     assert_true(drawn_of(data) < 1000);
     snprintf(data, sizeof data, "M0 0a1e%d 1e%d 0 0 0 9 9", k, k);
-    assert_near(drawn_of(data), 9 * sqrt(2), k == 3 ? 1e-3 : 1e-9);
+    assert_within(drawn_of(data), 9 * sqrt(2), k == 3 ? 1e-3 : 1e-9);
     snprintf(data, sizeof data, "M0 0a1e%d 1e-%d 0 1 1 9 9", k / 2, k / 2);
     assert_true(drawn_of(data) < 1000);
     snprintf(data, sizeof data, "M0 0a1e-%d 1e-%d 0 1 1 9 9", k, k);
-    assert_near(drawn_of(data), 9 * sqrt(2) / 2 * acos(-1), 0.01);
+    assert_within(drawn_of(data), 9 * sqrt(2) / 2 * acos(-1), 0.01);
   }
 }
 

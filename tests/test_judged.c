@@ -16,6 +16,7 @@
 #include "judge/svg/svg.h"
 #include "tests/scenes/judge_camera.h"
 #include "tests/temporary.h"
+#include "tests/valgrind.h"
 #include "view/camera_aim.h"
 
 static void the_shared_scenes_are_drawn_right(void **state) {
@@ -78,7 +79,7 @@ static void surfaces_do_not_leak_at_any_step(void **state) {
 
 static void random_small_scenes_are_drawn_right(void **state) {
   (void)state;
-  uint64_t count = getenv("RECTO_VALGRIND") != NULL ? 10 : 150;
+  uint64_t count = is_under_valgrind() ? 10 : 150;
   for (uint64_t seed = 0; seed < count; seed++) {
     struct scene scene;
     recto_options options;
@@ -138,7 +139,7 @@ static void check_model_of(void **state, const char *folder, const char *name,
                            unsigned edges) {
   char path[1000];
   struct scene scene;
-  if (getenv("RECTO_VALGRIND") != NULL ||
+  if (is_under_valgrind() ||
       !read_model(&scene, path, sizeof path, folder, name))
     skip();
   double size;

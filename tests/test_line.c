@@ -99,17 +99,10 @@ static bool same_place(struct geom_point p, struct geom_point q) {
 
 /* A counter-clockwise triangle. */
 static void triangle(uint64_t *r, int bits, struct geom_point p[3]) {
-  int64_t area;
   do {
     for (int k = 0; k < 3; k++)
       p[k] = point(r, bits);
-    area = geom_orient2d(p[0], p[1], p[2]);
-  } while (area == 0);
-  if (area < 0) {
-    struct geom_point swap = p[1];
-    p[1] = p[2];
-    p[2] = swap;
-  }
+  } while (!exact_turn_triangle(p));
 }
 
 /* A grid line, near the one from p to q or anywhere. */
@@ -452,17 +445,10 @@ static struct geom_point extreme(uint64_t *r) {
 }
 
 static void extreme_triangle(uint64_t *r, struct geom_point p[3]) {
-  int64_t area;
   do {
     for (int k = 0; k < 3; k++)
       p[k] = extreme(r);
-    area = geom_orient2d(p[0], p[1], p[2]);
-  } while (area == 0);
-  if (area < 0) {
-    struct geom_point swap = p[1];
-    p[1] = p[2];
-    p[2] = swap;
-  }
+  } while (!exact_turn_triangle(p));
 }
 
 /* The limbs of a plane intersection as an integer. */
@@ -645,11 +631,7 @@ static void draw_plane(uint64_t *r, struct geom_plane plane[2]) {
     p[k] = (struct geom_point){exact_random_below(r, 1 << 26),
                                exact_random_below(r, 1 << 26),
                                exact_random_below(r, 1 << 30)};
-  if (geom_orient2d(p[0], p[1], p[2]) < 0) {
-    struct geom_point swap = p[1];
-    p[1] = p[2];
-    p[2] = swap;
-  }
+  (void)exact_turn_triangle(p);
   plane[0] = plane_of(p);
   for (int k = 1; k < 3; k++) {
     p[k].x += (1 + k) * (p[k].x - p[0].x);

@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "tests/scenes/pipeline.h"
+#include "tests/near.h"
 
 static const double unit = SHEET_UNITS_PER_MM;
 
@@ -56,11 +57,6 @@ static void start_two(struct sheet *sheet, struct map *exact, struct map *map) {
   start(sheet, exact, map);
   add_box(exact, 0, 0, 0, 10, 10);
   add_box(exact, 1, 10, 0, 20, 10);
-}
-
-static void assert_near(double got, double want) {
-  if (!(fabs(got - want) < 0x1p-30))
-    fail_msg("%.12g, not %.12g", got, want);
 }
 
 static void areas_are_reported_by_kind_of_error(void **state) {

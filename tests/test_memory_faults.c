@@ -19,6 +19,7 @@
 #include "base/sanitizer.h"
 #include "recto.h"
 #include "tests/temporary.h"
+#include "tests/valgrind.h"
 
 #ifdef HAVE_ZLIB
 #include <zlib.h>
@@ -218,7 +219,7 @@ static void try_all(const struct job *job) {
 }
 
 static void try_jobs(const struct job *job, size_t count) {
-  if (!CAN_FAIL || getenv("RECTO_VALGRIND") != NULL)
+  if (!CAN_FAIL || is_under_valgrind())
     skip();
   for (size_t i = 0; i < count; i++)
     try_all(&job[i]);

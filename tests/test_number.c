@@ -16,13 +16,14 @@
 #include "base/sanitizer.h"
 #include "tests/comma_locale.h"
 #include "tests/scenes/random.h"
+#include "tests/valgrind.h"
 
 /* As many samples as the tools that slow us down leave time for. */
 static int samples(int count) {
 #if SANITIZER_OF_ADDRESSES
   count /= 5;
 #endif
-  return getenv("RECTO_VALGRIND") ? count / 100 : count;
+  return is_under_valgrind() ? count / 100 : count;
 }
 
 static double double_of(uint64_t bits) {

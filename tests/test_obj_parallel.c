@@ -17,6 +17,7 @@
 #include "scene/read.h"
 #include "tests/reading.h"
 #include "tests/scenes/random.h"
+#include "tests/valgrind.h"
 
 enum { POINTS = 60000, FACES = 70000, LONGEST = 400 };
 
@@ -114,7 +115,7 @@ static void assert_same_in_parallel(uint64_t seed, uint32_t rarity) {
 }
 
 static int rounds(int count) {
-  return getenv("RECTO_VALGRIND") ? 1 + count / 20 : count;
+  return is_under_valgrind() ? 1 + count / 20 : count;
 }
 
 /* Where there is one processor, there is nothing to compare. */

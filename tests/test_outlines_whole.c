@@ -19,6 +19,7 @@
 #include "tests/judge/raster.h"
 #include "tests/scenes/catmull_clark.h"
 #include "tests/scenes/pipeline.h"
+#include "tests/valgrind.h"
 
 /* Pixels a side, and how near a line must be: 0.4 mm on a page of 200. */
 enum { PIXELS = 1000, NEAR = 2 };
@@ -224,7 +225,7 @@ static void a_ring_of_warped_faces_has_its_whole_outline(void **state) {
   struct scene scene;
   scene_init(&scene);
   make_ring(&scene, 12, 6);
-  bool few = getenv("RECTO_VALGRIND") != NULL;
+  bool few = is_under_valgrind();
   check_steps(&scene, "ring", few ? 0 : 3, RECTO_FILL_PAINT);
   scene_fini(&scene);
 }
@@ -258,7 +259,7 @@ static void check_model(const char *folder, const char *name, int steps,
   char path[1000];
   struct scene scene;
   struct diagnostics silent = {.file = path};
-  if (folder == NULL || getenv("RECTO_VALGRIND") != NULL)
+  if (folder == NULL || is_under_valgrind())
     skip();
   snprintf(path, sizeof path, "%.900s/%s.obj", folder, name);
   scene_init(&scene);

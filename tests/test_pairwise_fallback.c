@@ -6,7 +6,6 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <string.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -18,6 +17,7 @@
 #include "tests/scenes/random.h"
 #include "tests/scenes/solver_named.h"
 #include "tests/memory_faults.h"
+#include "tests/memory_peak.h"
 
 static const struct solver *const bounded[] = {
     &solver_tiles, &solver_newell, &solver_warnock, &solver_watkins, NULL};
@@ -153,29 +153,15 @@ static void faces_that_pierce_too_many_are_deferred(void **state) {
 
 /* ---- Memory -------------------------------------------------------------- */
 
-/* The peak in bytes of a process that draws n triangles. */
-static size_t peak_of(const struct solver *solver, unsigned n) {
-  int end[2];
-  size_t peak = 0;
-  assert_int_equal(pipe(end), 0);
-  pid_t child = fork();
-  assert_true(child >= 0);
-  if (child == 0) {
-    struct scene scene;
-    recto_options options;
-    struct pipeline pipeline;
-    start(&scene, &options);
-    add_piercing(&scene, n, false);
-    pipeline_run(&pipeline, &scene, &options, solver);
-    peak = pipeline.status == RECTO_OK ? mem_peak_bytes() : 0;
-    _exit(write(end[1], &peak, sizeof peak) != sizeof peak);
-  }
-  assert_int_equal(read(end[0], &peak, sizeof peak), sizeof peak);
-  close(end[0]);
-  close(end[1]);
-  assert_int_equal(waitpid(child, NULL, 0), child);
-  assert_true(peak > 0);
-  return peak;
+/* Draws 200 triangles that pierce each other. */
+static bool draw_piercing(const void *solver) {
+  struct scene scene;
+  recto_options options;
+  struct pipeline pipeline;
+  start(&scene, &options);
+  add_piercing(&scene, 200, false);
+  pipeline_run(&pipeline, &scene, &options, solver);
+  return pipeline.status == RECTO_OK;
 }
 
 /* They have 20,000 intersections; warnock once took 300 MB, watkins found more
@@ -186,7 +172,7 @@ static void two_hundred_piercing_triangles_take_little_memory(void **state) {
   skip(); /* what is freed is kept, and counts */
 #else
   for (const struct solver *const *s = bounded; *s != NULL; s++)
-    assert_in_range(peak_of(*s, 200), 1, 64 << 20);
+    assert_in_range(memory_peak_of(draw_piercing, *s), 1, 64 << 20);
 #endif
 }
 

@@ -14,6 +14,7 @@
 #include "tests/scenes/scenes.h"
 #include "tests/svg_text.h"
 #include "tests/temporary.h"
+#include "tests/memory_faults.h"
 
 enum { PARTS_MOST = 16 };
 
@@ -357,16 +358,11 @@ static void a_limit_of_hiding_faces_may_be_left_out(void **state) {
 /* Runs with each allocation failing in turn: a run without the reports that
  * memory did not suffice for may succeed, ten in a row met no failure. */
 static void fail_allocations(recto_status (*run)(void *user), void *user) {
-  unsigned long failed = 0;
-  for (unsigned long n = 1, in_a_row = 0; in_a_row < 10; n++) {
-    mem_fail_after(n);
-    recto_status status = run(user);
-    mem_fail_after(0);
-    assert_true(status == RECTO_OK || status == RECTO_ERROR_MEMORY);
-    in_a_row = status == RECTO_OK ? in_a_row + 1 : 0;
-    failed += status != RECTO_OK;
+  struct memory_faults faults = {.least = 101, .in_a_row = 10};
+  while (memory_faults_go_on(&faults)) {
+    memory_faults_begin(&faults);
+    memory_faults_end(&faults, run(user));
   }
-  assert_true(failed > 100);
 }
 
 struct memory_run {

@@ -7,8 +7,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -17,6 +15,8 @@
 #include "base/sanitizer.h"
 #include "tests/svg_text.h"
 #include "tests/temporary.h"
+#include "tests/valgrind.h"
+#include "tests/memory_peak.h"
 
 /* ---- Models -------------------------------------------------------------- */
 
@@ -224,39 +224,40 @@ static void draw_part(const char *model, unsigned number, unsigned count,
   recto_scene_destroy(scene);
 }
 
-/* The peak of the resident set, in kB, of a process that draws a part, or with
- * number 0 all at once. */
-static long peak_kb(const char *model, unsigned number, unsigned count,
-                    const char *path) {
-  int status;
-  struct rusage usage;
-  pid_t child = fork();
-  if (child == 0) {
-    if (number == 0)
-      draw_at_once(model);
-    else
-      draw_part(model, number, count, path);
-    _exit(0);
-  }
-  assert_true(child > 0);
-  assert_int_equal(wait4(child, &status, 0, &usage), child);
-  assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 0);
-  return usage.ru_maxrss;
+/* Of a part, or with number 0 of all at once. */
+struct part_run {
+  const char *model, *path;
+  unsigned number, count;
+};
+
+static bool draw_part_or_all(const void *user) {
+  const struct part_run *run = user;
+  if (run->number == 0)
+    draw_at_once(run->model);
+  else
+    draw_part(run->model, run->number, run->count, run->path);
+  return true;
+}
+
+static size_t peak_kb(const char *model, unsigned number, unsigned count,
+                      const char *path) {
+  return memory_peak_of(draw_part_or_all,
+                        &(struct part_run){model, path, number, count}) /
+         1024;
 }
 
 static void a_part_holds_less_than_a_third(void **state) {
   enum { SIDE = 700, COUNT = 16 };
   char model[400];
-  if (getenv("RECTO_VALGRIND") != NULL || SANITIZER_OF_ADDRESSES ||
-      SANITIZER_OF_THREADS)
+  if (is_under_valgrind() || SANITIZER_OF_ADDRESSES || SANITIZER_OF_THREADS)
     skip();
   const char *part = temporary_path(state, "part.recto");
   snprintf(model, sizeof model, "%s", temporary_path(state, "model.obj"));
   write_model(model, SIDE, FAR_POINT);
-  long whole = peak_kb(model, 0, COUNT, part);
+  size_t whole = peak_kb(model, 0, COUNT, part);
   for (unsigned i = 1; i <= COUNT; i += 5) {
-    long own = peak_kb(model, i, COUNT, part);
-    print_message("part %u of %d: %ld of %ld kB\n", i, COUNT, own, whole);
+    size_t own = peak_kb(model, i, COUNT, part);
+    print_message("part %u of %d: %zu of %zu kB\n", i, COUNT, own, whole);
     assert_true(3 * own < whole);
   }
 }

@@ -9,6 +9,7 @@
 
 #include "tests/scenes/random.h"
 #include "tests/scenes/scenes.h"
+#include "tests/near.h"
 
 /* Fills a scene of the list; the caller ends it with scene_fini. */
 static void fill(struct scene *scene, const struct scenes_entry *entry) {
@@ -191,11 +192,6 @@ static void a_menger_sponge_has_the_faces_it_should(void **state) {
 
 /* ---- Whole scenes -------------------------------------------------------- */
 
-static void assert_near(double a, double b, double within) {
-  if (!(fabs(a - b) <= within))
-    fail_msg("%.17g is not %.17g", a, b);
-}
-
 static void turning_keeps_lengths(void **state) {
   (void)state;
   struct scene scene;
@@ -203,11 +199,11 @@ static void turning_keeps_lengths(void **state) {
   struct scene_point before = scene.point.item[0];
   scenes_turn(&scene, vector_of(1, 2, 3), 0.3);
   struct scene_point after = scene.point.item[0];
-  assert_near(hypot(hypot(after.x, after.y), after.z), sqrt(0.75), 1e-15);
+  assert_within(hypot(hypot(after.x, after.y), after.z), sqrt(0.75), 1e-15);
   assert_true(fabs(after.x - before.x) > 0.01);
   /* What lies on the axis stays. */
-  assert_near(after.x + 2 * after.y + 3 * after.z,
-              before.x + 2 * before.y + 3 * before.z, 1e-15);
+  assert_within(after.x + 2 * after.y + 3 * after.z,
+                before.x + 2 * before.y + 3 * before.z, 1e-15);
   scene_fini(&scene);
 }
 

@@ -14,6 +14,7 @@
 #include "tests/degenerate.h"
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/solver_named.h"
+#include "tests/valgrind.h"
 
 static recto_status divide_by_box(struct sheet *sheet,
                                   const struct solver_request *request,
@@ -180,7 +181,7 @@ static void solvers_agree_on_the_whole_stability_list(void **state) {
 static void solvers_agree_on_2000_random_small_scenes(void **state) {
   (void)state;
   /* Under valgrind a tenth of them is what patience allows. */
-  uint64_t count = getenv("RECTO_VALGRIND") != NULL ? 200 : 2000;
+  uint64_t count = is_under_valgrind() ? 200 : 2000;
   for (uint64_t seed = 0; seed < count; seed++) {
     struct scene scene;
     recto_options options;
@@ -209,7 +210,7 @@ static void look(const struct scene *scene, recto_options *options, int view) {
 static void solvers_agree_on_degenerate_views(void **state) {
   int number = 0;
   /* Under valgrind a part of that part is what patience allows. */
-  int step = getenv("RECTO_VALGRIND") != NULL ? 59 : 5;
+  int step = is_under_valgrind() ? 59 : 5;
   (void)state;
   for (const struct scenes_entry *entry = scene_list; entry->name;
        entry++, number++) {

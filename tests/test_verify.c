@@ -19,6 +19,7 @@
 #include "tests/scenes/pipeline.h"
 #include "tests/temporary.h"
 #include "tests/memory_faults.h"
+#include "tests/valgrind.h"
 #include "view/camera_aim.h"
 
 /* ---- Helpers ------------------------------------------------------------- */
@@ -465,7 +466,7 @@ static void a_subdivided_mesh_passes_the_check(void **state) {
   char path[1000];
   struct recto_scene coarse = {.path = NULL}, fine = coarse, finest = coarse;
   struct diagnostics silent = {.file = path};
-  if (folder == NULL || getenv("RECTO_VALGRIND") != NULL)
+  if (folder == NULL || is_under_valgrind())
     skip();
   snprintf(path, sizeof path, "%.900s/suzanne.obj", folder);
   scene_init(&coarse.scene);

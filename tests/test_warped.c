@@ -17,6 +17,7 @@
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/random.h"
 #include "tests/scenes/solver_named.h"
+#include "tests/valgrind.h"
 #include "scene/triangulate.h"
 
 /* ---- Scenes -------------------------------------------------------------- */
@@ -120,7 +121,7 @@ static void every_method_draws_them_alike(void **state) {
   (void)state;
   static const recto_fill fill[] = {RECTO_FILL_NONE, RECTO_FILL_PAINT,
                                     RECTO_FILL_HATCH};
-  uint64_t count = getenv("RECTO_VALGRIND") != NULL ? 20 : 600;
+  uint64_t count = is_under_valgrind() ? 20 : 600;
   for (uint64_t seed = 1; seed <= count; seed++) {
     struct scene scene;
     recto_options options;
@@ -137,7 +138,7 @@ static void every_method_draws_them_alike(void **state) {
 
 static void the_judge_finds_them_drawn_right(void **state) {
   (void)state;
-  uint64_t count = getenv("RECTO_VALGRIND") != NULL ? 20 : 600;
+  uint64_t count = is_under_valgrind() ? 20 : 600;
   for (uint64_t seed = 1; seed <= count; seed++) {
     struct scene scene;
     recto_options options;

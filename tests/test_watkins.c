@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "visibility/watkins/pitch/watkins.h"
+#include "tests/near.h"
 
 /* The lists of a sheet, line by line. */
 struct scanned {
@@ -48,11 +49,6 @@ static double scene_x(double x) { return x / PIXELS_UNIT + PIXELS_SIDE / 2; }
 static int face_of(const struct scanned *scanned,
                    const struct watkins_span *span) {
   return (int)scanned->watkins.facet.item[span->facet].face;
-}
-
-static void assert_near(double got, double want) {
-  if (!(fabs(got - want) < 0x1p-30))
-    fail_msg("%.12g, not %.12g", got, want);
 }
 
 /* ---- Frames -------------------------------------------------------------- */

@@ -11,6 +11,7 @@
 
 #include "scene/read.h"
 #include "tests/scenes/pipeline.h"
+#include "tests/valgrind.h"
 
 static void assert_same_as_tiles(const struct scene *scene,
                                  const recto_options *options,
@@ -26,7 +27,7 @@ static void assert_same_as_tiles(const struct scene *scene,
 }
 
 static void soups_of_a_thousand_are_the_same(void **state) {
-  int seeds = getenv("RECTO_VALGRIND") != NULL ? 1 : 3;
+  int seeds = is_under_valgrind() ? 1 : 3;
   (void)state;
   for (int seed = 1; seed <= seeds; seed++) {
     struct scene scene;
@@ -84,7 +85,7 @@ static void models_are_the_same(void **state) {
                                      "cow"};
   const char *folder = getenv("RECTO_MODELS");
   (void)state;
-  if (folder == NULL || getenv("RECTO_VALGRIND") != NULL)
+  if (folder == NULL || is_under_valgrind())
     skip();
   for (size_t i = 0; i < sizeof name / sizeof *name; i++)
     if (!compare_model(folder, name[i]))
@@ -95,7 +96,7 @@ static void the_example_models_are_drawn_alike(void **state) {
   const char *source = getenv("srcdir");
   char folder[600];
   (void)state;
-  if (getenv("RECTO_VALGRIND") != NULL)
+  if (is_under_valgrind())
     skip();
   snprintf(folder, sizeof folder, "%.500s/examples/models",
            source != NULL ? source : ".");

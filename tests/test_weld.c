@@ -18,6 +18,7 @@
 #include "tests/memory_faults.h"
 #include "tests/scenes/build.h"
 #include "tests/scenes/random.h"
+#include "tests/valgrind.h"
 
 /* ---- Clusters ------------------------------------------------------------ */
 
@@ -212,7 +213,7 @@ static void a_million_points_within_the_length_are_one_cluster(void **state) {
   struct random random = {13};
   struct scene scene;
   scene_init(&scene);
-  uint32_t count = getenv("RECTO_VALGRIND") ? 2000 : 1000000;
+  uint32_t count = is_under_valgrind() ? 2000 : 1000000;
   for (uint32_t i = 0; i < count; i++)
     add_point(&scene, random_between(&random, 0, 1),
               random_between(&random, 0, 1), random_between(&random, 0, 1));

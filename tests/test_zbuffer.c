@@ -12,6 +12,7 @@
 
 #include "visibility/scanline_zbuffer/scanline_zbuffer.h"
 #include "visibility/zbuffer/zbuffer.h"
+#include "tests/near.h"
 
 enum { FINE = 2048 }; /* lines where the answer should be nearly exact */
 
@@ -181,11 +182,6 @@ static void ties_of_rounded_depths_keep_the_earlier_face(void **state) {
 }
 
 /* ---- Worked numbers ------------------------------------------------------ */
-
-static void assert_near(double got, double want) {
-  if (!(fabs(got - want) < 0x1p-30))
-    fail_msg("%.12g, not %.12g", got, want);
-}
 
 struct listed {
   double x_left, dx_left, dy_left, x_right, dx_right, dy_right, z_left, dz_x,

@@ -77,6 +77,16 @@ static void add_triangle(struct sheet *sheet, const uint32_t p[3],
                                                    : 0);
 }
 
+bool exact_turn_triangle(struct geom_point p[3]) {
+  int64_t area = geom_orient2d(p[0], p[1], p[2]);
+  if (area < 0) {
+    struct geom_point swap = p[1];
+    p[1] = p[2];
+    p[2] = swap;
+  }
+  return area != 0;
+}
+
 void exact_add_triangle(struct sheet *sheet, const struct geom_point p[3],
                         uint32_t face) {
   uint32_t point[3];

@@ -21,6 +21,10 @@ void exact_add_face(struct sheet *sheet, const int corner[][3], int count,
 void exact_add_triangle(struct sheet *sheet, const struct geom_point p[3],
                         uint32_t face);
 
+/* Swaps two corners of a triangle that is clockwise on the page.  Returns false
+ * where it has no area there. */
+bool exact_turn_triangle(struct geom_point p[3]);
+
 /* Solves with everything requested; asserts that it succeeded. */
 void exact_solve(const struct solver *solver, struct sheet *sheet,
                  struct map *map, struct report *report);

@@ -49,24 +49,6 @@ void pipeline_fini(struct pipeline *pipeline) {
   report_destroy(pipeline->report);
 }
 
-void pipeline_fail_each_allocation(const struct pipeline *pipeline,
-                                   const struct scene *scene,
-                                   const recto_options *options) {
-  recto_status status = RECTO_ERROR_MEMORY;
-  for (unsigned long n = 1; status != RECTO_OK; n++) {
-    struct drawing drawing;
-    drawing_init(&drawing);
-    mem_fail_after(n);
-    status = ink_draw(&drawing, &pipeline->sheet, scene, &pipeline->map,
-                      options, NULL);
-    mem_fail_after(0);
-    build_require(status == RECTO_OK || status == RECTO_ERROR_MEMORY);
-    build_require(n > 1 || status != RECTO_OK);
-    build_require(n < 10000);
-    drawing_fini(&drawing);
-  }
-}
-
 char *pipeline_svg(const struct pipeline *pipeline,
                    const recto_options *options, size_t *length) {
   const struct writer_options writing = {.precision =

@@ -25,12 +25,6 @@ void pipeline_run(struct pipeline *pipeline, const struct scene *scene,
                   const recto_options *options, const struct solver *solver);
 void pipeline_fini(struct pipeline *pipeline);
 
-/* Runs the ink stage repeatedly, with each allocation failing in turn: all
- * attempts but the last must return an error. */
-void pipeline_fail_each_allocation(const struct pipeline *pipeline,
-                                   const struct scene *scene,
-                                   const recto_options *options);
-
 /* The drawing as SVG text, NUL-terminated; where a stage failed, the name of
  * its status.  Free with mem_free. */
 char *pipeline_svg(const struct pipeline *pipeline,
