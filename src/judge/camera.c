@@ -78,13 +78,15 @@ double judge_view_depth(const struct judge_camera *camera,
 }
 
 /* Depths at the near plane are rounded like all others: at either end of what
- * is clipped, and once more where a plane goes through the rounded ends. */
+ * is clipped, and once more where a plane goes through the rounded ends.  A
+ * near plane that is chosen goes through the scene's nearest point, which a cut
+ * may have made. */
 double judge_near_tolerance(const struct judge_camera *camera) {
   if (!isfinite(camera->near_d))
     return 0;
   double unit = camera->perspective ? camera->near_d * camera->near_d : 1;
   return fabs(camera->near_d) * TOLERANCE_JUDGE_NEAR_SHARE +
-         4 * camera->depth_contact * unit;
+         4 * camera->depth_contact * unit + camera->near_error;
 }
 
 double judge_near(const struct judge_camera *camera) {

@@ -22,6 +22,8 @@ struct judge_camera {
   struct judge_point3 back; /* unit, towards the viewer */
   double near_d;            /* nothing nearer to the eye is drawn; perspective:
                                0 or more; orthographic: -INFINITY: no limit */
+  double near_error;        /* how far points that a cut rounds may be from the
+                               near plane where it goes through them */
   double depth_contact;     /* contact in units of the drawing's depths, far
                                above their rounding: scene units, in
                                perspective those of 1 / d; 0: none */

@@ -50,7 +50,7 @@ static enum judge_visibility cut_existence(const struct judge_context *context,
                                            const struct judge_edge *edge,
                                            struct judge_point3 at) {
   return judge_cut_exists(&context->all, edge, at,
-                          4 * judge_rounding_at(context->camera,
+                          4 * judge_rounding_at(&context->camera,
                                                 context->options.ray_offset_mm,
                                                 at));
 }
@@ -178,8 +178,8 @@ static bool is_added(const struct judge_context *context,
 static bool is_on_page(const struct judge_context *context,
                        struct judge_point2 at) {
   double margin = context->options.lateral_mm;
-  return at.x >= -margin && at.x <= context->camera->width_mm + margin &&
-         at.y >= -margin && at.y <= context->camera->height_mm + margin;
+  return at.x >= -margin && at.x <= context->camera.width_mm + margin &&
+         at.y >= -margin && at.y <= context->camera.height_mm + margin;
 }
 
 static void judge_ink_sample(struct judge_context *context,
@@ -283,8 +283,8 @@ static void judge_edge_sample(struct judge_context *context, uint32_t number,
     return;
   }
   /* Rounding may have clipped a point so close behind the near plane. */
-  if (judge_view_depth(context->camera, from) <=
-      context->camera->near_d + judge_near_tolerance(context->camera)) {
+  if (judge_view_depth(&context->camera, from) <=
+      context->camera.near_d + judge_near_tolerance(&context->camera)) {
     count_sample(&verdict->undecided, mm);
     return;
   }
@@ -321,9 +321,9 @@ static void judge_edge_sample(struct judge_context *context, uint32_t number,
 static bool visible_part(const struct judge_context *context, uint32_t edge,
                          struct judge_segment *part, double *t0, double *t1) {
   if (!is_requested(context, edge) ||
-      !judge_clip_to_page(context->camera, context->image[edge].a,
+      !judge_clip_to_page(&context->camera, context->image[edge].a,
                           context->image[edge].b, t0, t1) ||
-      !judge_clip_to_circle(context->camera, context->image[edge].a,
+      !judge_clip_to_circle(&context->camera, context->image[edge].a,
                             context->image[edge].b, t0, t1))
     return false;
   part->a = point_on(&context->image[edge], *t0);
@@ -361,7 +361,7 @@ bool judge_drawing(struct judge_verdict *verdict,
                    const struct scene *scene, const struct judge_camera *camera,
                    const struct judge_options *options) {
   struct judge_context context = {.drawing = drawing,
-                                  .camera = camera,
+                                  .camera = *camera,
                                   .options = *options,
                                   .long_edge = SCENE_NONE,
                                   .verdict = verdict};

@@ -57,7 +57,7 @@ static double largest_rounding(const struct judge_context *context) {
     struct judge_point3 at = {(corner & 1 ? box->high : box->low)[0],
                               (corner & 2 ? box->high : box->low)[1],
                               (corner & 4 ? box->high : box->low)[2]};
-    most = fmax(most, judge_rounding_at(context->camera,
+    most = fmax(most, judge_rounding_at(&context->camera,
                                         context->sampler.ray_offset_mm, at));
   }
   return most;
@@ -72,11 +72,13 @@ static void set_removed(struct judge_context *context) {
        t++)
     removed->contact =
         fmax(removed->contact, context->all.triangle.item[t].contact);
+  if (removed->planes > 0)
+    context->camera.near_error = removed->near;
 }
 
 bool judge_context_build(struct judge_context *context,
                          const struct scene *scene) {
-  const struct judge_camera *camera = context->camera;
+  const struct judge_camera *camera = &context->camera;
   double width = camera->width_mm, height = camera->height_mm;
   const double cells = 400;
   double cell = fmax(width, height) / cells;

@@ -12,7 +12,7 @@ struct judge_verdict;
 
 struct judge_context {
   const struct judge_drawing *drawing;
-  const struct judge_camera *camera;
+  struct judge_camera camera;
   struct judge_options options;
   struct judge_triangles all;
   struct judge_sampler sampler;
