@@ -245,8 +245,8 @@
  * Unit        1 (a sine, a cosine)
  * Derivation  single precision rounds a normal by 1e-7 of its length and that
  *             of a face a hundred times longer than wide by 1e-5.
- * Users       judge/cut_edges.c, judge/edge_classes.c, judge/edge_classes.h,
- *             judge/missing_run.c, judge/winding.c
+ * Users       judge/collinear_cuts.c, judge/cut_edges.c, judge/edge_classes.c,
+ *             judge/edge_classes.h, judge/missing_run.c, judge/winding.c
  * Ten times   silhouettes seen within 0.006 degrees of edge-on may be missing
  *             unnoticed. */
 #define TOLERANCE_JUDGE_ANGLE 1e-5

@@ -11,6 +11,7 @@
 
 #include "base/poll.h"
 #include "base/sort.h"
+#include "judge/collinear_cuts.h"
 #include "judge/cut_edges.h"
 #include "judge/edge_classes.h"
 #include "judge/folds.h"
@@ -321,6 +322,7 @@ bool judge_edges_init(struct judge_edges *edges,
             sort_stable(finder.group.item, finder.group.count,
                         sizeof *finder.group.item, compare_located, NULL) &&
             visit_groups(&finder, &sides, false) && pair_singles(&finder) &&
+            judge_doubt_collinear_cuts(edges, all, finder.first_at) &&
             judge_edges_add_folds(edges, &finder.facings) &&
             add_wires(&finder) &&
             judge_edges_add_intersections(edges, all, camera,

@@ -2,6 +2,7 @@
 librecto_core_la_SOURCES += \
   %D%/camera.c %D%/camera.h \
   %D%/clipped_triangle.c %D%/clipped_triangle.h \
+  %D%/collinear_cuts.c %D%/collinear_cuts.h \
   %D%/cut_edges.c %D%/cut_edges.h \
   %D%/contact.c %D%/contact.h \
   %D%/drawing.c %D%/drawing.h \
