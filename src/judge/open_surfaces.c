@@ -53,6 +53,7 @@ bool judge_mark_borders(struct judge_triangles *all, const uint8_t *border) {
   for (size_t t = 0; t < all->triangle.count; t++) {
     struct judge_triangle *triangle = &all->triangle.item[t];
     triangle->has_border = border[triangle->face] != JUDGE_NO_BORDER;
+    all->has_border = all->has_border || triangle->has_border;
     is_any_cut = is_any_cut || border[triangle->face] == JUDGE_BORDER_CUT;
   }
   return !is_any_cut || mark_surfaces(all, border);

@@ -45,7 +45,8 @@ struct judge_triangles {
   } * node;
   size_t nodes; /* none where there are no triangles */
   ARRAY(struct judge_side_triangle) side_triangle; /* by face, low, high */
-  double size; /* diagonal of the box of all points that faces use */
+  bool has_border; /* some of the triangles: set by judge_mark_borders */
+  double size;     /* diagonal of the box of all points that faces use */
   const struct scene *scene;
   struct judge_removed removed; /* of the triangles; to be set after
                                    judge_triangles_init */

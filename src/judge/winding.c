@@ -9,7 +9,6 @@ struct winding {
   struct judge_point3 from, towards; /* towards: unit */
   int number;
   bool is_sure;
-  bool is_open; /* on the way is a surface that is not closed */
 };
 
 /* Counts a triangle that the ray meets. */
@@ -40,7 +39,6 @@ static bool count_crossing(void *user, uint32_t number) {
   if (t->has_border || close || !(at > away) ||
       fabs(facing) <= TOLERANCE_JUDGE_ANGLE)
     winding->is_sure = false;
-  winding->is_open = winding->is_open || t->has_border;
   winding->number += facing > 0 ? 1 : -1;
   return winding->is_sure;
 }
@@ -55,7 +53,6 @@ enum judge_inside judge_is_inside(const struct judge_triangles *all,
       {0.3307, -0.7559, -0.5651}, {-0.7793, -0.3571, -0.5147}};
   enum { DIRECTIONS = sizeof direction / sizeof direction[0], ENOUGH = 4 };
   int sure = 0, number = 0;
-  bool is_open = false;
   for (int i = 0; i < DIRECTIONS; i++) {
     const double *d = direction[i];
     struct winding winding = {
@@ -65,7 +62,6 @@ enum judge_inside judge_is_inside(const struct judge_triangles *all,
         .is_sure = true};
     (void)judge_triangles_along(all, p, winding.towards, INFINITY,
                                 count_crossing, &winding);
-    is_open = is_open || winding.is_open;
     if (!winding.is_sure)
       continue;
     if (sure > 0 && winding.number != number)
@@ -73,8 +69,9 @@ enum judge_inside judge_is_inside(const struct judge_triangles *all,
     number = winding.number;
     sure++;
   }
-  /* What planes cut of a surface that is not closed may be closed in them. */
-  if (sure < ENOUGH || (number == 0 && is_open))
+  /* What planes cut of a surface that is not closed may be closed in them, also
+   * where rays go past it. */
+  if (sure < ENOUGH || (number == 0 && all->has_border))
     return JUDGE_PERHAPS_INSIDE;
   return number != 0 ? JUDGE_INSIDE : JUDGE_OUTSIDE;
 }
