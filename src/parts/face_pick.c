@@ -1,6 +1,6 @@
 /* face_pick.c - picks faces of a model in a pass over all of them.
  *
- * Performance  Corners are all over the points, so all that is asked of a point
+ * Performance  Corners are all over the points, so all that is read of a point
  * lies in one byte. */
 #include "parts/face_pick.h"
 
