@@ -43,6 +43,34 @@ claim "tone hatching is that of the whole" takes --fill hatch --light=-1,2,1 --i
 claim "creases with a second angle are those of the whole" \
   takes --crease 8,40 --edges all
 
+# A soup of warped quadrilaterals, some of which pierce themselves.
+awk 'BEGIN { x = 1
+  for (i = 0; i < 160; i++) {
+    printf "v"
+    for (k = 0; k < 3; k++) {
+      x = (x * 1103 + 12345) % 65536
+      printf " %d", x / 64 % 5
+    }
+    print ""
+  }
+  for (i = 0; i < 40; i++)
+    printf "f %d %d %d %d\n", 4 * i + 1, 4 * i + 2, 4 * i + 3, 4 * i + 4
+}' >warped.obj
+printf 'v %s\n' '1 1 1' '0 0 1' '2 1 0' '1 0 1' '2 0 1' '1 0 1' '1 0 2' '1 2 0' \
+  '2 0 1' '1 1 1' '2 2 1' '2 2 0' >wire.obj
+printf 'f %s\n' '9 10 8' '7 11 4' '10 7 11' '2 3 12' '8 6 1' '5 6 7' >>wire.obj
+echo 'l 10 12 2' >>wire.obj
+soup_joins() { # MODEL
+  local i
+  for i in 1 2 3 4; do
+    "$recto" "$1" --part $i/4 -o "soup-$i.recto" -q || return 1
+  done
+  "$recto" "$1" -o soup.svg -q && "$recto" --join soup-?.recto -o joined.svg -q &&
+    cmp soup.svg joined.svg
+}
+claim "faces that pierce themselves are joined" soup_joins warped.obj
+claim "polylines are welded the same in all parts" soup_joins wire.obj
+
 has_this_format() {
   local file
   for file in "$srcdir"/tests/fuzz/corpus/part/*; do

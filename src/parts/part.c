@@ -38,14 +38,16 @@ int part_edge_run_compare(const struct part_edge_run *a,
   return order != 0 ? order : compare_numbers(a->place, b->place);
 }
 
+int part_triangle_compare(struct part_triangle a, struct part_triangle b) {
+  int order = compare_numbers(a.face, b.face);
+  return order != 0 ? order : compare_numbers(a.place, b.place);
+}
+
 int part_crossing_compare(const struct part_crossing *a,
                           const struct part_crossing *b) {
   int order = 0;
-  for (int k = 0; order == 0 && k < 2; k++) {
-    order = compare_numbers(a->triangle[k].face, b->triangle[k].face);
-    if (order == 0)
-      order = compare_numbers(a->triangle[k].place, b->triangle[k].place);
-  }
+  for (int k = 0; order == 0 && k < 2; k++)
+    order = part_triangle_compare(a->triangle[k], b->triangle[k]);
   for (int k = 0; order == 0 && k < 2; k++)
     order = geom_compare_points(a->end[k], b->end[k]);
   return order;

@@ -104,7 +104,10 @@ struct part_triangle {
   uint32_t face, place;
 };
 
-/* The line in which two triangles pierce each other. */
+int part_triangle_compare(struct part_triangle a, struct part_triangle b);
+
+/* The line in which two triangles pierce each other, perhaps those of a face
+ * that is not planar. */
 struct part_crossing {
   struct part_triangle triangle[2]; /* the lower first */
   struct geom_point end[2];

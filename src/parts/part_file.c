@@ -344,7 +344,8 @@ static void code_edges(struct byte_codec *codec, struct part *part) {
     }
     code_visibility(codec, part, &crossing->visibility, &next);
     code_over_limit(codec, part, &crossing->over_limit, &next_over);
-    require(codec, crossing->triangle[0].face < crossing->triangle[1].face);
+    require(codec, part_triangle_compare(crossing->triangle[0],
+                                         crossing->triangle[1]) < 0);
   }
 }
 

@@ -189,6 +189,37 @@ static void set_kept_box(struct part_scene_work *work) {
   work->box = widen_window(&work->box, work->request->margin);
 }
 
+/* A polyline is kept as a whole where one of its segments meets the box. */
+static bool wire_is_kept(const struct part_scene_work *work, uint32_t wire) {
+  const struct scene *scene = &work->part->scene;
+  for (uint32_t c = scene->wire_start.item[wire];
+       c + 1 < scene->wire_start.item[wire + 1]; c++) {
+    struct part_window box =
+        box_of(work->part->place, scene->wire_corner.item + c, 2);
+    if (part_window_meets(&work->box, box.low, box.high))
+      return true;
+  }
+  return false;
+}
+
+/* Keeps the corners of polylines that are kept: the faces there tell which
+ * points they are welded to. */
+static void keep_wire_corners(struct part_scene_work *work,
+                              struct part_window *all) {
+  const struct scene *scene = &work->part->scene;
+  for (uint32_t w = 0; w < scene_wire_count(scene); w++) {
+    const uint32_t *start = &scene->wire_start.item[w];
+    if (!wire_is_kept(work, w))
+      continue;
+    struct part_window box =
+        box_of(work->part->place, scene->wire_corner.item + start[0],
+               start[1] - start[0]);
+    include_in_box(all, &box);
+    for (uint32_t c = start[0]; c < start[1]; c++)
+      work->corner_kept[scene->wire_corner.item[c]] = 1;
+  }
+}
+
 /* Keeps the faces that meet the box; returns the box of all of these. */
 static struct part_window keep_faces(struct part_scene_work *work) {
   const struct scene *scene = &work->part->scene;
@@ -203,20 +234,8 @@ static struct part_window keep_faces(struct part_scene_work *work) {
          c < scene->face_start.item[f + 1]; c++)
       work->corner_kept[scene->corner.item[c]] = 1;
   }
+  keep_wire_corners(work, &all);
   return all;
-}
-
-/* A polyline is kept as a whole where one of its segments meets the box. */
-static bool wire_is_kept(const struct part_scene_work *work, uint32_t wire) {
-  const struct scene *scene = &work->part->scene;
-  for (uint32_t c = scene->wire_start.item[wire];
-       c + 1 < scene->wire_start.item[wire + 1]; c++) {
-    struct part_window box =
-        box_of(work->part->place, scene->wire_corner.item + c, 2);
-    if (part_window_meets(&work->box, box.low, box.high))
-      return true;
-  }
-  return false;
 }
 
 /* ---- Their ring ---------------------------------------------------------- */
