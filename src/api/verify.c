@@ -182,6 +182,7 @@ static recto_status judge_own_drawing(const struct verify *verify,
   options.samples = (size_t)o->verify;
   options.ink_distance_mm += ink_deviation_mm(o);
   options.lateral_mm += ink_deviation_mm(o);
+  options.moved_mm = o->ink.simplify_mm + o->ink.curves_mm;
   return judge_drawing(verdict, drawing, &input->scene, &camera, &options)
              ? RECTO_OK
              : error_memory(error);

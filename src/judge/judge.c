@@ -115,7 +115,8 @@ static bool is_near_shallow(const struct judge_context *context,
  * nearest of the hidden edges along the stroke becomes the witness.  Where the
  * contact tolerance is less than the rounding to the grid, faces that touch may
  * intersect on the grid anywhere, so that ink without an edge along it is
- * undecided; so it is where nearly parallel faces are that close.
+ * undecided; so it is where nearly parallel faces are that close.  A hidden
+ * edge that is only as near as lines were moved on purpose does not decide it.
  */
 static enum judge_visibility explain_ink(const struct judge_context *context,
                                          const struct judge_segment *stroke,
@@ -153,7 +154,9 @@ static enum judge_visibility explain_ink(const struct judge_context *context,
   }
   bool may_pierce =
       context->options.contact >= 0 && context->options.contact < context->grid;
-  if (best == JUDGE_BLOCKED && !witness->on_edge &&
+  bool along_hidden =
+      nearest <= context->options.lateral_mm - context->options.moved_mm;
+  if (best == JUDGE_BLOCKED && !along_hidden &&
       (may_pierce || is_near_shallow(context, witness->at)))
     return JUDGE_UNSURE;
   return best;

@@ -12,6 +12,7 @@ struct judge_options {
   double lateral_mm;      /* an edge this close to a drawn point explains it: a
                         little more than the rounding of coordinates in the
                         file */
+  double moved_mm;        /* of lateral_mm, what lines were moved on purpose */
   double ray_offset_mm;   /* of the rays beside an edge, on the page: well above
                              the page grid */
   double contact; /* the drawing's contact tolerance, scene units; negative:
