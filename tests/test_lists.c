@@ -136,12 +136,14 @@ static void widths_and_colours_meet_in_a_pen(void **state) {
   arguments_fini(&a);
 }
 
-static void later_weights_replace_earlier_ones(void **state) {
+static void weights_given_again_are_one_list(void **state) {
   struct arguments a;
   char message[MESSAGE_SIZE];
   (void)state;
-  assert_true(
+  assert_false(
       parse(&a, message, "--weights=crease=2,wire=3", "--weights=wire=0.5"));
+  arguments_fini(&a);
+  assert_true(parse(&a, message, "--weights=crease=2", "--weights=wire=0.5"));
   assert_true(a.options.ink.has_weights);
   assert_int_equal(a.options.ink.weight_count, 2);
   assert_int_equal(a.options.ink.weight[1].edge_class, RECTO_EDGE_WIRE);
@@ -161,7 +163,7 @@ int main(void) {
       cmocka_unit_test(one_name_has_one_value),
       cmocka_unit_test(names_become_lines_and_pens),
       cmocka_unit_test(widths_and_colours_meet_in_a_pen),
-      cmocka_unit_test(later_weights_replace_earlier_ones),
+      cmocka_unit_test(weights_given_again_are_one_list),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
