@@ -50,7 +50,7 @@ const char *temporary_file(void *const *state, const char *name,
                            const void *bytes, size_t count) {
   const char *path = temporary_path(state, name);
   FILE *file = fopen(path, "wb");
-  if (!file || (count && fwrite(bytes, count, 1, file) != 1) ||
+  if (file == NULL || (count && fwrite(bytes, count, 1, file) != 1) ||
       fclose(file) != 0) {
     perror(path);
     exit(1);
@@ -62,9 +62,9 @@ char *temporary_read(const char *path, size_t *count) {
   enum { SIZE_MAX_READ = 1 << 24 };
   FILE *file = fopen(path, "rb");
   char *bytes = malloc(SIZE_MAX_READ);
-  if (!file || !bytes) {
+  if (file == NULL || bytes == NULL) {
     free(bytes);
-    if (file)
+    if (file != NULL)
       fclose(file);
     return NULL;
   }

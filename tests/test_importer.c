@@ -286,7 +286,7 @@ static void a_named_pipe_is_read_once(void **state) {
   pid_t child = fork();
   if (child == 0) {
     FILE *file = fopen(path, "w");
-    _exit(!file || fputs(off, file) < 0 || fclose(file) != 0);
+    _exit(file == NULL || fputs(off, file) < 0 || fclose(file) != 0);
   }
   assert_reads(path, 2);
   assert_int_equal(waitpid(child, NULL, 0), child);
