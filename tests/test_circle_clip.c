@@ -14,7 +14,7 @@
 static const struct drawing_circle circle = {50, 40, 10};
 
 static void begin(struct drawing *drawing, double width_mm) {
-  const struct drawing_layer layer = {1, "1 visible", 0, width_mm, NULL};
+  const struct drawing_layer layer = {1, "1 visible", 0, width_mm, NULL, false};
   drawing_init(drawing);
   assert_true(ARRAY_PUSH(&drawing->layer, layer));
 }
