@@ -11,6 +11,9 @@ librecto_core_la_SOURCES += \
   %D%/part_collect.c %D%/part_collect.h \
   %D%/part_file.c %D%/part_file.h \
   %D%/part_join.c %D%/part_join.h \
+  %D%/part_join_edges.c \
+  %D%/part_join_phases.h \
+  %D%/part_join_scene.c \
   %D%/part_merge.c %D%/part_merge.h \
   %D%/part_points.c %D%/part_points.h \
   %D%/part_scene.c %D%/part_scene.h \
