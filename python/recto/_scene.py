@@ -95,6 +95,26 @@ class Scene:
         if vertices is not None:
             self.add_mesh(vertices, faces, groups)
 
+    def _read(
+        self,
+        read: Callable[..., int],
+        path: str | os.PathLike[str],
+        model_format: str | None,
+        options: Any,
+    ) -> Scene:
+        """Reads a model file by a function of the library."""
+        filled = Filled(options)
+        filled.call.finish(
+            read(
+                self._owner,
+                path_of(path),
+                text_to(model_format),
+                filled.at,
+                filled.call.error,
+            )
+        )
+        return self
+
     @classmethod
     def read(
         cls,
@@ -105,18 +125,7 @@ class Scene:
     ) -> Scene:
         """Reads a model file; its format is that of its extension.  Colours,
         which OBJ has in its material libraries, are read for fill="paint"."""
-        scene = cls()
-        filled = Filled(options)
-        filled.call.finish(
-            lib.recto_scene_read(
-                scene._owner,
-                path_of(path),
-                text_to(model_format),
-                filled.at,
-                filled.call.error,
-            )
-        )
-        return scene
+        return cls()._read(lib.recto_scene_read, path, model_format, options)
 
     @classmethod
     def read_for_parts(
@@ -128,18 +137,9 @@ class Scene:
     ) -> Scene:
         """Reads a model file for write_part and has_part alone, which read an
         OBJ file themselves, block by block: to other methods it is empty."""
-        scene = cls()
-        filled = Filled(options)
-        filled.call.finish(
-            lib.recto_scene_read_for_parts(
-                scene._owner,
-                path_of(path),
-                text_to(model_format),
-                filled.at,
-                filled.call.error,
-            )
+        return cls()._read(
+            lib.recto_scene_read_for_parts, path, model_format, options
         )
-        return scene
 
     @classmethod
     def from_bytes(
