@@ -166,13 +166,21 @@ static bool triangulate_loop(struct cutter *cutter,
   return ok;
 }
 
-/* Splits what is beyond the planes before `plane`. */
+/* Stores a part that stays, if it has an area. */
+static bool store_below(struct cutter *cutter, const struct cut_loop *loop) {
+  return loop->corner.count < 3 || store_part(cutter, loop, false);
+}
+
+/* Splits what is beyond the planes before `plane`.  A loop of two corners is an
+ * edge in one of these planes, whose face is below it: the edge is a line where
+ * it goes. */
 static bool cut_loop(struct cutter *cutter, const struct cut_loop *loop,
                      unsigned plane) {
-  if (loop->corner.count < 3)
+  if (loop->corner.count < 2)
     return true;
   if (plane == cutter->points.planes) {
     cutter->anything_goes = true;
+    cutter->edge_goes = cutter->edge_goes || loop->corner.count == 2;
     return store_lines(cutter, loop);
   }
   size_t count = loop->corner.count, beyonds = 0, changes = 0;
@@ -186,7 +194,7 @@ static bool cut_loop(struct cutter *cutter, const struct cut_loop *loop,
                               plane);
   }
   if (beyonds == 0)
-    return store_part(cutter, loop, false);
+    return store_below(cutter, loop);
   if (beyonds == count)
     return cut_loop(cutter, loop, plane + 1);
   if (count > 3 && !loop->is_convex) {
@@ -199,8 +207,7 @@ static bool cut_loop(struct cutter *cutter, const struct cut_loop *loop,
   struct cut_loop below = {.face = loop->face, .is_convex = loop->is_convex};
   struct cut_loop beyond = below;
   bool ok = split_loop(cutter, loop, plane, &below, &beyond) &&
-            (below.corner.count < 3 || store_part(cutter, &below, false)) &&
-            cut_loop(cutter, &beyond, plane + 1);
+            store_below(cutter, &below) && cut_loop(cutter, &beyond, plane + 1);
   ARRAY_FREE(&below.corner);
   ARRAY_FREE(&beyond.corner);
   return ok;
@@ -287,7 +294,8 @@ static bool walk_around(const struct part_sides *sides,
 }
 
 /* Makes the parts of a face from `first` on one again, where they are one
- * polygon; else each gets the corners at which others of them end. */
+ * polygon; else each gets the corners at which others of them end.  Either way
+ * sides in a plane are divided where others meet them. */
 static bool unite_parts(struct cutter *cutter, size_t first,
                         struct part_sides *sides, struct cut_loop *polygon) {
   size_t past = cutter->part.count;
@@ -351,9 +359,9 @@ recto_status cut_faces(struct cutter *cutter, recto_error *error) {
                       CUT_NO_PLANE);
     end_loop(&loop);
     size_t first = cutter->part.count;
-    cutter->is_warped = false;
+    cutter->is_warped = cutter->edge_goes = false;
     ok = ok && cut_loop(cutter, &loop, 0) &&
-         (cutter->part.count <= first + 1 ||
+         (cutter->part.count <= first + !cutter->edge_goes ||
           unite_parts(cutter, first, &sides, &loop));
   }
   ARRAY_FREE(&loop.corner);

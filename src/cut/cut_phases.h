@@ -41,6 +41,7 @@ struct cutter {
   ARRAY(struct cut_part) part; /* in the order of their faces */
   struct triangulation triangulation;
   bool is_warped;  /* the current face is not planar */
+  bool edge_goes;  /* an edge of it that lies in a plane, if not all of it */
   uint32_t *place; /* of each point of the cut: the first one at its place */
   size_t places;
   struct cut_lines lines;
