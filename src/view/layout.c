@@ -16,6 +16,7 @@ static void free_layout(struct layout *layout) {
   ARRAY_FREE(&layout->clipped_ends.list);
   mem_free(layout->clipped_ends.slot);
   ARRAY_FREE(&layout->diagonal);
+  ARRAY_FREE(&layout->part);
   ARRAY_FREE(&layout->fold);
   ARRAY_FREE(&layout->corner);
   triangulation_fini(&layout->triangulation);

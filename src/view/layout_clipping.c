@@ -220,12 +220,12 @@ static int view_sign(const struct layout *layout,
   return volume > 0 ? 1 : -1;
 }
 
-/* Adds what is left of a triangle and records on which side of its edges it
- * lies. Sides that the near plane made are contours. */
+/* Adds what is left of a triangle.  Sides that the near plane made are
+ * contours. */
 static recto_status add_polygon(struct layout *layout,
                                 const struct layout_triangle *triangle,
-                                const struct view_point corner[3],
-                                struct clip_polygon *polygon) {
+                                struct clip_polygon *polygon,
+                                struct layout_clipped_triangle *left) {
   uint32_t point[CLIP_CORNERS_MAX];
   for (int i = 0; i < polygon->count; i++) {
     recto_status status =
@@ -236,19 +236,17 @@ static recto_status add_polygon(struct layout *layout,
   drop_repeats(polygon, point);
   if (polygon->count < 3 || is_all_on_border(layout, point, polygon->count))
     return RECTO_OK;
-  int sign = 0;
   recto_status status =
-      add_clipped_ears(layout, triangle, polygon, point, &sign);
+      add_clipped_ears(layout, triangle, polygon, point, &left->sign);
   /* Where a strip is left so thin that rounding made it edge-on, as at the near
    * plane, the triangle still lies on its side of the edge. */
-  if (sign == 0)
-    sign = view_sign(layout, corner);
+  if (left->sign == 0)
+    left->sign = left->view_sign;
   for (int i = 0; status == RECTO_OK && i < polygon->count; i++) {
     const uint32_t end[2] = {point[i],
                              point[i + 1 < polygon->count ? i + 1 : 0]};
     if (polygon->corner[i].side != CLIP_CUT)
-      layout_record_triangle_side(layout, triangle, polygon->corner[i].side,
-                                  sign);
+      left->sides |= 1u << polygon->corner[i].side;
     else if (!is_all_on_border(layout, end, 2))
       status = layout_contour(layout, end[0], end[1]);
   }
@@ -256,7 +254,9 @@ static recto_status add_polygon(struct layout *layout,
 }
 
 recto_status layout_add_clipped(struct layout *layout,
-                                const struct layout_triangle *triangle) {
+                                const struct layout_triangle *triangle,
+                                struct layout_clipped_triangle *left) {
+  *left = (struct layout_clipped_triangle){.first = layout->flags.count};
   struct view_point corner[3];
   unsigned any = 0, all = ~0u;
   for (int k = 0; k < 3; k++) {
@@ -266,15 +266,16 @@ recto_status layout_add_clipped(struct layout *layout,
   }
   if (all)
     return RECTO_OK;
+  left->view_sign = view_sign(layout, corner);
   if (!any) {
     if (!layout_reserve(layout, 1))
       return error_memory(layout->error);
-    layout_record_triangle_sides(layout, triangle,
-                                 layout_add_whole(layout, triangle));
+    left->sign = layout_add_whole(layout, triangle);
+    left->sides = 7;
     return RECTO_OK;
   }
   struct clip_polygon polygon;
   if (!clip_triangle(&layout->projection, corner, triangle->forward, &polygon))
     return RECTO_OK;
-  return add_polygon(layout, triangle, corner, &polygon);
+  return add_polygon(layout, triangle, &polygon, left);
 }

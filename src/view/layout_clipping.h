@@ -119,9 +119,19 @@ layout_record_triangle_sides(struct layout *layout,
     layout_record_triangle_side(layout, triangle, k, sign);
 }
 
-/* Clips a triangle, adds what is left of it, and records on which side of its
- * edges and diagonals that lies. */
+/* Records on which side of those of its sides that are left a triangle lies. */
+static inline void
+layout_record_clipped(struct layout *layout,
+                      const struct layout_triangle *triangle,
+                      const struct layout_clipped_triangle *left, int sign) {
+  for (int k = 0; k < 3; k++)
+    if (left->sides & 1u << k)
+      layout_record_triangle_side(layout, triangle, k, sign);
+}
+
+/* Clips a triangle and adds what is left of it. */
 USE_RESULT recto_status layout_add_clipped(
-    struct layout *layout, const struct layout_triangle *triangle);
+    struct layout *layout, const struct layout_triangle *triangle,
+    struct layout_clipped_triangle *left);
 
 #endif

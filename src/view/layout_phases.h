@@ -81,6 +81,14 @@ struct layout_diagonal {
   uint8_t sides;     /* LAYOUT_... */
 };
 
+/* What clipping left of a triangle of a face. */
+struct layout_clipped_triangle {
+  size_t first;   /* triangle of the sheet; they end where the next begins */
+  int sign;       /* of its area on the page, in the face's winding */
+  int view_sign;  /* that before clipping and rounding; 0: not sure */
+  unsigned sides; /* 1 << k: something is left of side k */
+};
+
 /* A diagonal that is a silhouette: a face that is not planar folds there. */
 struct layout_fold {
   struct layout_clipped ends;
@@ -105,7 +113,8 @@ struct layout {
   struct layout_clipped_ends clipped_ends;
   ARRAY(uint8_t) flags; /* one a triangle; passed to the sheet at the end */
   struct triangulation triangulation;
-  ARRAY(struct layout_diagonal) diagonal; /* of the current face */
+  ARRAY(struct layout_diagonal) diagonal;     /* of the current face */
+  ARRAY(struct layout_clipped_triangle) part; /* likewise, if it is clipped */
   ARRAY(struct layout_fold) fold;
   ARRAY(uint32_t) corner; /* of the current face, welded */
   recto_error *error;

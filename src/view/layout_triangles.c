@@ -123,18 +123,6 @@ static struct layout_triangle nth_triangle(struct layout *layout, uint32_t face,
                           &layout->triangulation.triangle.item[t]);
 }
 
-static recto_status cut_polygon_face(struct layout *layout, uint32_t face,
-                                     uint32_t start, uint32_t count) {
-  for (size_t t = 0; t < layout->triangulation.triangle.count; t++) {
-    struct layout_triangle triangle =
-        nth_triangle(layout, face, start, count, t);
-    recto_status status = layout_add_clipped(layout, &triangle);
-    if (status != RECTO_OK)
-      return status;
-  }
-  return RECTO_OK;
-}
-
 /* How far the contact tolerance moves a point of this depth on the page, in
  * grid units, with one unit for rounding. */
 static double contact_units(const struct sheet *sheet, uint32_t face,
@@ -222,6 +210,29 @@ static bool face_sign(const struct layout *layout, uint32_t face, size_t first,
   return *sign != 0 || (plus && is_face_edge_on(layout, face, start, count));
 }
 
+/* The sign that all triangles from `first` on have whose sign is sure; 0 where
+ * there is none, or they differ. */
+static int sure_sign(const struct layout *layout, size_t first) {
+  bool plus = false, minus = false;
+  for (size_t t = first; t < layout->flags.count; t++) {
+    bool flipped = layout->flags.item[t] & SHEET_FLIPPED;
+    if (!is_sign_unsure(layout->sheet, t)) {
+      plus = plus || !flipped;
+      minus = minus || flipped;
+    }
+  }
+  return plus - minus;
+}
+
+/* Makes the sides of a sheet triangle contours. */
+static recto_status add_contours(struct layout *layout, size_t triangle) {
+  const uint32_t *p = layout->sheet->triangle.item[triangle].point;
+  recto_status status = RECTO_OK;
+  for (int k = 0; status == RECTO_OK && k < 3; k++)
+    status = layout_contour(layout, p[k], p[geom_next_corner(k)]);
+  return status;
+}
+
 /* Adds a face that needs no clipping.  Triangles without an area, or turned,
  * because of rounding or a spike, get the orientation of the others, so that
  * silhouettes do not depend on the triangulation.  Their sides are contours all
@@ -245,9 +256,42 @@ static recto_status add_whole_face(struct layout *layout, uint32_t face,
     int own = flags & SHEET_EDGE_ON ? 0 : flags & SHEET_FLIPPED ? -1 : 1;
     int sign = is_common ? common : own;
     layout_record_triangle_sides(layout, &triangle, sign);
-    const uint32_t *p = layout->sheet->triangle.item[first + t].point;
-    for (int k = 0; status == RECTO_OK && sign != own && k < 3; k++)
-      status = layout_contour(layout, p[k], p[geom_next_corner(k)]);
+    if (sign != own && status == RECTO_OK)
+      status = add_contours(layout, first + t);
+  }
+  return status;
+}
+
+/* Adds what clipping leaves of the triangles of a face, with the orientation of
+ * the others as above.  What is left of a triangle may be thin where the
+ * whole one is not, which then says on which side of its edges it lies. */
+static recto_status add_clipped_face(struct layout *layout, uint32_t face,
+                                     uint32_t start, uint32_t count) {
+  size_t triangles = layout->triangulation.triangle.count;
+  size_t first = layout->flags.count;
+  recto_status status = RECTO_OK;
+  layout->part.count = 0;
+  if (!ARRAY_RESERVE(&layout->part, triangles))
+    return error_memory(layout->error);
+  for (size_t t = 0; status == RECTO_OK && t < triangles; t++) {
+    struct layout_triangle triangle =
+        nth_triangle(layout, face, start, count, t);
+    status = layout_add_clipped(layout, &triangle,
+                                &layout->part.item[layout->part.count++]);
+  }
+  int common = sure_sign(layout, first);
+  size_t end = layout->flags.count;
+  for (size_t t = triangles; status == RECTO_OK && t-- > 0;) {
+    struct layout_triangle triangle =
+        nth_triangle(layout, face, start, count, t);
+    const struct layout_clipped_triangle *left = &layout->part.item[t];
+    bool may_turn = common != 0 && left->view_sign != -common;
+    int sign = may_turn ? common : left->sign;
+    layout_record_clipped(layout, &triangle, left, sign);
+    for (size_t i = left->first;
+         status == RECTO_OK && sign != left->sign && i < end; i++)
+      status = add_contours(layout, i);
+    end = left->first;
   }
   return status;
 }
@@ -289,7 +333,7 @@ static recto_status add_polygon_face(struct layout *layout, uint32_t face,
     return error_memory(layout->error);
   layout->sheet->warped += triangulation->warped;
   layout->sheet->empty += triangulation->triangle.count == 0;
-  recto_status status = clipped ? cut_polygon_face(layout, face, start, count)
+  recto_status status = clipped ? add_clipped_face(layout, face, start, count)
                                 : add_whole_face(layout, face, start, count);
   if (triangulation->off_plane <= coordinate_error_contact(layout->sheet, face))
     mark_coplanar(layout, first);
@@ -320,9 +364,10 @@ static recto_status layout_face(struct layout *layout, uint32_t face) {
     return RECTO_OK;
   }
   if (any) {
-    size_t first = layout->flags.count;
-    recto_status status = layout_add_clipped(layout, &triangle);
-    mark_coplanar(layout, first);
+    struct layout_clipped_triangle left;
+    recto_status status = layout_add_clipped(layout, &triangle, &left);
+    layout_record_clipped(layout, &triangle, &left, left.sign);
+    mark_coplanar(layout, left.first);
     return status;
   }
   if (!layout_reserve(layout, 1))
