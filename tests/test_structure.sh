@@ -295,7 +295,7 @@ check_length() {
       split("src/recto.h backends/writer_svg.c backends/writer_cairo.c " \
             "src/parts/part_merge.c src/parts/part_file.c " \
             "src/api/part.c " \
-            "src/view/camera_aim.c src/cli/options.c", name, " ")
+            "src/cli/options.c", name, " ")
       for (i in name)
         long[name[i]] = 1
     }

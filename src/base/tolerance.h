@@ -164,7 +164,7 @@
  * Unit        share of the scene's diagonal
  * Derivation  view coordinates are sums of three products, off by about
  *             2^-51 of the diagonal, more for a model far from its origin.
- * Users       view/camera_aim.c, view/project.c, view/layout_clipping.c,
+ * Users       view/camera_fit.c, view/project.c, view/layout_clipping.c,
  *             view/preferred_scale.c, api/multiview_grid.c, api/captions.c,
  *             judge/triangles.c, judge/sampler.c
  * Ten times   a plate turned by 1e-11 rad still counts as square-on. */

@@ -1,10 +1,10 @@
-/* camera_aim.c - aims the camera at a scene and fits the drawing to the page.
+/* camera_aim.c - aims the camera at a scene.
  *
  * Phases
  *   aim     the axes, and the eye, at the distance that the field of view
  *           needs.
  *   depths  the least and greatest depth, and the near plane.
- *   fit     the scale, and where the view axis meets the page.
+ *   fit     the scale, and where the view axis meets the page: camera_fit.c.
  * Robustness
  *   Coordinates are first subtracted from the eye's, and an orthographic eye is
  *   placed next to the scene, so that a scene far from the origin loses no
@@ -24,33 +24,13 @@
 #include "base/tolerance.h"
 #include "scene/angle.h"
 #include "view/coordinate_error.h"
-#include "view/extent.h"
 #include "view/camera_axes.h"
-#include "view/preferred_scale.h"
+#include "view/camera_phases.h"
 #include "view/used.h"
 #include "geom/vector.h"
 
 /* The largest page that fits on the page grid. */
 static const double page_limit_mm = 2000;
-
-/* Intermediate results. */
-struct aim {
-  struct camera *camera;
-  const struct scene *scene;
-  const recto_options *options;
-  recto_error *error;
-  const uint8_t *used;  /* one a point */
-  uint8_t *own_used;    /* the same, where it was found here */
-  double centre[3];     /* of the scene's bounding box */
-  double target[3];     /* the point looked at */
-  double eye[3];        /* of a perspective view, also of one made
-                           orthographic */
-  bool far;             /* the eye is so far that the view was made
-                           orthographic; then also: */
-  double centre_d;      /*   the depth of the scene's centre */
-  double target_d;      /*   the depth of the target */
-  double d_low, d_high; /* depth range of the whole scene, not clipped */
-};
 
 static recto_status argument_error(const struct aim *aim, const char *words) {
   return error_set(aim->error, RECTO_ERROR_ARGUMENT, NULL, 0, "%s", words);
@@ -60,7 +40,7 @@ static recto_status argument_error(const struct aim *aim, const char *words) {
 
 /* The margin in mm; the default is at most a quarter of the page's shorter
  * side. */
-static double margin_of(const recto_options *o) {
+double camera_margin(const recto_options *o) {
   return o->page.margin_mm >= 0
              ? o->page.margin_mm
              : fmin(RECTO_USUAL_MARGIN_MM,
@@ -76,7 +56,7 @@ static recto_status check_page(const struct aim *aim) {
     return argument_error(aim, "the page is larger than 2 m");
   if (isnan(o->page.margin_mm))
     return argument_error(aim, "the margin is no number");
-  double margins = 2 * margin_of(o);
+  double margins = 2 * camera_margin(o);
   if (!(margins < o->page.width_mm && margins < o->page.height_mm))
     return argument_error(aim, "the margins leave no room on the page");
   return RECTO_OK;
@@ -146,7 +126,7 @@ static recto_status measure_scene(struct aim *aim) {
 }
 
 /* The largest distance of a used point from the target. */
-static double radius_of_scene(const struct aim *aim) {
+double camera_scene_radius(const struct aim *aim) {
   double radius = 0;
   for (size_t p = 0; p < aim->scene->point.count; p++) {
     if (!aim->used[p])
@@ -163,7 +143,7 @@ static double radius_of_scene(const struct aim *aim) {
 /* The distance from which a perspective eye sees the whole sphere about the
  * target that encloses the scene. */
 static double distance_for_fov(const struct aim *aim) {
-  double radius = radius_of_scene(aim);
+  double radius = camera_scene_radius(aim);
   if (radius == 0)
     radius = 1;
   return radius / angle_of_degrees(aim->options->camera.fov_deg / 2).sine;
@@ -246,10 +226,6 @@ static recto_status set_eye(struct aim *aim) {
   return status;
 }
 
-static struct view_point view_of_aim(const struct aim *aim, const double p[3]) {
-  return camera_view(aim->camera, &(struct scene_point){p[0], p[1], p[2]});
-}
-
 /* ---- Depths -------------------------------------------------------------- */
 
 static void measure_depth(struct aim *aim) {
@@ -266,7 +242,7 @@ static void measure_depth(struct aim *aim) {
 
 /* The default near plane. */
 static double choose_near(const struct aim *aim) {
-  double least = view_of_aim(aim, aim->target).d * TOLERANCE_NEAR_SHARE;
+  double least = camera_view_of(aim, aim->target).d * TOLERANCE_NEAR_SHARE;
   if (!aim->camera->perspective || (aim->d_low >= least && aim->d_low > 0))
     return aim->d_low;
   return least;
@@ -278,7 +254,7 @@ static double choose_near(const struct aim *aim) {
 static double depth_origin(const struct aim *aim, bool section) {
   bool is_eye = aim->options->camera.kind == RECTO_CAMERA_EYE ||
                 (aim->options->camera.fov_deg > 0 && !section);
-  return is_eye ? view_of_aim(aim, aim->eye).d : aim->d_low;
+  return is_eye ? camera_view_of(aim, aim->eye).d : aim->d_low;
 }
 
 static recto_status set_depth_range(struct aim *aim) {
@@ -297,125 +273,7 @@ static recto_status set_depth_range(struct aim *aim) {
   return RECTO_OK;
 }
 
-/* ---- Fit ----------------------------------------------------------------- */
-
-/* The scale at which the extent fills a page inside its margins.  An extent
- * that is rounding error only is ignored; where both are, the scene's size is
- * used. */
-static double scale_to_fit(const struct aim *aim, const struct extent *e,
-                           double width_mm, double height_mm) {
-  const struct camera *camera = aim->camera;
-  double size =
-      camera->perspective ? camera->size / camera->d_max : camera->size;
-  double margins = 2 * margin_of(aim->options), scale = INFINITY;
-  const double printable[2] = {width_mm - margins, height_mm - margins};
-  for (int k = 0; k < 2; k++) {
-    double extent = e->high[k] - e->low[k];
-    if (extent > size * TOLERANCE_EXTENT_SHARE)
-      scale = fmin(scale, printable[k] / extent);
-  }
-  return scale < INFINITY
-             ? scale
-             : fmin(printable[0], printable[1]) / (size > 0 ? size : 1);
-}
-
-static struct extent extent_of_scene(const struct aim *aim) {
-  return extent_of_drawing(aim->camera, aim->scene, aim->used,
-                           !aim->camera->perspective);
-}
-
-/* Turns the page by a quarter, if that is allowed, where the drawing fits it at
- * a larger scale.
- * enough  a scale that need not be exceeded */
-static void choose_orientation(struct aim *aim, const struct extent *e,
-                               double enough) {
-  double *page = aim->camera->page_mm;
-  double upright = scale_to_fit(aim, e, page[0], page[1]);
-  double turned = scale_to_fit(aim, e, page[1], page[0]);
-  if (aim->options->page.may_turn && upright < enough && turned > upright) {
-    double width = page[0];
-    page[0] = page[1];
-    page[1] = width;
-  }
-}
-
-/* Makes the scale a preferred one: that of a perspective view at its target. */
-static void prefer_scale(struct aim *aim) {
-  double depth = aim->camera->perspective ? view_of_aim(aim, aim->target).d : 1;
-  double whole = aim->options->camera.scale * depth;
-  aim->camera->s = preferred_scale_of(aim->camera->s, whole);
-}
-
-/* Scales the drawing to fill the page inside the margins.
- * preferred  as far as a preferred scale does */
-static void fit_page(struct aim *aim, bool preferred) {
-  struct camera *camera = aim->camera;
-  struct extent e = extent_of_scene(aim);
-  choose_orientation(aim, &e, INFINITY);
-  camera->s = scale_to_fit(aim, &e, camera->page_mm[0], camera->page_mm[1]);
-  if (preferred)
-    prefer_scale(aim);
-  for (int k = 0; k < 2; k++)
-    camera->middle_mm[k] =
-        camera->page_mm[k] / 2 - camera->s * (e.low[k] / 2 + e.high[k] / 2);
-}
-
-/* Places the target, which lies on a perspective view's axis, on the middle of
- * the page. */
-static void centre_target(struct aim *aim) {
-  struct camera *camera = aim->camera;
-  struct view_point target = view_of_aim(aim, aim->target);
-  double offset[2] = {target.x, target.y};
-  for (int k = 0; k < 2; k++)
-    camera->middle_mm[k] = camera->page_mm[k] / 2 -
-                           (camera->perspective ? 0 : camera->s * offset[k]);
-}
-
-/* Scales the drawing so that the sphere about the target which encloses the
- * scene fills the page inside the margins.  From a distance D the outline of a
- * sphere of radius R is at R / sqrt(D^2 - R^2) from the axis, at unit depth. */
-static void fit_sphere(struct aim *aim) {
-  struct camera *camera = aim->camera;
-  double margin = margin_of(aim->options), radius = radius_of_scene(aim);
-  double printable = fmin(camera->page_mm[0], camera->page_mm[1]) - 2 * margin;
-  if (radius == 0)
-    radius = camera->size > 0 ? camera->size : 1;
-  if (camera->perspective) {
-    double distance = view_of_aim(aim, aim->target).d;
-    radius /= sqrt((distance - radius) * (distance + radius));
-  }
-  camera->s = printable / (2 * radius);
-}
-
-static void set_scale(struct aim *aim) {
-  const recto_options *o = aim->options;
-  struct camera *camera = aim->camera;
-  if (o->camera.fit == RECTO_FIT_PAGE || o->camera.fit == RECTO_FIT_PREFERRED) {
-    fit_page(aim, o->camera.fit == RECTO_FIT_PREFERRED);
-    camera->all_on_page = aim->d_low >= camera->near_d;
-    return;
-  }
-  if (o->camera.fit == RECTO_FIT_SPHERE) {
-    fit_sphere(aim);
-  } else if (o->camera.fit == RECTO_FIT_SCALE) {
-    camera->s = o->camera.scale;
-    if (camera->perspective)
-      camera->s *= view_of_aim(aim, aim->target).d;
-    else if (aim->far)
-      camera->s *= aim->target_d / aim->centre_d;
-    struct extent e = extent_of_scene(aim);
-    choose_orientation(aim, &e, camera->s);
-  } else if (camera->perspective || aim->far) {
-    struct angle half = angle_of_degrees(o->camera.fov_deg / 2);
-    camera->s = (o->page.height_mm - 2 * margin_of(o)) /
-                (2 * (half.sine / half.cosine));
-    if (aim->far)
-      camera->s /= aim->centre_d;
-  } else {
-    camera->s = 1;
-  }
-  centre_target(aim);
-}
+/* ---- All of it ----------------------------------------------------------- */
 
 /* Whether nothing overflowed on the way. */
 static bool is_usable(const struct camera *camera) {
@@ -425,8 +283,6 @@ static bool is_usable(const struct camera *camera) {
          isfinite(camera->middle_mm[1]) &&
          (!camera->perspective || camera->near_d > 0);
 }
-
-/* -------------------------------------------------------------------------- */
 
 /* Sets the axes and the eye. */
 static recto_status look_at_target(struct aim *aim) {
@@ -438,7 +294,7 @@ static recto_status look_at_target(struct aim *aim) {
   camera->perspective = o->camera.fov_deg > 0;
   camera->page_mm[0] = o->page.width_mm;
   camera->page_mm[1] = o->page.height_mm;
-  camera->margin_mm = margin_of(o);
+  camera->margin_mm = camera_margin(o);
   memcpy(aim->target, o->camera.has_target ? o->camera.target : aim->centre,
          sizeof aim->target);
   status = set_axes(aim);
@@ -454,7 +310,7 @@ static recto_status aim_and_fit(struct aim *aim) {
     status = set_depth_range(aim);
   if (status != RECTO_OK)
     return status;
-  set_scale(aim);
+  camera_fit(aim);
   if (!is_usable(camera))
     return error_set(aim->error, RECTO_ERROR_LIMIT, NULL, 0,
                      "the scene is too large or too small, or too far from the "

@@ -6,6 +6,7 @@ librecto_core_la_SOURCES += \
   %D%/coordinate_error.c %D%/coordinate_error.h \
   %D%/extent.c %D%/extent.h \
   %D%/camera_aim.c %D%/camera_aim.h \
+  %D%/camera_fit.c %D%/camera_phases.h \
   %D%/camera_extent.c %D%/camera_extent.h \
   %D%/camera_axes.c %D%/camera_axes.h \
   %D%/layout.c %D%/layout.h \
