@@ -6,6 +6,7 @@ librecto_core_la_SOURCES += \
   %D%/face_source.c %D%/face_source.h \
   %D%/interval_lists.c %D%/interval_lists.h \
   %D%/may_weld.c \
+  %D%/merge_order.c %D%/merge_order.h \
   %D%/page_windows.c %D%/page_windows.h \
   %D%/part.c %D%/part.h \
   %D%/part_collect.c %D%/part_collect.h \

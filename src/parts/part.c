@@ -26,10 +26,8 @@ void part_fini(struct part *part) {
 }
 
 int part_edge_key_compare(struct part_edge_key a, struct part_edge_key b) {
-  int order = compare_numbers(a.kind, b.kind);
-  if (order == 0)
-    order = compare_numbers(a.element, b.element);
-  return order != 0 ? order : compare_numbers(a.place, b.place);
+  uint64_t p = part_edge_key_number(a), q = part_edge_key_number(b);
+  return (p > q) - (p < q);
 }
 
 int part_edge_run_compare(const struct part_edge_run *a,

@@ -73,6 +73,12 @@ struct part_edge_key {
 
 int part_edge_key_compare(struct part_edge_key a, struct part_edge_key b);
 
+/* A number for each key, in the same order: elements and places are below 2^31,
+ * as SCENE_LIMIT has it. */
+static inline uint64_t part_edge_key_number(struct part_edge_key key) {
+  return (uint64_t)key.kind << 62 | (uint64_t)key.element << 31 | key.place;
+}
+
 /* Where an edge is visible, as far as the faces of one window hide it. */
 struct part_visibility {
   uint8_t state;            /* enum map_state */

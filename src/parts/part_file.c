@@ -303,7 +303,8 @@ static void code_key(struct byte_codec *codec, struct part_edge_key *key) {
   byte_codec_u8(codec, &key->kind);
   byte_codec_u32(codec, &key->element);
   byte_codec_u32(codec, &key->place);
-  require(codec, key->kind <= PART_EDGE_OF_WIRE);
+  require(codec, key->kind <= PART_EDGE_OF_WIRE && key->element < SCENE_LIMIT &&
+                     key->place < SCENE_LIMIT);
 }
 
 static bool is_one_class(unsigned edge_class) {

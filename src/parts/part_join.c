@@ -180,6 +180,8 @@ static bool set_joined_tones(struct join_work *work) {
 static recto_status make_join(struct join_work *work,
                               const recto_options *options) {
   struct part_join *join = work->join;
+  recto_options unclassified = *options; /* the parts have found the classes */
+  unclassified.ink.edges &= RECTO_EDGE_WIRE;
   recto_status status = part_join_scene(work);
   ARRAY_FREE(&join->all.point);
   ARRAY_FREE(&join->all.corner);
@@ -187,7 +189,8 @@ static recto_status make_join(struct join_work *work,
     status = topology_init_welded(&join->topology, &join->scene, work->error);
   if (status == RECTO_OK)
     status = layout_sheet(&join->sheet, &join->scene, &join->topology,
-                          &join->all.common.camera, options, true, work->error);
+                          &join->all.common.camera, &unclassified, true,
+                          work->error);
   if (status == RECTO_OK && !index_sheet(work))
     status = error_memory(work->error);
   if (status == RECTO_OK)

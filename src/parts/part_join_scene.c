@@ -75,14 +75,17 @@ static bool find_joined_point(const struct join_work *work, uint32_t number,
   return at < all->point.count && all->point.item[at].number == number;
 }
 
-/* Replaces the points' numbers by those in the scene. */
-static bool local_corners(const struct join_work *work,
-                          const struct part_element *element,
-                          uint32_t *corner) {
-  for (uint32_t i = 0; i < element->count; i++)
-    if (!find_joined_point(work, work->all->corner.item[element->corner + i],
-                           &corner[i]))
+/* Replaces the points' numbers in all corners by those in the scene. */
+static bool number_corners(struct join_work *work) {
+  uint32_t *corner = work->join->all.corner.item;
+  size_t count = work->all->corner.count;
+  for (size_t c = 0; c < count; c++) {
+    if (work->points.at != NULL && c + MEM_PREFETCH_AHEAD < count &&
+        corner[c + MEM_PREFETCH_AHEAD] < work->points.past)
+      MEM_PREFETCH(&work->points.at[corner[c + MEM_PREFETCH_AHEAD]]);
+    if (!find_joined_point(work, corner[c], &corner[c]))
       return false;
+  }
   return true;
 }
 
@@ -129,37 +132,59 @@ static bool add_joined_points(struct join_work *work) {
   return true;
 }
 
-static recto_status add_joined_elements(struct join_work *work) {
+/* Fetches the points of a face that is added soon. */
+MEM_PREFETCH_INLINE void fetch_points(const struct join_work *work,
+                                      uint32_t face) {
+  const struct part *all = work->all;
+  if (face >= all->face.count)
+    return;
+  const uint32_t *corner = all->corner.item + all->face.item[face].corner;
+  for (int k = 0; k < 3; k++)
+    MEM_PREFETCH(&work->join->scene.point.item[corner[k]]);
+}
+
+static recto_status add_joined_faces(struct join_work *work) {
   struct scene *scene = &work->join->scene;
   const struct part *all = work->all;
-  uint32_t *corner = mem_alloc(all->corner.count, sizeof *corner);
-  recto_status status = corner != NULL ? RECTO_OK : error_memory(work->error);
-  for (uint32_t f = 0; status == RECTO_OK && f < all->face.count; f++) {
+  /* Corners of polylines may be among them. */
+  if (!ARRAY_RESERVE(&scene->corner, all->corner.count) ||
+      !ARRAY_RESERVE(&scene->face_start, all->face.count + 1) ||
+      !ARRAY_RESERVE(&scene->face_group, all->face.count))
+    return error_memory(work->error);
+  for (uint32_t f = 0; f < all->face.count; f++) {
     const struct part_element *face = &all->face.item[f];
     size_t before = scene->corner.count;
+    fetch_points(work, f + MEM_PREFETCH_AHEAD);
     scene->current_group = face->group;
-    if (!local_corners(work, face, corner))
-      status = part_join_misfit(work);
-    else
-      status = scene_add_face(scene, corner, face->count, 0, NULL, work->error);
+    recto_status status =
+        scene_add_face(scene, all->corner.item + face->corner, face->count, 0,
+                       NULL, work->error);
     if (status == RECTO_OK && (scene_face_count(scene) != f + 1 ||
                                scene->corner.count - before != face->count))
       status = part_join_misfit(work);
     if (status == RECTO_OK && !poll_at(f))
       status = error_cancelled(work->error);
+    if (status != RECTO_OK)
+      return status;
   }
-  for (uint32_t w = 0; status == RECTO_OK && w < all->wire.count; w++) {
+  return RECTO_OK;
+}
+
+static recto_status add_joined_wires(struct join_work *work) {
+  struct scene *scene = &work->join->scene;
+  const struct part *all = work->all;
+  for (uint32_t w = 0; w < all->wire.count; w++) {
     const struct part_element *wire = &all->wire.item[w];
     scene->current_group = wire->group;
-    if (!local_corners(work, wire, corner))
-      status = part_join_misfit(work);
-    else
-      status = scene_add_wire(scene, corner, wire->count, 0, NULL, work->error);
+    recto_status status =
+        scene_add_wire(scene, all->corner.item + wire->corner, wire->count, 0,
+                       NULL, work->error);
     if (status == RECTO_OK && scene_wire_count(scene) != w + 1)
       status = part_join_misfit(work);
+    if (status != RECTO_OK)
+      return status;
   }
-  mem_free(corner);
-  return status;
+  return RECTO_OK;
 }
 
 recto_status part_join_scene(struct join_work *work) {
@@ -169,5 +194,9 @@ recto_status part_join_scene(struct join_work *work) {
   recto_status status = add_joined_groups(work);
   if (status == RECTO_OK && !add_joined_points(work))
     status = error_memory(work->error);
-  return status == RECTO_OK ? add_joined_elements(work) : status;
+  if (status == RECTO_OK && !number_corners(work))
+    status = part_join_misfit(work);
+  if (status == RECTO_OK)
+    status = add_joined_faces(work);
+  return status == RECTO_OK ? add_joined_wires(work) : status;
 }

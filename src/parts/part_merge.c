@@ -1,8 +1,8 @@
 /* part_merge.c - all parts of a drawing as one.
  *
- * Each list of a part is ascending, so the lists of all parts are appended to
- * each other, sorted, and then gone through by groups of equal items.  What is
- * merged is freed before the next list. */
+ * Each list of a part is ascending, so the lists of all parts are gone through
+ * together, by groups of equal items.  What is merged is freed before the next
+ * list. */
 #include "parts/part_merge.h"
 
 #include <string.h>
@@ -10,6 +10,7 @@
 #include "base/poll.h"
 #include "base/sort.h"
 #include "parts/interval_lists.h"
+#include "parts/merge_order.h"
 #include "scene/limit.h"
 
 /* ---- Is it one drawing? -------------------------------------------------- */
@@ -69,20 +70,15 @@ recto_status part_merge_check(const struct part *part, const char *const *path,
           (to)->count += (from)->count, true)                                  \
        : false)
 
-/* What an item of a sorted list came from. */
-struct origin {
-  uint32_t part, index;
-};
-
-typedef ARRAY(struct origin) origin_list;
-
-/* The merge of all parts, and the comparison that sorts the current list. */
+/* The merge of all parts. */
 struct merge_work {
   struct part *all, *part;
   const char *const *path;
   size_t parts;
-  origin_list order;
-  struct interval_list visible, over_limit; /* of the current edge */
+  struct merge_order order;
+  bool is_whole; /* the current edge is visible all along, or else */
+  struct interval_list visible,
+      over_limit; /* where it is, and over the limit */
   struct interval_list scratch;
   recto_error *error;
 };
@@ -108,21 +104,34 @@ part_crossing_at(const struct merge_work *work, struct origin at) {
   return &work->part[at.part].crossing.item[at.index];
 }
 
-static const struct part_edge_run *part_run_at(const struct merge_work *work,
-                                               struct origin at) {
-  return &work->part[at.part].run.item[at.index];
+/* Keys that order the items as the lists are. */
+static uint64_t key_of_numbers(uint32_t high, uint32_t low) {
+  return (uint64_t)high << 32 | low;
 }
 
-static int compare_point_origins(const void *a, const void *b, void *user) {
-  return compare_numbers(
-      part_point_at(user, *(const struct origin *)a)->number,
-      part_point_at(user, *(const struct origin *)b)->number);
+static uint64_t key_of_point(const struct part *part, uint32_t index) {
+  return part->point.item[index].number;
 }
 
-static int compare_edge_origins(const void *a, const void *b, void *user) {
-  return part_edge_key_compare(
-      part_edge_at(user, *(const struct origin *)a)->key,
-      part_edge_at(user, *(const struct origin *)b)->key);
+static uint64_t key_of_face(const struct part *part, uint32_t index) {
+  return part->face.item[index].number;
+}
+
+static uint64_t key_of_wire(const struct part *part, uint32_t index) {
+  return part->wire.item[index].number;
+}
+
+static uint64_t key_of_edge(const struct part *part, uint32_t index) {
+  return part_edge_key_number(part->edge.item[index].key);
+}
+
+static uint64_t key_of_run(const struct part *part, uint32_t index) {
+  const struct part_edge_run *run = &part->run.item[index];
+  return key_of_numbers(run->face, run->place);
+}
+
+static uint64_t key_of_fragment(const struct part *part, uint32_t index) {
+  return part->fragment.item[index].face;
 }
 
 static int compare_crossing_origins(const void *a, const void *b, void *user) {
@@ -131,41 +140,12 @@ static int compare_crossing_origins(const void *a, const void *b, void *user) {
       part_crossing_at(user, *(const struct origin *)b));
 }
 
-static int compare_run_origins(const void *a, const void *b, void *user) {
-  return part_edge_run_compare(part_run_at(user, *(const struct origin *)a),
-                               part_run_at(user, *(const struct origin *)b));
-}
-
-/* Lists the items of all parts, in order.
- * count  of those of each part: set by the caller */
-static bool sort_origins(struct merge_work *work, const size_t *count,
-                         int (*compare)(const void *, const void *, void *)) {
-  work->order.count = 0;
-  for (uint32_t p = 0; p < work->parts; p++)
-    for (uint32_t i = 0; i < count[p]; i++)
-      if (!ARRAY_PUSH(&work->order, ((struct origin){p, i})))
-        return false;
-  return sort_stable(work->order.item, work->order.count,
-                     sizeof *work->order.item, compare, work) &&
-         !poll_is_cancelled();
-}
-
-#define SORT_LIST(work, list, compare)                                         \
-  (list_counts((work), count, offsetof(struct part, list.count)),              \
-   sort_origins((work), count, (compare)))
-
 /* Frees a list of all parts. */
 #define FREE_LISTS(work, list)                                                 \
   do {                                                                         \
     for (size_t p_ = 0; p_ < (work)->parts; p_++)                              \
       ARRAY_FREE(&(work)->part[p_].list);                                      \
   } while (0)
-
-static void list_counts(const struct merge_work *work, size_t *count,
-                        size_t offset) {
-  for (size_t p = 0; p < work->parts; p++)
-    memcpy(&count[p], (const char *)&work->part[p] + offset, sizeof *count);
-}
 
 /* ---- Points and faces ---------------------------------------------------- */
 
@@ -176,16 +156,18 @@ static bool same_position_in_parts(const struct scene_point *a,
 
 static recto_status merge_points(struct merge_work *work) {
   struct part *all = work->all;
-  for (size_t i = 0; i < work->order.count; i++) {
-    const struct part_point *point = part_point_at(work, work->order.item[i]);
+  struct origin at;
+  merge_order_begin(&work->order, MERGE_LIST(point), key_of_point);
+  if (!ARRAY_RESERVE(&all->point, merge_order_count(&work->order)))
+    return error_memory(work->error);
+  while (merge_order_next(&work->order, &at)) {
+    const struct part_point *point = part_point_at(work, at);
     const struct part_point *last =
         all->point.count > 0 ? &all->point.item[all->point.count - 1] : NULL;
-    if (last == NULL || last->number != point->number) {
-      if (!ARRAY_PUSH(&all->point, *point))
-        return error_memory(work->error);
-    } else if (!same_position_in_parts(&last->at, &point->at)) {
-      return contradiction(work, work->order.item[i]);
-    }
+    if (last == NULL || last->number != point->number)
+      all->point.item[all->point.count++] = *point;
+    else if (!same_position_in_parts(&last->at, &point->at))
+      return contradiction(work, at);
   }
   return RECTO_OK;
 }
@@ -217,22 +199,6 @@ static struct elements elements_of(const struct part *part, bool wires) {
   return (struct elements){part->face.item, part->face.count};
 }
 
-struct element_order {
-  const struct merge_work *work;
-  bool wires;
-};
-
-static const struct part_element *
-part_element_at(const struct element_order *order, struct origin at) {
-  return &elements_of(&order->work->part[at.part], order->wires).item[at.index];
-}
-
-static int compare_element_origins(const void *a, const void *b, void *user) {
-  return compare_numbers(
-      part_element_at(user, *(const struct origin *)a)->number,
-      part_element_at(user, *(const struct origin *)b)->number);
-}
-
 static bool add_merged_element(struct part *all, const struct part *from,
                                const struct part_element *element, bool wires) {
   struct part_element own = *element;
@@ -247,18 +213,14 @@ static bool add_merged_element(struct part *all, const struct part *from,
 
 static recto_status merge_elements(struct merge_work *work, bool wires) {
   struct part *all = work->all;
-  struct element_order order = {work, wires};
-  work->order.count = 0;
-  for (uint32_t p = 0; p < work->parts; p++)
-    for (uint32_t i = 0; i < elements_of(&work->part[p], wires).count; i++)
-      if (!ARRAY_PUSH(&work->order, ((struct origin){p, i})))
-        return error_memory(work->error);
-  if (!sort_stable(work->order.item, work->order.count,
-                   sizeof *work->order.item, compare_element_origins, &order))
-    return error_memory(work->error);
-  for (size_t i = 0; i < work->order.count; i++) {
-    struct origin at = work->order.item[i];
-    const struct part_element *element = part_element_at(&order, at);
+  struct origin at;
+  if (wires)
+    merge_order_begin(&work->order, MERGE_LIST(wire), key_of_wire);
+  else
+    merge_order_begin(&work->order, MERGE_LIST(face), key_of_face);
+  while (merge_order_next(&work->order, &at)) {
+    const struct part_element *element =
+        &elements_of(&work->part[at.part], wires).item[at.index];
     struct elements before = elements_of(all, wires);
     const struct part_element *last =
         before.count > 0 ? &before.item[before.count - 1] : NULL;
@@ -280,21 +242,31 @@ static recto_status merge_elements(struct merge_work *work, bool wires) {
 static const struct map_interval whole_edge = {{0, 1}, {1, 1}};
 
 /* Begins with an edge that is visible all along. */
-static bool start_visibility(struct merge_work *work) {
+static void start_visibility(struct merge_work *work) {
+  work->is_whole = true;
   work->visible.count = work->over_limit.count = 0;
-  return ARRAY_PUSH(&work->visible, whole_edge);
+}
+
+/* Leaves no more of what is visible than these intervals. */
+static bool keep_visible(struct merge_work *work,
+                         const struct map_interval *interval, size_t count) {
+  bool ok = !work->is_whole || ARRAY_PUSH(&work->visible, whole_edge);
+  work->is_whole = false;
+  return ok && interval_list_intersect(&work->visible, interval, count,
+                                       &work->scratch);
 }
 
 /* Removes what a part says to be hidden. */
 static bool hide_by_part(struct merge_work *work, const struct part *part,
                          const struct part_visibility *visibility,
                          const struct part_over_limit *over) {
-  if (visibility->state == MAP_HIDDEN)
+  if (visibility->state == MAP_HIDDEN) {
+    work->is_whole = false;
     work->visible.count = 0;
+  }
   return (visibility->state != MAP_MIXED ||
-          interval_list_intersect(&work->visible,
-                                  part->interval.item + visibility->interval,
-                                  visibility->count, &work->scratch)) &&
+          keep_visible(work, part->interval.item + visibility->interval,
+                       visibility->count)) &&
          (over->count == 0 ||
           interval_list_unite(&work->over_limit,
                               part->over_limit.item + over->interval,
@@ -312,12 +284,13 @@ static bool finish_visibility(struct merge_work *work,
       !APPEND(&all->over_limit, &work->over_limit))
     return false;
   const struct map_interval *first = work->visible.item;
-  bool is_whole = work->visible.count == 1 && first->t0.num == 0 &&
-                  first->t1.num == first->t1.den;
+  bool is_whole =
+      work->is_whole || (work->visible.count == 1 && first->t0.num == 0 &&
+                         first->t1.num == first->t1.den);
   *to = (struct part_visibility){.interval = (uint32_t)all->interval.count};
-  to->state = work->visible.count == 0 ? MAP_HIDDEN
-              : is_whole               ? MAP_VISIBLE
-                                       : MAP_MIXED;
+  to->state = is_whole                   ? MAP_VISIBLE
+              : work->visible.count == 0 ? MAP_HIDDEN
+                                         : MAP_MIXED;
   if (to->state != MAP_MIXED)
     return true;
   to->count = (uint32_t)work->visible.count;
@@ -327,22 +300,28 @@ static bool finish_visibility(struct merge_work *work,
 
 static recto_status merge_edges(struct merge_work *work) {
   struct part *all = work->all;
-  for (size_t i = 0, next; i < work->order.count; i = next) {
-    struct part_edge edge = *part_edge_at(work, work->order.item[i]);
-    bool ok = start_visibility(work);
-    for (next = i; ok && next < work->order.count; next++) {
-      struct origin at = work->order.item[next];
-      const struct part_edge *other = part_edge_at(work, at);
-      if (part_edge_key_compare(edge.key, other->key) != 0)
-        break;
+  struct origin at;
+  merge_order_begin(&work->order, MERGE_LIST(edge), key_of_edge);
+  if (!ARRAY_RESERVE(&all->edge, merge_order_count(&work->order)))
+    return error_memory(work->error);
+  for (bool more = merge_order_next(&work->order, &at); more;) {
+    struct part_edge edge = *part_edge_at(work, at);
+    const struct part_edge *other = &edge;
+    bool ok = true;
+    start_visibility(work);
+    do {
       if (other->edge_class != edge.edge_class)
         return contradiction(work, at);
       ok = hide_by_part(work, &work->part[at.part], &other->visibility,
                         &other->over_limit);
-    }
-    if (!ok || !finish_visibility(work, &edge.visibility, &edge.over_limit) ||
-        !ARRAY_PUSH(&all->edge, edge))
+      more = merge_order_next(&work->order, &at);
+      other = more ? part_edge_at(work, at) : NULL;
+    } while (ok && more && part_edge_key_compare(edge.key, other->key) == 0);
+    if (!ok || !finish_visibility(work, &edge.visibility, &edge.over_limit))
       return error_memory(work->error);
+    all->edge.item[all->edge.count++] = edge;
+    if (!poll_at(all->edge.count))
+      return error_cancelled(work->error);
   }
   return RECTO_OK;
 }
@@ -382,38 +361,49 @@ static bool hide_in_window(struct merge_work *work,
     rest[count++] = (struct map_interval){whole_edge.t0, hidden.t0};
   if (hidden.t1.num < hidden.t1.den)
     rest[count++] = (struct map_interval){hidden.t1, whole_edge.t1};
-  return interval_list_intersect(&work->visible, rest, count, &work->scratch);
+  return keep_visible(work, rest, count);
 }
 
-static recto_status merge_crossings(struct merge_work *work) {
-  struct part *all = work->all;
-  recto_status status = RECTO_OK;
-  uint8_t *lists = mem_alloc(work->parts, 1);
-  for (size_t i = 0, next; lists != NULL && i < work->order.count; i = next) {
-    struct part_crossing own = *part_crossing_at(work, work->order.item[i]);
-    bool ok = start_visibility(work);
-    memset(lists, 0, work->parts);
-    for (next = i; ok && next < work->order.count; next++) {
-      struct origin at = work->order.item[next];
-      const struct part_crossing *other = part_crossing_at(work, at);
-      if (part_crossing_compare(&own, other) != 0)
-        break;
-      lists[at.part] = 1;
-      ok = hide_by_part(work, &work->part[at.part], &other->visibility,
-                        &other->over_limit);
-    }
-    for (size_t p = 0; ok && p < work->parts; p++)
-      ok = lists[p] || hide_in_window(work, &own, &work->part[p].window);
-    if (!ok || !finish_visibility(work, &own.visibility, &own.over_limit) ||
-        !ARRAY_PUSH(&all->crossing, own)) {
-      status = error_memory(work->error);
-      break;
-    }
+/* Merges the intersections of a group of equal ones, and appends it.
+ * lists  scratch, a byte a part */
+static bool merge_crossing(struct merge_work *work, const struct origin *at,
+                           size_t count, uint8_t *lists) {
+  struct part_crossing own = *part_crossing_at(work, at[0]);
+  bool ok = true;
+  start_visibility(work);
+  memset(lists, 0, work->parts);
+  for (size_t i = 0; ok && i < count; i++) {
+    const struct part_crossing *other = part_crossing_at(work, at[i]);
+    lists[at[i].part] = 1;
+    ok = hide_by_part(work, &work->part[at[i].part], &other->visibility,
+                      &other->over_limit);
   }
-  if (lists == NULL)
-    status = error_memory(work->error);
+  for (size_t p = 0; ok && p < work->parts; p++)
+    ok = lists[p] || hide_in_window(work, &own, &work->part[p].window);
+  return ok && finish_visibility(work, &own.visibility, &own.over_limit) &&
+         ARRAY_PUSH(&work->all->crossing, own);
+}
+
+/* They are few, and have no key that fits into a number. */
+static recto_status merge_crossings(struct merge_work *work) {
+  ARRAY(struct origin) order = {.item = NULL};
+  uint8_t *lists = mem_alloc(work->parts, 1);
+  bool ok = lists != NULL;
+  for (uint32_t p = 0; p < work->parts; p++)
+    for (uint32_t i = 0; ok && i < work->part[p].crossing.count; i++)
+      ok = ARRAY_PUSH(&order, ((struct origin){p, i}));
+  ok = ok && sort_stable(order.item, order.count, sizeof *order.item,
+                         compare_crossing_origins, work);
+  for (size_t i = 0, next; ok && i < order.count && poll_at(i); i = next) {
+    for (next = i + 1; next < order.count; next++)
+      if (compare_crossing_origins(&order.item[i], &order.item[next], work) !=
+          0)
+        break;
+    ok = merge_crossing(work, order.item + i, next - i, lists);
+  }
   mem_free(lists);
-  return status;
+  ARRAY_FREE(&order);
+  return ok && !poll_is_cancelled() ? RECTO_OK : error_memory(work->error);
 }
 
 /* ---- Runs ---------------------------------------------------------------- */
@@ -421,12 +411,16 @@ static recto_status merge_crossings(struct merge_work *work) {
 /* Each edge is in a run of one part. */
 static recto_status merge_runs(struct merge_work *work) {
   struct part *all = work->all;
-  if (!ARRAY_RESERVE(&all->run, work->order.count))
+  struct origin at;
+  merge_order_begin(&work->order, MERGE_LIST(run), key_of_run);
+  if (!ARRAY_RESERVE(&all->run, merge_order_count(&work->order)))
     return error_memory(work->error);
-  for (size_t i = 0; i < work->order.count; i++) {
-    const struct part_edge_run *run = part_run_at(work, work->order.item[i]);
-    if (i > 0 && part_edge_run_compare(&all->run.item[i - 1], run) == 0)
-      return contradiction(work, work->order.item[i]);
+  while (merge_order_next(&work->order, &at)) {
+    const struct part_edge_run *run = &work->part[at.part].run.item[at.index];
+    size_t before = all->run.count;
+    if (before > 0 &&
+        part_edge_run_compare(&all->run.item[before - 1], run) == 0)
+      return contradiction(work, at);
     all->run.item[all->run.count++] = *run;
   }
   return RECTO_OK;
@@ -434,72 +428,57 @@ static recto_status merge_runs(struct merge_work *work) {
 
 /* ---- Fragments ----------------------------------------------------------- */
 
-/* Where the current fragment of a part begins in its lists. */
-struct fragment_reader {
-  size_t fragment, corner;
-};
-
-static bool take_fragment(struct merge_work *work, const struct part *part,
-                          struct fragment_reader *reader) {
-  struct part *all = work->all;
-  struct part_fragment own = part->fragment.item[reader->fragment++];
+/* Appends a fragment.
+ * corner  where its corners begin in the part's list; moves on */
+static bool take_fragment(struct part *all, const struct part *part,
+                          uint32_t fragment, size_t *corner) {
+  struct part_fragment own = part->fragment.item[fragment];
   const uint32_t *loop = part->loop.item + own.loop;
   own.loop = (uint32_t)all->loop.count;
   if (!ARRAY_PUSH(&all->fragment, own))
     return false;
   for (uint32_t l = 0; l < own.loops; l++) {
-    if (!ARRAY_PUSH(&all->loop, loop[l]))
+    if (!ARRAY_PUSH(&all->loop, loop[l]) ||
+        !ARRAY_RESERVE(&all->fragment_corner, loop[l]))
       return false;
-    for (uint32_t k = 0; k < loop[l]; k++)
-      if (!ARRAY_PUSH(&all->fragment_corner,
-                      part->fragment_corner.item[reader->corner++]))
-        return false;
+    memcpy(all->fragment_corner.item + all->fragment_corner.count,
+           part->fragment_corner.item + *corner,
+           loop[l] * sizeof *part->fragment_corner.item);
+    all->fragment_corner.count += loop[l];
+    *corner += loop[l];
   }
   return true;
 }
 
-struct face_origin {
-  uint32_t face, part;
-};
-
-static int compare_face_origins(const void *a, const void *b, void *user) {
-  (void)user;
-  return compare_numbers(((const struct face_origin *)a)->face,
-                         ((const struct face_origin *)b)->face);
-}
-
 /* The fragments of a face come from one part, in its order. */
 static recto_status merge_fragments(struct merge_work *work) {
-  ARRAY(struct face_origin) order = {.item = NULL};
-  struct fragment_reader *reader = mem_calloc(work->parts, sizeof *reader);
+  struct part *all = work->all;
+  struct origin at;
+  uint32_t last_part = 0;
   recto_status status = RECTO_OK;
-  bool ok = reader != NULL;
-  for (uint32_t p = 0; p < work->parts; p++)
-    for (size_t i = 0; ok && i < work->part[p].fragment.count; i++)
-      ok = ARRAY_PUSH(&order, ((struct face_origin){
-                                  work->part[p].fragment.item[i].face, p}));
-  ok = ok && sort_stable(order.item, order.count, sizeof *order.item,
-                         compare_face_origins, NULL);
-  for (size_t i = 0; ok && status == RECTO_OK && i < order.count; i++) {
-    uint32_t p = order.item[i].part;
-    if (i > 0 && order.item[i].face == order.item[i - 1].face &&
-        p != order.item[i - 1].part)
-      status = contradiction(work, (struct origin){p, 0});
+  size_t *corner = mem_calloc(work->parts, sizeof *corner);
+  bool ok = corner != NULL;
+  merge_order_begin(&work->order, MERGE_LIST(fragment), key_of_fragment);
+  while (ok && status == RECTO_OK && merge_order_next(&work->order, &at)) {
+    const struct part *part = &work->part[at.part];
+    size_t before = all->fragment.count;
+    if (before > 0 && at.part != last_part &&
+        all->fragment.item[before - 1].face ==
+            part->fragment.item[at.index].face)
+      status = contradiction(work, at);
     else
-      ok = take_fragment(work, &work->part[p], &reader[p]);
+      ok = take_fragment(all, part, at.index, &corner[at.part]) &&
+           poll_at(before);
+    last_part = at.part;
   }
-  mem_free(reader);
-  ARRAY_FREE(&order);
-  return ok ? status : error_memory(work->error);
+  mem_free(corner);
+  return ok && !poll_is_cancelled() ? status : error_memory(work->error);
 }
 
 /* ---- All ----------------------------------------------------------------- */
 
-static recto_status merge_lists(struct merge_work *work, size_t *count) {
-  recto_status status = RECTO_OK;
-  if (!SORT_LIST(work, point, compare_point_origins))
-    return error_memory(work->error);
-  status = merge_points(work);
+static recto_status merge_lists(struct merge_work *work) {
+  recto_status status = merge_points(work);
   FREE_LISTS(work, point);
   if (status == RECTO_OK)
     status = merge_elements(work, false);
@@ -511,17 +490,10 @@ static recto_status merge_lists(struct merge_work *work, size_t *count) {
   FREE_LISTS(work, wire);
   FREE_LISTS(work, corner);
   FREE_LISTS(work, tone);
-  if (!SORT_LIST(work, edge, compare_edge_origins))
-    return error_memory(work->error);
   status = merge_edges(work);
   FREE_LISTS(work, edge);
-  if (status != RECTO_OK)
-    return status;
-  if (!SORT_LIST(work, crossing, compare_crossing_origins))
-    return error_memory(work->error);
-  status = merge_crossings(work);
-  if (status == RECTO_OK && !SORT_LIST(work, run, compare_run_origins))
-    return error_memory(work->error);
+  if (status == RECTO_OK)
+    status = merge_crossings(work);
   if (status == RECTO_OK)
     status = merge_runs(work);
   FREE_LISTS(work, crossing);
@@ -536,11 +508,10 @@ recto_status part_merge(struct part *all, struct part *part,
                         recto_error *error) {
   struct merge_work work = {
       .all = all, .part = part, .path = path, .parts = count, .error = error};
-  size_t *counts = mem_alloc(count, sizeof *counts);
-  recto_status status =
-      counts != NULL ? merge_lists(&work, counts) : error_memory(error);
-  mem_free(counts);
-  ARRAY_FREE(&work.order);
+  recto_status status = merge_order_init(&work.order, part, count)
+                            ? merge_lists(&work)
+                            : error_memory(error);
+  merge_order_fini(&work.order);
   ARRAY_FREE(&work.visible);
   ARRAY_FREE(&work.over_limit);
   ARRAY_FREE(&work.scratch);
