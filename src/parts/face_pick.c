@@ -9,21 +9,11 @@
 #include "scene/limit.h"
 
 enum point_flag {
-  OUTCODE = 0xf, /* on which sides of the box it lies, a bit each, as
-                    Cohen and Sutherland have them */
-  USED = 0x10,   /* a face or a polyline has it */
+  OUTCODE = PAGE_OUTCODE, /* on which sides of the box it lies */
+  USED = 0x10,            /* a face or a polyline has it */
   NOT_KEPT = 0x20,
   AT_KEPT = 0x40 /* neither of the two: it was not looked up yet */
 };
-
-static uint8_t outcode_of(const struct part_window *box,
-                          const struct page_place *place) {
-  unsigned code = 0;
-  for (int k = 0; k < 2; k++)
-    code |= (unsigned)(place->at[k] < box->low[k]) << 2 * k |
-            (unsigned)(place->at[k] > box->high[k]) << (2 * k + 1);
-  return (uint8_t)code;
-}
 
 /* Makes room for the flags; false when memory ran out. */
 static bool have_flags(struct face_pick *pick) {
@@ -37,7 +27,7 @@ bool face_pick_aim(struct face_pick *pick, const struct part_window *box,
   if (!have_flags(pick))
     return false;
   for (size_t p = 0; p < pick->source.scene->point.count; p++)
-    pick->flag[p] = outcode_of(box, &place[p]);
+    pick->flag[p] = page_outcode(box, &place[p]);
   pick->picks = true;
   return true;
 }
@@ -48,8 +38,13 @@ bool face_pick_uses(const struct face_pick *pick, size_t point) {
 
 /* ---- Blocks -------------------------------------------------------------- */
 
-static uint64_t hash_corners(uint64_t hash, const uint32_t *corner,
-                             uint32_t count) {
+/* A triangle's numbers are mixed first, so that the hash waits for one product
+ * only. */
+static inline uint64_t hash_corners(uint64_t hash, const uint32_t *corner,
+                                    uint32_t count) {
+  if (count == 3)
+    return hash_add(hash, ((uint64_t)corner[0] << 32 | corner[1]) +
+                              hash_add(corner[2], count));
   for (uint32_t i = 0; i + 1 < count; i += 2)
     hash = hash_add(hash, (uint64_t)corner[i] << 32 | corner[i + 1]);
   return hash_add(hash,

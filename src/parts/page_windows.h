@@ -12,6 +12,19 @@ struct page_place {
   int32_t at[2];
 };
 
+/* On which sides of a box a place lies, a bit each, as Cohen and Sutherland have
+ * them: what has a common bit in all its corners does not meet the box. */
+enum { PAGE_OUTCODE = 0xf };
+
+static inline uint8_t page_outcode(const struct part_window *box,
+                                   const struct page_place *place) {
+  unsigned code = 0;
+  for (int k = 0; k < 2; k++)
+    code |= (unsigned)(place->at[k] < box->low[k]) << 2 * k |
+            (unsigned)(place->at[k] > box->high[k]) << (2 * k + 1);
+  return (uint8_t)code;
+}
+
 /* Projects all points of a scene that the camera sees as a whole; one that no
  * face uses gets some place.
  * Returns NULL when memory ran out or the caller cancelled. */

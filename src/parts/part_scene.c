@@ -20,6 +20,11 @@
 
 enum { LEFT_OUT, OF_RING, KEPT };
 
+enum corner_flag {
+  CORNER_KEPT = 0x10,     /* a face or a polyline that is kept has it */
+  CORNER_ELSEWHERE = 0x20 /* it was looked up, and is at none of these */
+};
+
 struct part_scene_work {
   struct part_scene *part;
   struct face_pick *pick;
@@ -27,7 +32,7 @@ struct part_scene_work {
   struct part_window picked; /* what meets it was picked */
   struct part_window box;    /* what meets it is kept */
   uint8_t *face_state;
-  uint8_t *corner_kept; /* one a point: a corner of a kept face */
+  uint8_t *flag; /* one a point: PAGE_OUTCODE of the box, enum corner_flag */
   recto_error *error;
 };
 
@@ -144,11 +149,10 @@ static recto_status make_local(struct part_scene_work *work) {
   mem_free(local);
   part->place = ok ? page_places(work->request->camera, scene) : NULL;
   mem_free(work->face_state);
-  mem_free(work->corner_kept);
+  mem_free(work->flag);
   work->face_state = mem_calloc(scene_face_count(scene), 1);
-  work->corner_kept = mem_calloc(scene->point.count, 1);
-  return part->place != NULL && work->face_state != NULL &&
-                 work->corner_kept != NULL
+  work->flag = mem_calloc(scene->point.count, 1);
+  return part->place != NULL && work->face_state != NULL && work->flag != NULL
              ? RECTO_OK
              : error_memory(work->error);
 }
@@ -189,68 +193,103 @@ static void set_kept_box(struct part_scene_work *work) {
   work->box = widen_window(&work->box, work->request->margin);
 }
 
+/* Sets on which sides of the box the points lie. */
+static void set_outcodes(struct part_scene_work *work) {
+  const struct part_scene *part = work->part;
+  for (size_t p = 0; p < part->scene.point.count; p++)
+    work->flag[p] = page_outcode(&work->box, &part->place[p]);
+}
+
 /* A polyline is kept as a whole where one of its segments meets the box. */
 static bool wire_is_kept(const struct part_scene_work *work, uint32_t wire) {
   const struct scene *scene = &work->part->scene;
+  const uint32_t *corner = scene->wire_corner.item;
   for (uint32_t c = scene->wire_start.item[wire];
-       c + 1 < scene->wire_start.item[wire + 1]; c++) {
-    struct part_window box =
-        box_of(work->part->place, scene->wire_corner.item + c, 2);
-    if (part_window_meets(&work->box, box.low, box.high))
+       c + 1 < scene->wire_start.item[wire + 1]; c++)
+    if ((work->flag[corner[c]] & work->flag[corner[c + 1]] & PAGE_OUTCODE) == 0)
       return true;
-  }
   return false;
 }
 
 /* Keeps the corners of polylines that are kept: the faces there tell which
  * points they are welded to. */
-static void keep_wire_corners(struct part_scene_work *work,
-                              struct part_window *all) {
+static void keep_wire_corners(struct part_scene_work *work) {
   const struct scene *scene = &work->part->scene;
   for (uint32_t w = 0; w < scene_wire_count(scene); w++) {
-    const uint32_t *start = &scene->wire_start.item[w];
     if (!wire_is_kept(work, w))
       continue;
-    struct part_window box =
-        box_of(work->part->place, scene->wire_corner.item + start[0],
-               start[1] - start[0]);
-    include_in_box(all, &box);
-    for (uint32_t c = start[0]; c < start[1]; c++)
-      work->corner_kept[scene->wire_corner.item[c]] = 1;
+    for (uint32_t c = scene->wire_start.item[w];
+         c < scene->wire_start.item[w + 1]; c++)
+      work->flag[scene->wire_corner.item[c]] |= CORNER_KEPT;
   }
 }
 
-/* Keeps the faces that meet the box; returns the box of all of these. */
-static struct part_window keep_faces(struct part_scene_work *work) {
+/* Keeps the faces that meet the box. */
+static void keep_faces(struct part_scene_work *work) {
   const struct scene *scene = &work->part->scene;
-  struct part_window all = work->box;
+  set_outcodes(work);
   for (uint32_t f = 0; f < scene_face_count(scene) && poll_at(f); f++) {
-    struct part_window box = box_of_face(work->part, f);
-    if (!part_window_meets(&work->box, box.low, box.high))
-      continue;
-    work->face_state[f] = KEPT;
-    include_in_box(&all, &box);
+    unsigned beyond = PAGE_OUTCODE;
     for (uint32_t c = scene->face_start.item[f];
          c < scene->face_start.item[f + 1]; c++)
-      work->corner_kept[scene->corner.item[c]] = 1;
+      beyond &= work->flag[scene->corner.item[c]];
+    if (beyond != 0)
+      continue;
+    work->face_state[f] = KEPT;
+    for (uint32_t c = scene->face_start.item[f];
+         c < scene->face_start.item[f + 1]; c++)
+      work->flag[scene->corner.item[c]] |= CORNER_KEPT;
   }
-  keep_wire_corners(work, &all);
-  return all;
+  keep_wire_corners(work);
 }
 
 /* ---- Their ring ---------------------------------------------------------- */
 
-/* Adds the ring of the kept faces.
- * all  their box */
-static recto_status add_ring(struct part_scene_work *work,
-                             const struct part_window *all) {
+/* Marks the kept corners beyond the box; returns the box with all of these.
+ * Faces that are not kept have no corner within the box, and so none at the
+ * place of one there. */
+static struct part_window
+list_corners_beyond(const struct part_scene_work *work, uint8_t *is_beyond) {
+  const struct part_scene *part = work->part;
+  struct part_window all = work->box;
+  for (size_t p = 0; p < part->scene.point.count; p++) {
+    const struct page_place *at = &part->place[p];
+    is_beyond[p] = (work->flag[p] & CORNER_KEPT) != 0 &&
+                   (work->flag[p] & PAGE_OUTCODE) != 0;
+    if (is_beyond[p])
+      include_in_box(&all, &(struct part_window){{at->at[0], at->at[1]},
+                                                 {at->at[0], at->at[1]}});
+  }
+  return all;
+}
+
+/* Whether a point is at the place of a kept corner.
+ * set  those beyond the box */
+static bool is_at_kept_corner(struct part_scene_work *work,
+                              const struct place_set *set, uint32_t point) {
+  uint8_t *flag = &work->flag[point];
+  if (*flag & (CORNER_KEPT | CORNER_ELSEWHERE))
+    return (*flag & CORNER_KEPT) != 0;
+  bool is_there = place_set_has(set, &work->part->scene.point.item[point]);
+  *flag |= is_there ? CORNER_KEPT : CORNER_ELSEWHERE;
+  return is_there;
+}
+
+/* Adds the ring of the kept faces. */
+static recto_status add_ring(struct part_scene_work *work) {
   struct part_scene *part = work->part;
   struct place_set set;
   recto_status status = RECTO_OK;
-  if (!place_set_init(&set, part->scene.point.item, work->corner_kept,
-                      part->scene.point.count))
+  size_t points = part->scene.point.count;
+  uint8_t *is_beyond = mem_alloc(points, 1);
+  if (is_beyond == NULL)
     return error_memory(work->error);
-  bool is_picked = window_is_within(all, &work->picked);
+  const struct part_window all = list_corners_beyond(work, is_beyond);
+  bool ok = place_set_init(&set, part->scene.point.item, is_beyond, points);
+  mem_free(is_beyond);
+  if (!ok)
+    return error_memory(work->error);
+  bool is_picked = window_is_within(&all, &work->picked);
   if (!is_picked)
     status = pick_again(work, &set);
   const struct scene *scene = &part->scene;
@@ -258,19 +297,16 @@ static recto_status add_ring(struct part_scene_work *work,
        f++)
     for (uint32_t c = scene->face_start.item[f];
          c < scene->face_start.item[f + 1] && work->face_state[f] == LEFT_OUT;
-         c++) {
-      uint32_t point = scene->corner.item[c];
-      if (work->corner_kept[point] ||
-          place_set_has(&set, &scene->point.item[point]))
+         c++)
+      if (is_at_kept_corner(work, &set, scene->corner.item[c]))
         work->face_state[f] = OF_RING;
-    }
   place_set_fini(&set);
   if (is_picked || status != RECTO_OK)
     return status;
   status = make_local(work);
   if (status != RECTO_OK)
     return status;
-  (void)keep_faces(work);
+  keep_faces(work);
   for (uint32_t f = 0; f < scene_face_count(&part->scene); f++)
     if (work->face_state[f] == LEFT_OUT)
       work->face_state[f] = OF_RING;
@@ -370,8 +406,8 @@ static recto_status make_part_scene(struct part_scene_work *work) {
   }
   if (status != RECTO_OK)
     return status;
-  const struct part_window all = keep_faces(work);
-  status = add_ring(work, &all);
+  keep_faces(work);
+  status = add_ring(work);
   return status == RECTO_OK ? trim_scene(work) : status;
 }
 
@@ -386,7 +422,7 @@ recto_status part_scene_make(struct part_scene *part, struct face_pick *pick,
   *part = (struct part_scene){.point_number = NULL};
   recto_status status = make_part_scene(&work);
   mem_free(work.face_state);
-  mem_free(work.corner_kept);
+  mem_free(work.flag);
   return status;
 }
 
