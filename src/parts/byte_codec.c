@@ -7,89 +7,16 @@ static void fail_for_memory(struct byte_codec *codec) {
   codec->failed = codec->out_of_memory = true;
 }
 
-/* The loops over bytes below are written out, as compilers make one load or
- * store of those. */
-static inline uint64_t load_u16(const unsigned char *at) {
-  return (uint64_t)at[0] | (uint64_t)at[1] << 8;
-}
-
-static inline uint64_t load_u32(const unsigned char *at) {
-  return (uint64_t)at[0] | (uint64_t)at[1] << 8 | (uint64_t)at[2] << 16 |
-         (uint64_t)at[3] << 24;
-}
-
-static inline uint64_t load_u64(const unsigned char *at) {
-  return (uint64_t)at[0] | (uint64_t)at[1] << 8 | (uint64_t)at[2] << 16 |
-         (uint64_t)at[3] << 24 | (uint64_t)at[4] << 32 | (uint64_t)at[5] << 40 |
-         (uint64_t)at[6] << 48 | (uint64_t)at[7] << 56;
-}
-
-/* Writes the `size` low bytes of a number. */
-static void store_number(struct byte_codec *codec, uint64_t value,
-                         size_t size) {
-  enum { MOST = 8 };
-  if (codec->bytes.capacity - codec->bytes.count < MOST &&
-      !ARRAY_RESERVE(&codec->bytes, MOST)) {
-    fail_for_memory(codec);
-    return;
-  }
-  char *to = codec->bytes.item + codec->bytes.count;
-  to[0] = (char)(value & 0xff);
-  to[1] = (char)(value >> 8 & 0xff);
-  to[2] = (char)(value >> 16 & 0xff);
-  to[3] = (char)(value >> 24 & 0xff);
-  to[4] = (char)(value >> 32 & 0xff);
-  to[5] = (char)(value >> 40 & 0xff);
-  to[6] = (char)(value >> 48 & 0xff);
-  to[7] = (char)(value >> 56 & 0xff);
-  codec->bytes.count += size;
-}
-
-/* Writes or reads the `size` low bytes of a number. */
-static inline void code_number(struct byte_codec *codec, uint64_t *value,
-                               size_t size) {
-  if (codec->writes) {
-    store_number(codec, *value, size);
-    return;
-  }
-  *value = 0;
-  if (codec->failed || codec->left < size) {
-    codec->failed = true;
-    return;
-  }
-  *value = size == 1   ? codec->at[0]
-           : size == 2 ? load_u16(codec->at)
-           : size == 4 ? load_u32(codec->at)
-                       : load_u64(codec->at);
-  codec->at += size;
-  codec->left -= size;
-}
-
-void byte_codec_u8(struct byte_codec *codec, uint8_t *value) {
-  uint64_t number = codec->writes ? *value : 0;
-  code_number(codec, &number, 1);
-  *value = (uint8_t)number;
-}
-
-void byte_codec_u16(struct byte_codec *codec, uint16_t *value) {
-  uint64_t number = codec->writes ? *value : 0;
-  code_number(codec, &number, 2);
-  *value = (uint16_t)number;
-}
-
-void byte_codec_u32(struct byte_codec *codec, uint32_t *value) {
-  uint64_t number = codec->writes ? *value : 0;
-  code_number(codec, &number, 4);
-  *value = (uint32_t)number;
-}
-
-void byte_codec_u64(struct byte_codec *codec, uint64_t *value) {
-  code_number(codec, value, 8);
+bool byte_codec_grow(struct byte_codec *codec) {
+  if (ARRAY_RESERVE(&codec->bytes, sizeof(uint64_t)))
+    return true;
+  fail_for_memory(codec);
+  return false;
 }
 
 void byte_codec_i64(struct byte_codec *codec, int64_t *value) {
   uint64_t number = codec->writes ? (uint64_t)*value : 0;
-  code_number(codec, &number, 8);
+  byte_codec_number(codec, &number, 8);
   memcpy(value, &number, sizeof *value);
 }
 
@@ -98,14 +25,6 @@ void byte_codec_float(struct byte_codec *codec, float *value) {
   if (codec->writes)
     memcpy(&bits, value, sizeof bits);
   byte_codec_u32(codec, &bits);
-  memcpy(value, &bits, sizeof bits);
-}
-
-void byte_codec_double(struct byte_codec *codec, double *value) {
-  uint64_t bits = 0;
-  if (codec->writes)
-    memcpy(&bits, value, sizeof bits);
-  code_number(codec, &bits, 8);
   memcpy(value, &bits, sizeof bits);
 }
 
@@ -119,8 +38,8 @@ void byte_codec_bool(struct byte_codec *codec, bool *value) {
 static void code_int128(struct byte_codec *codec, int128 *value) {
   uint64_t low = codec->writes ? (uint64_t)*value : 0;
   uint64_t high = codec->writes ? (uint64_t)(*value >> 64) : 0;
-  code_number(codec, &low, 8);
-  code_number(codec, &high, 8);
+  byte_codec_number(codec, &low, 8);
+  byte_codec_number(codec, &high, 8);
   if (!codec->writes)
     *value = 0;
   if (high >> 62 != 0) /* negative, or 2^126 or more */
@@ -141,7 +60,7 @@ void byte_codec_ratio(struct byte_codec *codec, struct ratio *value) {
 
 void byte_codec_count(struct byte_codec *codec, size_t *count, size_t size) {
   uint64_t number = *count;
-  code_number(codec, &number, 8);
+  byte_codec_number(codec, &number, 8);
   if (!codec->writes && number > codec->left / size) {
     codec->failed = true;
     number = 0;

@@ -8,6 +8,8 @@
 #ifndef PARTS_BYTE_CODEC_H
 #define PARTS_BYTE_CODEC_H
 
+#include <string.h>
+
 #include "base/memory.h"
 #include "geom/ratio.h"
 
@@ -20,13 +22,84 @@ struct byte_codec {
   size_t left;             /* and how many are left */
 };
 
-void byte_codec_u8(struct byte_codec *codec, uint8_t *value);
-void byte_codec_u16(struct byte_codec *codec, uint16_t *value);
-void byte_codec_u32(struct byte_codec *codec, uint32_t *value);
-void byte_codec_u64(struct byte_codec *codec, uint64_t *value);
+/* Makes room for eight bytes; false when memory ran out. */
+bool byte_codec_grow(struct byte_codec *codec);
+
+/* Writes or reads the `size` low bytes of a number: 1, 2, 4 or 8.  The bytes
+ * are written out, as compilers make one load or store of them. */
+static inline void byte_codec_number(struct byte_codec *codec, uint64_t *value,
+                                     size_t size) {
+  if (codec->writes) {
+    struct byte_array *bytes = &codec->bytes;
+    if (bytes->capacity - bytes->count < sizeof *value &&
+        !byte_codec_grow(codec))
+      return;
+    char *to = bytes->item + bytes->count;
+    to[0] = (char)(*value & 0xff);
+    to[1] = (char)(*value >> 8 & 0xff);
+    to[2] = (char)(*value >> 16 & 0xff);
+    to[3] = (char)(*value >> 24 & 0xff);
+    to[4] = (char)(*value >> 32 & 0xff);
+    to[5] = (char)(*value >> 40 & 0xff);
+    to[6] = (char)(*value >> 48 & 0xff);
+    to[7] = (char)(*value >> 56 & 0xff);
+    bytes->count += size;
+    return;
+  }
+  *value = 0;
+  if (codec->failed || codec->left < size) {
+    codec->failed = true;
+    return;
+  }
+  const unsigned char *at = codec->at;
+  if (size == 1)
+    *value = at[0];
+  else if (size == 2)
+    *value = (uint64_t)at[0] | (uint64_t)at[1] << 8;
+  else if (size == 4)
+    *value = (uint64_t)at[0] | (uint64_t)at[1] << 8 | (uint64_t)at[2] << 16 |
+             (uint64_t)at[3] << 24;
+  else
+    *value = (uint64_t)at[0] | (uint64_t)at[1] << 8 | (uint64_t)at[2] << 16 |
+             (uint64_t)at[3] << 24 | (uint64_t)at[4] << 32 |
+             (uint64_t)at[5] << 40 | (uint64_t)at[6] << 48 |
+             (uint64_t)at[7] << 56;
+  codec->at += size;
+  codec->left -= size;
+}
+
+static inline void byte_codec_u8(struct byte_codec *codec, uint8_t *value) {
+  uint64_t number = codec->writes ? *value : 0;
+  byte_codec_number(codec, &number, 1);
+  *value = (uint8_t)number;
+}
+
+static inline void byte_codec_u16(struct byte_codec *codec, uint16_t *value) {
+  uint64_t number = codec->writes ? *value : 0;
+  byte_codec_number(codec, &number, 2);
+  *value = (uint16_t)number;
+}
+
+static inline void byte_codec_u32(struct byte_codec *codec, uint32_t *value) {
+  uint64_t number = codec->writes ? *value : 0;
+  byte_codec_number(codec, &number, 4);
+  *value = (uint32_t)number;
+}
+
+static inline void byte_codec_u64(struct byte_codec *codec, uint64_t *value) {
+  byte_codec_number(codec, value, 8);
+}
+
+static inline void byte_codec_double(struct byte_codec *codec, double *value) {
+  uint64_t bits = 0;
+  if (codec->writes)
+    memcpy(&bits, value, sizeof bits);
+  byte_codec_number(codec, &bits, 8);
+  memcpy(value, &bits, sizeof bits);
+}
+
 void byte_codec_i64(struct byte_codec *codec, int64_t *value);
 void byte_codec_float(struct byte_codec *codec, float *value);
-void byte_codec_double(struct byte_codec *codec, double *value);
 void byte_codec_bool(struct byte_codec *codec, bool *value);
 
 /* A parameter of an edge: in [0, 1], numbers below 2^126. */

@@ -197,12 +197,14 @@ static void code_element(struct byte_codec *codec, struct part *part,
                      element->number < SCENE_LIMIT &&
                      (is_first || element->number > element[-1].number));
   element->corner = (uint32_t)part->corner.count;
-  for (uint32_t i = 0; i < element->count && !codec->failed; i++) {
-    uint32_t point = 0;
-    byte_codec_u32(codec, &point);
-    if (!ARRAY_PUSH(&part->corner, point))
-      codec->failed = codec->out_of_memory = true;
+  if (codec->failed)
+    return;
+  if (!ARRAY_RESERVE(&part->corner, element->count)) {
+    codec->failed = codec->out_of_memory = true;
+    return;
   }
+  for (uint32_t i = 0; i < element->count; i++)
+    byte_codec_u32(codec, &part->corner.item[part->corner.count++]);
 }
 
 /* The tones of a face: one where it is uniform, else one a corner.  They follow
