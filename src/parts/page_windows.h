@@ -12,8 +12,8 @@ struct page_place {
   int32_t at[2];
 };
 
-/* On which sides of a box a place lies, a bit each, as Cohen and Sutherland have
- * them: what has a common bit in all its corners does not meet the box. */
+/* On which sides of a box a place lies, a bit each, as Cohen and Sutherland
+ * have them: what has a common bit in all its corners does not meet the box. */
 enum { PAGE_OUTCODE = 0xf };
 
 static inline uint8_t page_outcode(const struct part_window *box,

@@ -156,9 +156,8 @@ static recto_status add_joined_faces(struct join_work *work) {
     size_t before = scene->corner.count;
     fetch_points(work, f + MEM_PREFETCH_AHEAD);
     scene->current_group = face->group;
-    recto_status status =
-        scene_add_face(scene, all->corner.item + face->corner, face->count, 0,
-                       NULL, work->error);
+    recto_status status = scene_add_face(scene, all->corner.item + face->corner,
+                                         face->count, 0, NULL, work->error);
     if (status == RECTO_OK && (scene_face_count(scene) != f + 1 ||
                                scene->corner.count - before != face->count))
       status = part_join_misfit(work);
@@ -176,9 +175,8 @@ static recto_status add_joined_wires(struct join_work *work) {
   for (uint32_t w = 0; w < all->wire.count; w++) {
     const struct part_element *wire = &all->wire.item[w];
     scene->current_group = wire->group;
-    recto_status status =
-        scene_add_wire(scene, all->corner.item + wire->corner, wire->count, 0,
-                       NULL, work->error);
+    recto_status status = scene_add_wire(scene, all->corner.item + wire->corner,
+                                         wire->count, 0, NULL, work->error);
     if (status == RECTO_OK && scene_wire_count(scene) != w + 1)
       status = part_join_misfit(work);
     if (status != RECTO_OK)

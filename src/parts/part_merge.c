@@ -109,28 +109,28 @@ static uint64_t key_of_numbers(uint32_t high, uint32_t low) {
   return (uint64_t)high << 32 | low;
 }
 
-static uint64_t key_of_point(const struct part *part, uint32_t index) {
+static uint64_t merge_key_of_point(const struct part *part, uint32_t index) {
   return part->point.item[index].number;
 }
 
-static uint64_t key_of_face(const struct part *part, uint32_t index) {
+static uint64_t merge_key_of_face(const struct part *part, uint32_t index) {
   return part->face.item[index].number;
 }
 
-static uint64_t key_of_wire(const struct part *part, uint32_t index) {
+static uint64_t merge_key_of_wire(const struct part *part, uint32_t index) {
   return part->wire.item[index].number;
 }
 
-static uint64_t key_of_edge(const struct part *part, uint32_t index) {
+static uint64_t merge_key_of_edge(const struct part *part, uint32_t index) {
   return part_edge_key_number(part->edge.item[index].key);
 }
 
-static uint64_t key_of_run(const struct part *part, uint32_t index) {
+static uint64_t merge_key_of_run(const struct part *part, uint32_t index) {
   const struct part_edge_run *run = &part->run.item[index];
   return key_of_numbers(run->face, run->place);
 }
 
-static uint64_t key_of_fragment(const struct part *part, uint32_t index) {
+static uint64_t merge_key_of_fragment(const struct part *part, uint32_t index) {
   return part->fragment.item[index].face;
 }
 
@@ -157,7 +157,7 @@ static bool same_position_in_parts(const struct scene_point *a,
 static recto_status merge_points(struct merge_work *work) {
   struct part *all = work->all;
   struct origin at;
-  merge_order_begin(&work->order, MERGE_LIST(point), key_of_point);
+  merge_order_begin(&work->order, MERGE_LIST(point), merge_key_of_point);
   if (!ARRAY_RESERVE(&all->point, merge_order_count(&work->order)))
     return error_memory(work->error);
   while (merge_order_next(&work->order, &at)) {
@@ -215,9 +215,9 @@ static recto_status merge_elements(struct merge_work *work, bool wires) {
   struct part *all = work->all;
   struct origin at;
   if (wires)
-    merge_order_begin(&work->order, MERGE_LIST(wire), key_of_wire);
+    merge_order_begin(&work->order, MERGE_LIST(wire), merge_key_of_wire);
   else
-    merge_order_begin(&work->order, MERGE_LIST(face), key_of_face);
+    merge_order_begin(&work->order, MERGE_LIST(face), merge_key_of_face);
   while (merge_order_next(&work->order, &at)) {
     const struct part_element *element =
         &elements_of(&work->part[at.part], wires).item[at.index];
@@ -301,7 +301,7 @@ static bool finish_visibility(struct merge_work *work,
 static recto_status merge_edges(struct merge_work *work) {
   struct part *all = work->all;
   struct origin at;
-  merge_order_begin(&work->order, MERGE_LIST(edge), key_of_edge);
+  merge_order_begin(&work->order, MERGE_LIST(edge), merge_key_of_edge);
   if (!ARRAY_RESERVE(&all->edge, merge_order_count(&work->order)))
     return error_memory(work->error);
   for (bool more = merge_order_next(&work->order, &at); more;) {
@@ -412,7 +412,7 @@ static recto_status merge_crossings(struct merge_work *work) {
 static recto_status merge_runs(struct merge_work *work) {
   struct part *all = work->all;
   struct origin at;
-  merge_order_begin(&work->order, MERGE_LIST(run), key_of_run);
+  merge_order_begin(&work->order, MERGE_LIST(run), merge_key_of_run);
   if (!ARRAY_RESERVE(&all->run, merge_order_count(&work->order)))
     return error_memory(work->error);
   while (merge_order_next(&work->order, &at)) {
@@ -458,7 +458,7 @@ static recto_status merge_fragments(struct merge_work *work) {
   recto_status status = RECTO_OK;
   size_t *corner = mem_calloc(work->parts, sizeof *corner);
   bool ok = corner != NULL;
-  merge_order_begin(&work->order, MERGE_LIST(fragment), key_of_fragment);
+  merge_order_begin(&work->order, MERGE_LIST(fragment), merge_key_of_fragment);
   while (ok && status == RECTO_OK && merge_order_next(&work->order, &at)) {
     const struct part *part = &work->part[at.part];
     size_t before = all->fragment.count;
