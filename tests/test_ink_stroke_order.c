@@ -428,8 +428,9 @@ static void lists_of_the_nearest_are_complete_and_in_order(void **state) {
   for (uint32_t i = 0; i < COUNT; i++) {
     uint32_t found[WANTED];
     double far = 0;
-    assert_int_equal(nearest_list(&nearest, point[i], i / 2, found, WANTED),
-                     WANTED);
+    assert_int_equal(
+        nearest_list(&nearest, point[i], i / 2, INFINITY, found, WANTED),
+        WANTED);
     for (int k = 0; k < WANTED; k++) {
       assert_int_not_equal(found[k] / 2, i / 2);
       double d =

@@ -5,7 +5,9 @@
  *   2 mark     the cells of a uniform grid in which hairs may lie
  *   3 list     in these cells the sides of all paths near them, the longest
  *              path's first
- *   4 decide   from the longest hair to the shortest
+ *   4 judge    in parallel, each hair as if all others were drawn
+ *   5 decide   from the longest hair to the shortest those of which that says
+ *              nothing yet, as they may be covered by hairs that are not drawn
  * A hair is divided into pieces of a quarter of a pen, and each must have both
  * ends within half a pen
  * of one side of a longer path that is drawn; then all of it is, as what is
@@ -27,6 +29,8 @@ enum {
   PENS_IN_CELL = 4
 };
 
+enum verdict { NOT_COVERED, COVERED, UNDECIDED };
+
 struct measured_path {
   double length, near; /* grid units; near: half of its pen */
   uint32_t rank;       /* 0: the longest */
@@ -37,8 +41,15 @@ struct measured_path {
 
 /* A side of a path, which may cover a hair. */
 struct cover_side {
-  uint32_t path;
   struct ink_point a, b;
+  uint32_t rank, layer; /* of its path */
+  float weight;
+  bool is_hair;
+};
+
+/* A side in a cell. */
+struct cover_listed {
+  uint32_t cell, side;
 };
 
 struct covering {
@@ -47,11 +58,13 @@ struct covering {
   const struct pens *pens;
   struct measured_path *measured; /* one a path */
   uint32_t *by_rank;
-  uint8_t *marked; /* one a cell */
+  uint8_t *verdict; /* one a path */
+  uint8_t *marked;  /* one a cell */
   double cell, low[2], widest;
-  int64_t count[2]; /* of cells, in x and in y */
-  ARRAY(struct cover_side) side;
-  ARRAY(struct sort_key) listed; /* cell << 32 | rank, side */
+  int64_t count[2];              /* of cells, in x and in y */
+  ARRAY(struct cover_side) side; /* the shortest path's first */
+  ARRAY(struct cover_listed) listed;
+  struct number_lists sides; /* of each cell, the longest path's first */
 };
 
 static double distance(struct ink_point a, struct ink_point b) {
@@ -136,14 +149,18 @@ static int64_t cell_of_place(const struct covering *c, double x, double y) {
   return cell_along(c, 1, y) * c->count[0] + cell_along(c, 0, x);
 }
 
-/* Calls do_piece for all pieces of a path, each from at[0], at[1] to at[2],
- * at[3]; returns false where that did. */
-static bool for_all_pieces(struct covering *c, uint32_t number,
-                           bool (*do_piece)(struct covering *c,
-                                            const struct measured_path *hair,
-                                            const double at[4])) {
+/* What a piece of a hair, from at[0], at[1] to at[2], at[3], gives. */
+typedef enum verdict piece_fn(const struct covering *c,
+                              const struct measured_path *hair,
+                              const double at[4]);
+
+/* Calls do_piece for the pieces of a path, until one is NOT_COVERED; returns
+ * that, or UNDECIDED where one is, or COVERED. */
+static enum verdict for_all_pieces(const struct covering *c, uint32_t number,
+                                   piece_fn *do_piece) {
   const struct ink_path *path = &c->paths->path.item[number];
   const struct measured_path *hair = &c->measured[number];
+  enum verdict all = COVERED;
   for (uint32_t i = 0; i + 1 < path->count; i++) {
     const struct ink_point *p = &c->paths->point.item[path->point + i];
     double pieces = ceil(distance(p[0], p[1]) / hair->near * 2);
@@ -152,20 +169,24 @@ static bool for_all_pieces(struct covering *c, uint32_t number,
     for (double k = 0; k < pieces; k++) {
       const double at[4] = {p->x + k * dx, p->y + k * dy, p->x + (k + 1) * dx,
                             p->y + (k + 1) * dy};
-      if (!do_piece(c, hair, at))
-        return false;
+      enum verdict verdict = do_piece(c, hair, at);
+      if (verdict == NOT_COVERED)
+        return verdict;
+      if (verdict == UNDECIDED)
+        all = verdict;
     }
   }
-  return true;
+  return all;
 }
 
 /* ---- 2 Mark -------------------------------------------------------------- */
 
-static bool mark_piece(struct covering *c, const struct measured_path *hair,
-                       const double at[4]) {
+static enum verdict mark_piece(const struct covering *c,
+                               const struct measured_path *hair,
+                               const double at[4]) {
   (void)hair;
   c->marked[cell_of_place(c, (at[0] + at[2]) / 2, (at[1] + at[3]) / 2)] = 1;
-  return true;
+  return COVERED;
 }
 
 /* ---- 3 List -------------------------------------------------------------- */
@@ -174,7 +195,7 @@ static bool mark_piece(struct covering *c, const struct measured_path *hair,
 static bool list_side(struct covering *c, uint32_t path, struct ink_point a,
                       struct ink_point b) {
   const struct measured_path *m = &c->measured[path];
-  struct cover_side side = {path, a, b};
+  struct cover_side side = {a, b, m->rank, m->layer, m->weight, m->is_hair};
   double reach = 2 * m->near, y0 = fmin(a.y, b.y), y1 = fmax(a.y, b.y);
   uint32_t number = (uint32_t)c->side.count;
   bool found = false;
@@ -190,35 +211,47 @@ static bool list_side(struct covering *c, uint32_t path, struct ink_point a,
     int64_t end = cell_along(c, 0, fmax(x[0], x[1]) + reach);
     for (int64_t i = cell_along(c, 0, fmin(x[0], x[1]) - reach); i <= end;
          i++) {
-      uint64_t cell = (uint64_t)(row * c->count[0] + i);
-      struct sort_key listed = {cell << 32 | m->rank, number};
-      if (c->marked[cell] && !ARRAY_PUSH(&c->listed, listed))
+      struct cover_listed listed = {(uint32_t)(row * c->count[0] + i), number};
+      if (c->marked[listed.cell] && !ARRAY_PUSH(&c->listed, listed))
         return false;
-      found = found || c->marked[cell];
+      found = found || c->marked[listed.cell];
     }
   }
   return !found || ARRAY_PUSH(&c->side, side);
 }
 
+static void put_listed(struct covering *c) {
+  for (size_t i = 0; i < c->listed.count; i++) {
+    (void)poll_at(i);
+    number_lists_put(&c->sides, c->listed.item[i].cell, c->listed.item[i].side);
+  }
+}
+
+/* The last side of the shortest path comes first, as number_lists reverses the
+ * order. */
 static bool list_sides(struct covering *c) {
-  for (uint32_t i = 0; i < c->paths->path.count; i++) {
+  size_t cells = (size_t)(c->count[0] * c->count[1]);
+  for (uint32_t r = (uint32_t)c->paths->path.count; r-- > 0;) {
+    uint32_t i = c->by_rank[r];
     const struct ink_path *path = &c->paths->path.item[i];
     const struct ink_point *p = c->paths->point.item + path->point;
-    bool ok = poll_at(i);
-    for (uint32_t k = 0; ok && c->measured[i].is_drawn && k < path->count; k++)
+    bool ok = poll_at(r);
+    for (uint32_t k = path->count; ok && c->measured[i].is_drawn && k-- > 0;)
       if (k + 1 < path->count || path->closed)
         ok = list_side(c, i, p[k], p[(k + 1) % path->count]);
     if (!ok)
       return false;
   }
-  struct sort_key *scratch = mem_alloc(c->listed.count, sizeof *scratch);
-  if (scratch != NULL)
-    sort_keys(c->listed.item, scratch, c->listed.count);
-  mem_free(scratch);
-  return scratch != NULL;
+  if (!number_lists_init(&c->sides, cells))
+    return false;
+  put_listed(c);
+  if (!number_lists_allocate(&c->sides, cells))
+    return false;
+  put_listed(c);
+  return true;
 }
 
-/* ---- 4 Decide ------------------------------------------------------------ */
+/* ---- 4 Judge, 5 Decide --------------------------------------------------- */
 
 static bool is_near_side(const struct cover_side *side, double x, double y,
                          double near) {
@@ -230,29 +263,104 @@ static bool is_near_side(const struct cover_side *side, double x, double y,
   return px * px + py * py <= near * near;
 }
 
-/* Whether a side in the cell is near both ends of a piece of a hair: at[0],
- * at[1] and at[2], at[3]. */
-static bool is_piece_covered(struct covering *c,
-                             const struct measured_path *hair,
-                             const double at[4]) {
-  uint64_t cell =
-      (uint64_t)cell_of_place(c, (at[0] + at[2]) / 2, (at[1] + at[3]) / 2);
-  const struct sort_key *listed = c->listed.item;
-  size_t i;
-  LOWER_BOUND(i, 0, c->listed.count, listed[i].key < cell << 32);
-  for (int tried = 0; i < c->listed.count && tried < SIDES_TRIED_MAX; i++) {
-    const struct cover_side *side = &c->side.item[listed[i].value];
-    const struct measured_path *m = &c->measured[side->path];
-    if (listed[i].key >= (cell << 32 | hair->rank))
+/* Is the side near both ends of a piece of a hair?  One whose box is farther
+ * away by a grid unit, more than rounding can bring it nearer, is not. */
+static bool is_near_piece(const struct cover_side *side, const double at[4],
+                          double near) {
+  const double a[2] = {side->a.x, side->a.y}, b[2] = {side->b.x, side->b.y};
+  for (int k = 0; k < 2; k++) {
+    double low = (a[k] < b[k] ? a[k] : b[k]) - near - 1;
+    double high = (a[k] < b[k] ? b[k] : a[k]) + near + 1;
+    if (at[k] < low || at[k + 2] < low || at[k] > high || at[k + 2] > high)
       return false;
-    if (!m->is_drawn || m->layer != hair->layer || m->weight < hair->weight)
-      continue;
-    tried++;
-    if (is_near_side(side, at[0], at[1], hair->near) &&
-        is_near_side(side, at[2], at[3], hair->near))
-      return true;
   }
-  return false;
+  return is_near_side(side, at[0], at[1], near) &&
+         is_near_side(side, at[2], at[3], near);
+}
+
+/* The sides that are tried for a piece of a hair. */
+struct cover_trial {
+  const uint32_t *side, *end;
+  int tried;
+};
+
+static struct cover_trial trial_at(const struct covering *c,
+                                   const double at[4]) {
+  int64_t cell = cell_of_place(c, (at[0] + at[2]) / 2, (at[1] + at[3]) / 2);
+  return (struct cover_trial){c->sides.item + c->sides.start[cell],
+                              c->sides.item + c->sides.start[cell + 1], 0};
+}
+
+/* The next side that is near the piece, of a path that is longer than the hair
+ * and could take its place; NULL: there is none.
+ * decided  hairs are as decided; else all are taken for drawn */
+static const struct cover_side *next_cover(const struct covering *c,
+                                           struct cover_trial *trial,
+                                           const struct measured_path *hair,
+                                           const double at[4], bool decided) {
+  while (trial->side < trial->end && trial->tried < SIDES_TRIED_MAX) {
+    const struct cover_side *side = &c->side.item[*trial->side++];
+    if (side->rank >= hair->rank)
+      trial->side = trial->end;
+    else if (side->layer == hair->layer && side->weight >= hair->weight &&
+             !(decided && side->is_hair &&
+               !c->measured[c->by_rank[side->rank]].is_drawn)) {
+      trial->tried++;
+      if (is_near_piece(side, at, hair->near))
+        return side;
+    }
+  }
+  return NULL;
+}
+
+/* Of a piece, as if all hairs were drawn.  A path that is none is drawn in any
+ * case, and would be tried at this place or before. */
+static enum verdict judge_piece(const struct covering *c,
+                                const struct measured_path *hair,
+                                const double at[4]) {
+  struct cover_trial trial = trial_at(c, at);
+  const struct cover_side *side;
+  bool found = false;
+  while ((side = next_cover(c, &trial, hair, at, false)) != NULL) {
+    if (!side->is_hair)
+      return COVERED;
+    found = true;
+  }
+  return found || trial.tried == SIDES_TRIED_MAX ? UNDECIDED : NOT_COVERED;
+}
+
+static enum verdict decide_piece(const struct covering *c,
+                                 const struct measured_path *hair,
+                                 const double at[4]) {
+  struct cover_trial trial = trial_at(c, at);
+  return next_cover(c, &trial, hair, at, true) != NULL ? COVERED : NOT_COVERED;
+}
+
+static bool judge_range(void *user, struct parallel_range range) {
+  const struct covering *c = user;
+  for (size_t i = range.begin; i < range.end; i++)
+    c->verdict[i] = c->measured[i].is_hair
+                        ? (uint8_t)for_all_pieces(c, (uint32_t)i, judge_piece)
+                        : NOT_COVERED;
+  return true;
+}
+
+/* Returns false when the caller cancelled. */
+static bool decide(struct covering *c) {
+  size_t count = c->paths->path.count;
+  if (!parallel_ranges(parallel_workers(count, PATHS_IN_RANGE), count,
+                       PATHS_IN_RANGE, judge_range, c))
+    return false;
+  for (size_t r = 0; r < count; r++) {
+    uint32_t i = c->by_rank[r];
+    enum verdict verdict = c->verdict[i];
+    (void)poll_at(r);
+    if (verdict == UNDECIDED)
+      verdict = for_all_pieces(c, i, decide_piece);
+    c->paths->path.item[i].is_covered = verdict == COVERED;
+    c->measured[i].is_drawn &= verdict != COVERED;
+  }
+  return true;
 }
 
 bool paths_find_covered(struct ink_paths *paths, const struct sheet *sheet,
@@ -261,25 +369,22 @@ bool paths_find_covered(struct ink_paths *paths, const struct sheet *sheet,
   size_t count = paths->path.count, hairs;
   c.measured = mem_alloc(count, sizeof *c.measured);
   c.by_rank = mem_alloc(count, sizeof *c.by_rank);
-  bool ok =
-      c.measured != NULL && c.by_rank != NULL && measure_paths(&c, &hairs);
+  c.verdict = mem_alloc(count, sizeof *c.verdict);
+  bool ok = c.measured != NULL && c.by_rank != NULL && c.verdict != NULL &&
+            measure_paths(&c, &hairs);
   if (ok && hairs > 0) {
     ok = make_cells(&c);
     for (uint32_t i = 0; ok && i < count; i++)
       if (c.measured[i].is_hair)
         (void)for_all_pieces(&c, i, mark_piece);
-    ok = ok && list_sides(&c);
-    for (uint32_t r = 0; ok && r < count; r++) {
-      uint32_t i = c.by_rank[r];
-      paths->path.item[i].is_covered =
-          c.measured[i].is_hair && for_all_pieces(&c, i, is_piece_covered);
-      c.measured[i].is_drawn &= !paths->path.item[i].is_covered;
-    }
+    ok = ok && list_sides(&c) && decide(&c);
   }
   mem_free(c.measured);
   mem_free(c.by_rank);
+  mem_free(c.verdict);
   mem_free(c.marked);
   ARRAY_FREE(&c.side);
   ARRAY_FREE(&c.listed);
+  number_lists_fini(&c.sides);
   return ok;
 }

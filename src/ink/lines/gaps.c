@@ -8,11 +8,13 @@
  *   3 close    with a segment between the two nodes
  * Nothing that is drawn moves.  Ink is added at most half a pen from ink, and
  * half a pen long. */
-#include "base/poll.h"
+#include "base/parallel.h"
 #include "base/sort.h"
 #include "ink/lines/nearest.h"
 #include "ink/lines/segment_graph.h"
 #include "ink/pens.h"
+
+enum { ENDS_IN_RANGE = PARALLEL_RANGE(1 << 10) };
 
 struct gaps {
   struct segment_graph *graph;
@@ -81,13 +83,31 @@ static bool close_gap(struct gaps *g, uint32_t a, uint32_t b) {
          ARRAY_PUSH(&graph->segment, s);
 }
 
+/* The search for the other end of a gap, for each of a group. */
+struct gap_search {
+  const struct nearest *tree;
+  const struct drawing_point *at;
+  uint32_t *next; /* of each: the nearest other one; NEAREST_NONE: none */
+  double most;    /* what is as far away is the end of no gap */
+};
+
+static bool find_next_of_range(void *user, struct parallel_range range) {
+  const struct gap_search *search = user;
+  for (uint32_t i = (uint32_t)range.begin; i < range.end; i++) {
+    uint32_t found[2] = {NEAREST_NONE, NEAREST_NONE};
+    (void)nearest_list(search->tree, search->at[i], NEAREST_NONE, search->most,
+                       found, 2);
+    search->next[i] = found[0] == i ? found[1] : found[0];
+  }
+  return true;
+}
+
 /* Closes the gaps between the ends of a group.
  * loose  `count` of them, with equal keys */
 static bool close_group(struct gaps *g, const struct sort_key *loose,
                         uint32_t count) {
   uint32_t pen = (uint32_t)(loose->key >> 9) / RECTO_EDGE_CLASS_COUNT;
   double near = pens_width_mm(g->pens, pen) / 2 * SHEET_UNITS_PER_MM;
-  uint32_t found[2];
   struct nearest tree;
   g->at.count = 0;
   for (uint32_t i = 0; i < count; i++) {
@@ -97,13 +117,11 @@ static bool close_group(struct gaps *g, const struct sort_key *loose,
   }
   uint32_t *next = mem_alloc(count, sizeof *next);
   bool ok = next != NULL && nearest_init(&tree, g->at.item, count);
-  for (uint32_t i = 0; ok && i < count; i++) {
-    (void)poll_at(i);
-    (void)nearest_list(&tree, g->at.item[i], NEAREST_NONE, found, 2);
-    next[i] = found[0] == i ? found[1] : found[0];
-  }
+  struct gap_search search = {&tree, g->at.item, next, near + 1};
+  ok = ok && parallel_ranges(parallel_workers(count, ENDS_IN_RANGE), count,
+                             ENDS_IN_RANGE, find_next_of_range, &search);
   for (uint32_t i = 0; ok && i < count; i++)
-    if (next[i] > i && next[next[i]] == i &&
+    if (next[i] != NEAREST_NONE && next[i] > i && next[next[i]] == i &&
         is_gap(g, loose[i].value, loose[next[i]].value, near))
       ok = close_gap(g, loose[i].value, loose[next[i]].value);
   if (next != NULL)

@@ -166,6 +166,7 @@ void nearest_remove(struct nearest *t, uint32_t point) {
 struct search {
   struct drawing_point from;
   uint32_t skip; /* points with this i / 2 are ignored */
+  double most2;  /* the squared distance that all are below */
   uint32_t wanted, count;
   uint32_t found[NEAREST_LIST_MAX];
   double distance2[NEAREST_LIST_MAX];
@@ -173,7 +174,7 @@ struct search {
 
 /* The squared distance that a further point must be below. */
 static double limit(const struct search *s) {
-  return s->count < s->wanted ? INFINITY : s->distance2[s->count - 1];
+  return s->count < s->wanted ? s->most2 : s->distance2[s->count - 1];
 }
 
 /* The squared distance of a point from a box, 0 inside it. */
@@ -242,14 +243,17 @@ static void search_tree(const struct nearest *t, struct search *s) {
 }
 
 uint32_t nearest_find(const struct nearest *t, struct drawing_point from) {
-  struct search s = {.from = from, .skip = NEAREST_NONE, .wanted = 1};
+  struct search s = {
+      .from = from, .skip = NEAREST_NONE, .most2 = INFINITY, .wanted = 1};
   search_tree(t, &s);
   return s.count > 0 ? s.found[0] : NEAREST_NONE;
 }
 
 uint32_t nearest_list(const struct nearest *t, struct drawing_point from,
-                      uint32_t skip, uint32_t *found, uint32_t count) {
-  struct search s = {.from = from, .skip = skip, .wanted = count};
+                      uint32_t skip, double most, uint32_t *found,
+                      uint32_t count) {
+  struct search s = {
+      .from = from, .skip = skip, .most2 = most * most, .wanted = count};
   search_tree(t, &s);
   for (uint32_t i = 0; i < s.count; i++)
     found[i] = s.found[i];

@@ -32,10 +32,11 @@ void nearest_remove(struct nearest *nearest, uint32_t point);
 uint32_t nearest_find(const struct nearest *nearest, struct drawing_point from);
 
 /* Stores in `found` the indices of the `count` <= NEAREST_LIST_MAX points that
- * are nearest to `from`, nearest first, without the points i with i / 2 ==
- * skip.  Returns how many there are. */
+ * are nearest to `from`, nearest first, without those at a distance of `most`
+ * or more and the points i with i / 2 == skip.  Returns how many there are. */
 #define NEAREST_LIST_MAX 16
 uint32_t nearest_list(const struct nearest *nearest, struct drawing_point from,
-                      uint32_t skip, uint32_t *found, uint32_t count);
+                      uint32_t skip, double most, uint32_t *found,
+                      uint32_t count);
 
 #endif

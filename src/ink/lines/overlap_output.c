@@ -16,7 +16,7 @@
  * Invariants  What is removed is within an output step of what is kept, not
  *   of something that is removed in turn.  A node moves by at most a step in a
  *   round, and only where a line is removed or contracted. */
-#include "base/poll.h"
+#include "base/parallel.h"
 #include "ink/lines/segment_graph.h"
 
 #include <math.h>
@@ -34,6 +34,8 @@ struct measured_segment {
   int64_t dx, dy, cross_max; /* see nodes_near_segment.c */
   double length;
 };
+
+enum { SEGMENTS_IN_RANGE = PARALLEL_RANGE(1 << 10) };
 
 /* The part of a segment that a kept piece overlaps: from..to grid units along
  * it, and the nodes at which it is split there; SEGMENT_GRAPH_NONE at the
@@ -128,36 +130,67 @@ static bool is_better(const struct segment_graph *graph, uint32_t a,
   return of_a < of_b || (of_a == of_b && a < b);
 }
 
+/* The search of one worker. */
+struct pair_search {
+  const struct vertex_snapping *snapping;
+  const struct node_rows *rows;
+  ARRAY(struct sort_key) pair; /* see output_overlaps */
+};
+
 static bool record_pairs(void *user, uint32_t segment, uint32_t node) {
-  struct output_overlaps *r = user;
-  const struct segment_graph *graph = r->snapping.graph;
+  struct pair_search *search = user;
+  const struct vertex_snapping *snapping = search->snapping;
+  const struct segment_graph *graph = snapping->graph;
   const struct graph_segment *s = graph->segment.item;
   struct overlap_cover cover;
   for (uint32_t i = graph->ends.start[node]; i < graph->ends.start[node + 1];
        i++) {
     uint32_t other = graph->ends.item[i] >> 1;
-    if (r->snapping.gone[other] ||
-        !find_cover(&r->snapping, s[segment].node, s[other].node, &cover))
+    if (snapping->gone[other] ||
+        !find_cover(snapping, s[segment].node, s[other].node, &cover))
       continue;
     bool better = is_better(graph, segment, other);
     uint32_t best = better ? segment : other, worst = better ? other : segment;
     struct sort_key pair = {(uint64_t)worst << 32 | best, 0};
-    if (!ARRAY_PUSH(&r->pair, pair))
+    if (!ARRAY_PUSH(&search->pair, pair))
       return false;
   }
   return true;
 }
 
-static bool find_pairs(struct output_overlaps *r,
-                       const struct node_rows *rows) {
-  const struct segment_graph *graph = r->snapping.graph;
-  const struct node_search search = {graph, rows, r->snapping.output_step,
-                                     record_pairs, r};
-  for (uint32_t i = 0; i < graph->segment.count; i++)
-    if (!poll_at(i) ||
-        (!r->snapping.gone[i] && !nodes_near_segment_visit(&search, i)))
+static bool find_pairs_of_range(void *user, struct parallel_range range) {
+  struct pair_search *search = (struct pair_search *)user + range.worker;
+  const struct vertex_snapping *snapping = search->snapping;
+  const struct node_search nodes = {snapping->graph, search->rows,
+                                    snapping->output_step, record_pairs,
+                                    search};
+  for (size_t i = range.begin; i < range.end; i++)
+    if (!snapping->gone[i] && !nodes_near_segment_visit(&nodes, (uint32_t)i))
       return false;
   return true;
+}
+
+/* The order of the pairs does not matter, as they are sorted. */
+static bool find_pairs(struct output_overlaps *r,
+                       const struct node_rows *rows) {
+  size_t count = r->snapping.graph->segment.count;
+  int workers = parallel_workers(count, SEGMENTS_IN_RANGE);
+  struct pair_search *search = mem_calloc((size_t)workers, sizeof *search);
+  if (search == NULL)
+    return false;
+  for (int w = 0; w < workers; w++) {
+    search[w].snapping = &r->snapping;
+    search[w].rows = rows;
+  }
+  bool ok = parallel_ranges(workers, count, SEGMENTS_IN_RANGE,
+                            find_pairs_of_range, search);
+  for (int w = 0; w < workers; w++) {
+    for (size_t i = 0; ok && i < search[w].pair.count; i++)
+      ok = ARRAY_PUSH(&r->pair, search[w].pair.item[i]);
+    ARRAY_FREE(&search[w].pair);
+  }
+  mem_free(search);
+  return ok;
 }
 
 /* ---- 3 Subtract ---------------------------------------------------------- */

@@ -21,6 +21,8 @@
  *   1992 (neighbour lists, don't look bits, reversal of the shorter side). */
 #include "ink/order/tour.h"
 
+#include <math.h>
+
 #include "base/poll.h"
 #include "base/tolerance.h"
 #include "ink/lines/nearest.h"
@@ -312,7 +314,7 @@ static bool find_neighbours(struct cyclic_tour *r) {
     uint32_t *found = r->neighbour + (size_t)e * NEIGHBOURS;
     if (e != depot_in)
       count = nearest_list(&nearest, e < depot_in ? r->end[e] : r->start, e / 2,
-                           found, NEIGHBOURS);
+                           INFINITY, found, NEIGHBOURS);
     for (; count < NEIGHBOURS; count++)
       found[count] = NEAREST_NONE;
   }

@@ -75,13 +75,28 @@ static bool decide_pair(void *user, uint32_t f, uint32_t g) {
 
 /* ---- Edges of the sheet -------------------------------------------------- */
 
-static int compare_segments(const void *a, const void *b, void *user) {
-  const struct intersection_segment *s = a, *t = b;
-  (void)user;
-  for (int k = 0; k < 2; k++)
-    if (s->triangle[k] != t->triangle[k])
-      return s->triangle[k] < t->triangle[k] ? -1 : 1;
-  return 0;
+/* A key that orders points by x, then by y. */
+static uint64_t key_of_point(struct geom_point p) {
+  return (uint64_t)((uint32_t)p.x ^ UINT32_C(1) << 31) << 32 |
+         ((uint32_t)p.y ^ UINT32_C(1) << 31);
+}
+
+/* Sorts by key, and items of equal keys by what compare, of two sort_key, finds
+ * to differ in what they stand for.  Returns false when memory ran out. */
+static bool sort_keys_further(struct sort_key *key, size_t n,
+                              int (*compare)(const void *, const void *,
+                                             void *),
+                              void *user) {
+  if (!sort_keys_alone(key, n))
+    return false;
+  for (size_t i = 0, end; i < n; i = end) {
+    bool in_order = true;
+    for (end = i + 1; end < n && key[end].key == key[i].key; end++)
+      in_order = in_order && compare(&key[end - 1], &key[end], user) <= 0;
+    if (!in_order && !sort_stable(key + i, end - i, sizeof *key, compare, user))
+      return false;
+  }
+  return true;
 }
 
 static int compare_segment_ends(const struct intersection_segment *s,
@@ -93,94 +108,117 @@ static int compare_segment_ends(const struct intersection_segment *s,
                     : geom_compare_points(s->end[!turn_s], t->end[!turn_t]);
 }
 
-/* Equal are only segments that do not differ. */
+/* Segments, and their numbers in order, as values. */
+struct segment_order {
+  const struct intersection_segment *item;
+  struct sort_key *key;
+};
+
+/* Keys of segments; equal are only segments that do not differ. */
 static int compare_by_coordinates(const void *a, const void *b, void *user) {
-  const struct intersection_segment *s = a, *t = b;
+  const struct segment_order *order_of = user;
+  const struct intersection_segment
+      *s = &order_of->item[((const struct sort_key *)a)->value],
+      *t = &order_of->item[((const struct sort_key *)b)->value];
   int order = compare_segment_ends(s, t);
-  if (order == 0)
-    order = compare_segments(a, b, user);
+  for (int k = 0; k < 2 && order == 0; k++)
+    order = compare_numbers(s->triangle[k], t->triangle[k]);
   return order != 0 ? order : geom_compare_points(s->end[0], t->end[0]);
 }
 
-/* Removes duplicate segments, each of which becomes one edge, that of its first
- * pair, and sorts by triangles: so the result does not depend on the order in
- * which the grid's lists and cells gave the pairs. */
-static bool unite_segments(struct intersection_segments *segments) {
-  struct intersection_segment *item = segments->list.item;
-  size_t n = segments->list.count, kept = 0;
-  if (!sort_stable(item, n, sizeof *item, compare_by_coordinates, NULL))
-    return false;
-  for (size_t i = 0; i < n; i++)
-    if (kept == 0 || compare_segment_ends(&item[kept - 1], &item[i]) != 0)
-      item[kept++] = item[i];
-  segments->list.count = kept;
-  return sort_stable(item, kept, sizeof *item, compare_segments, NULL);
-}
-
-/* An end of a segment. */
-struct segment_end {
-  struct geom_point point;
-  uint32_t segment, end;
-};
-
-static int compare_ends(const void *a, const void *b, void *user) {
-  (void)user;
-  return geom_compare_points(((const struct segment_end *)a)->point,
-                             ((const struct segment_end *)b)->point);
-}
-
-/* Adds the ends to the sheet's points, equal ones once, and sets the edges'
- * point indices.  Returns false when memory ran out. */
-static bool
-add_intersection_points(struct sheet *sheet,
-                        const struct intersection_segments *segments,
-                        struct sheet_edge *edge) {
-  size_t n = 2 * segments->list.count;
-  struct segment_end *end = mem_alloc(n, sizeof *end);
-  bool ok = false;
-  if (end == NULL)
-    return false;
-  for (size_t i = 0; i < n; i++)
-    end[i] = (struct segment_end){segments->list.item[i / 2].end[i % 2],
-                                  (uint32_t)(i / 2), (uint32_t)(i % 2)};
-  if (!sort_stable(end, n, sizeof *end, compare_ends, NULL))
-    goto end;
+/* Orders `count` segments by their triangles, without duplicates, each of which
+ * is to be one edge, that of its first pair: so the result does not depend on
+ * the order in which the grid's lists and cells gave the pairs.
+ * count  gets how many are left
+ * Returns false when memory ran out. */
+static bool unite_segments(struct segment_order *segments, size_t *count) {
+  const struct intersection_segment *item = segments->item;
+  struct sort_key *order = segments->key;
+  size_t n = *count, kept = 0;
   for (size_t i = 0; i < n; i++) {
-    if ((i == 0 || compare_ends(&end[i - 1], &end[i], NULL) != 0) &&
-        !ARRAY_PUSH(&sheet->point, end[i].point))
-      goto end;
-    edge[end[i].segment].point[end[i].end] = (uint32_t)(sheet->point.count - 1);
+    const struct geom_point *end = item[i].end;
+    bool turn = geom_compare_points(end[0], end[1]) > 0;
+    order[i] = (struct sort_key){key_of_point(end[turn]), (uint32_t)i};
   }
-  ok = true;
-end:
+  if (!sort_keys_further(order, n, compare_by_coordinates, segments))
+    return false;
+  for (size_t i = 0; i < n; i++)
+    if (kept == 0 || compare_segment_ends(&item[order[kept - 1].value],
+                                          &item[order[i].value]) != 0)
+      order[kept++] = order[i];
+  for (size_t i = 0; i < kept; i++) {
+    const uint32_t *triangle = item[order[i].value].triangle;
+    order[i].key = (uint64_t)triangle[0] << 32 | triangle[1];
+  }
+  *count = kept;
+  return sort_keys_alone(order, kept);
+}
+
+/* The point of an end, whose number is twice that of its segment in the order,
+ * plus 0 or 1. */
+static struct geom_point point_of_end(const struct segment_order *order,
+                                      size_t end) {
+  return order->item[order->key[end / 2].value].end[end % 2];
+}
+
+/* Keys of ends. */
+static int compare_ends(const void *a, const void *b, void *user) {
+  const struct sort_key *p = a, *q = b;
+  return geom_compare_points(point_of_end(user, p->value),
+                             point_of_end(user, q->value));
+}
+
+/* Adds the ends of `count` edges to the sheet's points, equal ones once, and
+ * sets the edges' point indices.  Returns false when memory ran out. */
+static bool add_intersection_points(struct sheet *sheet,
+                                    struct segment_order *order, size_t count,
+                                    struct sheet_edge *edge) {
+  size_t n = 2 * count;
+  struct sort_key *end = mem_alloc(n, sizeof *end);
+  bool ok = end != NULL;
+  for (size_t i = 0; ok && i < n; i++)
+    end[i] =
+        (struct sort_key){key_of_point(point_of_end(order, i)), (uint32_t)i};
+  ok = ok && sort_keys_further(end, n, compare_ends, order);
+  for (size_t i = 0; ok && i < n; i++) {
+    if (i == 0 || compare_ends(&end[i - 1], &end[i], order) != 0)
+      ok = ARRAY_PUSH(&sheet->point, point_of_end(order, end[i].value));
+    edge[end[i].value / 2].point[end[i].value % 2] =
+        (uint32_t)(sheet->point.count - 1);
+  }
   mem_free(end);
   return ok;
 }
 
-bool intersection_add_edges(struct sheet *sheet,
-                            struct intersection_segments *segments) {
-  size_t n;
-  struct sheet_edge *edge;
-  if (segments->list.count == 0)
-    return true;
-  if (!unite_segments(segments))
+/* Returns false when memory ran out. */
+static bool add_edges_in_order(struct sheet *sheet, struct segment_order *order,
+                               size_t n) {
+  if (!unite_segments(order, &n) || !ARRAY_RESERVE(&sheet->edge, n))
     return false;
-  n = segments->list.count;
-  if (!ARRAY_RESERVE(&sheet->edge, n))
-    return false;
-  edge = sheet->edge.item + sheet->edge.count;
+  struct sheet_edge *edge = sheet->edge.item + sheet->edge.count;
   for (size_t i = 0; i < n; i++) {
-    const struct intersection_segment *s = &segments->list.item[i];
+    const struct intersection_segment *s = &order->item[order->key[i].value];
     edge[i] = (struct sheet_edge){
         .triangle = {s->triangle[0], s->triangle[1]},
         .source = SHEET_NONE,
         .group = sheet->face_group[sheet->triangle.item[s->triangle[0]].face],
         .edge_class = RECTO_EDGE_INTERSECTION};
   }
-  if (!add_intersection_points(sheet, segments, edge))
+  if (!add_intersection_points(sheet, order, n, edge))
     return false;
   sheet->edge.count += n;
   return true;
+}
+
+bool intersection_add_edges(struct sheet *sheet,
+                            const struct intersection_segments *segments) {
+  size_t n = segments->list.count;
+  struct segment_order order = {segments->list.item,
+                                mem_alloc(n, sizeof *order.key)};
+  bool ok =
+      order.key != NULL && (n == 0 || add_edges_in_order(sheet, &order, n));
+  mem_free(order.key);
+  return ok;
 }
 
 /* ---- Several workers ----------------------------------------------------- */
@@ -226,14 +264,15 @@ static bool unite_searches(struct intersection_search *search,
 }
 
 static void report_search(const struct intersection_search *search,
-                          uint64_t crossings, struct report *report) {
+                          uint64_t crossings, size_t segments,
+                          struct report *report) {
   report_count(report, "intersections", "pairs_tested", search->sweep.met);
   report_count(report, "intersections", "candidate_pairs",
                search->counts.pairs);
   report_count(report, "intersections", "straddling_pairs",
                search->counts.straddle);
   report_count(report, "intersections", "edge_crossings", crossings);
-  report_count(report, "intersections", "segments", search->segment.list.count);
+  report_count(report, "intersections", "segments", segments);
 }
 
 recto_status intersection_find_all(struct sheet *sheet,
@@ -245,6 +284,7 @@ recto_status intersection_find_all(struct sheet *sheet,
   int workers = parallel_workers(count, SEARCH_CELLS);
   struct intersection_search *search =
       mem_alloc((size_t)workers, sizeof *search);
+  size_t edges = sheet->edge.count;
   uint64_t crossings = 0;
   if (search == NULL)
     return error_memory(error);
@@ -259,7 +299,7 @@ recto_status intersection_find_all(struct sheet *sheet,
        edge_crossings_resolve(&search->crossings, sheet, &search->segment,
                               &crossings) &&
        intersection_add_edges(sheet, &search->segment);
-  report_search(search, crossings, report);
+  report_search(search, crossings, sheet->edge.count - edges, report);
   search_fini(search);
   mem_free(search);
   return ok ? RECTO_OK : error_memory(error);

@@ -42,8 +42,9 @@ USE_RESULT recto_status intersection_find_everywhere(
 struct intersection_segments; /* intersection_segment.h */
 
 /* Adds segments to the sheet as drawable edges, each of them once, sorted by
- * their triangles; sorts them.  Returns false when memory ran out. */
-USE_RESULT bool intersection_add_edges(struct sheet *sheet,
-                                       struct intersection_segments *segments);
+ * their triangles.  Returns false when memory ran out. */
+USE_RESULT bool
+intersection_add_edges(struct sheet *sheet,
+                       const struct intersection_segments *segments);
 
 #endif
