@@ -156,16 +156,16 @@ static bool unite_segments(struct segment_order *segments, size_t *count) {
 
 /* The point of an end, whose number is twice that of its segment in the order,
  * plus 0 or 1. */
-static struct geom_point point_of_end(const struct segment_order *order,
-                                      size_t end) {
+static struct geom_point point_of_segment_end(const struct segment_order *order,
+                                              size_t end) {
   return order->item[order->key[end / 2].value].end[end % 2];
 }
 
 /* Keys of ends. */
 static int compare_ends(const void *a, const void *b, void *user) {
   const struct sort_key *p = a, *q = b;
-  return geom_compare_points(point_of_end(user, p->value),
-                             point_of_end(user, q->value));
+  return geom_compare_points(point_of_segment_end(user, p->value),
+                             point_of_segment_end(user, q->value));
 }
 
 /* Adds the ends of `count` edges to the sheet's points, equal ones once, and
@@ -177,12 +177,12 @@ static bool add_intersection_points(struct sheet *sheet,
   struct sort_key *end = mem_alloc(n, sizeof *end);
   bool ok = end != NULL;
   for (size_t i = 0; ok && i < n; i++)
-    end[i] =
-        (struct sort_key){key_of_point(point_of_end(order, i)), (uint32_t)i};
+    end[i] = (struct sort_key){key_of_point(point_of_segment_end(order, i)),
+                               (uint32_t)i};
   ok = ok && sort_keys_further(end, n, compare_ends, order);
   for (size_t i = 0; ok && i < n; i++) {
     if (i == 0 || compare_ends(&end[i - 1], &end[i], order) != 0)
-      ok = ARRAY_PUSH(&sheet->point, point_of_end(order, end[i].value));
+      ok = ARRAY_PUSH(&sheet->point, point_of_segment_end(order, end[i].value));
     edge[end[i].value / 2].point[end[i].value % 2] =
         (uint32_t)(sheet->point.count - 1);
   }
