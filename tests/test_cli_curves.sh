@@ -61,6 +61,20 @@ else
   skip "of the bunny's outlines too" "no RECTO_MODELS"
 fi
 
+page_size() {
+  sed -n 's/.*<svg.* width="\([0-9.]*\)mm" height="\([0-9.]*\)mm".*/\1 \2/p' "$1"
+}
+is_as_tight_as_lines() {
+  run 0 torus.obj --contours smooth --tight -o lines.svg &&
+    run 0 torus.obj --contours smooth --tight --curves 0.1 -o curves.svg &&
+    page_size curves.svg >size && page_size lines.svg >>size &&
+    awk 'NR == 1 { w = $1; h = $2 }
+      END { exit !(NR == 2 && (w - $1) ^ 2 < 0.05 && (h - $2) ^ 2 < 0.05) }' \
+      size && return
+  say "$(cat size)" && false
+}
+claim "--tight fits curves as it fits lines" is_as_tight_as_lines
+
 draws_a_box_as_ever() {
   run 0 cube.obj -o lines.svg && run 0 cube.obj --curves 1 -o curves.svg &&
     cmp lines.svg curves.svg

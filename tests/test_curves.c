@@ -388,6 +388,60 @@ static void chords_are_as_near_as_asked(void **state) {
   drawing_fini(&drawing);
 }
 
+/* The box of a Bezier curve's points at so many parameters, widened by half the
+ * pen, is nearly that of the curve. */
+static void include_samples(struct drawing_window *box, const point p[4],
+                            double half_width) {
+  enum { SAMPLES = 4096 };
+  for (int i = 0; i <= SAMPLES; i++) {
+    double t = i / (double)SAMPLES, s = 1 - t;
+    const double share[] = {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
+    point at = {0, 0};
+    for (int k = 0; k < 4; k++) {
+      at.x += share[k] * p[k].x;
+      at.y += share[k] * p[k].y;
+    }
+    box->x0 = fmin(box->x0, at.x - half_width);
+    box->y0 = fmin(box->y0, at.y - half_width);
+    box->x1 = fmax(box->x1, at.x + half_width);
+    box->y1 = fmax(box->y1, at.y + half_width);
+  }
+}
+
+/* Of random pieces, some of which are parabolas or straight along an axis. */
+static void a_tight_page_is_the_box_of_the_curve(void **state) {
+  (void)state;
+  struct random random = {16};
+  size_t smaller = 0;
+  for (int trial = 0; trial < 300; trial++) {
+    struct drawing drawing;
+    struct drawing_window box = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+    bool outside = false;
+    start(&drawing);
+    drawing_fixture_line(&drawing, 0, 0, 0, 1, 1);
+    for (uint32_t k = 0; k < 7; k++) {
+      point at = {random_int(&random, 90, 99), random_int(&random, 50, 53)};
+      assert_true(ARRAY_PUSH(&drawing.control, at));
+    }
+    struct drawing_curve curve = {0, 7};
+    assert_true(ARRAY_PUSH(&drawing.curve, curve));
+    const point *control = drawing.control.item;
+    include_samples(&box, control, 0.15);
+    include_samples(&box, control + 3, 0.15);
+    struct drawing_window tight = drawing_window(&drawing, true);
+    const double slack = 1e-5, least[] = {tight.x0 - box.x0, tight.y0 - box.y0,
+                                          box.x1 - tight.x1, box.y1 - tight.y1};
+    for (int k = 0; k < 4; k++)
+      assert_true(least[k] < 1e-9 && least[k] > -slack);
+    for (uint32_t k = 0; k < 7; k++)
+      outside = outside || control[k].x < tight.x0 || control[k].x > tight.x1 ||
+                control[k].y < tight.y0 || control[k].y > tight.y1;
+    smaller += outside;
+    drawing_fini(&drawing);
+  }
+  assert_true(smaller > 100);
+}
+
 /* Any length is a tolerance, and any strokes are strokes. */
 static void odd_strokes_are_survived(void **state) {
   (void)state;
@@ -439,6 +493,7 @@ int main(void) {
       cmocka_unit_test(curve_passes_where_strokes_meet),
       cmocka_unit_test(curves_cross_where_strokes_do),
       cmocka_unit_test(chords_are_as_near_as_asked),
+      cmocka_unit_test(a_tight_page_is_the_box_of_the_curve),
       cmocka_unit_test(odd_strokes_are_survived),
       cmocka_unit_test(running_out_of_memory_is_reported),
   };

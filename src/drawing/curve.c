@@ -1,4 +1,4 @@
-/* curve.c - the curves of strokes, and polylines near them. */
+/* curve.c - the curves of strokes, polylines near them, and where they turn. */
 #include <math.h>
 
 #include "base/tolerance.h"
@@ -37,13 +37,45 @@ static double bezier(double a, double b, double c, double d, double t) {
   return s * s * (s * a + 3 * t * b) + t * t * (3 * s * c + t * d);
 }
 
+static struct drawing_point point_of_piece(const struct drawing_point p[4],
+                                           double t) {
+  return (struct drawing_point){bezier(p[0].x, p[1].x, p[2].x, p[3].x, t),
+                                bezier(p[0].y, p[1].y, p[2].y, p[3].y, t)};
+}
+
+static double coordinate(const struct drawing_point *point, int axis) {
+  return axis == 0 ? point->x : point->y;
+}
+
+/* The parameters at which a t^2 + 2 b t + c is 0, which may be infinite or no
+ * numbers.  Neither root is a difference of nearly equal numbers. */
+static void solve_quadratic(double a, double b, double c, double root[2]) {
+  double q = -b - copysign(sqrt(b * b - a * c), b);
+  root[0] = a != 0 ? q / a : INFINITY;
+  root[1] = q != 0 ? c / q : INFINITY;
+}
+
+int drawing_piece_extrema(const struct drawing_point p[4],
+                          struct drawing_point extremum[4]) {
+  int count = 0;
+  for (int axis = 0; axis < 2; axis++) {
+    double step[3], root[2];
+    for (int k = 0; k < 3; k++)
+      step[k] = coordinate(&p[k + 1], axis) - coordinate(&p[k], axis);
+    solve_quadratic(step[0] - 2 * step[1] + step[2], step[1] - step[0], step[0],
+                    root);
+    for (int k = 0; k < 2; k++)
+      if (root[k] > 0 && root[k] < 1)
+        extremum[count++] = point_of_piece(p, root[k]);
+  }
+  return count;
+}
+
 static bool add_chords(const struct drawing_point p[4], double distance,
                        struct drawing_polyline *line) {
   uint32_t chords = count_chords(p, distance);
   for (uint32_t i = 1; i < chords; i++) {
-    double t = i / (double)chords;
-    struct drawing_point at = {bezier(p[0].x, p[1].x, p[2].x, p[3].x, t),
-                               bezier(p[0].y, p[1].y, p[2].y, p[3].y, t)};
+    struct drawing_point at = point_of_piece(p, i / (double)chords);
     if (!ARRAY_PUSH(&line->point, at))
       return false;
   }

@@ -88,6 +88,18 @@ static void include_points(struct drawing_window *window,
   }
 }
 
+static void include_curve(struct drawing_window *window,
+                          const struct drawing_point *control, uint32_t count,
+                          double half_width) {
+  struct drawing_point extremum[4];
+  include_points(window, control, 1, half_width);
+  for (uint32_t i = 0; i + 3 < count; i += 3) {
+    int extrema = drawing_piece_extrema(control + i, extremum);
+    include_points(window, extremum, (uint32_t)extrema, half_width);
+    include_points(window, control + i + 3, 1, half_width);
+  }
+}
+
 struct drawing_window drawing_window(const struct drawing *drawing,
                                      bool tight) {
   struct drawing_window page = {0, 0, drawing->width_mm, drawing->height_mm};
@@ -97,8 +109,8 @@ struct drawing_window drawing_window(const struct drawing *drawing,
     const struct drawing_curve *curve = drawing_curve_of(drawing, i);
     double half_width = drawing_width_mm(drawing, stroke) / 2;
     if (curve != NULL)
-      include_points(&ink, drawing->control.item + curve->control, curve->count,
-                     half_width);
+      include_curve(&ink, drawing->control.item + curve->control, curve->count,
+                    half_width);
     else
       include_points(&ink, drawing->point.item + stroke->point, stroke->count,
                      half_width);

@@ -146,6 +146,12 @@ const struct drawing_curve *drawing_curve_of(const struct drawing *drawing,
 /* Whether the piece of a curve with these control points is straight. */
 bool drawing_piece_is_straight(const struct drawing_point control[4]);
 
+/* Finds where the piece of a curve with these control points turns back to the
+ * left or right, up or down: these points and its ends span its bounding box.
+ * Returns how many there are. */
+int drawing_piece_extrema(const struct drawing_point control[4],
+                          struct drawing_point extremum[4]);
+
 /* A polyline that is owned by its user. */
 struct drawing_polyline {
   ARRAY(struct drawing_point) point;
@@ -177,8 +183,8 @@ struct drawing_window {
 };
 
 /* The page, or if `tight` the bounding box of the ink, unless there is no ink.
- * The box of the points extended by half the pen's width is exact, since caps
- * and joins are round; that of a curve's control points holds the curve. */
+ * The box of the points, and of those where curves turn, extended by half the
+ * pen's width is exact, since caps and joins are round. */
 struct drawing_window drawing_window(const struct drawing *drawing, bool tight);
 
 /* The drawn length, and the pen-up travel in drawing order over all layers from
