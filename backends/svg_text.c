@@ -1,9 +1,11 @@
 /* svg_text.c - text in SVG: escaped, as colours, and as ids. */
 #include "backends/svg_text.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "base/hash.h"
 #include "base/sort.h"
 #include "base/utf8.h"
 
@@ -90,24 +92,61 @@ static int compare_group_ids(const void *first, const void *second,
   return strcmp(id[a], id[b]);
 }
 
-/* Appends a point and a number to all but the first of equal names. */
-static bool tell_apart(char **id, size_t count) {
-  uint32_t *order = mem_alloc(count, sizeof *order);
-  size_t named = 0, equal = 1;
-  for (uint32_t i = 0; order != NULL && i < count; i++)
+/* What tells ids apart takes so many bytes. */
+enum { SUFFIX_SIZE = 64 };
+
+/* Sets order to the groups with names, by their ids; returns how many. */
+static size_t sort_by_ids(char **id, size_t count, uint32_t *order, bool *ok) {
+  size_t named = 0;
+  for (uint32_t i = 0; i < count; i++)
     if (id[i] != NULL)
       order[named++] = i;
-  bool ok = order != NULL &&
-            sort_stable(order, named, sizeof *order, compare_group_ids, id);
+  *ok = sort_stable(order, named, sizeof *order, compare_group_ids, id);
+  return named;
+}
+
+/* Appends a point and the hash of its name to each of equal ids, unless it is
+ * the name itself. */
+static bool append_hashes(char *const *name, char **id, size_t count,
+                          uint32_t *order) {
+  bool ok;
+  size_t named = sort_by_ids(id, count, order, &ok);
+  for (size_t i = 0, end; ok && i < named; i = end) {
+    for (end = i + 1; end < named && strcmp(id[order[end]], id[order[i]]) == 0;)
+      end++;
+    for (size_t k = i; end - i > 1 && k < end; k++) {
+      char *at = id[order[k]];
+      const char *whole = name[order[k]];
+      if (strcmp(at, whole) != 0)
+        (void)snprintf(at + strlen(at), SUFFIX_SIZE / 2, ".%08" PRIx32,
+                       (uint32_t)hash_text(whole, strlen(whole)));
+    }
+  }
+  return ok;
+}
+
+/* Appends a point and a number to all but the first of equal ids. */
+static bool append_numbers(char **id, size_t count, uint32_t *order) {
+  bool ok;
+  size_t named = sort_by_ids(id, count, order, &ok), equal = 1;
   for (size_t i = 1, first = 0; ok && i < named; i++) {
     char *at = id[order[i]];
     if (strcmp(at, id[order[first]]) != 0) {
       first = i;
       equal = 1;
     } else {
-      (void)snprintf(at + strlen(at), 24, ".%zu", ++equal);
+      (void)snprintf(at + strlen(at), SUFFIX_SIZE / 2, ".%zu", ++equal);
     }
   }
+  return ok;
+}
+
+/* Makes equal ids differ.  Numbers, which depend on the order of the groups,
+ * are left for equal names and for equal hashes. */
+static bool tell_apart(char *const *name, char **id, size_t count) {
+  uint32_t *order = mem_alloc(count, sizeof *order);
+  bool ok = order != NULL && append_hashes(name, id, count, order) &&
+            append_numbers(id, count, order);
   mem_free(order);
   return ok;
 }
@@ -118,12 +157,12 @@ char **svg_ids_make(char *const *name, size_t count) {
   for (size_t i = 0; ok && i < count; i++) {
     if (name[i] == NULL || *name[i] == '\0')
       continue;
-    id[i] = mem_alloc(strlen(name[i]) + 24, 1);
+    id[i] = mem_alloc(strlen(name[i]) + SUFFIX_SIZE, 1);
     ok = id[i] != NULL;
     if (ok)
       copy_name(id[i], name[i]);
   }
-  if (ok && tell_apart(id, count))
+  if (ok && tell_apart(name, id, count))
     return id;
   svg_ids_free(id, count);
   return NULL;

@@ -14,7 +14,9 @@ void svg_write_text(struct stream *stream, const char *text);
 void svg_write_colour(struct stream *stream, uint32_t colour);
 
 /* A name for each of `count` groups that may be part of an id: no two are
- * equal, and none depends on the others' number.  A group without a name has
+ * equal.  It is the group's name, with underlines in place of what no id holds;
+ * where several are alike then, all but the one that is its name itself have a
+ * point and a number made of the name alone behind.  A group without a name has
  * NULL.  Free with svg_ids_free.  NULL when memory ran out. */
 USE_RESULT char **svg_ids_make(char *const *name, size_t count);
 void svg_ids_free(char **id, size_t count);

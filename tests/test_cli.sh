@@ -34,9 +34,12 @@ claim "a missing value is wrong usage" refuses '--page: expected' \
   cube.obj -o no.svg --page
 claim "a value too many is wrong usage" refuses '--ids takes no value' \
   cube.obj -o no.svg --ids=yes
-claim "an unknown output format is wrong usage" refuses 'no output format' \
-  cube.obj -o no.xyz
-claim "an unknown format name is wrong usage" refuses 'no output format' \
+formats=$("$recto" --help | help_words 'Output formats' /dev/stdin | paste -sd, |
+  sed 's/,/, /g')
+claim "an unknown output format is wrong usage, and those there are are named" \
+  refuses "no output format for \"no.jpg\": it is one of $formats\$" cube.obj -o no.jpg
+claim "an unknown format name is wrong usage" \
+  refuses "no output format for \"xyz\": it is one of $formats\$" \
   cube.obj -o no.svg --format xyz
 claim "standard input needs its format" refuses 'needs --from' - -o no.svg
 claim "an unknown model format is wrong usage" \
@@ -62,7 +65,8 @@ azimuth nan 1e999 30deg
 elevation 91 -91 x
 camera 1,2 1,2,3,4 1,2,x 1,,3 nan,0,0 1;2;3
 lookat 1,2
-up 0 0,0,0 w zz - +z
+up 0 0,0,0 w zz - + +-z z, zX
+unit parsec 1mm m/s mmm
 fov 0 -1 180 x
 scale 0 1: :1 1:0 -1:2 1:2:3 x Auto
 sheet second none 1 First
@@ -406,6 +410,10 @@ same_drawing() { # OPTION... -- OPTION...
 }
 claim "an axis may be up" same_drawing --up z -- --up 0,0,1
 claim "and its negative" same_drawing -u -x -- --up=-1,0,0
+for axis in Z +z +Z; do
+  claim "$axis is z" same_drawing --up $axis -- --up z
+done
+claim "-Y is -y" same_drawing --up -Y -- --up 0,-1,0
 claim "classes may be left out" same_drawing -e all,-smooth -- -e \
   silhouette,border,crease,group,intersection,wire
 claim "of the default too" same_drawing --edges=-crease -- -e \
@@ -414,6 +422,16 @@ claim "colours have names, in any case" same_drawing --pen-colour 1=FireBrick --
   --pen-color 1=#b22222
 claim "a unit may be a metre" same_drawing --scale 1:100 --unit m -- --scale 10:1
 claim "or an inch, said first" same_drawing --unit in --scale 1:1 -- --scale 25.4:1
+for unit in M metre meter Metres; do
+  claim "$unit is m" same_drawing --scale 1:100 --unit $unit -- --scale 10:1
+done
+for unit in inch Inches IN; do
+  claim "$unit is in" same_drawing --scale 1:1 --unit $unit -- --scale 25.4:1
+done
+claim "a foot is ft" same_drawing --scale 1:1 --unit foot -- --scale 1:1 --unit ft
+claim "a micron is um" same_drawing --scale 9999:1 --unit micron -- --scale 9.999:1
+claim "so is it in Greek" same_drawing --scale 9999:1 --unit $'\xc2\xb5m' -- --scale \
+  9999:1 --unit $'\xce\xbcm'
 largest_scale() {
   run 0 cube.obj -o large.svg --scale 1e12:1 --verify &&
     run 1 cube.obj -o no.svg --scale 1e15:1 && says 'the scale is too large' &&

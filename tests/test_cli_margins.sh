@@ -94,6 +94,10 @@ claim "one that is a little larger is none" eval \
   'run 0 square.obj --view front -o a.svg --scale 1:70 && silent'
 claim "one that fits a small page is none" eval \
   'run 0 square.obj --view front -o a.svg --scale 1:100 -p 50x50mm && silent'
+huge='--fit or a smaller --scale shows all.*; --unit says how large a unit'
+claim "one that is far larger than the page may have one" eval \
+  'run 0 square.obj --view front -o a.svg --scale 40:1 && says "$huge" &&
+   run 0 square.obj --view front -o a.svg --scale 4:1 && ! says "$huge" >out'
 claim "--landscape may help" eval \
   'run 0 wide.obj -o a.svg --view front --scale 1:1 --portrait && warned ".*--landscape" &&
    run 0 wide.obj -o a.svg --view front --scale 1:1 --landscape && silent'

@@ -119,6 +119,33 @@ done <<'END_OF_ROWS'
 --dpi 30|a.png|a.pdf|png; pdf
 END_OF_ROWS
 
+# A class of which the model has no line, whatever is visible.
+says_alone() { # LINE ARGUMENT... - that warning and no other
+  local line=$1
+  shift
+  draw a.svg "$@" && test "$(cat err)" = "${line:+recto: $line}" && return 0
+  say "not so: $(cat err)" && false
+}
+none='lines, of which there are none'
+claim "dashes for a class that the model does not have are reported" \
+  says_alone "dashes are for border $none" --dash border=chain
+claim "so are pens" says_alone "pen 2 is for border $none" --pen-for border=2
+claim "also of lines in which faces pierce each other" \
+  says_alone "pen 3 is for intersection $none" --pen-for intersection=3,crease=2
+claim "dashes and pens of lines that are there are not" \
+  says_alone '' --dash silhouette=chain --pen-for crease=2
+claim "nor those of lines that are all hidden" \
+  says_alone '' -e crease --dash crease=chain --view bottom
+claim "nor are weights" says_alone '' --weights border=3
+head -n 6 wedge.obj >open.obj
+joins_open() {
+  "$recto" wedge.obj --part 1/1 -o whole.recto &&
+    "$recto" --join whole.recto -o a.svg --dash border=chain 2>err &&
+    test "$(cat err)" = "recto: dashes are for border $none" &&
+    "$recto" open.obj -o a.svg --dash border=chain 2>err && test ! -s err
+}
+claim "a join says so too, and an open model has borders" joins_open
+
 # judges ARGUMENT... - has own.svg judged, the messages in err.
 # Right or wrong: both are an answer.
 judges() {

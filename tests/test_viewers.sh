@@ -75,6 +75,35 @@ ids_end_with_pens() {
     'id="layer4"id="layer1"id="layer2"id="layer3"'
 }
 
+# Groups whose names hold all digits that Unicode 3.2 has, and two later ones; vpype
+# asks isdigit() of Python, and int() understands only some of what that takes.
+draw_scripts() {
+  python3 - scripts.obj <<'END'
+import sys
+from unicodedata import ucd_3_2_0 as unicode
+digits = [chr(c) for c in range(0x110000) if not 0xd800 <= c < 0xe000
+          and unicode.digit(chr(c), None) is not None] + ["\U0001e4f3", "\u1819"]
+assert len(digits) > 280
+with open(sys.argv[1], "w", encoding="utf-8") as out:
+    for i in range(0, len(digits), 6):
+        print("g", "a".join(["part", *digits[i:i + 6], "\u2163"]), file=out)
+        print(f"v {i} 0 0\nv {i + 2} 0 0\nv {i} 1 {i % 5}\nf -3 -2 -1", file=out)
+    print("g \u0663\u0664\nf 1 2 6", file=out)
+END
+  "$recto" scripts.obj --pens 99 -q -o scripts.svg
+}
+has_no_digit_but_pens() {
+  labels scripts >labels && test "$(wc -l <labels)" -ge 45 && python3 - labels <<'END'
+import sys
+for line in open(sys.argv[1], encoding="utf-8"):
+    number, name = line.rstrip("\n").split(" ", 1)
+    if any(c.isdigit() for c in name) or not name or int(number) < 1:
+        sys.exit(f"# {line}")
+    if name != "unnamed" and "\u2163" not in name:
+        sys.exit(f"# {line} has lost more than digits")
+END
+}
+
 # A page of A4 is 210 / 25.4 * 96 = 793.7 pixels wide, both programs' default.
 show_librsvg() {
   rsvg-convert -b white "$1.svg" -o "$1.librsvg.png"
@@ -134,6 +163,12 @@ if command -v xmllint >/dev/null; then
   draw_digits
   claim "digits of names are in no label" labels_open_with digits "%3 1 2"
   claim "an id ends with the pen" ids_end_with_pens
+  if command -v python3 >/dev/null; then
+    draw_scripts
+    claim "nor are digits of other scripts" has_no_digit_but_pens
+  else
+    skip "nor are digits of other scripts" "no python3"
+  fi
   for name in lines hidden pens dashed classes painted digits; do
     claim "$name: vpype reads each layer's number" vpype_reads "$name"
   done

@@ -155,6 +155,20 @@ _HIDDEN = {
     "layer": lib.RECTO_HIDDEN_LAYER,
 }
 _UNITS = {"um": 0.001, "mm": 1, "cm": 10, "m": 1000, "in": 25.4, "ft": 304.8}
+# Names of units, besides their plurals and the American spelling.
+_UNIT_NAMES = {
+    "\u00b5m": "um",
+    "\u03bcm": "um",
+    "micron": "um",
+    "micrometre": "um",
+    "millimetre": "mm",
+    "centimetre": "cm",
+    "metre": "m",
+    "inch": "in",
+    "inches": "in",
+    "foot": "ft",
+    "feet": "ft",
+}
 _AXES = {
     "x": (1, 0, 0),
     "y": (0, 1, 0),
@@ -213,6 +227,13 @@ def _word(name: str, value: Any, known: Mapping[str, Any]) -> Any:
     except (KeyError, TypeError):
         words = ", ".join(known)
         raise ValueError(f"{name}: not {value!r}, but one of {words}") from None
+
+
+def _unit(value: str) -> str:
+    """The symbol of a unit that may be given by its name, in any case."""
+    name = value.lower()
+    single = name.removesuffix("s").replace("meter", "metre")
+    return _UNIT_NAMES.get(name, _UNIT_NAMES.get(single, name))
 
 
 def _vector(value: Any) -> list[float]:
@@ -350,13 +371,13 @@ class _Setter:
     def unit(self, value: Union[float, str]) -> None:
         """A number is the output's; a word the model's, for the scale."""
         if isinstance(value, str):
-            self.options.camera.unit_mm = _word("unit", value, _UNITS)
+            self.options.camera.unit_mm = _word("unit", _unit(value), _UNITS)
         else:
             self.options.output.unit_mm = value
 
     def up(self, value: Union[str, Vector]) -> None:
         if isinstance(value, str):
-            value = _word("up", value, _AXES)
+            value = _word("up", value.lower().removeprefix("+"), _AXES)
         self.options.camera.up = _vector(value)
 
     def section(self, value: float) -> None:

@@ -1,6 +1,8 @@
 /* clip_warning.c - warns of lines and faces that the page's margins clip. */
 #include "api/clip_warning.h"
 
+#include <math.h>
+
 #include "base/sentence.h"
 #include "base/word.h"
 
@@ -34,6 +36,9 @@ static void say_what(struct sentence *words,
   }
 }
 
+/* What reaches so many pages beyond is seldom what was meant. */
+#define FAR_PAGES 10
+
 static void say_help(struct sentence *words,
                      const struct page_overflow *overflow, double margin_mm,
                      const recto_options *options) {
@@ -45,6 +50,9 @@ static void say_help(struct sentence *words,
   case RECTO_FIT_SCALE:
     sentence_add(words,
                  "--fit or a smaller --scale shows all, a larger --page more");
+    if (overflow->excess_mm >
+        FAR_PAGES * fmax(options->page.width_mm, options->page.height_mm))
+      sentence_add(words, "; --unit says how large a unit of the model is");
     break;
   case RECTO_FIT_NONE:
     sentence_add(words, options->camera.fov_deg > 0

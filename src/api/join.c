@@ -99,6 +99,8 @@ static recto_status ink_join(struct join *join, recto_error *error) {
     status = ink_draw(&join->made->drawing, &joined->sheet, &joined->scene,
                       &joined->map, o, error);
   stats_add_seconds(join->made->report, "ink_cpu_s", clock_cpu() - cpu);
+  if (status == RECTO_OK)
+    pens_warn_absent(&joined->sheet, o);
   return status;
 }
 

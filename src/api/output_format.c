@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/path.h"
+#include "base/sentence.h"
 #include "ink/cut_hatch.h"
 
 const struct writer *output_writer(const char *path, const char *format) {
@@ -48,11 +49,18 @@ struct writer_options output_writer_options(const recto_options *options) {
 
 recto_status output_no_writer(const char *path, const char *format,
                               recto_error *error) {
+  struct sentence formats = {.length = 0};
+  const char *name;
+  for (size_t i = 0; (name = recto_output_format_name(i)) != NULL; i++)
+    sentence_add(&formats, "%s%s", i > 0 ? ", " : "", name);
   if (format != NULL)
     return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
-                     "there is no output format \"%s\"", format);
+                     "there is no output format \"%s\": it is one of %s",
+                     format, formats.text);
   return error_set(error, RECTO_ERROR_UNSUPPORTED, path, 0,
-                   "there is no output format of that extension");
+                   "there is no output format of that extension: it is one of "
+                   "%s",
+                   formats.text);
 }
 
 /* Sets the margin that the writer's device needs.  The default margin is kept

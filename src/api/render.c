@@ -355,6 +355,7 @@ static void warn_and_report(const struct render *render) {
   if (!render->request->may_be_empty) {
     warn_of_empty_page(render->options, render->drawing, is_outside);
     warn_of_tiny_drawing(render->options, render->drawing);
+    pens_warn_absent(&render->sheet, render->options);
   }
   warn_of_near_plane(
       render->options, (unsigned long)render->sheet.cut_near,

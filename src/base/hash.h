@@ -1,4 +1,4 @@
-/* hash.h - hashes of numbers, by multiplication and folding. */
+/* hash.h - hashes of numbers, by multiplication and folding, and of texts. */
 #ifndef BASE_HASH_H
 #define BASE_HASH_H
 
@@ -21,6 +21,14 @@ static inline uint64_t hash_add_double(uint64_t hash, double number) {
   uint64_t bits;
   memcpy(&bits, &number, sizeof bits);
   return hash_add(hash, bits);
+}
+
+/* The hash of a text: FNV-1a, folded.  It is the same everywhere. */
+static inline uint64_t hash_text(const char *text, size_t length) {
+  uint64_t hash = UINT64_C(0xcbf29ce484222325);
+  for (size_t i = 0; i < length; i++)
+    hash = (hash ^ (unsigned char)text[i]) * UINT64_C(0x100000001b3);
+  return hash ^ hash >> 32;
 }
 
 #endif

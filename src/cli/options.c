@@ -97,14 +97,11 @@ static bool parse_depth_bits(struct arguments *arguments, const char *text) {
   return false;
 }
 
-/* A direction, or an axis: x, -y, z. */
+/* A direction, or an axis: x, -Y, +z. */
 static bool parse_up(struct arguments *arguments, const char *text) {
-  static const char axis[] = "xyz";
-  const char *letter = strchr(axis, text[*text == '-']);
-  double up[3] = {0, 0, 0};
-  if (letter != NULL && *letter != '\0' && text[(*text == '-') + 1] == '\0')
-    up[letter - axis] = *text == '-' ? -1 : 1;
-  else if (!value_vector(text, up) || (up[0] == 0 && up[1] == 0 && up[2] == 0))
+  double up[3];
+  if (!value_axis(text, up) &&
+      (!value_vector(text, up) || (up[0] == 0 && up[1] == 0 && up[2] == 0)))
     return false;
   memcpy(arguments->options.camera.up, up, sizeof up);
   return true;
@@ -122,17 +119,7 @@ static bool parse_cut(struct arguments *arguments, const char *text) {
 
 /* The size of the model's unit, for --scale. */
 static bool parse_unit(struct arguments *arguments, const char *text) {
-  static const struct {
-    const char *word;
-    double mm;
-  } unit[] = {{"um", 0.001}, {"mm", 1},    {"cm", 10},
-              {"m", 1000},   {"in", 25.4}, {"ft", 304.8}};
-  for (size_t i = 0; i < sizeof unit / sizeof unit[0]; i++)
-    if (strcmp(text, unit[i].word) == 0) {
-      arguments->options.camera.unit_mm = unit[i].mm;
-      return true;
-    }
-  return false;
+  return value_unit(text, &arguments->options.camera.unit_mm);
 }
 
 /* 0: no pitch at all, which also is the default. */

@@ -254,6 +254,20 @@ static const char *judge_files(const struct arguments *a) {
   return NULL;
 }
 
+/* Says that there is no such output format, and which there are. */
+static void explain_format(const struct arguments *a,
+                           char message[MESSAGE_SIZE]) {
+  const char *name;
+  int used = snprintf(message, MESSAGE_SIZE,
+                      "there is no output format for \"%.100s\": it is one of",
+                      a->format != NULL ? a->format : a->output);
+  for (size_t i = 0; (name = recto_output_format_name(i)) != NULL && used > 0 &&
+                     used < MESSAGE_SIZE;
+       i++)
+    used += snprintf(message + used, MESSAGE_SIZE - (size_t)used, "%s %s",
+                     i > 0 ? "," : "", name);
+}
+
 static bool settle_files(struct arguments *a, char message[MESSAGE_SIZE]) {
   const char *wrong = judge_files(a);
   if (wrong == NULL)
@@ -276,8 +290,7 @@ static bool settle_files(struct arguments *a, char message[MESSAGE_SIZE]) {
   if (a->parts > 0 && a->format == NULL)
     return true;
   if (recto_output_format(a->output, a->format) == NULL) {
-    snprintf(message, MESSAGE_SIZE, "there is no output format for \"%.100s\"",
-             a->format != NULL ? a->format : a->output);
+    explain_format(a, message);
     return false;
   }
   return true;

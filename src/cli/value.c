@@ -98,6 +98,35 @@ bool value_tolerance(const char *text, double *mm, double *share) {
   return true;
 }
 
+bool value_unit(const char *text, double *mm) {
+  static const struct {
+    double mm;
+    const char *names;
+  } unit[] = {
+      /* The last two are the micro sign and the letter mu. */
+      {0.001, "um micron microns micrometre micrometres micrometer micrometers "
+              "\302\265m \316\274m"},
+      {1, "mm millimetre millimetres millimeter millimeters"},
+      {10, "cm centimetre centimetres centimeter centimeters"},
+      {1000, "m metre metres meter meters"},
+      {25.4, "in inch inches"},
+      {304.8, "ft foot feet"}};
+  char lower[32];
+  size_t length = strlen(text);
+  int index;
+  if (length >= sizeof lower)
+    return false;
+  for (size_t i = 0; i <= length; i++)
+    lower[i] =
+        (char)(text[i] >= 'A' && text[i] <= 'Z' ? text[i] | 0x20 : text[i]);
+  for (size_t i = 0; i < sizeof unit / sizeof unit[0]; i++)
+    if (value_word(lower, unit[i].names, &index)) {
+      *mm = unit[i].mm;
+      return true;
+    }
+  return false;
+}
+
 /* ---- Vectors ------------------------------------------------------------- */
 
 static bool read_numbers(const char *text, double *read, int count) {
@@ -115,6 +144,18 @@ bool value_vector(const char *text, double vector[3]) {
   if (!read_numbers(text, read, 3))
     return false;
   memcpy(vector, read, sizeof read);
+  return true;
+}
+
+bool value_axis(const char *text, double vector[3]) {
+  static const char axes[] = "xyz";
+  double sign = *text == '-' ? -1 : 1;
+  text += *text == '-' || *text == '+';
+  const char *axis = *text != '\0' ? strchr(axes, *text | 0x20) : NULL;
+  if (axis == NULL || *axis == '\0' || text[1] != '\0')
+    return false;
+  for (int i = 0; i < 3; i++)
+    vector[i] = axis - axes == i ? sign : 0;
   return true;
 }
 

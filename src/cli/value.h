@@ -28,6 +28,14 @@ bool value_tolerance(const char *text, double *mm, double *share);
 /* X,Y,Z: three plain numbers. */
 bool value_vector(const char *text, double vector[3]);
 
+/* A letter from x to z with a sign or without one, in any case: the unit vector
+ * along that axis. */
+bool value_axis(const char *text, double vector[3]);
+
+/* A unit of length by its symbol or its name, in any case, such as mm, inch or
+ * metres: how many millimetres it is. */
+bool value_unit(const char *text, double *mm);
+
 /* A plane, and what is beyond it: x=2 or x>2, y<3, or NX,NY,NZ,D for
  * NX x + NY y + NZ z > D; the normal is not 0. */
 bool value_plane(const char *text, double normal[3], double *offset);

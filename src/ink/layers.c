@@ -2,14 +2,15 @@
  * fills.
  *
  * Programs for plotters read a layer's number from its label: vpype takes all
- * digits of it as one number, others those that it opens with.  So a label has
- * no digits but its number. */
+ * digits of it, of any script, as one number, others those that it opens with.
+ * So a label has no digits but its number. */
 #include "ink/layers.h"
 
 #include <stdio.h>
 #include <string.h>
 
 #include "base/sort.h"
+#include "base/utf8.h"
 
 #define BLACK 0x000000u
 #define GREY 0x808080u /* of hidden lines on a screen */
@@ -21,17 +22,29 @@ enum { LABEL_SIZE = 48 };
  * UTF-8 sequence. */
 static void append_text(char label[], size_t size, const char *text) {
   size_t used = strlen(label);
-  for (const char *at = text; *at != '\0'; at++) {
-    bool begins = ((unsigned char)*at & 0xc0) != 0x80;
-    size_t length = 1;
-    while (((unsigned char)at[length] & 0xc0) == 0x80)
-      length++;
-    if (begins && used + length >= size)
+  while (*text != '\0') {
+    uint32_t code = 0;
+    size_t length = utf8_measure(text, &code);
+    length = length > 0 ? length : 1;
+    if (used + length >= size)
       break;
-    if (*at < '0' || *at > '9')
-      label[used++] = *at;
+    if (!utf8_is_digit(code)) {
+      memcpy(label + used, text, length);
+      used += length;
+    }
+    text += length;
   }
   label[used] = '\0';
+}
+
+/* Whether a name has anything but digits. */
+static bool has_letters(const char *name) {
+  uint32_t code = '0';
+  while (*name != '\0' && utf8_is_digit(code)) {
+    size_t length = utf8_measure(name, &code);
+    name += length > 0 ? length : 1;
+  }
+  return !utf8_is_digit(code);
 }
 
 struct label {
@@ -67,7 +80,7 @@ static void add_groups(struct label *label, const struct pens *pens,
   for (size_t g = 0; g < scene->group.count; g++) {
     const char *name = scene->group.item[g].name;
     if (pens->of_group[g] == label->layer->pen - 1 && name != NULL &&
-        name[strspn(name, "0123456789")] != '\0')
+        has_letters(name))
       add_word(label, name);
   }
 }

@@ -9,6 +9,7 @@
 
 #include "drawing/drawing.h"
 #include "scene/scene.h"
+#include "view/sheet.h"
 
 #define PENS_NONE UINT32_MAX
 
@@ -48,6 +49,11 @@ bool pens_is_drawn(const recto_options *options, unsigned place);
 /* Warns about pens with nothing to draw under these options, and about weights
  * of classes that are not requested. */
 void pens_warn_unused(const struct pens *pens, const recto_options *options);
+
+/* Warns about pens and dashes of classes of which a view has no line, visible
+ * or not; not where it has no lines at all.
+ * sheet  with the lines in which faces pierce each other */
+void pens_warn_absent(const struct sheet *sheet, const recto_options *options);
 
 /* The pen of visible lines of a class, of hidden lines, of hatching, of fills.
  * */

@@ -2,10 +2,12 @@
  * to draw.
  *
  * Whatever is visible, they would draw nothing.  It is no error, because
- * scripts give the same pens for every drawing. */
+ * scripts give the same pens for every drawing; weights of classes that a model
+ * does not have are a style as good as any, and not warned about. */
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "base/poll.h"
 #include "ink/pens.h"
 
 PRINTF_LIKE(2, 3)
@@ -109,4 +111,25 @@ void pens_warn_unused(const struct pens *pens, const recto_options *options) {
       warn_of_pen(options, "a weight is for %s lines, which are not requested",
                   recto_edge_class_name(options->ink.weight[i].edge_class));
   warn_unused_looks(pens, options);
+}
+
+void pens_warn_absent(const struct sheet *sheet, const recto_options *options) {
+  unsigned present = 0;
+  for (size_t e = 0; e < sheet->edge.count && poll_at(e); e++)
+    present |= sheet->edge.item[e].edge_class;
+  unsigned absent = options->ink.edges & ~present;
+  if (options->warning == NULL || present == 0 || absent == 0)
+    return;
+  for (size_t i = 0; i < options->ink.dash_count; i++) {
+    const recto_dash *dash = &options->ink.dash[i];
+    if (dash->lines == RECTO_LINES_OF_CLASS && (absent & dash->edge_class) != 0)
+      warn_of_pen(options, "dashes are for %s lines, of which there are none",
+                  recto_edge_class_name(dash->edge_class));
+  }
+  for (size_t i = 0; i < options->ink.pen_use_count; i++) {
+    const recto_pen_use *use = &options->ink.pen_use[i];
+    if (use->lines == RECTO_LINES_OF_CLASS && (absent & use->edge_class) != 0)
+      warn_of_pen(options, "pen %d is for %s lines, of which there are none",
+                  use->pen, recto_edge_class_name(use->edge_class));
+  }
 }

@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/hash.h"
 #include "base/sort.h"
 #include "scene/name.h"
 
@@ -48,19 +49,11 @@ bool scene_note_file(struct scene *scene, const struct input *input) {
 
 /* ---- Groups -------------------------------------------------------------- */
 
-/* FNV-1a. */
-static uint64_t hash_name(const char *name, size_t length) {
-  uint64_t hash = UINT64_C(0xcbf29ce484222325);
-  for (size_t i = 0; i < length; i++)
-    hash = (hash ^ (unsigned char)name[i]) * UINT64_C(0x100000001b3);
-  return hash ^ hash >> 32;
-}
-
 /* The slot of that name, or the free one where it belongs. */
 static uint32_t *find_slot(const struct scene *scene, const char *name,
                            size_t length) {
   size_t mask = scene->group_slot_count - 1;
-  size_t i = (size_t)hash_name(name, length) & mask;
+  size_t i = (size_t)hash_text(name, length) & mask;
   for (; scene->group_slot[i]; i = (i + 1) & mask) {
     const char *other = scene->group.item[scene->group_slot[i] - 1].name;
     if (strlen(other) == length && memcmp(other, name, length) == 0)
