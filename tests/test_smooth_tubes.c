@@ -205,28 +205,28 @@ static double side_of(const struct tube *tube, int n, int m) {
   return SMOOTH_SCALE_MM * fmax(most, tube->radius * 2 * M_PI / m);
 }
 
+/* strokes_max  from one to so many strokes; 0: as many as visible pieces */
 static void check_tube(const struct tube *tube, const recto_scene *scene, int n,
-                       int m, int view, bool exact) {
+                       int m, const recto_options *options,
+                       const struct smooth_axes *axes, double view,
+                       int strokes_max) {
   static struct tube_contour contour;
-  recto_options options;
-  smooth_view(&options, view);
-  options.ink.exact = exact;
-  struct smooth_axes axes = smooth_axes_of(&options);
-  find_contour(&contour, tube, &axes);
-  recto_drawing *drawing = smooth_draw(scene, &options);
+  find_contour(&contour, tube, axes);
+  recto_drawing *drawing = smooth_draw(scene, options);
   double sagitta = sagitta_of(tube, n, m), wrong, missing;
   int strokes = (int)recto_drawing_stroke_count(drawing);
-  int most = count_pieces(&contour, 0);
-  double side = exact ? 0 : side_of(tube, n, m);
-  int least = count_pieces(&contour, fmax(2 * sagitta, side));
+  int most = strokes_max > 0 ? strokes_max : count_pieces(&contour, 0);
+  double side = options->ink.exact ? 0 : side_of(tube, n, m);
+  int least =
+      strokes_max > 0 ? 1 : count_pieces(&contour, fmax(2 * sagitta, side));
   if (strokes < least || strokes > most)
-    fail_msg("%d x %d, view %d: %d strokes, %d to %d visible pieces", n, m,
+    fail_msg("%d x %d, view %g: %d strokes, %d to %d visible pieces", n, m,
              view, strokes, least, most);
   compare(drawing, &contour, &wrong, &missing);
   /* Cusps are found to a few segments, which run towards the viewer. */
   if (wrong > 3 * sagitta + 0.05 ||
       missing > fmax(1.6 * sagitta + 0.05, side / 2))
-    fail_msg("%d x %d, view %d: ink %g mm from the contour, the contour %g mm "
+    fail_msg("%d x %d, view %g: ink %g mm from the contour, the contour %g mm "
              "from ink, %g are the mesh's",
              n, m, view, wrong, missing, sagitta);
   recto_drawing_destroy(drawing);
@@ -237,8 +237,13 @@ static void check_tubes(bool exact) {
     for (size_t t = 0; t < 3; t++) {
       int n = tubes[i].turns * tessellation[t][0], m = tessellation[t][1];
       recto_scene *scene = smooth_scene(tubes[i].surface, false, n, m);
-      for (int view = 0; view < SMOOTH_VIEWS; view++)
-        check_tube(&tubes[i], scene, n, m, view, exact);
+      for (int view = 0; view < SMOOTH_VIEWS; view++) {
+        recto_options options;
+        smooth_view(&options, view);
+        options.ink.exact = exact;
+        struct smooth_axes axes = smooth_axes_of(&options);
+        check_tube(&tubes[i], scene, n, m, &options, &axes, view, 0);
+      }
       recto_scene_destroy(scene);
     }
 }
@@ -257,10 +262,50 @@ static void loops_thinner_than_triangles_are_left_out(void **state) {
   check_tubes(false);
 }
 
+/* ---- A torus along its plane --------------------------------------------- */
+
+/* From a direction near the plane of the torus, which is that of X and Y. */
+static void view_along_plane(recto_options *options, double turned_deg,
+                             double raised_deg) {
+  double turned = turned_deg * (M_PI / 180), raised = raised_deg * (M_PI / 180);
+  const double back[3] = {cos(turned) * cos(raised), sin(turned) * cos(raised),
+                          sin(raised)};
+  smooth_view(options, 0);
+  options->camera.azimuth_deg = atan2(back[0], back[2]) * (180 / M_PI);
+  options->camera.elevation_deg = asin(back[1]) * (180 / M_PI);
+  options->ink.exact = false;
+}
+
+/* Seen along its plane the contours of its near and of its far half coincide,
+ * and are one stroke; from 1 degree on they are two, and between the two as the
+ * mesh and the pen tell them apart. */
+static void the_contour_of_a_torus_along_its_plane_is_one_stroke(void **state) {
+  static const double turned[] = {17, 30, 54.3, 123.4, 271.3};
+  static const double raised[] = {0, 0.01, -0.01, 0.1, -0.1, 1, -1, 5, -5};
+  (void)state;
+  for (size_t t = 0; t < 3; t++) {
+    int n = tessellation[t][0], m = tessellation[t][1];
+    recto_scene *scene = smooth_scene(smooth_torus, false, n, m);
+    for (size_t i = 0; i < sizeof turned / sizeof *turned; i++)
+      for (size_t k = 0; k < sizeof raised / sizeof *raised; k++) {
+        recto_options options;
+        /* Exactly along the plane the contour has no parameter at its ends. */
+        view_along_plane(&options, turned[i],
+                         raised[k] == 0 ? 1e-4 : raised[k]);
+        struct smooth_axes axes = smooth_axes_of(&options);
+        view_along_plane(&options, turned[i], raised[k]);
+        check_tube(&tubes[0], scene, n, m, &options, &axes,
+                   turned[i] + raised[k], fabs(raised[k]) < 0.05 ? 1 : 2);
+      }
+    recto_scene_destroy(scene);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_contours_of_tubes_are_their_visible_pieces),
       cmocka_unit_test(loops_thinner_than_triangles_are_left_out),
+      cmocka_unit_test(the_contour_of_a_torus_along_its_plane_is_one_stroke),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -39,12 +39,24 @@
  *             than 20 nm: shorter files, no visible change. */
 #define TOLERANCE_COLLINEAR_UNITS 2.0
 
+/* A normal of the smooth surface is at right angles to the view where the cosine
+ * between them is no more.
+ * Unit        1
+ * Derivation  a normal is a sum of some ten terms, each of a cross product of
+ *             differences of coordinates that are themselves rounded: some
+ *             hundred units of 2^-53, and ten times as much for a model far
+ *             from its origin.
+ * Users       visibility/contour/facing.c
+ * Ten times   contours move by 1e-11 of the surface's radius. */
+#define TOLERANCE_FACING 0x1p-40
+
 /* Parts of the outline that smooth contours leave open are found to within
  * this, and contours that end no farther apart leave none.
  * Unit        page grid units (2^-20 mm)
  * Derivation  an eighth of a millimetre, less than half of a common pen's
  *             width: a gap that ink fills.
- * Users       visibility/contour/outline_gaps.c
+ * Users       visibility/contour/doubled_contours.c,
+ *             visibility/contour/outline_gaps.c, visibility/smooth_contours.c
  * Ten times   gaps of a millimetre stay open. */
 #define TOLERANCE_OUTLINE_UNITS (1 << 17)
 

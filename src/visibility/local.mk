@@ -32,6 +32,7 @@ librecto_core_la_SOURCES += \
   %D%/contour/contour_curves.c %D%/contour/contour_curves.h \
   %D%/contour/corner_moves.c %D%/contour/corner_moves.h \
   %D%/contour/curve_pieces.c %D%/contour/curve_pieces.h \
+  %D%/contour/doubled_contours.c %D%/contour/doubled_contours.h \
   %D%/contour/drawn_outlines.c %D%/contour/drawn_outlines.h \
   %D%/contour/facing.c %D%/contour/facing.h \
   %D%/contour/fit_fragments.c %D%/contour/fit_fragments.h \

@@ -9,8 +9,10 @@
 
 #include "base/poll.h"
 #include "base/sort.h"
+#include "base/tolerance.h"
 #include "view/clip.h"
 #include "visibility/contour/curve_pieces.h"
+#include "visibility/contour/doubled_contours.h"
 #include "visibility/contour/fit_fragments.h"
 #include "visibility/contour/fit_outline.h"
 #include "visibility/contour/line_ends.h"
@@ -41,6 +43,8 @@ struct contour_pieces {
   struct triangle_grid_query query;
   struct smooth_contours_options options;
   ARRAY(struct contour_piece) piece; /* of the current curve */
+  ARRAY(float) height; /* one an edge made: that of its triangle on
+                                        the page, grid units */
   uint64_t piece_count;
 };
 
@@ -216,7 +220,11 @@ static bool add_edges(struct contour_pieces *c,
         .source = SHEET_NONE,
         .group = sheet->face_group[face],
         .edge_class = RECTO_EDGE_SILHOUETTE};
-    if (!point_at(c, next, &edge.point[1]) || !ARRAY_PUSH(&sheet->edge, edge))
+    float height = (float)contour_height(
+        &sheet->camera, contour_curves_node(c->curves, at.step),
+        contour_curves_segment(c->curves, at.step));
+    if (!point_at(c, next, &edge.point[1]) || !ARRAY_PUSH(&sheet->edge, edge) ||
+        !ARRAY_PUSH(&c->height, height))
       return false;
     if (!has_surface_left(c, at.step, piece->side)) {
       struct sheet_edge *made = &sheet->edge.item[sheet->edge.count - 1];
@@ -328,11 +336,16 @@ static bool add_pieces(struct contour_pieces *c) {
   if (!ok)
     return false;
   ok = triangle_grid_query_init(&c->query, &c->grid) && add_all_curves(c) &&
+       doubled_contours_hide(c->sheet, c->map, first, c->height.item,
+                             c->options.exact
+                                 ? RECTO_FINEST_MM * SHEET_UNITS_PER_MM
+                                 : TOLERANCE_OUTLINE_UNITS) &&
        outline_gaps_close(c->sheet, c->map, c->set, first, first_point,
                           &c->grid, &c->query);
   triangle_grid_query_fini(&c->query);
   triangle_grid_fini(&c->grid);
   ARRAY_FREE(&c->piece);
+  ARRAY_FREE(&c->height);
   return ok;
 }
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/poll.h"
+#include "base/tolerance.h"
 #include "scene/angle.h"
 #include "scene/edge_classes.h"
 
@@ -180,6 +181,8 @@ static void set_values(struct facing *f, uint32_t face) {
     facing_position(f, facing_point(f, c), at);
     facing_view(f->camera, at, v);
     double g = vector_dot(f->normal[place], v);
+    if (fabs(g) <= TOLERANCE_FACING * sqrt(vector_dot(v, v)))
+      g = 0;
     /* Rounding does not change a sign on which all faces agree. */
     if (f->signs[slot] == FACING_BACK)
       g = fmax(g, 0);

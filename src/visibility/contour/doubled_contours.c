@@ -1,0 +1,378 @@
+/* doubled_contours.c - finds the parts of contours that lie beside nearer ones.
+ *
+ * Phases
+ *   1 mark    cells along the visible edges that a nearer contour covers
+ *   2 choose  the runs of such cells that are long enough
+ *   3 hide    them, dividing edges where a run begins or ends
+ * A contour that is itself covered covers nothing, so what is left out is no
+ * farther than the bound from what stays. */
+#include "visibility/contour/doubled_contours.h"
+
+#include <math.h>
+
+#include "base/poll.h"
+#include "base/tolerance.h"
+#include "geom/nearest.h"
+#include "visibility/contour/segment_grid.h"
+
+/* Over the surface of a nearer contour, so many of its triangles' heights. */
+#define WITHIN_SHARE 0.1
+
+/* The length of a run, at least, as a multiple of the triangles' heights. */
+#define RUN_HEIGHTS 8
+
+/* Contours beside each other turn from each other by no more than 60 degrees,
+ * but for edges that are shorter than what is between them may be. */
+#define PARALLEL_COSINE 0.5
+
+/* Parts of one curve are beside each other if they are farther apart along it,
+ * as a multiple of the distance on the page that covers. */
+#define APART_ALONG 8
+
+/* The length of a cell, grid units. */
+#define CELL_LENGTH TOLERANCE_OUTLINE_UNITS
+
+/* A cell of an edge. */
+struct doubled_cell {
+  uint32_t edge;
+  uint32_t number;   /* from the edge's first point on */
+  uint32_t covering; /* the edge that covers it; SHEET_NONE: none does */
+  bool is_hidden;
+};
+
+struct doubled_contours {
+  struct sheet *sheet;
+  struct map *map;
+  uint32_t first, end; /* of the contours' edges */
+  const float *height;
+  double beyond;
+  double *along; /* one a contour's edge: the length of the contours before it,
+                    and of all of them */
+  struct segment_grid grid;
+  uint8_t *is_covered;  /* one a contour edge: some of its cells are */
+  uint8_t *is_hidden;   /* the same: some of its cells are hidden */
+  uint8_t *is_covering; /* the same: it covers cells that are hidden */
+  ARRAY(struct doubled_cell) cell; /* of visible edges, along the curves */
+  uint8_t *degree;                 /* one a point: visible contours' ends there,
+                                      at most 2 */
+};
+
+/* ---- The edges ----------------------------------------------------------- */
+
+static double length_of(const struct doubled_contours *d, uint32_t edge) {
+  return d->along[edge - d->first + 1] - d->along[edge - d->first];
+}
+
+static uint32_t cells_of(const struct doubled_contours *d, uint32_t edge) {
+  return (uint32_t)fmax(1, ceil(length_of(d, edge) / CELL_LENGTH));
+}
+
+/* Whether an edge begins or ends where another one does. */
+static bool do_share_point(const struct doubled_contours *d, uint32_t e,
+                           uint32_t f) {
+  const uint32_t *p = d->sheet->edge.item[e].point;
+  const uint32_t *q = d->sheet->edge.item[f].point;
+  return p[0] == q[0] || p[0] == q[1] || p[1] == q[0] || p[1] == q[1];
+}
+
+/* Whether an edge goes on along the curve of the one before it. */
+static bool continues(const struct doubled_contours *d, uint32_t edge) {
+  return edge > d->first && do_share_point(d, edge - 1, edge);
+}
+
+/* Whether an edge runs against the order of the edges along its curve. */
+static bool is_reversed(const struct doubled_contours *d, uint32_t edge) {
+  const struct sheet_edge *e = &d->sheet->edge.item[edge];
+  if (edge + 1 < d->end && do_share_point(d, edge, edge + 1))
+    return e->point[0] == e[1].point[0] || e->point[0] == e[1].point[1];
+  return continues(d, edge) &&
+         (e->point[1] == e[-1].point[0] || e->point[1] == e[-1].point[1]);
+}
+
+/* Lists the visible edges, and measures all. */
+static bool list_edges(struct doubled_contours *d) {
+  size_t count = d->end - d->first;
+  d->along = mem_alloc(count + 1, sizeof *d->along);
+  d->is_covered = mem_calloc(count, 3);
+  if (d->along == NULL || d->is_covered == NULL)
+    return false;
+  d->is_hidden = d->is_covered + count;
+  d->is_covering = d->is_hidden + count;
+  d->along[0] = 0;
+  for (uint32_t e = d->first; e < d->end; e++) {
+    struct geom_segment s = sheet_ends(d->sheet, d->sheet->edge.item[e].point);
+    d->along[e - d->first + 1] =
+        d->along[e - d->first] +
+        hypot((double)s.q.x - s.p.x, (double)s.q.y - s.p.y);
+    if (d->map->edge_state[e] != MAP_HIDDEN &&
+        !segment_grid_add(&d->grid, s, e, false))
+      return false;
+  }
+  d->grid.contours = d->grid.segment.count;
+  return d->grid.contours == 0 || segment_grid_make(&d->grid);
+}
+
+/* ---- 1 Mark -------------------------------------------------------------- */
+
+/* A place in the middle of a cell. */
+struct doubled_place {
+  uint32_t edge;
+  double x, y, z;
+  double dx, dy; /* the edge's direction, of unit length */
+  double along;
+};
+
+/* Whether a contour's segment covers a place. */
+static bool covers(const struct doubled_contours *d,
+                   const struct page_segment *s,
+                   const struct doubled_place *at) {
+  double x = (double)s->q.x - s->p.x, y = (double)s->q.y - s->p.y;
+  double px = at->x - s->p.x, py = at->y - s->p.y;
+  double length = sqrt(x * x + y * y);
+  if ((x * at->dx + y * at->dy < PARALLEL_COSINE * length &&
+       length_of(d, at->edge) > d->beyond) ||
+      do_share_point(d, at->edge, s->owner))
+    return false;
+  double t = geom_nearest_parameter(x, y, px, py);
+  double away = hypot(px - t * x, py - t * y);
+  double height = fmin((double)d->height[at->edge - d->first],
+                       (double)d->height[s->owner - d->first]);
+  double most =
+      x * py - y * px > 0 ? fmax(d->beyond, WITHIN_SHARE * height) : d->beyond;
+  double apart = d->along[s->owner - d->first] + t * length - at->along;
+  return away <= most && fabs(apart) > APART_ALONG * most &&
+         page_segment_depth(s, t) > at->z;
+}
+
+/* The nearest contour that covers a place; SHEET_NONE. */
+static uint32_t find_covering(const struct doubled_contours *d,
+                              const struct doubled_place *at) {
+  const struct triangle_grid *cell = &d->grid.cell;
+  double reach =
+      fmax(d->beyond, WITHIN_SHARE * (double)d->height[at->edge - d->first]);
+  struct cell_range range =
+      triangle_grid_cells(cell, (struct box2){(int32_t)floor(at->x - reach),
+                                              (int32_t)floor(at->y - reach),
+                                              (int32_t)ceil(at->x + reach),
+                                              (int32_t)ceil(at->y + reach)});
+  uint32_t best = SHEET_NONE;
+  int64_t nearest = 0;
+  for (int y = range.y0; y <= range.y1; y++)
+    for (int x = range.x0; x <= range.x1; x++) {
+      size_t i = triangle_grid_index(cell, x, y);
+      for (uint32_t k = cell->lists.start[i]; k < cell->lists.start[i + 1];
+           k++) {
+        const struct page_segment *s =
+            &d->grid.segment.item[cell->lists.item[k]];
+        int64_t z = s->p.z > s->q.z ? s->p.z : s->q.z;
+        if (s->owner == at->edge || s->owner == best || !covers(d, s, at) ||
+            (best != SHEET_NONE && z <= nearest))
+          continue;
+        best = s->owner;
+        nearest = z;
+      }
+    }
+  return best;
+}
+
+/* Adds the cells of a visible edge. */
+static bool add_cells(struct doubled_contours *d,
+                      const struct page_segment *s) {
+  uint32_t index = s->owner - d->first, cells = cells_of(d, s->owner);
+  double length = length_of(d, s->owner);
+  double x = (double)s->q.x - s->p.x, y = (double)s->q.y - s->p.y;
+  bool reversed = is_reversed(d, s->owner);
+  for (uint32_t k = 0; k < cells; k++) {
+    uint32_t number = reversed ? cells - 1 - k : k;
+    double t = (number + 0.5) / cells;
+    const struct doubled_place at = {.edge = s->owner,
+                                     .x = s->p.x + t * x,
+                                     .y = s->p.y + t * y,
+                                     .z = page_segment_depth(s, t),
+                                     .dx = x / length,
+                                     .dy = y / length,
+                                     .along = d->along[index] + t * length};
+    const struct doubled_cell made = {s->owner, number, find_covering(d, &at),
+                                      false};
+    d->is_covered[index] |= made.covering != SHEET_NONE;
+    if (!ARRAY_PUSH(&d->cell, made))
+      return false;
+  }
+  return true;
+}
+
+static bool mark_cells(struct doubled_contours *d) {
+  for (size_t i = 0; i < d->grid.contours; i++)
+    if (!poll_at(i) || !add_cells(d, &d->grid.segment.item[i]))
+      return false;
+  return true;
+}
+
+/* ---- 2 Choose ------------------------------------------------------------ */
+
+/* Whether a cell is covered by what stays.
+ * strictly  by what is not covered itself */
+static bool is_covered(const struct doubled_contours *d,
+                       const struct doubled_cell *cell, bool strictly) {
+  uint32_t by = cell->covering - d->first;
+  return cell->covering != SHEET_NONE && !d->is_hidden[by] &&
+         !d->is_covering[cell->edge - d->first] &&
+         !(strictly && d->is_covered[by]);
+}
+
+/* Whether a cell begins another curve, or a part of one, than the cell before
+ * it. */
+static bool starts_chain(const struct doubled_contours *d, size_t i) {
+  const struct doubled_cell *cell = &d->cell.item[i];
+  return i == 0 ||
+         (cell[-1].edge != cell->edge &&
+          (cell[-1].edge + 1 != cell->edge || !continues(d, cell->edge)));
+}
+
+/* Marks the cells of a run if it is long enough. */
+static bool choose_run(struct doubled_contours *d, size_t from, size_t to,
+                       bool is_whole) {
+  double length = 0, heights = 0;
+  for (size_t i = from; i < to; i++) {
+    uint32_t edge = d->cell.item[i].edge;
+    double part = length_of(d, edge) / cells_of(d, edge);
+    length += part;
+    heights += part * (double)d->height[edge - d->first];
+  }
+  bool chosen = is_whole || length * length >= RUN_HEIGHTS * heights;
+  for (size_t i = from; chosen && i < to; i++) {
+    d->cell.item[i].is_hidden = true;
+    d->is_hidden[d->cell.item[i].edge - d->first] = 1;
+    d->is_covering[d->cell.item[i].covering - d->first] = 1;
+  }
+  return chosen;
+}
+
+/* Returns whether there are such runs. */
+static bool choose_runs(struct doubled_contours *d, bool strictly) {
+  bool any = false;
+  for (size_t start = 0, end; start < d->cell.count; start = end) {
+    for (end = start + 1; end < d->cell.count && !starts_chain(d, end); end++)
+      ;
+    for (size_t from = start, to; from < end; from = to) {
+      bool covered = is_covered(d, &d->cell.item[from], strictly);
+      for (to = from + 1;
+           to < end && is_covered(d, &d->cell.item[to], strictly) == covered;
+           to++)
+        ;
+      bool chosen =
+          covered && choose_run(d, from, to, from == start && to == end);
+      any = any || chosen;
+    }
+  }
+  return any;
+}
+
+/* ---- 3 Hide -------------------------------------------------------------- */
+
+static bool count_degrees(struct doubled_contours *d) {
+  d->degree = mem_calloc(d->sheet->point.count, 1);
+  if (d->degree == NULL)
+    return false;
+  for (uint32_t e = d->first; e < d->end; e++)
+    for (int k = 0; d->map->edge_state[e] != MAP_HIDDEN && k < 2; k++) {
+      uint8_t *degree = &d->degree[d->sheet->edge.item[e].point[k]];
+      *degree = (uint8_t)(*degree + (*degree < 2));
+    }
+  return true;
+}
+
+/* The sheet's point where an edge is divided at t: the end of the contour that
+ * covers it up to there, if that ends. */
+static bool point_of_division(struct doubled_contours *d, struct geom_segment s,
+                              double t, uint32_t covering, uint32_t *point) {
+  const uint32_t *end = d->sheet->edge.item[covering].point;
+  struct geom_point at = {(int32_t)lrint(s.p.x + t * ((double)s.q.x - s.p.x)),
+                          (int32_t)lrint(s.p.y + t * ((double)s.q.y - s.p.y)),
+                          s.p.z + (int64_t)(t * (double)(s.q.z - s.p.z))};
+  for (int k = 0; k < 2; k++) {
+    struct geom_point p = d->sheet->point.item[end[k]];
+    if (d->degree[end[k]] == 1 &&
+        hypot((double)p.x - at.x, (double)p.y - at.y) <
+            CELL_LENGTH + d->beyond) {
+      *point = end[k];
+      return true;
+    }
+  }
+  *point = (uint32_t)d->sheet->point.count;
+  return ARRAY_PUSH(&d->sheet->point, at);
+}
+
+/* Divides an edge where its cells, from cell[0] on in the order of its points,
+ * begin or cease to be hidden.
+ * step  1 or -1, from cell to cell */
+static bool divide_edge(struct doubled_contours *d,
+                        const struct doubled_cell *cell, uint32_t cells,
+                        int step) {
+  uint32_t edge = cell->edge, from = d->sheet->edge.item[edge].point[0];
+  const struct sheet_edge whole = d->sheet->edge.item[edge];
+  struct geom_segment s = sheet_ends(d->sheet, whole.point);
+  bool is_first = true;
+  for (uint32_t k = 0; k < cells; k++) {
+    const struct doubled_cell *now = cell + step * (ptrdiff_t)k;
+    const struct doubled_cell *next = now + step;
+    if (k + 1 < cells && next->is_hidden == now->is_hidden)
+      continue;
+    struct sheet_edge part = whole;
+    uint32_t covering = now->is_hidden ? now->covering : next->covering;
+    part.point[0] = from;
+    if (k + 1 < cells &&
+        !point_of_division(d, s, (k + 1.0) / cells, covering, &part.point[1]))
+      return false;
+    from = part.point[1];
+    uint32_t to = is_first ? edge : (uint32_t)d->sheet->edge.count;
+    if (is_first)
+      d->sheet->edge.item[edge] = part;
+    else if (!ARRAY_PUSH(&d->sheet->edge, part))
+      return false;
+    is_first = false;
+    d->map->edge_state[to] = now->is_hidden ? MAP_HIDDEN : MAP_VISIBLE;
+    d->map->edge_count = d->sheet->edge.count;
+  }
+  return true;
+}
+
+static bool hide_runs(struct doubled_contours *d) {
+  /* An edge is divided at most once between two of its cells. */
+  uint8_t *state =
+      mem_resize(d->map->edge_state, d->sheet->edge.count + d->cell.count, 1);
+  if (state == NULL)
+    return false;
+  d->map->edge_state = state;
+  for (size_t i = 0; i < d->cell.count;) {
+    const struct doubled_cell *cell = &d->cell.item[i];
+    uint32_t cells = cells_of(d, cell->edge);
+    bool reversed = cell->number > 0;
+    if (!divide_edge(d, reversed ? cell + cells - 1 : cell, cells,
+                     reversed ? -1 : 1))
+      return false;
+    i += cells;
+  }
+  return true;
+}
+
+bool doubled_contours_hide(struct sheet *sheet, struct map *map, uint32_t first,
+                           const float *height, double beyond) {
+  struct doubled_contours d = {.sheet = sheet,
+                               .map = map,
+                               .first = first,
+                               .end = (uint32_t)sheet->edge.count,
+                               .height = height,
+                               .beyond = beyond};
+  bool ok = list_edges(&d) && (d.grid.contours == 0 || mark_cells(&d));
+  bool any = ok && choose_runs(&d, true);
+  any = (ok && choose_runs(&d, false)) || any;
+  if (any)
+    ok = count_degrees(&d) && hide_runs(&d);
+  segment_grid_fini(&d.grid);
+  mem_free(d.along);
+  mem_free(d.is_covered);
+  mem_free(d.degree);
+  ARRAY_FREE(&d.cell);
+  return ok;
+}
