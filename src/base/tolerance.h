@@ -39,8 +39,8 @@
  *             than 20 nm: shorter files, no visible change. */
 #define TOLERANCE_COLLINEAR_UNITS 2.0
 
-/* A normal of the smooth surface is at right angles to the view where the cosine
- * between them is no more.
+/* A normal of the smooth surface is at right angles to the view where the
+ * cosine between them is no more.
  * Unit        1
  * Derivation  a normal is a sum of some ten terms, each of a cross product of
  *             differences of coordinates that are themselves rounded: some

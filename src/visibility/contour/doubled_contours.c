@@ -59,12 +59,12 @@ struct doubled_contours {
 
 /* ---- The edges ----------------------------------------------------------- */
 
-static double length_of(const struct doubled_contours *d, uint32_t edge) {
+static double contour_length(const struct doubled_contours *d, uint32_t edge) {
   return d->along[edge - d->first + 1] - d->along[edge - d->first];
 }
 
 static uint32_t cells_of(const struct doubled_contours *d, uint32_t edge) {
-  return (uint32_t)fmax(1, ceil(length_of(d, edge) / CELL_LENGTH));
+  return (uint32_t)fmax(1, ceil(contour_length(d, edge) / CELL_LENGTH));
 }
 
 /* Whether an edge begins or ends where another one does. */
@@ -90,7 +90,7 @@ static bool is_reversed(const struct doubled_contours *d, uint32_t edge) {
 }
 
 /* Lists the visible edges, and measures all. */
-static bool list_edges(struct doubled_contours *d) {
+static bool list_visible_contours(struct doubled_contours *d) {
   size_t count = d->end - d->first;
   d->along = mem_alloc(count + 1, sizeof *d->along);
   d->is_covered = mem_calloc(count, 3);
@@ -130,7 +130,7 @@ static bool covers(const struct doubled_contours *d,
   double px = at->x - s->p.x, py = at->y - s->p.y;
   double length = sqrt(x * x + y * y);
   if ((x * at->dx + y * at->dy < PARALLEL_COSINE * length &&
-       length_of(d, at->edge) > d->beyond) ||
+       contour_length(d, at->edge) > d->beyond) ||
       do_share_point(d, at->edge, s->owner))
     return false;
   double t = geom_nearest_parameter(x, y, px, py);
@@ -145,8 +145,8 @@ static bool covers(const struct doubled_contours *d,
 }
 
 /* The nearest contour that covers a place; SHEET_NONE. */
-static uint32_t find_covering(const struct doubled_contours *d,
-                              const struct doubled_place *at) {
+static uint32_t find_covering_contour(const struct doubled_contours *d,
+                                      const struct doubled_place *at) {
   const struct triangle_grid *cell = &d->grid.cell;
   double reach =
       fmax(d->beyond, WITHIN_SHARE * (double)d->height[at->edge - d->first]);
@@ -179,7 +179,7 @@ static uint32_t find_covering(const struct doubled_contours *d,
 static bool add_cells(struct doubled_contours *d,
                       const struct page_segment *s) {
   uint32_t index = s->owner - d->first, cells = cells_of(d, s->owner);
-  double length = length_of(d, s->owner);
+  double length = contour_length(d, s->owner);
   double x = (double)s->q.x - s->p.x, y = (double)s->q.y - s->p.y;
   bool reversed = is_reversed(d, s->owner);
   for (uint32_t k = 0; k < cells; k++) {
@@ -192,8 +192,8 @@ static bool add_cells(struct doubled_contours *d,
                                      .dx = x / length,
                                      .dy = y / length,
                                      .along = d->along[index] + t * length};
-    const struct doubled_cell made = {s->owner, number, find_covering(d, &at),
-                                      false};
+    const struct doubled_cell made = {s->owner, number,
+                                      find_covering_contour(d, &at), false};
     d->is_covered[index] |= made.covering != SHEET_NONE;
     if (!ARRAY_PUSH(&d->cell, made))
       return false;
@@ -212,8 +212,8 @@ static bool mark_cells(struct doubled_contours *d) {
 
 /* Whether a cell is covered by what stays.
  * strictly  by what is not covered itself */
-static bool is_covered(const struct doubled_contours *d,
-                       const struct doubled_cell *cell, bool strictly) {
+static bool is_cell_covered(const struct doubled_contours *d,
+                            const struct doubled_cell *cell, bool strictly) {
   uint32_t by = cell->covering - d->first;
   return cell->covering != SHEET_NONE && !d->is_hidden[by] &&
          !d->is_covering[cell->edge - d->first] &&
@@ -235,7 +235,7 @@ static bool choose_run(struct doubled_contours *d, size_t from, size_t to,
   double length = 0, heights = 0;
   for (size_t i = from; i < to; i++) {
     uint32_t edge = d->cell.item[i].edge;
-    double part = length_of(d, edge) / cells_of(d, edge);
+    double part = contour_length(d, edge) / cells_of(d, edge);
     length += part;
     heights += part * (double)d->height[edge - d->first];
   }
@@ -255,9 +255,9 @@ static bool choose_runs(struct doubled_contours *d, bool strictly) {
     for (end = start + 1; end < d->cell.count && !starts_chain(d, end); end++)
       ;
     for (size_t from = start, to; from < end; from = to) {
-      bool covered = is_covered(d, &d->cell.item[from], strictly);
-      for (to = from + 1;
-           to < end && is_covered(d, &d->cell.item[to], strictly) == covered;
+      bool covered = is_cell_covered(d, &d->cell.item[from], strictly);
+      for (to = from + 1; to < end && is_cell_covered(d, &d->cell.item[to],
+                                                      strictly) == covered;
            to++)
         ;
       bool chosen =
@@ -319,10 +319,11 @@ static bool divide_edge(struct doubled_contours *d,
     if (k + 1 < cells && next->is_hidden == now->is_hidden)
       continue;
     struct sheet_edge part = whole;
-    uint32_t covering = now->is_hidden ? now->covering : next->covering;
     part.point[0] = from;
     if (k + 1 < cells &&
-        !point_of_division(d, s, (k + 1.0) / cells, covering, &part.point[1]))
+        !point_of_division(d, s, (k + 1.0) / cells,
+                           now->is_hidden ? now->covering : next->covering,
+                           &part.point[1]))
       return false;
     from = part.point[1];
     uint32_t to = is_first ? edge : (uint32_t)d->sheet->edge.count;
@@ -364,7 +365,8 @@ bool doubled_contours_hide(struct sheet *sheet, struct map *map, uint32_t first,
                                .end = (uint32_t)sheet->edge.count,
                                .height = height,
                                .beyond = beyond};
-  bool ok = list_edges(&d) && (d.grid.contours == 0 || mark_cells(&d));
+  bool ok =
+      list_visible_contours(&d) && (d.grid.contours == 0 || mark_cells(&d));
   bool any = ok && choose_runs(&d, true);
   any = (ok && choose_runs(&d, false)) || any;
   if (any)
