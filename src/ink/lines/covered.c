@@ -9,9 +9,8 @@
  *   5 decide   from the longest hair to the shortest those of which that says
  *              nothing yet, as they may be covered by hairs that are not drawn
  * A hair is divided into pieces of a quarter of a pen, and each must have both
- * ends within half a pen
- * of one side of a longer path that is drawn; then all of it is, as what is
- * within a distance of a straight side is convex.
+ * ends within half a pen of one side of a longer path that is drawn; then all
+ * of it is, as what is within a distance of a straight side is convex.
  * Cost  n log n in the sides; of a cell with many sides those of the longest
  *   paths alone are tried. */
 #include "ink/lines/paths.h"
