@@ -22,10 +22,11 @@
 #include "scene/cluster.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <string.h>
 
 #include "base/hash.h"
-#include "base/poll.h"
+#include "base/parallel.h"
 
 enum { CHAIN_MAX = 128, NONE = -1 };
 
@@ -180,10 +181,22 @@ static bool join_cluster(struct clusters *clusters, const struct scene *scene,
 /* ---- Points without neighbours ------------------------------------------- */
 
 /* A hash table of 2^bits slots, 32 in a word; a slot is two bits, which are set
- * once a first and once a second point is in it. */
+ * once a first and once a second point is in it.  So it does not depend on the
+ * order in which threads enter points. */
 struct slots {
-  uint64_t *word;
+  _Atomic uint64_t *word;
   int bits;
+  uint64_t seed; /* of the hash */
+};
+
+/* What one pass over the members needs. */
+struct slot_visit {
+  struct slots slots;
+  const struct scene *scene;
+  double length;
+  struct cluster_member *member;
+  bool is_alone; /* there is one thread */
+  bool marking;
 };
 
 /* The slots of the cells that lie within the length of a point; there is mostly
@@ -194,7 +207,7 @@ struct point_slots {
 };
 
 static struct point_slots find_slots(const struct scene_point *p, double length,
-                                     int bits) {
+                                     const struct slots *slots) {
   enum { LENGTHS = 64 }; /* in a cell's side */
   const double at[3] = {p->x, p->y, p->z}, per_side = 1 / (LENGTHS * length);
   double cell[3][2];
@@ -207,22 +220,32 @@ static struct point_slots find_slots(const struct scene_point *p, double length,
     differ |= (cell[k][0] != cell[k][1]) << k;
   }
   for (int i = 0; i < 8; i++) {
-    uint64_t hash = 0;
+    uint64_t hash = slots->seed;
     if ((i & ~differ) != 0)
       continue;
     for (int k = 0; k < 3; k++)
       hash = hash_add_double(hash, cell[k][i >> k & 1]);
-    found.slot[found.count++] = (size_t)((hash * HASH_GOLDEN) >> (64 - bits));
+    found.slot[found.count++] =
+        (size_t)((hash * HASH_GOLDEN) >> (64 - slots->bits));
   }
   return found;
 }
 
 /* Enters a point into its slots. */
-static void insert_point(struct slots *slots, const struct point_slots *of) {
+static void insert_point(const struct slot_visit *visit,
+                         const struct point_slots *of) {
   for (int i = 0; i < of->count; i++) {
-    uint64_t *word = &slots->word[of->slot[i] / 32];
+    _Atomic uint64_t *word = &visit->slots.word[of->slot[i] / 32];
     uint64_t first = UINT64_C(1) << of->slot[i] % 32 * 2;
-    *word |= (*word & first) << 1 | first;
+    uint64_t is = atomic_load_explicit(word, memory_order_relaxed);
+    if (visit->is_alone) {
+      is |= (is & first) << 1 | first;
+      atomic_store_explicit(word, is, memory_order_relaxed);
+    } else if ((is & first << 1) == 0) {
+      is = atomic_fetch_or_explicit(word, first, memory_order_relaxed);
+      if (is & first)
+        (void)atomic_fetch_or_explicit(word, first << 1, memory_order_relaxed);
+    }
   }
 }
 
@@ -230,54 +253,83 @@ static void insert_point(struct slots *slots, const struct point_slots *of) {
 static bool is_isolated(const struct slots *slots,
                         const struct point_slots *of) {
   for (int i = 0; i < of->count; i++)
-    if (slots->word[of->slot[i] / 32] >> of->slot[i] % 32 * 2 & 2)
+    if (atomic_load_explicit(&slots->word[of->slot[i] / 32],
+                             memory_order_relaxed) >>
+            of->slot[i] % 32 * 2 &
+        2)
       return false;
   return true;
 }
 
-/* Enters all members that are not CLUSTER_ALONE, or, if `marking`, marks those
- * that no other is near as that.  Slots are fetched for a group of members at a
- * time, as most are not in the cache.  Returns false when the caller
- * cancelled. */
-static bool visit_slots(struct slots *slots, const struct scene *scene,
-                        double length, struct cluster_member *member,
-                        size_t count, bool marking) {
+/* Enters the members of a range that are not CLUSTER_ALONE, or, if `marking`,
+ * marks those that no other is near as that.  Slots are fetched for a group of
+ * members at a time, as most are not in the cache. */
+static bool visit_slots(void *user, struct parallel_range range) {
   enum { GROUP = 32 };
-  const struct scene_point *point = scene->point.item;
-  for (size_t from = 0; from < count; from += GROUP) {
+  const struct slot_visit *visit = user;
+  const struct scene_point *point = visit->scene->point.item;
+  struct cluster_member *member = visit->member;
+  for (size_t i = range.begin; i < range.end;) {
     struct point_slots of[GROUP];
-    size_t n = count - from < GROUP ? count - from : GROUP;
-    for (size_t i = 0; i < n; i++) {
-      of[i] = find_slots(&point[member[from + i].point], length, slots->bits);
-      for (int k = 0; k < of[i].count; k++)
-        MEM_PREFETCH(&slots->word[of[i].slot[k] / 32]);
-    }
-    for (size_t i = 0; i < n; i++)
-      if (member[from + i].halvings == CLUSTER_ALONE)
+    size_t group[GROUP], n = 0;
+    for (; n < GROUP && i < range.end; i++) {
+      if (member[i].halvings == CLUSTER_ALONE)
         continue;
-      else if (!marking)
-        insert_point(slots, &of[i]);
-      else if (is_isolated(slots, &of[i]))
-        member[from + i].halvings = CLUSTER_ALONE;
-    if (!poll_at(from))
-      return false;
+      of[n] = find_slots(&point[member[i].point], visit->length, &visit->slots);
+      for (int k = 0; k < of[n].count; k++)
+        MEM_PREFETCH((const void *)&visit->slots.word[of[n].slot[k] / 32]);
+      group[n++] = i;
+    }
+    for (size_t g = 0; g < n; g++)
+      if (!visit->marking)
+        insert_point(visit, &of[g]);
+      else if (is_isolated(&visit->slots, &of[g]))
+        member[group[g]].halvings = CLUSTER_ALONE;
   }
   return true;
 }
 
+static size_t count_members_left(const struct cluster_member *member,
+                                 size_t count) {
+  size_t left = 0;
+  for (size_t i = 0; i < count; i++)
+    left += member[i].halvings != CLUSTER_ALONE;
+  return left;
+}
+
 /* Marks members that no other is near as CLUSTER_ALONE, which is most of them
- * in a scene of separate faces; it saves looking for clusters to join.  Returns
- * false when memory ran out. */
+ * in a scene of separate faces; it saves looking for clusters to join.  Some
+ * share a slot by chance: where many were marked, the others are tried once
+ * more, by another hash.
+ * left  gets how many are not marked
+ * Returns false when memory ran out. */
 static bool find_isolated(const struct scene *scene, double length,
-                          struct cluster_member *member, size_t count) {
-  struct slots slots = {.bits = 10};
-  while (8 * count >> slots.bits)
-    slots.bits++;
-  slots.word = mem_calloc((size_t)1 << (slots.bits - 5), sizeof *slots.word);
-  bool ok = slots.word != NULL &&
-            visit_slots(&slots, scene, length, member, count, false) &&
-            visit_slots(&slots, scene, length, member, count, true);
-  mem_free(slots.word);
+                          struct cluster_member *member, size_t count,
+                          size_t *left) {
+  enum { ROUNDS = 3, WORTH = 4 };
+  struct slot_visit visit = {
+      .scene = scene, .length = length, .member = member};
+  int workers = parallel_workers(count, PARALLEL_ITEMS);
+  bool ok = true;
+  visit.is_alone = workers == 1;
+  *left = count_members_left(member, count);
+  for (int round = 0; ok && round < ROUNDS; round++) {
+    size_t before = *left;
+    visit.slots = (struct slots){.bits = 10, .seed = (uint64_t)round};
+    while (8 * before >> visit.slots.bits)
+      visit.slots.bits++;
+    visit.slots.word = mem_calloc((size_t)1 << (visit.slots.bits - 5),
+                                  sizeof *visit.slots.word);
+    ok = visit.slots.word != NULL;
+    for (int pass = 0; ok && pass < 2; pass++) {
+      visit.marking = pass == 1;
+      ok = parallel_ranges(workers, count, PARALLEL_ITEMS, visit_slots, &visit);
+    }
+    mem_free((void *)visit.slots.word);
+    *left = count_members_left(member, count);
+    if (*left * WORTH > before)
+      break;
+  }
   return ok;
 }
 
@@ -316,10 +368,8 @@ static size_t name_members(const struct clusters *clusters,
 size_t cluster_join(const struct scene *scene, double length,
                     struct cluster_member *member, size_t count) {
   struct clusters clusters = {.chain = NULL};
-  bool ok = find_isolated(scene, length, member, count);
-  size_t left = 0;
-  for (size_t i = 0; i < count; i++)
-    left += member[i].halvings != CLUSTER_ALONE;
+  size_t left;
+  bool ok = find_isolated(scene, length, member, count, &left);
   ok = ok && allocate_clusters(&clusters, length, left);
   for (size_t i = 0; i < count && ok; i++) {
     member[i].representative = (uint32_t)i;
