@@ -15,6 +15,8 @@
 #include "base/input.h"
 #include "base/poll.h"
 
+enum { NULS = 8 }; /* behind a block */
+
 bool line_blocks_open(struct line_blocks *blocks, const char *path,
                       size_t least) {
   char head[4];
@@ -69,7 +71,7 @@ static recto_status refuse_change(const struct line_blocks *blocks,
 static recto_status append_bytes(struct line_blocks *blocks, size_t wanted,
                                  recto_error *error) {
   struct byte_array *buffer = &blocks->buffer;
-  if (!ARRAY_RESERVE(buffer, wanted + 1))
+  if (!ARRAY_RESERVE(buffer, wanted + NULS))
     return error_memory(error);
   for (size_t left = wanted; left > 0;) {
     ssize_t got = pread(blocks->descriptor, buffer->item + buffer->count, left,
@@ -124,7 +126,7 @@ recto_status line_blocks_next(struct line_blocks *blocks, recto_error *error) {
   blocks->end = blocks->begin + (off_t)blocks->count;
   if (blocks->end == blocks->size && !is_unchanged(blocks))
     return refuse_change(blocks, error);
-  buffer->item[blocks->count] = '\0';
+  memset(buffer->item + blocks->count, 0, NULS);
   blocks->bytes = buffer->item;
   return RECTO_OK;
 }

@@ -12,7 +12,7 @@
 
 /* Zero-initialised is closed. */
 struct line_blocks {
-  const char *bytes; /* the block; a NUL stands behind its last byte */
+  const char *bytes; /* the block; eight NULs stand behind its last byte */
   size_t count;
   off_t begin, end; /* where it lies in the file */
   off_t size;       /* of the file */

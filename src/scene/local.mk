@@ -15,6 +15,7 @@ librecto_core_la_SOURCES += \
   %D%/newell_normal.c %D%/newell_normal.h \
   %D%/obj_parser.c %D%/obj_parser.h \
   %D%/obj_run.c \
+  %D%/obj_triangles.c \
   %D%/ply_colour.c %D%/ply_colour.h \
   %D%/ply_header.c %D%/ply_header.h \
   %D%/ply_parser.c %D%/ply_parser.h \

@@ -77,81 +77,6 @@ void obj_skip_lines_without_points(struct obj_parser *p) {
   p->others = true;
 }
 
-/* Makes room for a mark of each point so far. */
-static bool have_marks(struct obj_parser *p) {
-  size_t count = p->mark.count, points = p->scene->point.count;
-  if (count == points)
-    return true;
-  if (!ARRAY_RESERVE(&p->mark, points - count))
-    return false;
-  memset(p->mark.item + count, 0, points - count);
-  p->mark.count = points;
-  return true;
-}
-
-#if DIGITS_CHUNKS
-/* Marks the points of faces for as long as they are triangles, a line each,
- * without other indices. */
-static void mark_plain_faces(struct obj_parser *p) {
-  enum { ROOM = 32 }; /* bytes, more than such a line has */
-  uint8_t *mark = p->mark.item;
-  size_t count = p->mark.count;
-  const char *at = p->at;
-  while (p->end - at > ROOM && at[0] == 'f') {
-    const char *index = at + 1;
-    uint64_t sum[3], chunk;
-    int k = 0;
-    for (; k < 3 && *index == ' '; k++) {
-      int digits = digits_count(++index, &chunk);
-      if (digits == 0 || digits == 8)
-        break;
-      sum[k] = digits_sum(chunk, digits) - 1;
-      index += digits;
-    }
-    if (k < 3 || *index != '\n' || sum[0] >= count || sum[1] >= count ||
-        sum[2] >= count)
-      break;
-    mark[sum[0]] = mark[sum[1]] = mark[sum[2]] = 1;
-    at = index + 1;
-    p->line++;
-  }
-  p->at = at;
-}
-#endif
-
-/* Marks the points of any face. */
-static void mark_face(struct obj_parser *p) {
-  const char *at = p->at + 1;
-  while (*at == ' ' && !p->mark_failed) {
-    uint64_t index = 0;
-    const char *stop = digits_gather(++at, p->end, &index);
-    if (stop == at && *at >= '!') /* it is relative, or no number at all */
-      p->mark_failed = true;
-    if (stop == at)
-      continue;
-    if (index - 1 < p->mark.count)
-      p->mark.item[index - 1] = 1;
-    else
-      p->mark_failed = true;
-    at = *stop == '/' ? obj_skip_other_indices(stop) : stop;
-  }
-  p->at = at;
-  obj_finish_statement(p);
-}
-
-void obj_mark_faces(struct obj_parser *p) {
-  p->others = true;
-  p->mark_failed = p->mark_failed || !have_marks(p);
-  do {
-    mark_face(p);
-#if DIGITS_CHUNKS
-    if (!p->mark_failed)
-      mark_plain_faces(p);
-#endif
-  } while (p->at < p->end && p->at[0] == 'f' && p->at[1] == ' ' &&
-           !p->mark_failed);
-}
-
 /* ---- What is broken ------------------------------------------------------ */
 
 recto_status obj_check_text(struct obj_parser *p, const char *start,
@@ -237,6 +162,7 @@ void obj_parser_fini(struct obj_parser *p) {
   materials_fini(&p->materials);
   ARRAY_FREE(&p->bad);
   ARRAY_FREE(&p->mark);
+  ARRAY_FREE(&p->held);
   ARRAY_FREE(&p->corner);
   ARRAY_FREE(&p->group);
 }

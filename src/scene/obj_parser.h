@@ -5,6 +5,7 @@
 
 #include "base/digits.h"
 #include "base/word.h"
+#include "scene/exact.h"
 #include "scene/material.h"
 
 enum name_kind { NAME_OBJECT, NAME_GROUP, NAME_MATERIAL, NAME_COUNT };
@@ -34,7 +35,10 @@ struct obj_parser {
   bool marks;       /* points that faces name are marked when passed over */
   bool mark_failed; /* not of all faces */
   ARRAY(uint8_t) mark;
-  const char *next_v; /* no letter v lies between `at` and here; may be before
+  bool holds; /* corners of plain triangles that are passed over are */
+  ARRAY(uint32_t) held; /* held, */
+  size_t plain_bytes;   /* of so many bytes */
+  const char *next_v;   /* no letter v lies between `at` and here; may be before
                          `at` */
 };
 
@@ -109,8 +113,13 @@ size_t obj_count_lines(const char *at, const char *end);
 void obj_skip_lines_without_points(struct obj_parser *p);
 
 /* From a face over lines of faces, of which it marks the points that they name;
- * where their numbers are not plain, it notes that it failed. */
+ * where their numbers are not plain, it notes that it failed.  Seven bytes
+ * beyond the end may be read. */
 void obj_mark_faces(struct obj_parser *p);
+
+/* Adds triangles of lines that follow one another, as they were held. */
+USE_RESULT recto_status obj_add_triangles(struct obj_parser *p,
+                                          const uint32_t *corner, size_t count);
 
 /* To the line after a statement that was read to its end or to a comment. */
 void obj_finish_statement(struct obj_parser *p);
@@ -131,6 +140,21 @@ USE_RESULT recto_status obj_skip_broken(struct obj_parser *p, const char *start,
  * points_only  passes over all statements but points */
 USE_RESULT recto_status obj_read_statements(struct obj_parser *p,
                                             bool points_only);
+
+/* Adds the triangle of the current line, whose points are there, as its
+ * statement does. */
+USE_RESULT recto_status obj_add_triangle(struct obj_parser *p,
+                                         const uint32_t corner[3]);
+
+/* Whether a triangle has no fault, without a closer look. */
+static inline bool obj_is_surely_bent(const struct scene *scene,
+                                      const uint32_t corner[3]) {
+  const struct scene_point *point = scene->point.item;
+  const struct scene_point *a = &point[corner[0]], *b = &point[corner[1]],
+                           *c = &point[corner[2]];
+  return exact_surely_not_collinear(a->x, a->y, b->x, b->y, c->x, c->y) ||
+         exact_surely_not_collinear(a->y, a->z, b->y, b->z, c->y, c->z);
+}
 
 /* ---- Runs of plain statements (obj_run.c) -------------------------------- */
 

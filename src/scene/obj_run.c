@@ -167,16 +167,6 @@ static inline const char *read_plain_face(const struct obj_parser *p,
   return *at == '\n' ? at + 1 : NULL;
 }
 
-/* Whether a triangle has no fault, without a closer look. */
-static inline bool is_surely_bent(const struct obj_parser *p,
-                                  const uint32_t corner[3]) {
-  const struct scene_point *point = p->scene->point.item;
-  const struct scene_point *a = &point[corner[0]], *b = &point[corner[1]],
-                           *c = &point[corner[2]];
-  return exact_surely_not_collinear(a->x, a->y, b->x, b->y, c->x, c->y) ||
-         exact_surely_not_collinear(a->y, a->z, b->y, b->z, c->y, c->z);
-}
-
 /* Reads the faces of a run.  Their points lie anywhere in memory: those of a
  * face are looked at when some more were read, and they have been fetched. */
 static bool read_faces(const struct obj_parser *p, struct run *run) {
@@ -202,7 +192,8 @@ static bool read_faces(const struct obj_parser *p, struct run *run) {
     run->at = goes_on ? past : run->at;
     if (goes_on && read - run->count < MEM_PREFETCH_AHEAD)
       continue;
-    if (run->count == read || !is_surely_bent(p, &corner[3 * run->count]))
+    if (run->count == read ||
+        !obj_is_surely_bent(scene, &corner[3 * run->count]))
       break;
     start[run->count] = (uint32_t)(corners + 3 * (run->count + 1));
     group[run->count] = scene->current_group;

@@ -269,6 +269,29 @@ static void warn_missing_reference(struct obj_parser *p, unsigned long line,
                     length < SHOWN ? "" : "...", points);
 }
 
+/* Adds the face or the polyline of p->corner, all of which are points. */
+static recto_status add_statement(struct obj_parser *p, unsigned long line,
+                                  bool is_face) {
+  recto_status status = RECTO_OK;
+  if (!has_usable_references(p, line, is_face ? "face" : "polyline"))
+    return is_face ? scene_skip_face(p->scene, p->error) : RECTO_OK;
+  if (p->renamed && (status = use_named_group(p)) != RECTO_OK)
+    return status;
+  return is_face ? scene_add_face(p->scene, p->corner.item, p->corner.count,
+                                  line, p->diagnostics, p->error)
+                 : scene_add_wire(p->scene, p->corner.item, p->corner.count,
+                                  line, p->diagnostics, p->error);
+}
+
+recto_status obj_add_triangle(struct obj_parser *p, const uint32_t corner[3]) {
+  p->known = true;
+  p->corner.count = 0;
+  for (int k = 0; k < 3; k++)
+    if (!ARRAY_PUSH(&p->corner, corner[k]))
+      return error_memory(p->error);
+  return add_statement(p, p->line, true);
+}
+
 /* f or l. */
 static recto_status read_face_or_line(struct obj_parser *p, bool is_face) {
   const char *start = p->at;
@@ -288,16 +311,10 @@ static recto_status read_face_or_line(struct obj_parser *p, bool is_face) {
                                          : status;
   }
   obj_finish_statement(p);
-  if (missing != NULL)
-    warn_missing_reference(p, line, what, missing);
-  if (missing != NULL || !has_usable_references(p, line, what))
-    return is_face ? scene_skip_face(p->scene, p->error) : RECTO_OK;
-  if (p->renamed && (status = use_named_group(p)) != RECTO_OK)
-    return status;
-  return is_face ? scene_add_face(p->scene, p->corner.item, p->corner.count,
-                                  line, p->diagnostics, p->error)
-                 : scene_add_wire(p->scene, p->corner.item, p->corner.count,
-                                  line, p->diagnostics, p->error);
+  if (missing == NULL)
+    return add_statement(p, line, is_face);
+  warn_missing_reference(p, line, what, missing);
+  return is_face ? scene_skip_face(p->scene, p->error) : RECTO_OK;
 }
 
 /* ---- Statements ---------------------------------------------------------- */
