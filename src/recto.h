@@ -403,8 +403,8 @@ typedef struct recto_camera_options {
                      these */
   double unit_mm; /* with RECTO_FIT_SCALE and RECTO_FIT_PREFERRED: a scene unit
                      is so many mm, of which the scale's number of mm is drawn
-                     for one; 0: what the files say (glTF: 1000; 3MF: its unit),
-                     where all say the same, else 1 */
+                     for one; 0: what the first file says (glTF: 1000; 3MF: its
+                     unit), else 1 */
   uint64_t reserved[7];
 } recto_camera_options;
 
@@ -627,6 +627,12 @@ void recto_scene_destroy(recto_scene *scene);
  * has groups of its own: what is in none is in one that is called as the file
  * without folder and extension, and where a group that is there already has a
  * name, the file's is called "FILE/NAME", or has a point and a number behind.
+ * Its points are scaled to the unit of the scene and turned about X to its up
+ * axis: those of the first file, or, of what the caller added before,
+ * millimetres and +Y.  A file that states no unit is in millimetres once
+ * another one states one, and a warning says so.  Where the options have
+ * camera.unit_mm nothing is scaled, and where they have camera.up nothing is
+ * turned.
  * path    "-" is standard input, which needs a format; its group is "default"
  * format  format name such as "obj"; NULL: by the path's extension
  * Errors  RECTO_ERROR_IO: it cannot be read; RECTO_ERROR_FORMAT: it is broken

@@ -35,13 +35,72 @@ is_drawn() { # "WIDTH HEIGHT" ARGUMENT...
 claim "glTF is in metres" is_drawn "10 20" a.gltf --scale 1:100
 claim "unless said otherwise" is_drawn "10 20" a.gltf --scale 1:1 --unit cm
 claim "OBJ is in millimetres" is_drawn "10 20" a.obj --scale 10
-claim "and what is mixed too" is_drawn "10 20" a.obj a.gltf --scale 10
 claim "and two of one unit are of that" is_drawn "10 20" a.gltf a.gltf --scale 1:100
 is_as_large() {
   run 0 a.obj --view front -o b.svg && run 0 a.gltf --view front -o a.svg &&
     test "$(box a.svg)" = "$(box b.svg)"
 }
 claim "a page is filled whatever the unit" is_as_large
+
+# Models of several units together: what states none is in millimetres.
+claim "a model of unknown unit beside glTF is in millimetres" \
+  is_drawn "10 20" a.gltf a.obj --scale 1:100
+claim "also where it is the first" is_drawn "10 20" a.obj a.gltf --scale 1:100
+warns_of() { # TEXT ARGUMENT... - that alone
+  local text=$1
+  shift
+  run 0 "$@" --view front -o a.svg && test "$(cat err)" = "$text" && return 0
+  say "$(cat err)" && false
+}
+unknown="recto: a.obj: does not say its unit, as another model does: taken for mm; \
+--unit leaves all models as they are"
+claim "a warning names it" warns_of "$unknown" a.gltf a.obj
+claim "also where it is the first, and once each" \
+  warns_of "$unknown"$'\n'"$unknown" a.obj a.gltf a.obj
+claim "two of unknown units are as they are" warns_of "" a.obj a.obj
+claim "and so is what is of one unit" warns_of "" a.gltf a.gltf
+claim "and all with --unit" warns_of "" a.obj a.gltf --unit m
+claim "which says the unit of all" \
+  is_drawn "10 20" a.obj a.gltf --scale 1:100 --unit m
+claim "and is used without --scale too" warns_of "" a.gltf a.obj --unit cm
+draws_the_same() { # FILE ARGUMENT... - as that model
+  local file=$1
+  shift
+  run 0 "$@" --view front -o a.svg && run 0 "$@" --view front --check a.svg &&
+    run 0 "$file" --view front --scale 1:40 -o b.svg || return
+  test "$(grep -o ' d="[^"]*"' a.svg | sort)" = \
+    "$(grep -o ' d="[^"]*"' b.svg | sort)" && return 0
+  say "$(grep ' d=' a.svg b.svg)" && false
+}
+# The same triangle with +z up.
+cat >a.stl <<'END'
+solid
+facet normal 0 -1 0
+outer loop
+vertex 0 0 0
+vertex 1 0 0
+vertex 0 0 2
+endloop
+endfacet
+endsolid
+END
+large='g large\nv 1000 0 0\nv 0 2000 0\nv 0 0 0\nf -1 -3 -2\n'
+small='g small\nv 1 0 0\nv 0 2 0\nv 0 0 0\nf -1 -3 -2\n'
+printf '%b' "$large$small" >large.obj && printf '%b' "$small$large" >small.obj
+claim "models with other up axes stand upright" \
+  draws_the_same large.obj a.gltf a.stl --scale 1:40
+claim "in either order" draws_the_same small.obj a.stl a.gltf --scale 1:40
+up="recto: a.obj: +Y is taken for up in it, and turned to +Z, as in the first \
+model; --up leaves all models as they are"
+claim "of a likely axis that differs is warned" warns_of "$up" a.stl a.obj
+claim "but not with --up" warns_of "" a.stl a.obj --up z
+is_turned_with_up() {
+  run 0 a.stl a.obj --view front --up z --scale 10 -o a.svg &&
+    test "$(box a.svg)" = "10 20" &&
+    run 0 a.obj --view front --up z --scale 10 -o a.svg &&
+    test "$(box a.svg)" = "10 0"
+}
+claim "which leaves all as they are" is_turned_with_up
 claim "a scale beyond all numbers is refused" \
   refuses "the scale must be" a.gltf -o no.svg --scale 1e307
 
@@ -83,6 +142,20 @@ END
         test "$(box a.svg)" = "25.4 50.8"
     }
     claim "also from a pipe" from_a_pipe
+    small='g small\nv 25.4 0 0\nv 0 50.8 0\nv 0 0 0\nf -1 -3 -2\n'
+    printf '%b' "$large$small" >large.obj && printf '%b' "$small$large" >small.obj
+    claim "3MF and glTF together have their sizes, and stand upright" \
+      draws_the_same small.obj inch.3mf a.gltf --scale 1:40
+    claim "in either order" \
+      draws_the_same large.obj a.gltf inch.3mf --scale 1:40
+    claim "and nothing is to be warned of" warns_of "" a.gltf inch.3mf
+    printf 'v 0 0 0\nv 1e307 0 0\nv 0 2 0\nf 1 2 3\n' >huge.obj
+    archive micron.3mf 'unit="micron"' DEFLATED
+    is_too_large() {
+      run 1 micron.3mf huge.obj -o no.svg && test ! -e no.svg &&
+        says "huge.obj: too large in the unit of the first model"
+    }
+    claim "a coordinate beyond all numbers is an error" is_too_large
   else
     skip "3MF says its unit" "this Assimp reads no 3MF"
   fi

@@ -68,7 +68,7 @@ done <<'END_OF_ROWS'
 --fov 20|a.svg -c 5,4,3 --no-fit|a.svg -c 5,4,3 --scale 1:2|named views and for --no-fit; --scale
 --cut-fill solid|a.svg --cut z=1|a.svg|--cut and --section; a run without --cut
 --cut-hatch wedge=30|a.svg --section 1|a.svg|--cut and --section; a run without --cut
---unit m|a.svg --scale 1:2|a.svg|true scale; --fit
+--unit m|a.svg --scale 1:2|a.svg|true scale and several models; --fit
 --scale 1:2|a.svg|a.svg --no-fit|true scale; --no-fit
 --crease 20|a.svg|a.svg -e silhouette|edges of the classes crease and smooth, fills and smooth contours; this --edges
 --crease 20|a.svg -e none --fill shade|a.svg -e border|edges of the classes crease and smooth, fills and smooth contours; this --edges

@@ -26,7 +26,7 @@ enum {
   WARNOCK_PIXELS,
   SMOOTH_CONTOURS
 };
-enum { SVG = 40, HPGL, PNG, PDF, POSTSCRIPT, OBLONG_PAGE };
+enum { SVG = 40, HPGL, PNG, PDF, POSTSCRIPT, OBLONG_PAGE, SEVERAL_MODELS };
 enum {
   STATS = 48,
   CHECK,
@@ -99,6 +99,8 @@ static uint64_t find_requests(const struct arguments *a) {
     bits |= BIT(TURNTABLE);
   if (a->parts > 0)
     bits |= BIT(PART);
+  if (a->model_count > 1 && !a->joins)
+    bits |= BIT(SEVERAL_MODELS);
   if (o->page.width_mm != o->page.height_mm)
     bits |= BIT(OBLONG_PAGE);
   return bits;
@@ -131,6 +133,10 @@ static const struct {
                      BIT(NAMED_VIEW) | FIT(NONE) | BIT(BY_CHECK)},
     [USED_BY_SCALE] = {"true scale",
                        FIT(SCALE) | FIT(PREFERRED) | BIT(BY_CHECK)},
+    /* It says that several models are of one unit. */
+    [USED_BY_UNIT] = {"true scale and several models",
+                      FIT(SCALE) | FIT(PREFERRED) | BIT(SEVERAL_MODELS) |
+                          BIT(BY_CHECK)},
     [USED_BY_LINES] = {"lines", LINES},
     [USED_BY_SILHOUETTES] = {"edges of the class silhouette",
                              EDGES(RECTO_EDGE_SILHOUETTE)},

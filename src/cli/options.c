@@ -341,7 +341,7 @@ const struct option_entry option_table[] = {
      .of_parts = true},
     {OPTION_PARSED, "unit", 0, "UNIT", "um, mm, cm, m, in or ft",
      "a model unit, for --scale (glTF: m, 3MF; else mm)", .parse = parse_unit,
-     .words = "um mm cm m in ft", .use = {USED_BY_SCALE}, .of_parts = true},
+     .words = "um mm cm m in ft", .use = {USED_BY_UNIT}, .of_parts = true},
     {OPTION_NUMBER, "near", 0, "D", "a distance above 0",
      "draw nothing nearer than this, in model units",
      .offset = AT(options.camera.near_distance), .least = DBL_TRUE_MIN,

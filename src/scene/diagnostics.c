@@ -51,6 +51,18 @@ void diagnostics_fault(struct diagnostics *diagnostics, enum scene_fault fault,
                        text);
 }
 
+void diagnostics_warn(const struct diagnostics *diagnostics, const char *file,
+                      const char *format, ...) {
+  if (diagnostics == NULL || diagnostics->warning == NULL)
+    return;
+  char text[256];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  diagnostics->warning(diagnostics->user, file, 0, text);
+}
+
 void diagnostics_finish(struct diagnostics *diagnostics) {
   if (diagnostics == NULL)
     return;

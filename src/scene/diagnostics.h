@@ -52,6 +52,11 @@ static inline recto_status diagnostics_poll(struct diagnostics *diagnostics,
 void diagnostics_fault(struct diagnostics *diagnostics, enum scene_fault fault,
                        unsigned long line, const char *format, ...)
     PRINTF_LIKE(4, 5);
+/* Passes on a warning that is no fault of an element.
+ * diagnostics  NULL: not wanted
+ * file         as the user wrote it */
+void diagnostics_warn(const struct diagnostics *diagnostics, const char *file,
+                      const char *format, ...) PRINTF_LIKE(3, 4);
 /* Passes on "... and N more" for kinds that had more than three since it was
  * last called.  scene_read does this at the end of each file. */
 void diagnostics_finish(struct diagnostics *diagnostics);

@@ -201,7 +201,7 @@ recto_status import_format_read(struct scene *scene, const char *bytes,
       status = import_fault(&f);
   }
   if (ok && f.record.unit_mm > 0 && isfinite(f.record.unit_mm))
-    scene->unit_mm = f.record.unit_mm;
+    scene->file_unit_mm = f.record.unit_mm;
   ARRAY_FREE(&f.corner);
   ARRAY_FREE(&f.unusable.point);
   return status;

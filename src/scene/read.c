@@ -10,6 +10,7 @@
 #include "base/input.h"
 #include "base/path.h"
 #include "base/word.h"
+#include "scene/conversion.h"
 
 /* ---- The reader ---------------------------------------------------------- */
 
@@ -121,14 +122,14 @@ static recto_status read_input(struct scene *scene, const struct reader *reader,
                                struct diagnostics *diagnostics,
                                recto_error *error) {
   struct scene_snapshot before;
-  bool first = scene->point.count == 0;
-  double unit_mm = scene->unit_mm;
+  struct model_coordinates model = {.path = path,
+                                    .up_is_stated = reader->states_up};
+  memcpy(model.up, reader->up, sizeof model.up);
   if (diagnostics != NULL) {
     diagnostics->bytes = input->bytes;
     diagnostics->byte_count = input->count;
   }
   scene_snapshot(scene, &before);
-  scene->unit_mm = 0; /* unless the reader knows better */
   recto_status status =
       scene_note_file(scene, input) ? RECTO_OK : error_memory(error);
   if (status == RECTO_OK && input->count == 0)
@@ -137,18 +138,18 @@ static recto_status read_input(struct scene *scene, const struct reader *reader,
   if (status == RECTO_OK)
     status = reader->read(scene, input->bytes, input->count, path, format,
                           diagnostics, error);
+  model.unit_mm = scene->file_unit_mm;
   scene_end_file(scene);
   if (status == RECTO_OK && scene->precision.count == before.precisions)
     status = scene_leave_precision(scene, before.points, error);
+  /* Of what Assimp reads, a format that states a unit states the axis too. */
+  model.up_is_stated = model.up_is_stated || model.unit_mm > 0;
+  if (status == RECTO_OK)
+    status = conversion_apply(scene, &before, &model, diagnostics, error);
   if (status != RECTO_OK) {
     scene_restore(scene, &before);
-    scene->unit_mm = unit_mm;
     return status;
   }
-  if (first)
-    memcpy(scene->up, reader->up, sizeof scene->up);
-  else if (scene->unit_mm != unit_mm)
-    scene->unit_mm = 0;
   diagnostics_finish(diagnostics);
   return RECTO_OK;
 }

@@ -14,7 +14,8 @@
 struct reader {
   const char *name;       /* "obj" */
   const char *extensions; /* "obj", space-separated */
-  double up[3];           /* what the format means by up */
+  double up[3];           /* what the format means by up: +Y or +Z */
+  bool states_up;         /* else that is what most files of it mean */
   recto_status (*read)(struct scene *scene, const char *bytes, size_t count,
                        const char *path, const char *format,
                        struct diagnostics *diagnostics, recto_error *error);
@@ -32,8 +33,8 @@ const struct reader *read_find(const char *path, const char *format);
 /* Begins a file of that path, which stays there, as scene_begin_file does. */
 void read_begin_file(struct scene *scene, const char *path);
 
-/* Reads `path` ("-": standard input) and adds it to the scene; the first file
- * of a scene says what up means.
+/* Reads `path` ("-": standard input) and adds it to the scene, in the unit and
+ * with the up axis of the first: see scene/conversion.h.
  * format  a reader's name, or NULL: by extension
  * Errors  RECTO_ERROR_IO, _FORMAT (broken or truncated), _UNSUPPORTED (no
  *         reader), _LIMIT (2^31 points, corners or faces passed), _MEMORY;

@@ -194,5 +194,6 @@ static recto_status read_import(struct scene *scene, const char *bytes,
 }
 
 /* What its specification says: +z is up. */
-const struct reader reader_3mf = {"3mf", "3mf", {0, 0, 1}, read_import};
-const struct reader reader_import = {"assimp", "", {0, 1, 0}, read_import};
+const struct reader reader_3mf = {"3mf", "3mf", {0, 0, 1}, true, read_import};
+const struct reader reader_import = {
+    "assimp", "", {0, 1, 0}, false, read_import};

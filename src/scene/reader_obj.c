@@ -422,4 +422,4 @@ static recto_status read_obj(struct scene *scene, const char *bytes,
   return status;
 }
 
-const struct reader reader_obj = {"obj", "obj", {0, 1, 0}, read_obj};
+const struct reader reader_obj = {"obj", "obj", {0, 1, 0}, false, read_obj};

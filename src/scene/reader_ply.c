@@ -345,4 +345,4 @@ static recto_status read_ply(struct scene *scene, const char *bytes,
   return status;
 }
 
-const struct reader reader_ply = {"ply", "ply", {0, 1, 0}, read_ply};
+const struct reader reader_ply = {"ply", "ply", {0, 1, 0}, false, read_ply};

@@ -380,4 +380,4 @@ static recto_status read_stl(struct scene *scene, const char *bytes,
   return status;
 }
 
-const struct reader reader_stl = {"stl", "stl", {0, 0, 1}, read_stl};
+const struct reader reader_stl = {"stl", "stl", {0, 0, 1}, true, read_stl};

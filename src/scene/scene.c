@@ -25,8 +25,15 @@ static void drop_groups(struct scene *scene, size_t count) {
     mem_free(scene->group.item[--scene->group.count].name);
 }
 
+void scene_forget_without_unit(struct scene *scene) {
+  while (scene->without_unit.count > 0)
+    mem_free(scene->without_unit.item[--scene->without_unit.count]);
+}
+
 void scene_fini(struct scene *scene) {
   drop_groups(scene, 0);
+  scene_forget_without_unit(scene);
+  ARRAY_FREE(&scene->without_unit);
   ARRAY_FREE(&scene->point);
   ARRAY_FREE(&scene->face_start);
   ARRAY_FREE(&scene->corner);
@@ -100,6 +107,7 @@ void scene_begin_file(struct scene *scene, const char *stem, size_t length) {
   scene->file_stem = stem;
   scene->file_stem_length = length;
   scene->groups_before_file = scene->group.count;
+  scene->file_unit_mm = 0;
 }
 
 void scene_end_file(struct scene *scene) {

@@ -72,9 +72,14 @@ struct scene {
    * many groups there were before. */
   const char *file_stem;
   size_t file_stem_length, groups_before_file;
-  double up[3];       /* what the format means by up */
-  double unit_mm;     /* of a unit, as all files say that were read; 0: one does
-                         not, or they differ */
+  double file_unit_mm; /* of a unit, as the file says; 0: it does not */
+  double up[3];        /* what is up in the first file */
+  bool up_is_stated;   /* by that file or its format; else it is likely */
+  double unit_mm;      /* of a unit, to which all files were converted; 0: none
+                         states one, or they differ and were not converted */
+  bool keeps_unit, keeps_up;  /* what is read is not converted */
+  ARRAY(char *) without_unit; /* paths of files that state no unit, owned;
+                                  none once another one does */
   bool needs_colours; /* readers look for colours of groups in other files */
   const struct scene_cut *cut;      /* NULL: it was not cut */
   ARRAY(struct file_identity) file; /* what it was read from */
@@ -111,6 +116,9 @@ static inline bool scene_groups_differ(const struct scene *scene, uint32_t a,
 /* Notes what was read, so that no output replaces it; false when memory ran
  * out. */
 USE_RESULT bool scene_note_file(struct scene *scene, const struct input *input);
+
+/* Forgets which files state no unit. */
+void scene_forget_without_unit(struct scene *scene);
 
 /* What is added up to scene_end_file is of a file, and in groups of its own:
  * where a group of another one has the name, this is "STEM/name", or has a
