@@ -68,21 +68,23 @@ static bool is_beside(const struct sheet *sheet, uint32_t triangle,
                       const struct geom_corner *from,
                       const struct geom_corner *to) {
   const uint32_t *point = sheet->triangle.item[triangle].point;
-  bool left = false;
+  int left = 0, right = 0;
   for (int k = 0; k < 3; k++) {
     struct geom_point a = sheet->point.item[point[k]],
                       b = sheet->point.item[point[geom_next_corner(k)]];
     struct geom_corner corner = geom_corner_at(a);
     struct geom_line side;
-    int at_from, at_to;
-    left |= geom_line_side(s->line, &corner) > 0;
+    int at_from, at_to, at_corner = geom_line_side(s->line, &corner);
+    left += at_corner > 0;
+    right += at_corner < 0;
     geom_line_through(&side, a, b);
     at_from = geom_line_side(&side, from);
     at_to = geom_line_side(&side, to);
     if (at_from <= 0 && at_to <= 0 && at_from + at_to < 0)
       return false;
   }
-  return left;
+  /* The line passes through the triangle, or along a side of it. */
+  return left > 0 && (right > 0 || left == 1);
 }
 
 /* Returns whether the triangle has a corner to the right of the segment. */
