@@ -114,6 +114,11 @@ recto_status preparation_rescale(const struct preparation *preparation,
     memcpy(options->camera.target, preparation->target,
            sizeof preparation->target);
   }
+  /* A face whose side a cut leaves whole may be nearer than the grid points
+   * that divide the section line along it, by the rounding of these. */
+  if (options->solver.contact >= 0)
+    options->solver.contact =
+        fmax(options->solver.contact, 2 * preparation->cut.unit);
   return status;
 }
 
