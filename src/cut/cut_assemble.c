@@ -15,6 +15,9 @@ struct assembly {
   ARRAY(uint32_t) face;        /* of each face that stays: the one it is of */
   ARRAY(uint32_t) wire;        /* of each polyline: likewise */
   ARRAY(struct sort_key) edge; /* the sides of cut faces, and open lines */
+  ARRAY(struct sort_key) side; /* of the current face, or of all its parts */
+  ARRAY(struct sort_key) inner; /* sides that parts of a face have in common:
+                                   how many have them */
 };
 
 /* ---- Faces --------------------------------------------------------------- */
@@ -108,6 +111,73 @@ static bool add_whole_cut_face(struct assembly *a, uint32_t face) {
          (scene->face_group.count == faces || ARRAY_PUSH(&a->face, face));
 }
 
+static bool add_face_sides(struct assembly *a, uint32_t face) {
+  const struct scene *scene = a->scene;
+  const uint32_t *corner = scene->corner.item;
+  for (uint32_t c = scene->face_start.item[face];
+       c < scene->face_start.item[face + 1]; c++) {
+    uint32_t from = corner[c], to = corner[scene_next_corner(scene, face, c)];
+    const struct sort_key side = {sort_pair_key(from, to), from < to};
+    if (!ARRAY_PUSH(&a->side, side))
+      return false;
+  }
+  return true;
+}
+
+/* Adds the sides along which the faces from `first` on, parts of one face, meet
+ * each other, with how many of them do. */
+static bool add_inner_sides(struct assembly *a, uint32_t first) {
+  a->side.count = 0;
+  for (uint32_t face = first; face < scene_face_count(a->scene); face++)
+    if (!add_face_sides(a, face))
+      return false;
+  if (!sort_keys_alone(a->side.item, a->side.count))
+    return false;
+  size_t past;
+  for (size_t i = 0; i < a->side.count; i = past) {
+    size_t ascending = 0;
+    for (past = i;
+         past < a->side.count && a->side.item[past].key == a->side.item[i].key;
+         past++)
+      ascending += a->side.item[past].value;
+    const struct sort_key inner = {a->side.item[i].key, (uint32_t)(past - i)};
+    if (2 * ascending == past - i && !ARRAY_PUSH(&a->inner, inner))
+      return false;
+  }
+  return true;
+}
+
+/* Keeps of these sides those that no other face has. */
+static bool keep_inner_sides(struct assembly *a) {
+  struct sort_key *inner = a->inner.item;
+  size_t count = 0;
+  if (a->inner.count == 0)
+    return true;
+  if (!sort_keys_alone(inner, a->inner.count))
+    return false;
+  for (size_t i = 0; i < a->inner.count; i++)
+    if (count > 0 && inner[count - 1].key == inner[i].key)
+      inner[count - 1].value += inner[i].value;
+    else
+      inner[count++] = inner[i];
+  for (uint32_t face = 0; face < scene_face_count(a->scene); face++) {
+    a->side.count = 0;
+    if (!poll_at(face) || !add_face_sides(a, face))
+      return false;
+    for (size_t i = 0; i < a->side.count; i++) {
+      size_t at;
+      LOWER_BOUND(at, 0, count, inner[at].key < a->side.item[i].key);
+      if (at < count && inner[at].key == a->side.item[i].key)
+        inner[at].value--;
+    }
+  }
+  a->inner.count = 0;
+  for (size_t i = 0; i < count; i++)
+    if (inner[i].value == 0)
+      inner[a->inner.count++] = inner[i];
+  return true;
+}
+
 static bool add_cut_scene_faces(struct assembly *a) {
   const struct cutter *cutter = a->cutter;
   size_t next = 0;
@@ -118,10 +188,13 @@ static bool add_cut_scene_faces(struct assembly *a) {
       return false;
     if (cutter->fate[face] == CUT_STAYS && !add_whole_cut_face(a, face))
       return false;
+    uint32_t first = scene_face_count(a->scene);
     for (; next < cutter->part.count && cutter->part.item[next].face == face;
          next++)
       if (!add_face_part(a, &cutter->part.item[next]))
         return false;
+    if (scene_face_count(a->scene) > first + 1 && !add_inner_sides(a, first))
+      return false;
   }
   return true;
 }
@@ -315,22 +388,31 @@ static bool add_precisions(struct assembly *a, struct precision unstated) {
 
 /* ---- The scene ----------------------------------------------------------- */
 
-/* Hands the lists that describe_cut the cut over to it. */
+/* The keys, ascending; NULL when memory ran out. */
+static uint64_t *sorted_keys(struct sort_key *item, size_t count) {
+  uint64_t *key = mem_alloc(count, sizeof *key);
+  bool ok = key != NULL && sort_keys_alone(item, count);
+  for (size_t i = 0; ok && i < count; i++)
+    key[i] = item[i].key;
+  if (ok)
+    return key;
+  mem_free(key);
+  return NULL;
+}
+
+/* Hands the lists that describe the cut over to it. */
 static bool describe_cut(struct assembly *a, uint8_t *planes) {
   struct cut *cut = a->cutter->cut;
-  size_t edges = a->edge.count;
-  uint64_t *edge = mem_alloc(edges, sizeof *edge);
-  bool ok = edge != NULL && sort_keys_alone(a->edge.item, edges);
-  for (size_t i = 0; ok && i < edges; i++)
-    edge[i] = a->edge.item[i].key;
   cut->made.first_point = a->cutter->points.first;
   cut->made.planes = planes;
-  cut->made.edge = edge;
-  cut->made.edges = edges;
+  cut->made.edge = sorted_keys(a->edge.item, a->edge.count);
+  cut->made.edges = a->edge.count;
+  cut->made.inner = sorted_keys(a->inner.item, a->inner.count);
+  cut->made.inners = a->inner.count;
   cut->made.face = a->face.item;
   cut->made.wire = a->wire.item;
   cut->scene.cut = &cut->made;
-  return ok;
+  return cut->made.edge != NULL && cut->made.inner != NULL;
 }
 
 recto_status cut_assemble(struct cutter *cutter, struct precision unstated,
@@ -341,6 +423,7 @@ recto_status cut_assemble(struct cutter *cutter, struct precision unstated,
   cut->made.first_face = scene_face_count(&cut->scene);
   for (unsigned k = 0; ok && k < cutter->points.planes; k++)
     ok = add_section_faces(&a, k);
+  ok = ok && keep_inner_sides(&a);
   ok = ok && add_cut_wires(&a);
   uint8_t *planes = mem_alloc(cutter->points.point.count, sizeof *planes);
   ok = ok && planes != NULL && add_cut_points(&a, planes) &&
@@ -349,6 +432,8 @@ recto_status cut_assemble(struct cutter *cutter, struct precision unstated,
   mem_free(a.needed);
   ARRAY_FREE(&a.corner);
   ARRAY_FREE(&a.edge);
+  ARRAY_FREE(&a.side);
+  ARRAY_FREE(&a.inner);
   if (!ok)
     return error_memory(error);
   if (scene_face_count(&cut->scene) == 0 && scene_wire_count(&cut->scene) == 0)

@@ -41,6 +41,7 @@ void cut_fini(struct cut *cut) {
   ARRAY_FREE(&cut->scene.precision);
   mem_free((void *)cut->made.planes);
   mem_free((void *)cut->made.edge);
+  mem_free((void *)cut->made.inner);
   mem_free((void *)cut->made.face);
   mem_free((void *)cut->made.wire);
   memset(cut, 0, sizeof *cut);

@@ -148,6 +148,14 @@ bool topology_is_in_cut(const struct scene *scene,
           cut->planes[edge->point[1] - cut->first_point]) != 0;
 }
 
+static bool has_key(const uint64_t *key, size_t count,
+                    const struct topology_edge *edge) {
+  uint64_t wanted = sort_pair_key(edge->point[0], edge->point[1]);
+  size_t i;
+  LOWER_BOUND(i, 0, count, key[i] < wanted);
+  return i < count && key[i] == wanted;
+}
+
 /* What a cut makes of the classes of an edge. */
 static unsigned class_mask_after_cut(const struct topology_edge *edge,
                                      const struct scene *scene,
@@ -158,17 +166,16 @@ static unsigned class_mask_after_cut(const struct topology_edge *edge,
   bool is_of_surfaces = edge->uses == 2 && edge->first < cut->first_face &&
                         edge->second < cut->first_face;
   if (topology_is_in_cut(scene, edge)) {
-    uint64_t key = sort_pair_key(edge->point[0], edge->point[1]);
-    size_t i;
-    LOWER_BOUND(i, 0, cut->edges, cut->edge[i] < key);
-    if (i < cut->edges && cut->edge[i] == key)
+    if (has_key(cut->edge, cut->edges, edge))
       return class_mask | RECTO_EDGE_SECTION;
     if (!is_of_surfaces)
       return 0;
   }
   bool is_within =
       is_of_surfaces && cut->face[edge->first] == cut->face[edge->second];
-  return is_within ? 0 : class_mask ? class_mask : RECTO_EDGE_SMOOTH;
+  if (is_within || (edge->uses > 2 && has_key(cut->inner, cut->inners, edge)))
+    return 0;
+  return class_mask ? class_mask : RECTO_EDGE_SMOOTH;
 }
 
 unsigned topology_class_mask(const struct topology *topology,

@@ -44,6 +44,9 @@ struct scene_cut {
                             ascending; edges in a plane that are not among them
                             lie within cut faces */
   size_t edges;
+  const uint64_t *inner; /* along which parts of faces meet, and nothing else
+                            does: likewise */
+  size_t inners;
 };
 
 struct scene {
