@@ -1005,7 +1005,74 @@ static void no_sliver_is_left_where_planes_meet(void **state) {
   }
 }
 
+/* Of a comb with a side in one plane, and teeth that another cuts, the body and
+ * each tooth is one polygon, and no face lies along that side. */
+static void each_piece_of_a_comb_is_one_polygon(void **state) {
+  (void)state;
+  enum { TEETH = 8 };
+  struct cutting c;
+  uint32_t corner[2 + 4 * TEETH];
+  size_t count = 0;
+  const double wide = 1.0 / (2 * TEETH);
+  const struct cut_plane plane[2] = {plane_of(1, 0, 0, 3 * wide),
+                                     plane_of(0.6, -0.8, 0, 0)};
+  scene_init(&c.scene);
+  corner[count++] = add_point(&c.scene, 0, 0, 0);
+  corner[count++] = add_point(&c.scene, 2, 0, 0);
+  for (int tooth = 2 * TEETH; tooth > 0; tooth -= 2)
+    for (int k = 0; k < 4; k++)
+      corner[count++] =
+          add_point(&c.scene, (tooth - (k + 1 < 3 ? 1 : 2)) * wide,
+                    k == 1 || k == 2 ? 1 : 0.1, 0);
+  add_face(&c.scene, corner, count);
+  assert_int_equal(run_cut(&c, plane, 2), RECTO_OK);
+  assert_int_equal(scene_face_count(&c.cut.scene), TEETH - 1);
+  for (uint32_t f = 0; f < scene_face_count(&c.cut.scene); f++)
+    assert_true(area_of_face(&c.cut.scene, f) > 1e-6);
+  end_cut(&c);
+  scene_fini(&c.scene);
+}
+
 /* ---- Edges and polylines ------------------------------------------------- */
+
+/* Two equal triangles, with a hole that leaves them in several parts: where
+ * parts of both meet is no edge.  Parts beside one that is another face's have
+ * one. */
+static void where_parts_of_equal_faces_meet_is_no_edge(void **state) {
+  (void)state;
+  for (int other = 0; other < 2; other++) {
+    struct cutting c;
+    struct cut_plane plane[3];
+    size_t inner = 0, edges = 0;
+    scene_init(&c.scene);
+    for (int copy = 0; copy < 2; copy++) {
+      uint32_t first = add_point(&c.scene, 0, 0, 0);
+      (void)add_point(&c.scene, 6, 0, 0);
+      (void)add_point(&c.scene, 0, 6, 0);
+      add_face(&c.scene, (uint32_t[]){first, first + 1, first + 2}, 3);
+    }
+    if (other) { /* on the line from a corner to the hole */
+      uint32_t first = add_point(&c.scene, 0, 0, 0);
+      (void)add_point(&c.scene, 1, 1, 0);
+      (void)add_point(&c.scene, 0, 0, 1);
+      add_face(&c.scene, (uint32_t[]){first, first + 1, first + 2}, 3);
+    }
+    plane[0] = plane_of(1, -1, -0.01, 0); /* through the first corner */
+    plane[1] = plane_of(0, 1, -0.01, 1);
+    plane[2] = plane_of(-1, 0, -0.01, -2);
+    assert_int_equal(run_cut(&c, plane, 3), RECTO_OK);
+    for (uint32_t e = 0; e < c.after.edge.count; e++) {
+      const struct topology_edge *edge = &c.after.edge.item[e];
+      unsigned mask = topology_class_mask(&c.after, &c.cut.scene, e, 30);
+      inner += edge->uses > 2 && mask == 0;
+      edges += edge->uses > 2 && mask != 0;
+    }
+    assert_true(inner > 0);
+    assert_int_equal(edges > 0, other);
+    end_cut(&c);
+    scene_fini(&c.scene);
+  }
+}
 
 /* Of a cut cube: four sides of the cut face, and none of the bridges. */
 static void the_sides_of_cut_faces_are_sections(void **state) {
@@ -1130,6 +1197,8 @@ int main(void) {
       cmocka_unit_test(polygons_that_run_over_themselves_are_cut),
       cmocka_unit_test(faces_that_share_an_edge_in_pieces_are_closed),
       cmocka_unit_test(no_sliver_is_left_where_planes_meet),
+      cmocka_unit_test(each_piece_of_a_comb_is_one_polygon),
+      cmocka_unit_test(where_parts_of_equal_faces_meet_is_no_edge),
       cmocka_unit_test(the_sides_of_cut_faces_are_sections),
       cmocka_unit_test(faces_are_divided_only_where_something_goes),
       cmocka_unit_test(polylines_lose_what_is_beyond),

@@ -4,9 +4,12 @@
  * what is beyond it goes on to the next.  A polygon whose boundary meets a
  * plane twice is split as it is; one that meets it more often, or is not
  * planar, triangle by triangle. */
+#include <string.h>
+
 #include "base/poll.h"
 #include "cut/cut_phases.h"
 #include "geom/predicate.h"
+#include "geom/vector.h"
 
 struct cut_loop {
   uint32_t face;
@@ -88,14 +91,18 @@ static bool split_loop(struct cutter *cutter, const struct cut_loop *loop,
 static bool cut_loop(struct cutter *cutter, const struct cut_loop *loop,
                      unsigned plane);
 
-static struct scene_point corner_position(const struct cutter *cutter,
-                                          const struct cut_loop *loop,
-                                          size_t i) {
-  uint32_t p = loop->corner.item[i].point;
+static struct scene_point point_position(const struct cutter *cutter,
+                                         uint32_t p) {
   return p < cutter->points.first
              ? cutter->scene->point.item[p]
              : cut_points_position(&cutter->points,
                                    cut_point_of(&cutter->points, p)->at);
+}
+
+static struct scene_point corner_position(const struct cutter *cutter,
+                                          const struct cut_loop *loop,
+                                          size_t i) {
+  return point_position(cutter, loop->corner.item[i].point);
 }
 
 /* Whether two corners of a loop are at one place; they may be a point of the
@@ -274,41 +281,93 @@ static bool cancel_common_sides(struct part_sides *sides) {
   return ok && sort_keys_alone(sides->key.item, sides->key.count);
 }
 
-/* Walks around from the first side.  Returns whether all sides are met once:
- * the parts are one polygon. */
-static bool walk_around(const struct part_sides *sides,
+/* Walks around from side `start`, and takes the sides on its way out of the
+ * list. */
+static bool walk_around(const struct part_sides *sides, size_t start,
                         struct cut_loop *polygon) {
   const struct sort_key *key = sides->key.item;
-  size_t count = sides->key.count, at = 0;
+  size_t count = sides->key.count, at = start;
   polygon->corner.count = 0;
-  for (size_t n = 0; n < count; n++) {
-    const struct cut_line *side = &sides->side.item[key[at].value];
-    if ((at + 1 < count && key[at + 1].key == key[at].key) ||
-        (n > 0 && at == 0) || !add_corner(polygon, side->from, CUT_NO_PLANE))
+  do {
+    struct cut_line *side = &sides->side.item[key[at].value];
+    if ((at + 1 < count && key[at + 1].key == key[at].key) || side->open ||
+        !add_corner(polygon, side->from, CUT_NO_PLANE))
       return false;
+    side->open = true;
     LOWER_BOUND(at, 0, count, key[at].key < side->to);
     if (at == count || key[at].key != side->to)
       return false;
-  }
-  return count >= 3 && at == 0;
+  } while (at != start);
+  return polygon->corner.count >= 3;
 }
 
-/* Makes the parts of a face from `first` on one again, where they are one
- * polygon; else each gets the corners at which others of them end.  Either way
- * sides in a plane are divided where others meet them. */
+/* Adds twice the area of a part, a vector, to a sum. */
+static void add_part_area(const struct cutter *cutter, size_t part,
+                          double sum[3]) {
+  const struct cut_part *from = &cutter->part.item[part];
+  const struct cut_corner *corner = cutter->corner.item + from->corner;
+  struct scene_point p = point_position(cutter, corner[0].point);
+  double last[3] = {0}, next[3], area[3];
+  for (uint32_t i = 1; i < from->count; i++, memcpy(last, next, sizeof last)) {
+    struct scene_point q = point_position(cutter, corner[i].point);
+    next[0] = q.x - p.x;
+    next[1] = q.y - p.y;
+    next[2] = q.z - p.z;
+    vector_cross(last, next, area);
+    for (int k = 0; k < 3; k++)
+      sum[k] += area[k];
+  }
+}
+
+/* Whether all parts from `first` on are wound the same way: none is the rim of
+ * a hole in another. */
+static bool are_wound_alike(const struct cutter *cutter, size_t first) {
+  double whole[3] = {0};
+  size_t past = cutter->part.count;
+  for (size_t p = first; p < past; p++)
+    add_part_area(cutter, p, whole);
+  for (size_t p = first; p < past; p++) {
+    double area[3] = {0};
+    add_part_area(cutter, p, area);
+    if (!(vector_dot(area, whole) > 0))
+      return false;
+  }
+  return true;
+}
+
+/* Stores the polygons that the sides left over are of, as parts from `first`
+ * on.  Returns whether they are simple polygons, each in a place of its own. */
+static bool store_polygons(struct cutter *cutter, size_t first,
+                           const struct part_sides *sides,
+                           struct cut_loop *polygon) {
+  for (size_t at = 0; at < sides->key.count; at++)
+    if (!sides->side.item[sides->key.item[at].value].open &&
+        !(walk_around(sides, at, polygon) && store_part(cutter, polygon, true)))
+      return false;
+  return cutter->part.count == first + 1 || are_wound_alike(cutter, first);
+}
+
+/* Makes the parts of a face from `first` on as few as they can be, where they
+ * are polygons without holes; else each gets the corners at which others of
+ * them end.  Either way sides in a plane are divided where others meet them. */
 static bool unite_parts(struct cutter *cutter, size_t first,
                         struct part_sides *sides, struct cut_loop *polygon) {
-  size_t past = cutter->part.count;
+  size_t past = cutter->part.count, corners = cutter->corner.count;
   bool ok = true;
   sides->side.count = 0;
   for (size_t p = first; ok && p < past; p++)
     ok = add_part_sides(sides, cutter, &cutter->part.item[p]);
   ok = ok && cancel_common_sides(sides);
-  if (ok && !cutter->is_warped && walk_around(sides, polygon)) {
-    cutter->corner.count = cutter->part.item[first].corner;
-    cutter->part.count = first;
-    return store_part(cutter, polygon, true);
+  if (ok && !cutter->is_warped &&
+      store_polygons(cutter, past, sides, polygon)) {
+    size_t count = cutter->part.count - past;
+    struct cut_part *part = cutter->part.item;
+    memmove(part + first, part + past, count * sizeof *part);
+    cutter->part.count = first + count;
+    return true;
   }
+  cutter->part.count = past;
+  cutter->corner.count = corners;
   for (size_t p = first; ok && p < past; p++) {
     struct cut_part *part = &cutter->part.item[p];
     sides->side.count = 0;
