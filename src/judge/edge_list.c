@@ -95,16 +95,30 @@ static bool add_stretch(struct judge_edges *edges,
              t1 >= 1 ? b : point3_along(a, t1, along), source);
 }
 
+/* Whether a segment lies in a plane of a cut, as far as doubles tell. */
+static bool lies_in_plane(const struct judge_removed *removed,
+                          struct judge_point3 a, struct judge_point3 b) {
+  for (int k = 0; k < removed->planes; k++)
+    if (fabs(judge_plane_height(&removed->plane[k], a)) <= removed->near &&
+        fabs(judge_plane_height(&removed->plane[k], b)) <= removed->near)
+      return true;
+  return false;
+}
+
 bool judge_edges_add(struct judge_edges *edges,
                      const struct judge_camera *camera, struct judge_point3 a,
                      struct judge_point3 b, const struct judge_source *source) {
   const struct judge_removed *removed = edges->removed;
   double from, to, surely_from = 1, surely_to = 1;
+  struct judge_source beside = *source;
+  beside.cut = JUDGE_CUT_BESIDE;
+  /* Faces that intersect in a plane are divided there, at rounded points. */
+  if (removed != NULL && source->point[0] == SCENE_NONE &&
+      lies_in_plane(removed, a, b))
+    return judge_edges_add_whole(edges, camera, a, b, &beside);
   if (removed == NULL ||
       !judge_removed_part(removed, -removed->near, -1, a, b, &from, &to))
     return judge_edges_add_whole(edges, camera, a, b, source);
-  struct judge_source beside = *source;
-  beside.cut = JUDGE_CUT_BESIDE;
   if (!judge_removed_part(removed, removed->near, -1, a, b, &surely_from,
                           &surely_to))
     surely_from = surely_to = to;

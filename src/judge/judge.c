@@ -99,13 +99,26 @@ static bool stroke_runs_along(const struct judge_context *context,
   return along;
 }
 
-/* Whether nearly parallel faces may intersect at a point of the page grid. */
+/* Whether an intersection that may be `near_mm` from its image may have the
+ * direction of a stroke. */
+static bool may_be_parallel(const struct judge_segment *image, double near_mm,
+                            const struct judge_segment *stroke) {
+  double x = image->b.x - image->a.x, y = image->b.y - image->a.y;
+  double u = stroke->b.x - stroke->a.x, v = stroke->b.y - stroke->a.y;
+  return fabs(x * v - y * u) <= near_mm * hypot(u, v);
+}
+
+/* Whether nearly parallel faces may intersect at a point of the page grid.
+ * stroke  along which they are to; NULL: in any direction */
 static bool is_near_shallow(const struct judge_context *context,
-                            struct judge_point2 at) {
+                            struct judge_point2 at,
+                            const struct judge_segment *stroke) {
   for (size_t i = 0; i < context->shallow.count; i++) {
     uint32_t edge = context->shallow.item[i];
-    if (judge_is_within(&context->image[edge], at,
-                        context->edges.edge.item[edge].source.near_mm))
+    double near_mm = context->edges.edge.item[edge].source.near_mm;
+    if (judge_is_within(&context->image[edge], at, near_mm) &&
+        (stroke == NULL ||
+         may_be_parallel(&context->image[edge], near_mm, stroke)))
       return true;
   }
   return false;
@@ -116,8 +129,9 @@ static bool is_near_shallow(const struct judge_context *context,
  * contact tolerance is less than the rounding to the grid, faces that touch may
  * intersect on the grid anywhere, so that ink without an edge along it is
  * undecided; so it is where nearly parallel faces are that close.  A hidden
- * edge that is only as near as lines were moved on purpose does not decide it.
- */
+ * edge that runs along the stroke decides it where no such faces may intersect
+ * along it, and that of a polyline always, unless it is only as near as lines
+ * were moved on purpose. */
 static enum judge_visibility explain_ink(const struct judge_context *context,
                                          const struct judge_segment *stroke,
                                          struct judge_witness *witness) {
@@ -126,6 +140,7 @@ static enum judge_visibility explain_ink(const struct judge_context *context,
       judge_grid_near(&context->by_image, witness->at, &count);
   enum judge_visibility best = JUDGE_BLOCKED;
   double nearest = INFINITY;
+  bool is_of_wire = false;
   for (uint32_t i = 0; i < count && best != JUDGE_CLEAR; i++) {
     double t;
     double away = judge_distance(&context->image[near[i]], witness->at, &t);
@@ -148,6 +163,7 @@ static enum judge_visibility explain_ink(const struct judge_context *context,
         stroke_runs_along(context, stroke, &context->image[near[i]],
                           witness->at)) {
       nearest = away;
+      is_of_wire = edge->source.face[0] == SCENE_NONE;
       set_witness_edge(witness, edge, judge_point3_of_image(edge, t), blocker);
       witness->is_absent = is_absent;
     }
@@ -156,8 +172,10 @@ static enum judge_visibility explain_ink(const struct judge_context *context,
       context->options.contact >= 0 && context->options.contact < context->grid;
   bool along_hidden =
       nearest <= context->options.lateral_mm - context->options.moved_mm;
-  if (best == JUDGE_BLOCKED && !along_hidden &&
-      (may_pierce || is_near_shallow(context, witness->at)))
+  const struct judge_segment *of_copies = along_hidden ? stroke : NULL;
+  if (best == JUDGE_BLOCKED && !(along_hidden && is_of_wire) &&
+      ((may_pierce && !along_hidden) ||
+       is_near_shallow(context, witness->at, of_copies)))
     return JUDGE_UNSURE;
   return best;
 }
