@@ -124,14 +124,25 @@ static bool is_near_shallow(const struct judge_context *context,
   return false;
 }
 
+/* Whether faces may intersect along a stroke on the page grid: where the
+ * contact tolerance is less than the rounding to it, those that touch may
+ * anywhere, and nearly parallel ones where they are that close.
+ * along_hidden  it runs along a hidden edge: only the latter may, along it */
+static bool may_intersect_along(const struct judge_context *context,
+                                const struct judge_segment *stroke,
+                                struct judge_point2 at, bool along_hidden) {
+  bool may_pierce =
+      context->options.contact >= 0 && context->options.contact < context->grid;
+  return (may_pierce && !along_hidden) ||
+         is_near_shallow(context, at, along_hidden ? stroke : NULL);
+}
+
 /* Decides whether a visible edge explains the ink at a point of a stroke.  The
- * nearest of the hidden edges along the stroke becomes the witness.  Where the
- * contact tolerance is less than the rounding to the grid, faces that touch may
- * intersect on the grid anywhere, so that ink without an edge along it is
- * undecided; so it is where nearly parallel faces are that close.  A hidden
- * edge that runs along the stroke decides it where no such faces may intersect
- * along it, and that of a polyline always, unless it is only as near as lines
- * were moved on purpose. */
+ * nearest of the hidden edges along the stroke becomes the witness.  Ink without
+ * an edge along it is undecided where faces may intersect.  A hidden edge that
+ * runs along the stroke decides it where none may intersect along it, and that
+ * of a polyline always, unless it is only as near as lines were moved on
+ * purpose. */
 static enum judge_visibility explain_ink(const struct judge_context *context,
                                          const struct judge_segment *stroke,
                                          struct judge_witness *witness) {
@@ -168,14 +179,10 @@ static enum judge_visibility explain_ink(const struct judge_context *context,
       witness->is_absent = is_absent;
     }
   }
-  bool may_pierce =
-      context->options.contact >= 0 && context->options.contact < context->grid;
   bool along_hidden =
       nearest <= context->options.lateral_mm - context->options.moved_mm;
-  const struct judge_segment *of_copies = along_hidden ? stroke : NULL;
   if (best == JUDGE_BLOCKED && !(along_hidden && is_of_wire) &&
-      ((may_pierce && !along_hidden) ||
-       is_near_shallow(context, witness->at, of_copies)))
+      may_intersect_along(context, stroke, witness->at, along_hidden))
     return JUDGE_UNSURE;
   return best;
 }
