@@ -138,11 +138,11 @@ static bool may_intersect_along(const struct judge_context *context,
 }
 
 /* Decides whether a visible edge explains the ink at a point of a stroke.  The
- * nearest of the hidden edges along the stroke becomes the witness.  Where faces
- * may intersect, ink without an edge along it is undecided.  A hidden edge that
- * runs along the stroke decides it where none may intersect along it, and that
- * of a polyline always, unless it is only as near as lines were moved on
- * purpose. */
+ * nearest of the hidden edges along the stroke becomes the witness.  Where
+ * faces may intersect, ink without an edge along it is undecided.  A hidden
+ * edge that runs along the stroke decides it where none may intersect along it,
+ * and that of a polyline always, unless it is only as near as lines were moved
+ * on purpose. */
 static enum judge_visibility explain_ink(const struct judge_context *context,
                                          const struct judge_segment *stroke,
                                          struct judge_witness *witness) {
