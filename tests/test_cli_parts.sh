@@ -116,6 +116,26 @@ claim "a part is no output of a join" says "leave out --turntable" \
   "$models/gears.obj" --part 1/2 --turntable 3
 claim "there is no part 3 of 2" says "--part: expected a part such as 2/16" \
   "$models/gears.obj" --part 3/2
+claim "there are at most 4096 parts" \
+  says 'of at most 4096 parts, not "1/4097"' "$models/gears.obj" --part 1/4097
+claim "part 4096 of 4096 can be made" \
+  "$recto" "$models/gears.obj" --part 4096/4096 -o most.recto -q
+claim "all the others are missing then" \
+  says "4095 of the 4096 parts are missing, the first is part 1" \
+  --join most.recto
+refuses() { # WHAT OPTION...
+  says "drawings in parts have no $1" "$models/gears.obj" --part 1/2 "${@:2}"
+}
+claim "smooth contours are refused in parts" \
+  refuses "smooth contours" --contours smooth
+claim "cuts are refused in parts" refuses cuts --cut 1,0,0,0
+claim "sheets are refused in parts" refuses "sheets of several views" --sheet first
+claim "the judge is refused in parts" refuses verification --verify
+claim "approximate methods are refused in parts" \
+  refuses "approximate methods" --method zbuffer
+claim "a scale is refused in parts" \
+  says "cannot be drawn in parts: let the drawing fill the page" \
+  "$models/gears.obj" --part 1/2 --scale 1:2
 
 warns_of_view() {
   "$recto" --join p-?.recto --hidden dashed --azimuth 9 -o p.svg 2>err &&

@@ -525,7 +525,8 @@ const struct option_entry option_table[] = {
 #endif
 
     HEADING("Drawings in parts"),
-    {OPTION_PARSED, "part", 0, "I/N", "a part such as 2/16",
+    {OPTION_PARSED, "part", 0, "I/N",
+     "a part such as 2/16, of at most 4096 parts",
      "draw a window of the page to a file for --join", .parse = parse_part},
     {OPTION_FLAG, "resume", 0, NULL, NULL,
      "keep a part that is there and whole", .offset = AT(resumes),

@@ -34,10 +34,19 @@ static inline bool vector_is_finite(const double a[3]) {
   return isfinite(a[0]) && isfinite(a[1]) && isfinite(a[2]);
 }
 
-/* The length, computed without overflow or underflow: coordinates are first
- * divided by a power of two close to the largest.  For a vector along an axis
- * the result is exact. */
+/* Whether a square of a length is neither so small nor so large that scaling
+ * the vector by a power of two would change a digit of it. */
+static inline bool vector_is_ordinary(double square) {
+  return square > 0x1p-800 && square < 0x1p800;
+}
+
+/* The length, computed without overflow or underflow: where squares might,
+ * coordinates are first divided by a power of two close to the largest.  For a
+ * vector along an axis the result is exact. */
 static inline double vector_length(const double a[3]) {
+  double square = vector_dot(a, a);
+  if (vector_is_ordinary(square))
+    return sqrt(square);
   double largest = fmax(fabs(a[0]), fmax(fabs(a[1]), fabs(a[2])));
   if (largest == 0 || !isfinite(largest))
     return largest;
@@ -52,6 +61,13 @@ static inline double vector_length(const double a[3]) {
 /* Normalises a vector of any length, with no -0; false where its length is 0 or
  * not finite. */
 static inline bool vector_normalise(double a[3]) {
+  double square = vector_dot(a, a);
+  if (vector_is_ordinary(square)) {
+    double length = sqrt(square);
+    for (int k = 0; k < 3; k++)
+      a[k] = a[k] / length + 0.0;
+    return true;
+  }
   double largest = fmax(fabs(a[0]), fmax(fabs(a[1]), fabs(a[2])));
   if (largest == 0 || !vector_is_finite(a))
     return false;

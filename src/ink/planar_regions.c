@@ -53,8 +53,16 @@ static bool is_planar(const struct scene *scene, uint32_t face,
 void planar_regions_join(struct planar_regions *regions, uint32_t f,
                          const double f_normal[3], uint32_t g,
                          const double g_normal[3]) {
-  if (are_parallel(f_normal, g_normal))
-    union_find_join(regions->set, f, g);
+  if (!are_parallel(f_normal, g_normal))
+    return;
+  union_find_join(regions->set, f, g);
+  regions->region[f].is_joined = regions->region[g].is_joined = true;
+}
+
+bool planar_regions_is_triangle(const struct planar_regions *regions,
+                                const struct scene *scene, uint32_t face) {
+  const uint32_t *start = &scene->face_start.item[face];
+  return start[1] - start[0] == 3 && !regions->region[face].is_joined;
 }
 
 void planar_regions_measure(struct planar_regions *regions,
@@ -69,6 +77,7 @@ void planar_regions_measure(struct planar_regions *regions,
   region->page_area += page_area;
   region->triangles += start[1] - start[0] - 2;
   region->is_flat = (is_first || region->is_flat) &&
+                    !planar_regions_is_triangle(regions, scene, face) &&
                     are_parallel(region->normal, normal) &&
                     is_planar(scene, face, normal);
 }

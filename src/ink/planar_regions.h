@@ -16,6 +16,7 @@ struct planar_region {
   double page_area; /* mm^2 */
   uint32_t triangles;
   bool is_flat;
+  bool is_joined; /* at each face of it: to another one */
 };
 
 struct planar_regions {
@@ -36,8 +37,13 @@ void planar_regions_join(struct planar_regions *regions, uint32_t f,
                          const double f_normal[3], uint32_t g,
                          const double g_normal[3]);
 
+/* Whether a face is all of its region, and a triangle, once all are united: such
+ * a region is not flat, however large it is. */
+bool planar_regions_is_triangle(const struct planar_regions *regions,
+                                const struct scene *scene, uint32_t face);
+
 /* Adds a face to the measures of its region, once all are united.
- * page_area  of the face, mm^2 */
+ * page_area  of the face, mm^2; of no effect for a region of one triangle */
 void planar_regions_measure(struct planar_regions *regions,
                             const struct scene *scene, uint32_t face,
                             const double normal[3], double page_area);

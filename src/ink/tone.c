@@ -32,6 +32,12 @@ struct tone_normal {
   double xyz[3];
 };
 
+/* The tones of a set of corners, seen from its front and from its back; below 0
+ * before they are found. */
+struct set_tones {
+  float of[2];
+};
+
 struct tone_work {
   const struct scene *scene;
   const struct sheet *sheet;
@@ -40,7 +46,8 @@ struct tone_work {
   struct tone_normal *face; /* of each face */
   uint32_t *corner_set;     /* of each corner: disjoint sets, then numbered */
   struct tone_normal *sum;  /* of each set of corners */
-  uint32_t *face_root;      /* disjoint sets of faces: smooth regions */
+  struct set_tones *set_tone;
+  uint32_t *face_root; /* disjoint sets of faces: smooth regions */
   struct planar_regions planar;
   double least_flat_area; /* mm^2 */
   bool *beside_flat;      /* of each set of corners: a flat face has one */
@@ -53,12 +60,15 @@ struct tone_work {
 
 /* ---- 2 Joins ------------------------------------------------------------- */
 
-/* What is done for two faces f and g at the smooth edge they share.  It starts
- * at corner a of f and, in the opposite direction, at corner b of g. */
-typedef void at_smooth_edge(struct tone_work *w, uint32_t f, uint32_t a,
-                            uint32_t g, uint32_t b);
+/* Whether an edge is smooth where its two faces are not one. */
+static bool is_smooth(const struct tone_work *w, uint32_t e) {
+  const struct topology_edge *edge = &w->sheet->topology->edge.item[e];
+  return edge->uses == 2 && !edge->same_way &&
+         (w->class_masks[e] & RECTO_EDGE_CREASE) == 0;
+}
 
-/* Joins the faces, and their corners. */
+/* Joins two faces f and g at the smooth edge they share, and their corners.  It
+ * starts at corner a of f and, in the opposite direction, at corner b of g. */
 static void join_faces(struct tone_work *w, uint32_t f, uint32_t a, uint32_t g,
                        uint32_t b) {
   planar_regions_join(&w->planar, f, w->face[f].xyz, g, w->face[g].xyz);
@@ -67,15 +77,8 @@ static void join_faces(struct tone_work *w, uint32_t f, uint32_t a, uint32_t g,
   union_find_join(w->corner_set, scene_next_corner(w->scene, f, a), b);
 }
 
-static void compare_at_edge(struct tone_work *w, uint32_t f, uint32_t a,
-                            uint32_t g, uint32_t b) {
-  (void)a;
-  (void)b;
-  (void)planar_regions_compare(&w->planar, f, g);
-}
-
-/* Visits all smooth edges, in time linear in the number of corners. */
-static void visit_smooth_edges(struct tone_work *w, at_smooth_edge *visit) {
+/* Joins at all smooth edges, in time linear in the number of corners. */
+static void join_at_smooth_edges(struct tone_work *w) {
   const struct topology *topology = w->sheet->topology;
   for (size_t e = 0; e < topology->edge.count; e++)
     w->first_use[e] = SCENE_NONE;
@@ -83,17 +86,24 @@ static void visit_smooth_edges(struct tone_work *w, at_smooth_edge *visit) {
     for (uint32_t c = w->scene->face_start.item[f];
          c < w->scene->face_start.item[f + 1]; c++) {
       uint32_t e = topology->corner_edge[c];
-      const struct topology_edge *edge = &topology->edge.item[e];
-      if (edge->uses != 2 || edge->same_way ||
-          (w->class_masks[e] & RECTO_EDGE_CREASE) != 0)
+      if (!is_smooth(w, e))
         continue;
       if (w->first_use[e] == SCENE_NONE) {
         w->first_use[e] = c;
         w->first_face[e] = f;
       } else if (w->first_face[e] != f) {
-        visit(w, f, c, w->first_face[e], w->first_use[e]);
+        join_faces(w, f, c, w->first_face[e], w->first_use[e]);
       }
     }
+}
+
+/* Compares the regions on both sides of all smooth edges. */
+static void compare_at_smooth_edges(struct tone_work *w) {
+  const struct topology *topology = w->sheet->topology;
+  for (uint32_t e = 0; e < topology->edge.count && poll_at(e); e++)
+    if (is_smooth(w, e))
+      (void)planar_regions_compare(&w->planar, topology->edge.item[e].first,
+                                   topology->edge.item[e].second);
 }
 
 /* The projection of a corner; NaN in front of the near plane. */
@@ -126,11 +136,13 @@ static double page_area(const struct tone_work *w, uint32_t face) {
 }
 
 static void join_smooth_edges(struct tone_work *w) {
-  visit_smooth_edges(w, join_faces);
+  join_at_smooth_edges(w);
   for (uint32_t f = 0; f < scene_face_count(w->scene) && poll_at(f); f++)
     planar_regions_measure(&w->planar, w->scene, f, w->face[f].xyz,
-                           page_area(w, f));
-  visit_smooth_edges(w, compare_at_edge);
+                           planar_regions_is_triangle(&w->planar, w->scene, f)
+                               ? 0
+                               : page_area(w, f));
+  compare_at_smooth_edges(w);
 }
 
 /* ---- 3 Corners ----------------------------------------------------------- */
@@ -152,7 +164,10 @@ static bool number_corner_sets(struct tone_work *w) {
     set[c] = set[c] == c ? sets++ : set[set[c]];
   w->sum = mem_calloc(sets, sizeof *w->sum);
   w->beside_flat = mem_calloc(sets, sizeof *w->beside_flat);
-  return w->sum != NULL && w->beside_flat != NULL;
+  w->set_tone = mem_alloc(sets, sizeof *w->set_tone);
+  for (uint32_t i = 0; w->set_tone != NULL && i < sets; i++)
+    w->set_tone[i] = (struct set_tones){{-1, -1}};
+  return w->sum != NULL && w->beside_flat != NULL && w->set_tone != NULL;
 }
 
 /* Marks the sets with corners of flat faces. */
@@ -192,15 +207,20 @@ static bool is_away(const struct tone_work *w, uint32_t face) {
                               w->face[face].xyz);
 }
 
-/* Sets the tone of all corners, and the extreme tones of all regions. */
+/* Sets the tone of all corners, and the extreme tones of all regions.  Corners
+ * of a set have one tone, or two where some of their faces are seen from
+ * behind. */
 static void set_corners(struct tone_work *w, struct tones *tones) {
   for (uint32_t f = 0; f < scene_face_count(w->scene) && poll_at(f); f++) {
     uint32_t region = union_find_root(w->face_root, f);
     bool away = is_away(w, f);
     for (uint32_t c = w->scene->face_start.item[f];
          c < w->scene->face_start.item[f + 1]; c++) {
-      const double *normal = w->sum[w->corner_set[c]].xyz;
-      float tone = (float)tone_of_normal(w, normal, away);
+      uint32_t set = w->corner_set[c];
+      float *known = &w->set_tone[set].of[away];
+      if (*known < 0)
+        *known = (float)tone_of_normal(w, w->sum[set].xyz, away);
+      float tone = *known;
       tones->corner[c] = tone;
       w->min[region] = fminf(w->min[region], tone);
       w->max[region] = fmaxf(w->max[region], tone);
@@ -275,6 +295,7 @@ static bool prepare_tone_work(struct tone_work *w) {
 static void release_tone_work(struct tone_work *w) {
   mem_free(w->face);
   mem_free(w->sum);
+  mem_free(w->set_tone);
   mem_free(w->corner_set);
   mem_free(w->face_root);
   mem_free(w->first_use);
