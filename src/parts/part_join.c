@@ -198,8 +198,10 @@ static recto_status make_join(struct join_work *work,
   ARRAY_FREE(&join->all.crossing);
   ARRAY_FREE(&join->all.interval);
   ARRAY_FREE(&join->all.over_limit);
-  mem_free(work->visibility);
-  work->visibility = NULL;
+  mem_free(work->listed);
+  work->listed = NULL;
+  if (!join->all.common.has_ids)
+    ARRAY_FREE(&join->all.edge);
   if (status == RECTO_OK && !set_joined_tones(work))
     status = error_memory(work->error);
   return status == RECTO_OK ? add_joined_fragments(work) : status;
@@ -216,8 +218,7 @@ recto_status part_join_make(struct part_join *join,
   mem_free(work.faces.at);
   mem_free(work.sheet_edge);
   mem_free(work.first_triangle);
-  mem_free(work.visibility);
-  mem_free(work.over_limit);
+  mem_free(work.listed);
   ARRAY_FREE(&work.fold);
   ARRAY_FREE(&work.wire);
   return status;

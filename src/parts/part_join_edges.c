@@ -10,11 +10,9 @@
 static recto_status set_classes(struct join_work *work) {
   struct sheet *sheet = &work->join->sheet;
   const struct part *all = work->all;
-  work->visibility = mem_calloc(sheet->edge.count + all->crossing.count,
-                                sizeof *work->visibility);
-  work->over_limit = mem_calloc(sheet->edge.count + all->crossing.count,
-                                sizeof *work->over_limit);
-  if (work->visibility == NULL || work->over_limit == NULL)
+  work->listed =
+      mem_calloc(sheet->edge.count + all->crossing.count, sizeof *work->listed);
+  if (work->listed == NULL)
     return error_memory(work->error);
   for (size_t e = 0; e < sheet->edge.count; e++)
     if (sheet->edge.item[e].edge_class != RECTO_EDGE_WIRE)
@@ -25,8 +23,7 @@ static recto_status set_classes(struct join_work *work) {
     if (e == SHEET_NONE)
       return part_join_misfit(work);
     sheet->edge.item[e].edge_class = from->edge_class;
-    work->visibility[e] = from->visibility;
-    work->over_limit[e] = from->over_limit;
+    work->listed[e] = (uint32_t)i + 1;
   }
   return RECTO_OK;
 }
@@ -114,12 +111,12 @@ static recto_status list_crossings(struct join_work *work,
              : error_memory(work->error);
 }
 
-/* Notes where the appended edges are visible. */
-static void note_crossings(struct join_work *work, size_t first,
+/* Notes which the appended edges are. */
+static void note_crossings(struct join_work *work,
                            const struct joined_crossing *joined) {
   const struct sheet *sheet = &work->join->sheet;
   size_t count = work->all->crossing.count;
-  for (size_t e = first; e < sheet->edge.count; e++) {
+  for (size_t e = work->first_crossing; e < sheet->edge.count; e++) {
     const struct sheet_edge *edge = &sheet->edge.item[e];
     const struct joined_crossing sought = {
         {{edge->triangle[0], edge->triangle[1]},
@@ -130,19 +127,17 @@ static void note_crossings(struct join_work *work, size_t first,
     LOWER_BOUND(i, 0, count, compare_joined(&joined[i], &sought, NULL) < 0);
     if (i == count || compare_joined(&joined[i], &sought, NULL) != 0)
       continue;
-    const struct part_crossing *from =
-        &work->all->crossing.item[joined[i].number];
-    work->visibility[e] = from->visibility;
-    work->over_limit[e] = from->over_limit;
+    work->listed[e] = joined[i].number + 1;
   }
 }
 
 /* Appends the intersections to the sheet's edges, as a solver does. */
 static recto_status add_joined_crossings(struct join_work *work) {
   struct sheet *sheet = &work->join->sheet;
-  size_t count = work->all->crossing.count, first = sheet->edge.count;
+  size_t count = work->all->crossing.count;
   struct joined_crossing *joined = mem_alloc(count, sizeof *joined);
   struct map_intersection *crossing = mem_alloc(count, sizeof *crossing);
+  work->first_crossing = sheet->edge.count;
   recto_status status = joined != NULL && crossing != NULL
                             ? list_crossings(work, joined)
                             : error_memory(work->error);
@@ -152,23 +147,45 @@ static recto_status add_joined_crossings(struct join_work *work) {
       !map_assembly_add_intersections(sheet, crossing, count))
     status = error_memory(work->error);
   if (status == RECTO_OK)
-    note_crossings(work, first, joined);
+    note_crossings(work, joined);
   mem_free(joined);
   mem_free(crossing);
   return status;
 }
 
+/* Where an edge of the sheet is visible by the parts: nowhere if none lists
+ * it. */
+static struct part_visibility visibility_of(const struct join_work *work,
+                                            uint32_t e) {
+  uint32_t listed = work->listed[e];
+  if (listed == 0)
+    return (struct part_visibility){.state = MAP_HIDDEN};
+  return e < work->first_crossing
+             ? work->all->edge.item[listed - 1].visibility
+             : work->all->crossing.item[listed - 1].visibility;
+}
+
+static struct part_over_limit over_limit_of(const struct join_work *work,
+                                            uint32_t e) {
+  uint32_t listed = work->listed[e];
+  if (listed == 0)
+    return (struct part_over_limit){0, 0};
+  return e < work->first_crossing
+             ? work->all->edge.item[listed - 1].over_limit
+             : work->all->crossing.item[listed - 1].over_limit;
+}
+
 /* Stores where more faces than the limit hide an edge. */
 static bool set_over_limit(struct join_work *work, uint32_t e) {
   struct map *map = &work->join->map;
-  const struct part_over_limit *over = &work->over_limit[e];
+  const struct part_over_limit over = over_limit_of(work, e);
   const struct map_mixed row = {e, (uint32_t)map->over_limit_interval.count,
-                                over->count};
-  for (uint32_t i = 0; i < over->count; i++)
+                                over.count};
+  for (uint32_t i = 0; i < over.count; i++)
     if (!ARRAY_PUSH(&map->over_limit_interval,
-                    work->all->over_limit.item[over->interval + i]))
+                    work->all->over_limit.item[over.interval + i]))
       return false;
-  return over->count == 0 || ARRAY_PUSH(&map->over_limit, row);
+  return over.count == 0 || ARRAY_PUSH(&map->over_limit, row);
 }
 
 static bool set_states(struct join_work *work, bool with_limit) {
@@ -178,17 +195,17 @@ static bool set_states(struct join_work *work, bool with_limit) {
   if (!map_assembly_open_edges(map, sheet->edge.count))
     return false;
   for (uint32_t e = 0; e < sheet->edge.count; e++) {
-    const struct part_visibility *visibility = &work->visibility[e];
+    const struct part_visibility visibility = visibility_of(work, e);
     struct map_mixed mixed = {e, (uint32_t)map->interval.count,
-                              visibility->count};
-    map->edge_state[e] = visibility->state;
+                              visibility.count};
+    map->edge_state[e] = visibility.state;
     if (!poll_at(e) || (with_limit && !set_over_limit(work, e)))
       return false;
-    if (visibility->state != MAP_MIXED)
+    if (visibility.state != MAP_MIXED)
       continue;
-    for (uint32_t i = 0; i < visibility->count; i++)
+    for (uint32_t i = 0; i < visibility.count; i++)
       if (!ARRAY_PUSH(&map->interval,
-                      all->interval.item[visibility->interval + i]))
+                      all->interval.item[visibility.interval + i]))
         return false;
     if (!ARRAY_PUSH(&map->mixed, mixed))
       return false;

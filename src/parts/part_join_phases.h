@@ -20,8 +20,9 @@ struct join_work {
   uint32_t *first_triangle; /* of each face and one more: on the sheet */
   ARRAY(uint32_t) fold;     /* the sheet's folds, by face */
   ARRAY(uint32_t) wire;     /* the edges of polylines, by polyline */
-  struct part_visibility *visibility; /* of each sheet edge */
-  struct part_over_limit *over_limit;
+  uint32_t *listed;         /* of each sheet edge: the edge of the parts, or the
+                       intersection, + 1; 0: none */
+  size_t first_crossing;    /* of the sheet's edges */
   struct number_index points, faces;
   recto_error *error;
 };

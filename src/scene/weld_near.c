@@ -29,6 +29,7 @@
 
 #include "base/poll.h"
 #include "base/tolerance.h"
+#include "geom/vector.h"
 #include "scene/weld_candidates.h"
 
 static size_t count_borders(const struct topology *topology) {
@@ -136,7 +137,9 @@ double weld_near_length_most(const struct scene *scene,
     return fmin(request->length, WELD_LENGTH_MAX);
   for (size_t p = 0; p < scene->point.count; p++) {
     const struct scene_point *at = &scene->point.item[p];
-    largest = fmax(largest, fmax(fabs(at->x), fmax(fabs(at->y), fabs(at->z))));
+    largest = max_number(largest, fabs(at->x));
+    largest = max_number(largest, fabs(at->y));
+    largest = max_number(largest, fabs(at->z));
   }
   frexp(largest, &exponent);
   most = explained_length(ldexp(1, exponent), request->unstated);
