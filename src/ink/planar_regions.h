@@ -37,8 +37,8 @@ void planar_regions_join(struct planar_regions *regions, uint32_t f,
                          const double f_normal[3], uint32_t g,
                          const double g_normal[3]);
 
-/* Whether a face is all of its region, and a triangle, once all are united: such
- * a region is not flat, however large it is. */
+/* Whether a face is all of its region, and a triangle, once all are united:
+ * such a region is not flat, however large it is. */
 bool planar_regions_is_triangle(const struct planar_regions *regions,
                                 const struct scene *scene, uint32_t face);
 

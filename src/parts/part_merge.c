@@ -199,16 +199,34 @@ static struct elements elements_of(const struct part *part, bool wires) {
   return (struct elements){part->face.item, part->face.count};
 }
 
-static bool add_merged_element(struct part *all, const struct part *from,
+/* Makes room for the elements of all parts. */
+static bool have_room_for_elements(struct merge_work *work, bool wires) {
+  struct part *all = work->all;
+  size_t count = merge_order_count(&work->order), corners = 0, tones = 0;
+  for (size_t p = 0; p < work->parts; p++) {
+    corners += work->part[p].corner.count; /* of polylines too */
+    tones += work->part[p].tone.count;
+  }
+  if (wires)
+    return ARRAY_RESERVE(&all->wire, count);
+  return ARRAY_RESERVE(&all->face, count) &&
+         ARRAY_RESERVE(&all->corner, corners) &&
+         ARRAY_RESERVE(&all->tone, tones);
+}
+
+static void add_merged_element(struct part *all, const struct part *from,
                                const struct part_element *element, bool wires) {
   struct part_element own = *element;
   own.corner = (uint32_t)all->corner.count;
   for (uint32_t i = 0; i < own.count; i++)
-    if (!ARRAY_PUSH(&all->corner, from->corner.item[element->corner + i]) ||
-        (!wires && from->common.has_tones &&
-         !ARRAY_PUSH(&all->tone, from->tone.item[element->corner + i])))
-      return false;
-  return wires ? ARRAY_PUSH(&all->wire, own) : ARRAY_PUSH(&all->face, own);
+    all->corner.item[all->corner.count++] =
+        from->corner.item[element->corner + i];
+  for (uint32_t i = 0; !wires && from->common.has_tones && i < own.count; i++)
+    all->tone.item[all->tone.count++] = from->tone.item[element->corner + i];
+  if (wires)
+    all->wire.item[all->wire.count++] = own;
+  else
+    all->face.item[all->face.count++] = own;
 }
 
 static recto_status merge_elements(struct merge_work *work, bool wires) {
@@ -218,6 +236,8 @@ static recto_status merge_elements(struct merge_work *work, bool wires) {
     merge_order_begin(&work->order, MERGE_LIST(wire), merge_key_of_wire);
   else
     merge_order_begin(&work->order, MERGE_LIST(face), merge_key_of_face);
+  if (!have_room_for_elements(work, wires))
+    return error_memory(work->error);
   while (merge_order_next(&work->order, &at)) {
     const struct part_element *element =
         &elements_of(&work->part[at.part], wires).item[at.index];
@@ -230,8 +250,8 @@ static recto_status merge_elements(struct merge_work *work, bool wires) {
     } else if (all->corner.count + element->count >= SCENE_LIMIT) {
       return error_set(work->error, RECTO_ERROR_LIMIT, NULL, 0,
                        "the parts have more than 2^31 corners");
-    } else if (!add_merged_element(all, &work->part[at.part], element, wires)) {
-      return error_memory(work->error);
+    } else {
+      add_merged_element(all, &work->part[at.part], element, wires);
     }
   }
   return RECTO_OK;
