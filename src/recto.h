@@ -403,8 +403,8 @@ typedef struct recto_camera_options {
                      these */
   double unit_mm; /* with RECTO_FIT_SCALE and RECTO_FIT_PREFERRED: a scene unit
                      is so many mm, of which the scale's number of mm is drawn
-                     for one; 0: what the first file says (glTF: 1000; 3MF: its
-                     unit), else 1 */
+                     for one; 0: what the first file says (glTF and Collada:
+                     1000; 3MF: its unit), else 1 */
   uint64_t reserved[7];
 } recto_camera_options;
 

@@ -201,9 +201,11 @@ unit_tests += %D%/test_fuzz_readers
 %C%_test_fuzz_readers_SOURCES = %D%/test_fuzz_readers.c \
   %D%/reading.c %D%/reading.h
 if HAVE_ASSIMP
-unit_tests += %D%/test_assimp %D%/test_importer %D%/test_unit_3mf
-%C%_test_unit_3mf_SOURCES = %D%/test_unit_3mf.c src/import/unit_3mf.c \
-  src/import/unit_3mf.h
+unit_tests += %D%/test_assimp %D%/test_importer %D%/test_model_3mf
+%C%_test_model_3mf_SOURCES = %D%/test_model_3mf.c \
+  src/import/archive_3mf.c src/import/archive_3mf.h \
+  src/import/model_3mf.c src/import/model_3mf.h \
+  src/import/xml_tags.c src/import/xml_tags.h
 endif
 %C%_test_assimp_SOURCES = %D%/test_assimp.c %D%/reading.c %D%/reading.h \
   %D%/temporary.c %D%/temporary.h

@@ -1,5 +1,6 @@
 #!/bin/bash
-# test_cli_units.sh - the units that model files state are used for --scale.
+# test_cli_units.sh - the units that model files state are used for --scale, and
+# the names of the objects of 3MF.
 . "$(dirname "$0")/tap.sh"
 . "$(dirname "$0")/cli.sh"
 
@@ -36,6 +37,56 @@ claim "glTF is in metres" is_drawn "10 20" a.gltf --scale 1:100
 claim "unless said otherwise" is_drawn "10 20" a.gltf --scale 1:1 --unit cm
 claim "OBJ is in millimetres" is_drawn "10 20" a.obj --scale 10
 claim "and two of one unit are of that" is_drawn "10 20" a.gltf a.gltf --scale 1:100
+cat >a.dae <<'END'
+<?xml version="1.0" encoding="utf-8"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset>
+<contributor/>
+<created>2020-01-01T00:00:00</created>
+<modified>2020-01-01T00:00:00</modified>
+<unit name="inch" meter="0.0254"/>
+<up_axis>Z_UP</up_axis>
+</asset>
+<library_geometries>
+<geometry id="m" name="m">
+<mesh>
+<source id="p">
+<float_array id="pa" count="9">0 0 0 1 0 0 0 0 2</float_array>
+<technique_common>
+<accessor source="#pa" count="3" stride="3">
+<param name="X" type="float"/>
+<param name="Y" type="float"/>
+<param name="Z" type="float"/>
+</accessor>
+</technique_common>
+</source>
+<vertices id="v">
+<input semantic="POSITION" source="#p"/>
+</vertices>
+<triangles count="1">
+<input semantic="VERTEX" source="#v" offset="0"/>
+<p>0 1 2</p>
+</triangles>
+</mesh>
+</geometry>
+</library_geometries>
+<library_visual_scenes>
+<visual_scene id="s">
+<node id="n">
+<instance_geometry url="#m"/>
+</node>
+</visual_scene>
+</library_visual_scenes>
+<scene>
+<instance_visual_scene url="#s"/>
+</scene>
+</COLLADA>
+END
+if "$recto" a.dae --view front -o a.svg 2>err; then
+  claim "Collada's unit and axis are known" is_drawn "25.4 50.8" a.dae --scale 1
+else
+  skip "Collada's unit and axis are known" "this Assimp reads no Collada"
+fi
 is_as_large() {
   run 0 a.obj --view front -o b.svg && run 0 a.gltf --view front -o a.svg &&
     test "$(box a.svg)" = "$(box b.svg)"
@@ -105,18 +156,21 @@ claim "a scale beyond all numbers is refused" \
   refuses "the scale must be" a.gltf -o no.svg --scale 1e307
 
 if command -v python3 >/dev/null; then
-  # archive FILE UNIT METHOD
+  # archive FILE UNIT METHOD [OBJECTS-AND-BUILD]
   archive() {
     python3 - "$@" <<'END'
 import sys
 import zipfile
-path, unit, method = sys.argv[1:]
+path, unit, method = sys.argv[1:4]
+mesh = """<mesh><vertices>
+<vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/><vertex x="0" y="0" z="2"/>
+</vertices><triangles><triangle v1="0" v2="1" v3="2"/></triangles></mesh>"""
+objects = """<object id="1" type="model">MESH</object></resources>
+<build><item objectid="1"/></build>""" if len(sys.argv) < 5 else sys.argv[4]
+objects = objects.replace("MESH", mesh)
 model = f"""<?xml version="1.0" encoding="UTF-8"?>
 <model {unit} xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
-<resources><object id="1" type="model"><mesh><vertices>
-<vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/><vertex x="0" y="0" z="2"/>
-</vertices><triangles><triangle v1="0" v2="1" v3="2"/></triangles></mesh>
-</object></resources><build><item objectid="1"/></build></model>"""
+<resources>{objects}</model>"""
 ns = "http://schemas.openxmlformats.org/package/2006/"
 with zipfile.ZipFile(path, "w", getattr(zipfile, "ZIP_" + method)) as z:
     z.writestr("[Content_Types].xml", f'<Types xmlns="{ns}content-types">'
@@ -156,6 +210,22 @@ END
         says "huge.obj: too large in the unit of the first model"
     }
     claim "a coordinate beyond all numbers is an error" is_too_large
+    # Four objects side by side; the third and the fourth have one name.
+    archive named.3mf '' DEFLATED '<object id="1" name="Lid &amp; &#x42;ox">MESH</object>
+<object id="2">MESH</object><object id="3" name="Leg">MESH</object>
+<object id="4" name="Leg">MESH</object></resources><build>
+<item objectid="1"/><item objectid="2" transform="1 0 0 0 1 0 0 0 1 3 0 0"/>
+<item objectid="3" transform="1 0 0 0 1 0 0 0 1 6 0 0"/>
+<item objectid="4" transform="1 0 0 0 1 0 0 0 1 9 0 0"/></build>'
+    has_names() {
+      "$recto" "$@" --view front --ids -o a.svg || return
+      grep -o 'data-group="[^"]*"' a.svg >names
+      test "$(sort -u names | tr '\n' ' ')" = 'data-group="Leg.3" data-group="Leg.4" '`
+        `'data-group="Lid &amp; Box" data-group="Object_2" ' && return 0
+      say "$(cat names)" && false
+    }
+    claim "objects of 3MF have their names" has_names named.3mf
+    claim "also from a pipe" has_names --from 3mf - <named.3mf
   else
     skip "3MF says its unit" "this Assimp reads no 3MF"
   fi

@@ -32,8 +32,8 @@
 #include "base/child.h"
 #include "base/input.h"
 #include "base/sanitizer.h"
+#include "import/model_3mf.h"
 #include "import/opened_files.h"
-#include "import/unit_3mf.h"
 #include "scene/import_format.h"
 
 /* From a node's own coordinates to the scene's: rows of a 3 x 4 matrix. */
@@ -46,9 +46,17 @@ struct visit {
   struct transform parent;
 };
 
+/* Room for the names of a node and a mesh, and what stands between them. */
+struct name {
+  char text[sizeof(struct aiString) * 2];
+};
+
 struct import {
   FILE *to;
   const struct aiScene *from;
+  bool is_3mf;
+  struct model_3mf model_3mf; /* of other formats all zeros */
+  double unit_mm;             /* of the model's unit; 0: unknown */
   ARRAY(struct visit) stack;
 };
 
@@ -123,18 +131,41 @@ static void put_points(FILE *to, const struct aiMesh *mesh,
   }
 }
 
-/* The group of a mesh is named by its node, and by the mesh itself where that
- * has another name. */
+/* The id of the object of a 3MF model that Assimp calls Object_ID, and its mesh
+ * ID; 0 where it is none. */
+static uint32_t object_of(const struct aiNode *node,
+                          const struct aiMesh *mesh) {
+  static const char prefix[] = "Object_";
+  const char *id = node->mName.data + sizeof prefix - 1;
+  if (strncmp(node->mName.data, prefix, sizeof prefix - 1) != 0 ||
+      strcmp(mesh->mName.data, id) != 0)
+    return 0;
+  return (uint32_t)strtoul(id, NULL, 10);
+}
+
+/* Writes the name of a mesh's group: that of its object, or that of its node,
+ * and of the mesh itself where that has another name. */
+static const char *name_group(const struct import *import,
+                              const struct aiNode *node,
+                              const struct aiMesh *mesh, struct name *name) {
+  const char *first = node->mName.data, *second = mesh->mName.data;
+  uint32_t object = import->is_3mf ? object_of(node, mesh) : 0;
+  const char *own = model_3mf_name(&import->model_3mf, object);
+  if (own != NULL)
+    return own;
+  bool both = *first && *second && strcmp(first, second) != 0 && object == 0;
+  (void)snprintf(name->text, sizeof name->text, "%s%s%s",
+                 *first ? first : second, both ? "/" : "", both ? second : "");
+  return name->text;
+}
+
 static void put_mesh(struct import *import, const struct aiNode *node,
                      const struct aiMesh *mesh,
                      const struct transform *transform) {
-  char name[2 * sizeof node->mName.data + 2];
-  const char *first = node->mName.data, *second = mesh->mName.data;
-  bool both = *first && *second && strcmp(first, second) != 0;
-  int length = snprintf(name, sizeof name, "%s%s%s", *first ? first : second,
-                        both ? "/" : "", both ? second : "");
+  struct name own;
+  const char *name = name_group(import, node, mesh, &own);
   struct import_record record = {.kind = IMPORT_MESH,
-                                 .name_length = length > 0 ? (size_t)length : 0,
+                                 .name_length = strlen(name),
                                  .points = mesh->mNumVertices,
                                  .elements = mesh->mNumFaces};
   find_colour(import, mesh, &record);
@@ -228,25 +259,45 @@ static const struct aiScene *import_path(FILE *to, const char *path) {
   return scene;
 }
 
-static const struct aiScene *import_file(FILE *to, const char *format,
-                                         const char *path, double *unit_mm) {
+/* What a unit of Assimp's coordinates is, in mm; 0: unknown.  It converts those
+ * of Collada to metres. */
+static double unit_of_format(const char *format) {
+  static const char *const in_metres[] = {"gltf", "glb", "dae"};
+  for (size_t i = 0; i < sizeof in_metres / sizeof *in_metres; i++)
+    if (strcasecmp(format, in_metres[i]) == 0)
+      return 1000;
+  return 0;
+}
+
+/* Reads what Assimp does not tell of a 3MF model, after Assimp, which refuses
+ * what is too large. */
+static void read_3mf(struct import *import, const struct input *input) {
+  model_3mf_read(&import->model_3mf, input->bytes, input->count);
+  if (import->model_3mf.no_memory)
+    exit_with(import->to, IMPORT_NO_MEMORY, "");
+  import->unit_mm = import->model_3mf.unit_mm;
+}
+
+static void import_file(struct import *import, const char *format,
+                        const char *path) {
   struct input input;
-  bool is_3mf = strcasecmp(format, "3mf") == 0;
-  bool is_gltf =
-      strcasecmp(format, "gltf") == 0 || strcasecmp(format, "glb") == 0;
-  *unit_mm = is_gltf ? 1000 : 0;
-  if (path != NULL && !is_3mf)
-    return import_path(to, path);
+  import->is_3mf = strcasecmp(format, "3mf") == 0;
+  import->unit_mm = unit_of_format(format);
+  if (path != NULL && !import->is_3mf) {
+    import->from = import_path(import->to, path);
+    return;
+  }
   recto_status status = input_load(&input, path != NULL ? path : "-", NULL);
   if (status == RECTO_ERROR_MEMORY)
-    exit_with(to, IMPORT_NO_MEMORY, "");
+    exit_with(import->to, IMPORT_NO_MEMORY, "");
   if (status != RECTO_OK || input.count > UINT32_MAX)
-    exit_with(to, IMPORT_BROKEN, "too large");
-  if (is_3mf)
-    *unit_mm = unit_3mf_mm(input.bytes, input.count);
-  return path != NULL ? import_path(to, path)
-                      : aiImportFileFromMemory(
-                            input.bytes, (unsigned)input.count, 0, format);
+    exit_with(import->to, IMPORT_BROKEN, "too large");
+  import->from = path != NULL
+                     ? import_path(import->to, path)
+                     : aiImportFileFromMemory(input.bytes,
+                                              (unsigned)input.count, 0, format);
+  if (import->is_3mf && import->from != NULL)
+    read_3mf(import, &input);
 }
 
 static bool is_supported(const char *format) {
@@ -268,9 +319,7 @@ int main(int argc, char **argv) {
   write_bytes(import.to, IMPORT_MAGIC, sizeof IMPORT_MAGIC - 1);
   if (!is_supported(argv[3]))
     exit_with(import.to, IMPORT_UNKNOWN_FORMAT, "");
-  double unit_mm;
-  import.from =
-      import_file(import.to, argv[3], argc == 5 ? argv[4] : NULL, &unit_mm);
+  import_file(&import, argv[3], argc == 5 ? argv[4] : NULL);
   const char *text = import.from != NULL ? "nothing in it" : aiGetErrorString();
   if (strstr(text, "bad_alloc") != NULL)
     exit_with(import.to, IMPORT_NO_MEMORY, "");
@@ -279,5 +328,5 @@ int main(int argc, char **argv) {
   if (import.from == NULL || import.from->mRootNode == NULL)
     exit_with(import.to, IMPORT_BROKEN, text);
   put_nodes(&import);
-  finish(import.to, unit_mm);
+  finish(import.to, import.unit_mm);
 }
