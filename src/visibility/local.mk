@@ -27,6 +27,7 @@ librecto_core_la_SOURCES += \
   %D%/intersection/intersection.c %D%/intersection/intersection.h \
   %D%/intersection/intersection_segment.c %D%/intersection/intersection_segment.h \
   %D%/culling/occlusion_buffer.c %D%/culling/occlusion_buffer.h \
+  %D%/culling/culling_bands.c %D%/culling/culling_bands.h \
   %D%/culling/occlusion_culling.c %D%/culling/occlusion_culling.h \
   %D%/culling/potentially_visible.c %D%/culling/potentially_visible.h \
   %D%/contour/contour_curves.c %D%/contour/contour_curves.h \

@@ -41,10 +41,20 @@ bool occlusion_buffer_init(struct occlusion_buffer *buffer) {
   buffer->farthest = mem_alloc(blocks, sizeof *buffer->farthest);
   if (buffer->bound == NULL || buffer->farthest == NULL)
     return false;
-  buffer->visits = VISITS_MIN + VISITS * (int64_t)blocks;
   memset(buffer->bound, 0xff, n * sizeof *buffer->bound);
   memset(buffer->farthest, 0xff, blocks * sizeof *buffer->farthest);
   return true;
+}
+
+struct occlusion_band
+occlusion_buffer_band(const struct occlusion_buffer *buffer, int k) {
+  int first = (int)((int64_t)buffer->block_rows * k / OCCLUSION_BANDS),
+      end = (int)((int64_t)buffer->block_rows * (k + 1) / OCCLUSION_BANDS),
+      last = (end << OCCLUSION_BLOCK_SHIFT) - 1, rows = buffer->cells.rows;
+  return (struct occlusion_band){
+      first << OCCLUSION_BLOCK_SHIFT, last < rows ? last : rows - 1,
+      VISITS_MIN / OCCLUSION_BANDS +
+          VISITS * (int64_t)buffer->blocks * (end - first)};
 }
 
 bool occlusion_buffer_hides_in_row(const struct occlusion_buffer *buffer, int y,
@@ -272,11 +282,13 @@ static void raise_block(struct raising *raising, struct cell_range r, int bx,
 }
 
 void occlusion_buffer_raise(struct occlusion_buffer *buffer,
+                            struct occlusion_band *band,
                             const struct sheet *sheet, uint32_t t) {
   const struct triangle_grid *cells = &buffer->cells;
   struct box2 box = box2_of_triangle(sheet, t);
   struct cell_range r = triangle_grid_cells(cells, box);
-  r = (struct cell_range){r.x0 + 1, r.y0 + 1, r.x1 - 1, r.y1 - 1};
+  r = (struct cell_range){r.x0 + 1, r.y0 < band->y0 ? band->y0 : r.y0 + 1,
+                          r.x1 - 1, r.y1 > band->y1 ? band->y1 : r.y1 - 1};
   if (r.x0 > r.x1 || r.y0 > r.y1 || sheet_is_edge_on(sheet, t))
     return;
   struct raising raising = {.buffer = buffer,
@@ -299,20 +311,22 @@ void occlusion_buffer_raise(struct occlusion_buffer *buffer,
               nearest_over(&raising, box_part) &&
           !has_part_outside(&raising.corners, box_part)) {
         raise_block(&raising, part, bx, by);
-        buffer->visits--;
+        band->visits--;
       }
     }
 }
 
 void occlusion_buffer_lower(struct occlusion_buffer *buffer,
+                            const struct occlusion_band *band,
                             const int32_t *steps) {
-  size_t n = triangle_grid_cell_count(&buffer->cells);
-  for (size_t i = 0; i < n; i++)
+  size_t columns = (size_t)buffer->cells.columns,
+         end = (size_t)(band->y1 + 1) * columns;
+  for (size_t i = (size_t)band->y0 * columns; i < end; i++)
     buffer->bound[i] =
         buffer->bound[i] < steps[i] ? -1 : buffer->bound[i] - steps[i];
-  for (int y = 0; y < buffer->block_rows; y++)
+  for (int y = band->y0; y <= band->y1; y += 1 << OCCLUSION_BLOCK_SHIFT)
     for (int x = 0; x < buffer->blocks; x++)
-      update_block(buffer, x, y);
+      update_block(buffer, x, y >> OCCLUSION_BLOCK_SHIFT);
 }
 
 void occlusion_buffer_fini(struct occlusion_buffer *buffer) {

@@ -21,7 +21,8 @@
 
 enum {
   OCCLUSION_DEPTH_SHIFT = 9,
-  OCCLUSION_BLOCK_SHIFT = 3 /* a block has 8 by 8 cells */
+  OCCLUSION_BLOCK_SHIFT = 3, /* a block has 8 by 8 cells */
+  OCCLUSION_BANDS = 8        /* of a buffer */
 };
 
 struct occlusion_buffer {
@@ -29,6 +30,12 @@ struct occlusion_buffer {
   int32_t *bound;         /* one per cell, in steps; -1: nothing is hidden */
   int32_t *farthest;      /* one per block, of its cells' */
   int blocks, block_rows; /* blocks in a row, and their rows */
+};
+
+/* A band of the rows of cells, of whole blocks, so that threads may change the
+ * bounds of different bands. */
+struct occlusion_band {
+  int y0, y1;     /* the first and the last row; y1 < y0: it is empty */
   int64_t visits; /* of blocks that may still be made to raise bounds: what is
                      near comes first, and more would not pay */
 };
@@ -43,15 +50,21 @@ void occlusion_buffer_shape(struct occlusion_buffer *buffer, struct box2 page,
 USE_RESULT bool occlusion_buffer_init(struct occlusion_buffer *buffer);
 void occlusion_buffer_fini(struct occlusion_buffer *buffer);
 
-/* Raises the bounds of the cells that the triangle surrounds, alone or with the
- * one beyond a side: block by block, as most of them lie outside of a large
- * triangle or have nearer bounds. */
+/* Band `k` from before OCCLUSION_BANDS, with all of its visits. */
+struct occlusion_band
+occlusion_buffer_band(const struct occlusion_buffer *buffer, int k);
+
+/* Raises the bounds of the cells of a band that the triangle surrounds, alone
+ * or with the one beyond a side: block by block, as most of them lie outside of
+ * a large triangle or have nearer bounds. */
 void occlusion_buffer_raise(struct occlusion_buffer *buffer,
+                            struct occlusion_band *band,
                             const struct sheet *sheet, uint32_t triangle);
 
-/* Lowers the bounds.
- * steps  one per cell */
+/* Lowers the bounds of a band.
+ * steps  one per cell of the buffer */
 void occlusion_buffer_lower(struct occlusion_buffer *buffer,
+                            const struct occlusion_band *band,
                             const int32_t *steps);
 
 /* Is everything behind `nearest` hidden in all cells of a range of a row? */

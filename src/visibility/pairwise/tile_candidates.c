@@ -121,29 +121,31 @@ struct kdop8_range tile_candidates_range(const struct tile_candidates *list,
 
 /* Fetches a triangle that comes later in the lists, and the corners of one that
  * comes sooner.
- * items  of all lists, one after the other */
+ * end  of the lists that this thread may read, as others sort theirs */
 MEM_PREFETCH_INLINE void prefetch_triangles(const struct tile_candidates *list,
                                             const struct sheet *sheet, size_t i,
-                                            size_t items) {
+                                            size_t end) {
   const struct sheet_triangle *triangle = sheet->triangle.item;
-  if (i + 2 * MEM_PREFETCH_AHEAD >= items)
+  if (i + 2 * MEM_PREFETCH_AHEAD >= end)
     return;
   MEM_PREFETCH(&triangle[list->grid.lists.item[i + 2 * MEM_PREFETCH_AHEAD]]);
   sheet_prefetch_corners(sheet, list->grid.lists.item[i + MEM_PREFETCH_AHEAD]);
 }
 
 /* Computes the keys of a cell's list.  A triangle that is seen edge-on
- * and occludes nothing, gets the key 0, which overlaps next to no query. */
+ * and occludes nothing, gets the key 0, which overlaps next to no query.
+ * end  of the lists of the range of cells */
 static void compute_keys(struct tile_candidates *list,
-                         const struct sheet *sheet, int x, int y, size_t from,
-                         size_t to) {
-  struct kdop8_range range = tile_candidates_range(list, x, y);
-  const size_t items =
-      list->grid.lists.start[triangle_grid_cell_count(&list->grid)];
+                         const struct sheet *sheet, size_t cell, size_t end) {
+  size_t columns = (size_t)list->grid.columns,
+         from = list->grid.lists.start[cell],
+         to = list->grid.lists.start[cell + 1];
+  struct kdop8_range range =
+      tile_candidates_range(list, (int)(cell % columns), (int)(cell / columns));
   for (size_t i = from; i < to; i++) {
     uint32_t t = list->grid.lists.item[i];
     const uint32_t *p = sheet->triangle.item[t].point;
-    prefetch_triangles(list, sheet, i, items);
+    prefetch_triangles(list, sheet, i, end);
     struct kdop8 kdop = kdop8_of_point(sheet->point.item[p[0]]);
     kdop8_add(&kdop, sheet->point.item[p[1]]);
     kdop8_add(&kdop, sheet->point.item[p[2]]);
@@ -185,7 +187,6 @@ struct key_work {
 static bool add_keys_of_range(void *user, struct parallel_range range) {
   const struct key_work *work = user;
   const struct triangle_grid *grid = &work->list->grid;
-  size_t columns = (size_t)grid->columns;
   struct sort_key scratch[TRIANGLE_GRID_SPLIT];
   for (size_t cell = range.begin; cell < range.end; cell++) {
     size_t from = grid->lists.start[cell], to = grid->lists.start[cell + 1];
@@ -193,8 +194,7 @@ static bool add_keys_of_range(void *user, struct parallel_range range) {
       return false;
     if (from == to)
       continue;
-    compute_keys(work->list, work->sheet, (int)(cell % columns),
-                 (int)(cell / columns), from, to);
+    compute_keys(work->list, work->sheet, cell, grid->lists.start[range.end]);
     if (to - from < TRIANGLE_GRID_SPLIT)
       sort_list(work->list, from, to, scratch);
   }

@@ -1,0 +1,275 @@
+/* culling_bands.c - candidates for culling tested in the bands of an occlusion
+ * buffer, each by one thread. */
+#include "visibility/culling/culling_bands.h"
+
+#include <math.h>
+
+#include "base/parallel.h"
+
+enum {
+  TYPICAL_SLOPE = 8,      /* in the scene; few triangles are steeper */
+  TESTS_PER_TRIANGLE = 64 /* of rows and blocks, for a triangle, on average, in
+                             a band */
+};
+
+/* The work in one band. */
+struct band_work {
+  const struct culling_work *work;
+  struct occlusion_buffer *buffer;
+  struct occlusion_band band;
+  uint64_t *visible; /* a bit per candidate */
+  int64_t tests;     /* of rows, in parts as wide as a block, that may still be
+                    made; large triangles that hide little would need many */
+};
+
+/* ---- Bands --------------------------------------------------------------- */
+
+/* Words of the bits of all candidates. */
+static size_t words_in_band(const struct culling_work *work) {
+  return (work->sheet->triangle.count + 63) / 64;
+}
+
+static struct band_work begin_band(const struct culling_work *work, size_t k) {
+  return (struct band_work){.work = work,
+                            .buffer = work->buffer,
+                            .band = occlusion_buffer_band(work->buffer, (int)k),
+                            .visible = work->visible + k * words_in_band(work),
+                            .tests = TESTS_PER_TRIANGLE *
+                                     (int64_t)work->sheet->triangle.count};
+}
+
+static bool meets_band(const struct band_work *work,
+                       const struct culling_candidate *candidate) {
+  return candidate->y0 <= work->band.y1 && candidate->y1 >= work->band.y0;
+}
+
+static void set_visible(struct band_work *work, size_t candidate) {
+  work->visible[candidate / 64] |= UINT64_C(1) << candidate % 64;
+}
+
+/* The cells of a candidate's box that are in the band. */
+static struct cell_range
+rows_in_band(const struct band_work *work,
+             const struct culling_candidate *candidate) {
+  const struct occlusion_band *band = &work->band;
+  return (struct cell_range){
+      candidate->x0, candidate->y0 > band->y0 ? candidate->y0 : band->y0,
+      candidate->x1, candidate->y1 < band->y1 ? candidate->y1 : band->y1};
+}
+
+/* Marks those candidates as not culled that are visible in some band. */
+static void unite_bands(struct culling_work *work) {
+  size_t words = words_in_band(work);
+  for (size_t w = 0; w < words; w++) {
+    uint64_t visible = 0;
+    for (size_t k = 0; k < OCCLUSION_BANDS; k++)
+      visible |= work->visible[k * words + w];
+    for (; visible != 0; visible &= visible - 1) {
+      size_t i = w * 64 + (size_t)__builtin_ctzll(visible);
+      uint8_t *culled = &work->culled[work->candidate[i].triangle];
+      work->count -= *culled;
+      *culled = 0;
+    }
+  }
+}
+
+/* Does a task in all bands.  Returns false when memory ran out or the caller
+ * cancelled. */
+static bool do_bands(struct culling_work *work, parallel_task *task) {
+  work->visible =
+      mem_calloc(words_in_band(work), OCCLUSION_BANDS * sizeof *work->visible);
+  bool ok = work->visible != NULL &&
+            parallel_ranges(work->workers, OCCLUSION_BANDS, 1, task, work);
+  if (ok)
+    unite_bands(work);
+  mem_free(work->visible);
+  return ok;
+}
+
+/* ---- Test ---------------------------------------------------------------- */
+
+/* The columns of a row that the triangle meets, or comes close to. */
+static bool columns_in_row(const struct culling_work *work,
+                           const struct geom_triangle *corners, int y, int *x0,
+                           int *x1) {
+  const struct triangle_grid *cells = &work->buffer->cells;
+  int64_t side = INT64_C(1) << cells->shift;
+  double low = (double)(cells->y0 + y * side - work->xy_margin),
+         high = (double)(cells->y0 + (y + 1) * side + work->xy_margin),
+         least = INFINITY, most = -INFINITY;
+  for (int k = 0; k < 3; k++) {
+    struct geom_point p = corners->p[k], q = corners->p[geom_next_corner(k)];
+    double from = p.y, to = q.y, x = p.x,
+           run = ((double)q.x - p.x) / (to - from);
+    if (from >= low && from <= high) {
+      least = fmin(least, x);
+      most = fmax(most, x);
+    }
+    const double level[2] = {low, high};
+    for (int l = 0; l < 2; l++)
+      if ((from < level[l]) != (to < level[l])) {
+        double at = x + run * (level[l] - from);
+        least = fmin(least, at);
+        most = fmax(most, at);
+      }
+  }
+  if (!(least <= most))
+    return false;
+  *x0 = triangle_grid_cell(
+      (int32_t)fmax(floor(least) - (double)work->xy_margin, INT32_MIN),
+      cells->x0, cells->shift, cells->columns);
+  *x1 = triangle_grid_cell(
+      (int32_t)fmin(ceil(most) + (double)work->xy_margin, INT32_MAX), cells->x0,
+      cells->shift, cells->columns);
+  return true;
+}
+
+/* Is the triangle hidden in all cells of the band that it meets?  False also
+ * where too much has been tested.  First by blocks; then by the rows of cells,
+ * but only those of a block row that is not hidden. */
+static bool is_triangle_hidden(struct band_work *work,
+                               const struct culling_candidate *candidate) {
+  const struct occlusion_buffer *buffer = work->buffer;
+  struct cell_range r = rows_in_band(work, candidate), part = r;
+  work->tests -= (1 + ((r.x1 - r.x0) >> OCCLUSION_BLOCK_SHIFT)) *
+                 (1 + ((r.y1 - r.y0) >> OCCLUSION_BLOCK_SHIFT));
+  if (work->tests < 0 ||
+      occlusion_buffer_hides_in_blocks(buffer, r, candidate->nearest))
+    return work->tests >= 0;
+  struct geom_triangle corners =
+      sheet_corners(work->work->sheet, candidate->triangle);
+  for (; part.y0 <= r.y1; part.y0 = part.y1 + 1) {
+    part.y1 = part.y0 | ((1 << OCCLUSION_BLOCK_SHIFT) - 1);
+    part.y1 = part.y1 < r.y1 ? part.y1 : r.y1;
+    work->tests -= 1 + ((r.x1 - r.x0) >> OCCLUSION_BLOCK_SHIFT);
+    if (occlusion_buffer_hides_in_blocks(buffer, part, candidate->nearest))
+      continue;
+    for (int y = part.y0, x0, x1; y <= part.y1; y++) {
+      if (!columns_in_row(work->work, &corners, y, &x0, &x1))
+        continue;
+      work->tests -= 1 + ((x1 - x0) >> OCCLUSION_BLOCK_SHIFT);
+      if (work->tests < 0 ||
+          !occlusion_buffer_hides_in_row(buffer, y, x0, x1, candidate->nearest))
+        return false;
+    }
+  }
+  return true;
+}
+
+/* Tests all candidates in a band, from near to far. */
+static bool cull_in_band(struct band_work *work) {
+  const struct sheet *sheet = work->work->sheet;
+  for (size_t i = 0; i < sheet->triangle.count; i++) {
+    const struct culling_candidate *candidate = &work->work->candidate[i];
+    if (!poll_at(i))
+      return false;
+    if (!meets_band(work, candidate) || is_triangle_hidden(work, candidate))
+      continue;
+    set_visible(work, i);
+    if (work->band.visits > 0)
+      occlusion_buffer_raise(work->buffer, &work->band, sheet,
+                             candidate->triangle);
+  }
+  return true;
+}
+
+static bool cull_in_bands(void *user, struct parallel_range range) {
+  struct band_work work = begin_band(user, range.begin);
+  return cull_in_band(&work);
+}
+
+/* ---- Test with contact --------------------------------------------------- */
+
+/* Raises the contact tolerances, in steps, of the cells of the band that a
+ * triangle meets to its own; they start as that of TYPICAL_SLOPE, which few
+ * triangles exceed. */
+static void add_thickness(struct band_work *work,
+                          const struct culling_candidate *candidate) {
+  const struct culling_work *all = work->work;
+  const struct triangle_grid *cells = &work->buffer->cells;
+  struct geom_triangle corners = sheet_corners(all->sheet, candidate->triangle);
+  struct cell_range r = rows_in_band(work, candidate);
+  int32_t steps =
+      occlusion_steps_up(culling_thickness(&all->contact, &corners));
+  if (steps <= all->thickness_min || work->tests < 0 ||
+      sheet_is_edge_on(all->sheet, candidate->triangle))
+    return;
+  for (int y = r.y0, x0, x1; y <= r.y1; y++)
+    if (columns_in_row(all, &corners, y, &x0, &x1)) {
+      work->tests -= 1 + ((x1 - x0) >> OCCLUSION_BLOCK_SHIFT);
+      for (int x = x0; x <= x1; x++) {
+        int32_t *at =
+            &all->thickness[(size_t)y * (size_t)cells->columns + (size_t)x];
+        *at = steps > *at ? steps : *at;
+      }
+    }
+}
+
+/* Lowers the bounds of a band by the contact tolerances of the triangles that
+ * are not culled.  Those that are restored by the test thereafter do not count:
+ * they are hidden, so that no fragment is in contact with theirs. */
+static bool lower_in_band(struct band_work *work) {
+  const struct culling_work *all = work->work;
+  const struct occlusion_band *band = &work->band;
+  size_t columns = (size_t)work->buffer->cells.columns,
+         begin = (size_t)band->y0 * columns,
+         end = (size_t)(band->y1 + 1) * columns;
+  for (size_t i = begin; i < end; i++)
+    all->thickness[i] = all->thickness_min;
+  for (size_t i = 0; i < all->sheet->triangle.count; i++) {
+    const struct culling_candidate *candidate = &all->candidate[i];
+    if (!poll_at(i))
+      return false;
+    if (meets_band(work, candidate) && !all->culled[candidate->triangle])
+      add_thickness(work, candidate);
+  }
+  for (size_t i = begin; i < end && work->tests < 0; i++)
+    all->thickness[i] = INT32_MAX; /* too many to tell: nothing stays culled */
+  occlusion_buffer_lower(work->buffer, band, all->thickness);
+  return true;
+}
+
+/* Lowers the bounds of a band and tests the culled triangles again, with a new
+ * number of tests. */
+static bool retest_in_bands(void *user, struct parallel_range range) {
+  struct band_work work = begin_band(user, range.begin),
+                   again = begin_band(user, range.begin);
+  const struct culling_work *all = user;
+  if (!lower_in_band(&work))
+    return false;
+  for (size_t i = 0; i < all->sheet->triangle.count; i++) {
+    const struct culling_candidate *candidate = &all->candidate[i];
+    if (!poll_at(i))
+      return false;
+    if (meets_band(&again, candidate) && all->culled[candidate->triangle] &&
+        !is_triangle_hidden(&again, candidate))
+      set_visible(&again, i);
+  }
+  return true;
+}
+
+/* Finds where the contact tolerances start.  Returns false when memory ran
+ * out. */
+static bool begin_thickness(struct culling_work *work) {
+  const struct sheet *sheet = work->sheet;
+  const struct camera *camera = &sheet->camera;
+  double slope = TYPICAL_SLOPE * sheet->z_scale / sheet->units_per_view /
+                 (camera->perspective ? camera->d_max : 1);
+  work->thickness_min =
+      occlusion_steps_up(1 + work->contact.slope * slope + work->contact.level);
+  work->thickness = mem_alloc(triangle_grid_cell_count(&work->buffer->cells),
+                              sizeof *work->thickness);
+  return work->thickness != NULL;
+}
+
+/* ---- Both ---------------------------------------------------------------- */
+
+bool culling_bands_test(struct culling_work *work) {
+  return do_bands(work, cull_in_bands);
+}
+
+bool culling_bands_retest(struct culling_work *work) {
+  bool ok = begin_thickness(work) && do_bands(work, retest_in_bands);
+  mem_free(work->thickness);
+  return ok;
+}
