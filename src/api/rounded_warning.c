@@ -101,7 +101,7 @@ static void find_flats(struct rounded *r) {
       planar_regions_join(&r->planar, face[0], r->normal[face[0]], face[1],
                           r->normal[face[1]]);
   for (uint32_t f = 0; f < scene_face_count(r->scene) && poll_at(f); f++)
-    planar_regions_measure(&r->planar, r->scene, f, r->normal[f], 0);
+    planar_regions_measure(&r->planar, r->scene, f, r->normal[f]);
   for (size_t e = 0; e < edges && poll_at(e); e++)
     if (faces_at(r, e, face) &&
         planar_regions_compare(&r->planar, face[0], face[1]))

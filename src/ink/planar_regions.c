@@ -59,27 +59,27 @@ void planar_regions_join(struct planar_regions *regions, uint32_t f,
   regions->region[f].is_joined = regions->region[g].is_joined = true;
 }
 
-bool planar_regions_is_triangle(const struct planar_regions *regions,
-                                const struct scene *scene, uint32_t face) {
+/* Whether a face is all of its region, and a triangle: such a region is not
+ * flat, however large it is. */
+static bool is_alone(const struct planar_regions *regions,
+                     const struct scene *scene, uint32_t face) {
   const uint32_t *start = &scene->face_start.item[face];
   return start[1] - start[0] == 3 && !regions->region[face].is_joined;
 }
 
 void planar_regions_measure(struct planar_regions *regions,
                             const struct scene *scene, uint32_t face,
-                            const double normal[3], double page_area) {
+                            const double normal[3]) {
   struct planar_region *region =
       &regions->region[union_find_root(regions->set, face)];
   const uint32_t *start = &scene->face_start.item[face];
   bool is_first = region->triangles == 0;
   for (int k = 0; k < 3; k++)
     region->normal[k] += normal[k];
-  region->page_area += page_area;
   region->triangles += start[1] - start[0] - 2;
-  region->is_flat = (is_first || region->is_flat) &&
-                    !planar_regions_is_triangle(regions, scene, face) &&
-                    are_parallel(region->normal, normal) &&
-                    is_planar(scene, face, normal);
+  region->is_flat =
+      (is_first || region->is_flat) && !is_alone(regions, scene, face) &&
+      are_parallel(region->normal, normal) && is_planar(scene, face, normal);
 }
 
 bool planar_regions_compare(struct planar_regions *regions, uint32_t f,
@@ -101,10 +101,9 @@ uint32_t planar_regions_root(const struct planar_regions *regions,
   return union_find_root(regions->set, face);
 }
 
-const struct planar_region *
-planar_regions_flat(const struct planar_regions *regions, uint32_t face,
-                    double least_area) {
-  const struct planar_region *region =
+struct planar_region *planar_regions_flat(const struct planar_regions *regions,
+                                          uint32_t face, double least_area) {
+  struct planar_region *region =
       &regions->region[union_find_root(regions->set, face)];
   return region->is_flat && region->triangles > 1 &&
                  region->page_area >= least_area

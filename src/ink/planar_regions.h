@@ -13,7 +13,7 @@
 
 struct planar_region {
   double normal[3]; /* its length is twice the area */
-  double page_area; /* mm^2 */
+  double page_area; /* mm^2, as far as it was added */
   uint32_t triangles;
   bool is_flat;
   bool is_joined; /* at each face of it: to another one */
@@ -37,16 +37,10 @@ void planar_regions_join(struct planar_regions *regions, uint32_t f,
                          const double f_normal[3], uint32_t g,
                          const double g_normal[3]);
 
-/* Whether a face is all of its region, and a triangle, once all are united:
- * such a region is not flat, however large it is. */
-bool planar_regions_is_triangle(const struct planar_regions *regions,
-                                const struct scene *scene, uint32_t face);
-
-/* Adds a face to the measures of its region, once all are united.
- * page_area  of the face, mm^2; of no effect for a region of one triangle */
+/* Adds a face to the measures of its region, once all are united. */
 void planar_regions_measure(struct planar_regions *regions,
                             const struct scene *scene, uint32_t face,
-                            const double normal[3], double page_area);
+                            const double normal[3]);
 
 /* Decides by the smooth edge at which two faces meet, once all are measured,
  * which of their regions is not flat.  False where they are of one. */
@@ -57,10 +51,10 @@ bool planar_regions_compare(struct planar_regions *regions, uint32_t f,
 uint32_t planar_regions_root(const struct planar_regions *regions,
                              uint32_t face);
 
-/* The region of a face if it is flat, once all are compared; else NULL.
+/* The region of a face if it is flat, or may be, once all are compared; else
+ * NULL.  Its page_area may be added to then.
  * least_area  on the page, mm^2 */
-const struct planar_region *
-planar_regions_flat(const struct planar_regions *regions, uint32_t face,
-                    double least_area);
+struct planar_region *planar_regions_flat(const struct planar_regions *regions,
+                                          uint32_t face, double least_area);
 
 #endif

@@ -135,14 +135,21 @@ static double page_area(const struct tone_work *w, uint32_t face) {
   return isfinite(twice) ? fabs(twice) / 2 : 0;
 }
 
+/* Adds the areas on the page of the regions that may be flat. */
+static void measure_on_page(struct tone_work *w) {
+  for (uint32_t f = 0; f < scene_face_count(w->scene) && poll_at(f); f++) {
+    struct planar_region *flat = planar_regions_flat(&w->planar, f, 0);
+    if (flat != NULL)
+      flat->page_area += page_area(w, f);
+  }
+}
+
 static void join_smooth_edges(struct tone_work *w) {
   join_at_smooth_edges(w);
   for (uint32_t f = 0; f < scene_face_count(w->scene) && poll_at(f); f++)
-    planar_regions_measure(&w->planar, w->scene, f, w->face[f].xyz,
-                           planar_regions_is_triangle(&w->planar, w->scene, f)
-                               ? 0
-                               : page_area(w, f));
+    planar_regions_measure(&w->planar, w->scene, f, w->face[f].xyz);
   compare_at_smooth_edges(w);
+  measure_on_page(w);
 }
 
 /* ---- 3 Corners ----------------------------------------------------------- */
@@ -172,24 +179,29 @@ static bool number_corner_sets(struct tone_work *w) {
 
 /* Marks the sets with corners of flat faces. */
 static void mark_beside_flat(struct tone_work *w) {
-  for (uint32_t f = 0; f < scene_face_count(w->scene) && poll_at(f); f++)
+  for (uint32_t f = 0; f < scene_face_count(w->scene) && poll_at(f); f++) {
+    if (flat_of(w, f) == NULL)
+      continue;
     for (uint32_t c = w->scene->face_start.item[f];
-         c < w->scene->face_start.item[f + 1] && flat_of(w, f) != NULL; c++)
+         c < w->scene->face_start.item[f + 1]; c++)
       w->beside_flat[w->corner_set[c]] = true;
+  }
 }
 
 /* Sums the face normals of each set of corners, weighted by area: where a flat
  * face goes over into a curved surface, this begins with the flat's normal. */
 static void sum_normals(struct tone_work *w) {
-  for (uint32_t f = 0; f < scene_face_count(w->scene) && poll_at(f); f++)
+  for (uint32_t f = 0; f < scene_face_count(w->scene) && poll_at(f); f++) {
+    bool is_flat = flat_of(w, f) != NULL;
     for (uint32_t c = w->scene->face_start.item[f];
          c < w->scene->face_start.item[f + 1]; c++) {
       uint32_t set = w->corner_set[c];
-      if (w->beside_flat[set] && flat_of(w, f) == NULL)
+      if (w->beside_flat[set] && !is_flat)
         continue;
       for (int k = 0; k < 3; k++)
         w->sum[set].xyz[k] += w->face[f].xyz[k];
     }
+  }
 }
 
 /* away  the face is seen from its back: its normal is reversed */
