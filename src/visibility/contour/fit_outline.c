@@ -28,9 +28,9 @@ enum { FIT_SAMPLES_MAX = 4096 };
  * left. */
 #define COLLAPSED_SHARE 0.25
 
-/* How far sides that two fragments share are moved, at most, grid units: 1 mm.
+/* How far sides that two fragments share are moved, at most, grid units: 2 mm.
  */
-#define SHARED_RADIUS 0x1p20
+#define SHARED_RADIUS 0x1p21
 
 /* From one place of the page to another one. */
 struct place_move {
