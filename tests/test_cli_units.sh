@@ -141,7 +141,7 @@ printf '%b' "$large$small" >large.obj && printf '%b' "$small$large" >small.obj
 claim "models with other up axes stand upright" \
   draws_the_same large.obj a.gltf a.stl --scale 1:40
 claim "in either order" draws_the_same small.obj a.stl a.gltf --scale 1:40
-up="recto: a.obj: +Y is taken for up in it, and turned to +Z, as in the first \
+up="recto: a.obj: turned, as up is taken for +Y in it and for +Z in the first \
 model; --up leaves all models as they are"
 claim "of a likely axis that differs is warned" warns_of "$up" a.stl a.obj
 claim "but not with --up" warns_of "" a.stl a.obj --up z

@@ -26,7 +26,7 @@ static void convert_up(struct scene *scene, size_t first,
     return;
   if (!model->up_is_stated || !scene->up_is_stated)
     diagnostics_warn(diagnostics, model->path,
-                     "%s is taken for up in it, and turned to %s, as in the "
+                     "turned, as up is taken for %s in it and for %s in the "
                      "first model; --up leaves all models as they are",
                      to_z ? "+Y" : "+Z", to_z ? "+Z" : "+Y");
   turn_points(scene, first, to_z);
