@@ -160,13 +160,16 @@ static recto_status aim_part(struct part_work *work, const uint8_t *used,
 }
 
 /* How far beyond the window, in grid units, something may matter within it:
- * rounding, and contact, which moves the ends of intersections. */
-static int64_t margin_of_window(const struct camera *camera) {
+ * rounding, contact, which moves the ends of intersections, and corners with
+ * which welding might join one within it.
+ * weld  the longest distance of such corners, scene units */
+static int64_t margin_of_window(const struct camera *camera, double weld) {
   const double most = 1 << 30;
-  double units = camera->contact_most * camera->s * SHEET_UNITS_PER_MM;
+  double units =
+      (4 * camera->contact_most + weld) * camera->s * SHEET_UNITS_PER_MM;
   if (camera->perspective)
     units /= camera->d_min;
-  return 64 + (int64_t)(4 * units < most ? ceil(4 * units) : most);
+  return 64 + (int64_t)(units < most ? ceil(units) : most);
 }
 
 /* How far beyond the window faces are picked that may be needed: some times the
@@ -193,7 +196,7 @@ static recto_status aim_pick(struct part_work *work, recto_error *error) {
     work->request = (struct part_scene_request){
         .camera = &work->camera,
         .window = work->part.window,
-        .margin = margin_of_window(&work->camera),
+        .margin = margin_of_window(&work->camera, work->weld),
         .reach = reach_of_window(&work->camera, scene->point.count),
         .owned = work->options->ink.fill != RECTO_FILL_NONE ||
                  work->options->ink.ids};
