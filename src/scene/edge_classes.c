@@ -156,6 +156,23 @@ static bool has_key(const uint64_t *key, size_t count,
   return i < count && key[i] == wanted;
 }
 
+/* Whether the face of a border lies in a plane by which the scene was cut, and
+ * the border with it: then the cut did not make it. */
+static bool is_of_face_in_cut(const struct topology_edge *edge,
+                              const struct scene *scene) {
+  const struct scene_cut *cut = scene->cut;
+  unsigned planes = cut->planes[edge->point[0] - cut->first_point] &
+                    cut->planes[edge->point[1] - cut->first_point];
+  if (edge->uses != 1 || edge->first >= cut->first_face)
+    return false;
+  for (uint32_t c = scene->face_start.item[edge->first];
+       c < scene->face_start.item[edge->first + 1]; c++)
+    planes &= scene->corner.item[c] < cut->first_point
+                  ? 0
+                  : cut->planes[scene->corner.item[c] - cut->first_point];
+  return planes != 0;
+}
+
 /* What a cut makes of the classes of an edge. */
 static unsigned class_mask_after_cut(const struct topology_edge *edge,
                                      const struct scene *scene,
@@ -168,7 +185,7 @@ static unsigned class_mask_after_cut(const struct topology_edge *edge,
   if (topology_is_in_cut(scene, edge)) {
     if (has_key(cut->edge, cut->edges, edge))
       return class_mask | RECTO_EDGE_SECTION;
-    if (!is_of_surfaces)
+    if (!is_of_surfaces && !is_of_face_in_cut(edge, scene))
       return 0;
   }
   bool is_within =
