@@ -222,7 +222,7 @@ static bool locate_group(struct edge_finder *finder,
                          const struct judge_side *side, size_t count) {
   uint32_t a = finder->first_at[side->a], b = finder->first_at[side->b];
   struct located_group group = {a < b ? a : b, a < b ? b : a, *side, count};
-  bool alone = !finder->shared[a] || !finder->shared[b];
+  bool alone = !finder->shared[a] && !finder->shared[b];
   return (count > 1 && alone) || ARRAY_PUSH(&finder->group, group);
 }
 
