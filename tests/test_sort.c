@@ -9,6 +9,7 @@
 
 #include "base/memory.h"
 #include "base/number_lists.h"
+#include "base/poll.h"
 #include "base/sort.h"
 #include "tests/memory_faults.h"
 #include "tests/scenes/random.h"
@@ -69,6 +70,19 @@ static void keys_are_sorted_stably_at_every_size(void **state) {
     sort_random_keys(&random, 3000, masks[i]);
     sort_random_keys(&random, 20001, masks[i]);
   }
+}
+
+static void several_threads_sort_stably(void **state) {
+  (void)state;
+  struct random random = {5};
+  struct poll poll;
+  recto_options options;
+  recto_options_init(&options);
+  options.solver.threads = 2;
+  poll_open(&poll, &options);
+  sort_random_keys(&random, 300001, UINT64_MAX);
+  sort_random_keys(&random, 200003, 0xfff0);
+  poll_close(&poll);
 }
 
 static void sorted_and_reversed_keys_are_sorted(void **state) {
@@ -225,6 +239,7 @@ static void four_billion_numbers_are_refused(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(keys_are_sorted_stably_at_every_size),
+      cmocka_unit_test(several_threads_sort_stably),
       cmocka_unit_test(sorted_and_reversed_keys_are_sorted),
       cmocka_unit_test(keys_of_signed_numbers_keep_their_order),
       cmocka_unit_test(records_are_sorted_stably_at_every_size),

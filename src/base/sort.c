@@ -1,18 +1,21 @@
 /* sort.c - stable sorting: radix for integer keys, merging for the rest. */
 #include "base/sort.h"
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <string.h>
 
 #include "base/memory.h"
-#include "base/poll.h"
+#include "base/parallel.h"
 
 enum {
   DIGIT_BITS = 11,
   DIGIT_COUNT = 1 << DIGIT_BITS,
   PASS_COUNT = (64 + DIGIT_BITS - 1) / DIGIT_BITS,
   FEW = 64, /* below, insertion beats clearing the histograms */
-  DISTRIBUTED_ITEMS = 16 * POLL_ITEMS /* between two polls */
+  DISTRIBUTED_ITEMS = 16 * POLL_ITEMS, /* between two polls */
+  PART_COUNT = 4,          /* of the items of a pass, and threads, at most */
+  PART_ITEMS_MIN = 1 << 14 /* for a thread to be worth while */
 };
 
 static void insert_keys(struct sort_key *item, size_t count) {
@@ -29,20 +32,75 @@ static size_t digit(uint64_t key, int pass) {
   return (size_t)(key >> (pass * DIGIT_BITS)) & (DIGIT_COUNT - 1);
 }
 
-/* Distributes the items by one digit; `start` has the count of each digit. */
-static void distribute(const struct sort_key *from, struct sort_key *to,
-                       size_t count, int pass, size_t start[DIGIT_COUNT]) {
-  size_t sum = 0;
-  for (int i = 0; i < DIGIT_COUNT; i++) {
-    size_t here = start[i];
-    start[i] = sum;
-    sum += here;
+/* A pass, which distributes the items by one digit, in equal parts.  Within a
+ * digit the items of a part come after those of earlier parts, so that the
+ * result does not depend on which threads do them. */
+struct sort_pass {
+  const struct sort_key *from;
+  struct sort_key *to;
+  size_t count;
+  int pass, parts;
+  bool counting; /* `start` gets the number of items of each digit */
+  size_t (*start)[DIGIT_COUNT]; /* one a part */
+  atomic_int next;              /* the first part that no thread has taken */
+};
+
+static size_t first_of_part(const struct sort_pass *pass, int part) {
+  return pass->count / (size_t)pass->parts * (size_t)part +
+         pass->count % (size_t)pass->parts * (size_t)part / (size_t)pass->parts;
+}
+
+static void do_part(const struct sort_pass *pass, int part) {
+  const struct sort_key *from = pass->from;
+  size_t *start = pass->start[part], end = first_of_part(pass, part + 1);
+  size_t i = first_of_part(pass, part);
+  if (pass->counting) {
+    for (; i < end; i++)
+      start[digit(from[i].key, pass->pass)]++;
+    return;
   }
-  for (size_t i = 0; i < count; i++) {
+  for (; i < end; i++) {
     if ((i + 1) % DISTRIBUTED_ITEMS == 0)
       (void)poll_now();
-    to[start[digit(from[i].key, pass)]++] = from[i];
+    pass->to[start[digit(from[i].key, pass->pass)]++] = from[i];
   }
+}
+
+static void do_parts(void *user, bool is_caller) {
+  struct sort_pass *pass = user;
+  (void)is_caller;
+  for (int k; (k = atomic_fetch_add(&pass->next, 1)) < pass->parts;)
+    do_part(pass, k);
+}
+
+/* Counts the items of each digit, or moves them.  All is done even where the
+ * caller cancelled, so that `to` has all items. */
+static void run_pass(struct sort_pass *pass, bool counting) {
+  pass->counting = counting;
+  atomic_store(&pass->next, 0);
+  parallel_run(pass->parts, do_parts, pass);
+}
+
+/* Distributes the items by one digit.
+ * parts  of the items, done by as many threads at most */
+static void distribute(const struct sort_key *from, struct sort_key *to,
+                       size_t count, int pass, int parts) {
+  size_t start[PART_COUNT][DIGIT_COUNT], sum = 0;
+  struct sort_pass work = {.from = from,
+                           .to = to,
+                           .count = count,
+                           .pass = pass,
+                           .parts = parts,
+                           .start = start};
+  memset(start, 0, (size_t)parts * sizeof start[0]);
+  run_pass(&work, true);
+  for (int i = 0; i < DIGIT_COUNT; i++)
+    for (int k = 0; k < parts; k++) {
+      size_t here = start[k][i];
+      start[k][i] = sum;
+      sum += here;
+    }
+  run_pass(&work, false);
 }
 
 void sort_keys(struct sort_key *item, struct sort_key *scratch, size_t count) {
@@ -55,16 +113,16 @@ void sort_keys(struct sort_key *item, struct sort_key *scratch, size_t count) {
   uint64_t differing = 0;
   for (size_t i = 1; i < count; i++)
     differing |= item[i].key ^ item[0].key;
+  int workers =
+      count < PART_ITEMS_MIN ? 1 : parallel_workers(count, PART_ITEMS_MIN);
   struct sort_key *from = item, *to = scratch;
   for (int pass = 0; pass < PASS_COUNT; pass++) {
     if (digit(differing, pass) == 0)
       continue;
     if (count > POLL_ITEMS)
       (void)poll_now();
-    size_t start[DIGIT_COUNT] = {0};
-    for (size_t i = 0; i < count; i++)
-      start[digit(from[i].key, pass)]++;
-    distribute(from, to, count, pass, start);
+    distribute(from, to, count, pass,
+               workers < PART_COUNT ? workers : PART_COUNT);
     struct sort_key *swap = from;
     from = to;
     to = swap;

@@ -9,11 +9,11 @@
  *   deterministic. */
 #include "ink/lines/nearest.h"
 
-#include "base/poll.h"
+#include "base/parallel.h"
 
 #include <math.h>
 
-enum { LEAF_MAX = 8, LEVEL_MAX = 32 };
+enum { LEAF_MAX = 8, LEVEL_MAX = 32, SERIAL_LEVELS = 2 };
 
 struct nearest_item {
   struct drawing_point at;
@@ -101,21 +101,42 @@ static struct nearest_box unite_boxes(const struct nearest_box *a,
   return box;
 }
 
-/* Fills the boxes level by level, and splits the items of each. */
-static void build(struct nearest *t) {
-  for (int level = 0; level <= t->levels; level++) {
-    for (uint32_t j = 0; j < UINT32_C(1) << level; j++) {
-      uint32_t low = first_of_box(t, level, j),
-               high = first_of_box(t, level, j + 1);
-      struct nearest_box *box = &t->box[(UINT32_C(1) << level) + j];
-      *box = bound(t, low, high);
-      if (level < t->levels) {
-        int axis = box->high[1] - box->low[1] > box->high[0] - box->low[0];
-        uint32_t middle = first_of_box(t, level + 1, 2 * j + 1);
-        select_middle(t, low, high, middle, axis);
-      }
+/* The boxes of a level. */
+struct level_work {
+  struct nearest *tree;
+  int level;
+};
+
+/* Fills some boxes of a level, and splits the items of each. */
+static bool fill_boxes(void *user, struct parallel_range range) {
+  const struct level_work *work = user;
+  struct nearest *t = work->tree;
+  for (uint32_t j = (uint32_t)range.begin; j < range.end; j++) {
+    uint32_t low = first_of_box(t, work->level, j),
+             high = first_of_box(t, work->level, j + 1);
+    struct nearest_box *box = &t->box[(UINT32_C(1) << work->level) + j];
+    *box = bound(t, low, high);
+    if (work->level < t->levels) {
+      int axis = box->high[1] - box->low[1] > box->high[0] - box->low[0];
+      uint32_t middle = first_of_box(t, work->level + 1, 2 * j + 1);
+      select_middle(t, low, high, middle, axis);
     }
   }
+  return true;
+}
+
+/* Fills the boxes level by level.  Returns false when the caller cancelled. */
+static bool build(struct nearest *t) {
+  bool ok = true;
+  for (int level = 0; ok && level <= t->levels; level++) {
+    struct level_work work = {t, level};
+    size_t boxes = (size_t)1 << level, in_box = t->count / boxes + 1,
+           items = PARALLEL_ITEMS / in_box + 1;
+    int workers =
+        level < SERIAL_LEVELS ? 1 : parallel_workers(t->count, PARALLEL_ITEMS);
+    ok = parallel_ranges(workers, boxes, items, fill_boxes, &work);
+  }
+  return ok;
 }
 
 bool nearest_init(struct nearest *t, const struct drawing_point *point,
@@ -132,12 +153,12 @@ bool nearest_init(struct nearest *t, const struct drawing_point *point,
     (void)poll_at(i);
     t->item[i] = (struct nearest_item){point[i], i, false};
   }
-  build(t);
+  bool ok = build(t);
   for (uint32_t i = 0; i < count; i++) {
     (void)poll_at(i);
     t->position[t->item[i].point] = i;
   }
-  return true;
+  return ok;
 }
 
 void nearest_fini(struct nearest *t) {

@@ -5,9 +5,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/poll.h"
-#include "geom/line_key.h"
+#include "base/parallel.h"
 #include "base/sort.h"
+#include "geom/line_key.h"
 
 /* The cells are as small as possible with at most
  *   max(4 n, min(16 n, 2^20))
@@ -23,6 +23,7 @@ struct gathered_sides {
   const struct sheet *sheet;
   const uint32_t *triangle;
   size_t count;
+  uint32_t *line; /* the keys of their lines, three a triangle */
 };
 
 /* Finds the ends of side k of triangle t.  Returns whether it is an edge of the
@@ -85,13 +86,24 @@ static uint32_t key_of_ends(const struct geom_point end[2]) {
   return (uint32_t)key;
 }
 
+/* Finds the keys of the lines of the sides of a range of triangles. */
+static bool find_line_keys(void *user, struct parallel_range range) {
+  const struct gathered_sides *sides = user;
+  for (size_t i = range.begin; i < range.end; i++)
+    for (int k = 0; k < 3; k++) {
+      struct geom_point end[2];
+      if (is_edge(sides->sheet, sides->triangle[i], k, end))
+        sides->line[3 * i + (size_t)k] = key_of_ends(end);
+    }
+  return true;
+}
+
 static bool index_side(const struct line_index *index,
                        const struct geom_point end[2], uint32_t side,
-                       side_keys *keys) {
+                       uint32_t key, side_keys *keys) {
   const struct triangle_grid *shape = &index->shape;
   struct cell_range r =
       triangle_grid_cells(shape, box2_of_segment(end[0], end[1]));
-  uint32_t key = key_of_ends(end);
   for (int y = r.y0; y <= r.y1; y++) {
     int x0, x1;
     triangle_grid_row(shape, end[0], end[1], r, y, &x0, &x1);
@@ -114,7 +126,8 @@ static bool gather_keys(const struct line_index *index,
       uint32_t t = sides->triangle[i];
       struct geom_point end[2];
       if (is_edge(sides->sheet, t, k, end) &&
-          !index_side(index, end, 3 * t + (uint32_t)k, keys))
+          !index_side(index, end, 3 * t + (uint32_t)k,
+                      sides->line[3 * i + (size_t)k], keys))
         return false;
     }
   }
@@ -143,12 +156,17 @@ static bool make_lists(struct line_index *index, const side_keys *keys) {
 
 bool line_index_init(struct line_index *index, const struct sheet *sheet,
                      const uint32_t *triangle, size_t count) {
-  const struct gathered_sides sides = {sheet, triangle, count};
+  struct gathered_sides sides = {sheet, triangle, count,
+                                 mem_alloc(3 * count, sizeof *sides.line)};
   side_keys keys = {0};
   memset(index, 0, sizeof *index);
   choose_shape(index, &sides);
-  bool ok = gather_keys(index, &sides, &keys) &&
-            sort_keys_alone(keys.item, keys.count) && make_lists(index, &keys);
+  bool ok = sides.line != NULL &&
+            parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
+                            PARALLEL_ITEMS, find_line_keys, &sides) &&
+            gather_keys(index, &sides, &keys);
+  mem_free(sides.line);
+  ok = ok && sort_keys_alone(keys.item, keys.count) && make_lists(index, &keys);
   ARRAY_FREE(&keys);
   return ok;
 }
