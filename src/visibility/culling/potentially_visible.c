@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "base/poll.h"
+#include "base/sort.h"
 
 /* The numbers in the part, plus 1, of what is in it, else 0; before it is
  * numbered, 1. */
@@ -27,6 +28,8 @@ static bool is_triangle_culled(const struct numbering *numbering,
   return triangle != SHEET_NONE &&
          occlusion_culling_is_culled(numbering->culling, triangle);
 }
+
+typedef ARRAY(struct sort_key) inner_sides;
 
 /* ---- 1. Triangles -------------------------------------------------------- */
 
@@ -128,47 +131,67 @@ static bool add_contour(struct potentially_visible *part,
   return from == 0 || to == 0 || ARRAY_PUSH(&part->sheet.contour, contour);
 }
 
-/* Is a triangle culled of those from t on that are of t's face? */
-static bool is_face_culled_partly(const struct numbering *numbering,
-                                  uint32_t t) {
-  const struct sheet *whole = numbering->whole;
-  for (uint32_t n = t;
-       n < whole->triangle.count &&
-       whole->triangle.item[n].face == whole->triangle.item[t].face;
-       n++)
-    if (is_triangle_culled(numbering, n))
-      return true;
-  return false;
+/* Lists the sides of the triangles that are left which are no edges of the
+ * sheet, by their points.  Returns false when memory ran out. */
+static bool list_inner_sides(const struct potentially_visible *part,
+                             const struct numbering *numbering,
+                             inner_sides *sides) {
+  const struct sheet_triangle *triangle = numbering->whole->triangle.item;
+  bool ok = true;
+  for (size_t n = 0; ok && n < part->sheet.triangle.count; n++) {
+    const struct sheet_triangle *own = &triangle[part->triangle[n]];
+    ok = poll_at(n);
+    for (int k = 0; ok && k < 3; k++)
+      if (own->side[k] == SHEET_NONE) {
+        const struct sort_key side = {
+            sort_pair_key(own->point[k], own->point[geom_next_corner(k)]), 0};
+        ok = ARRAY_PUSH(sides, side);
+      }
+  }
+  return ok && sort_keys_alone(sides->item, sides->count);
+}
+
+/* Lists those of them that one triangle alone has: what is beyond was culled,
+ * whether the side is a diagonal or an edge that is not drawn. */
+static bool list_torn_sides(struct potentially_visible *part,
+                            const struct numbering *numbering) {
+  inner_sides sides = {0};
+  bool ok = list_inner_sides(part, numbering, &sides);
+  for (size_t i = 0, past; ok && i < sides.count; i = past) {
+    uint64_t key = sides.item[i].key;
+    for (past = i + 1; past < sides.count && sides.item[past].key == key;)
+      past++;
+    ok = past == i + 2 ||
+         add_contour(part, numbering, (uint32_t)(key >> 32), (uint32_t)key);
+  }
+  ARRAY_FREE(&sides);
+  return ok;
 }
 
 /* Lists the contours of the whole sheet, and the sides beyond which a triangle
- * was culled: of diagonals it is not known which triangle that is, so that all
- * of a face count. */
+ * was culled. */
 static bool list_contours(struct potentially_visible *part,
                           const struct numbering *numbering) {
   const struct sheet *whole = numbering->whole;
-  const struct sheet_triangle *triangle = whole->triangle.item;
-  bool ok = true, torn = false;
+  bool ok = true;
   for (size_t i = 0; ok && i < whole->contour.count; i++)
     ok = poll_at(i) &&
          add_contour(part, numbering, whole->contour.item[i].point[0],
                      whole->contour.item[i].point[1]);
-  for (uint32_t t = 0; ok && t < whole->triangle.count; t++) {
-    if (t == 0 || triangle[t].face != triangle[t - 1].face)
-      torn = is_face_culled_partly(numbering, t);
-    ok = poll_at(t);
-    for (int k = 0; ok && k < 3 && !is_triangle_culled(numbering, t); k++) {
-      uint32_t side = triangle[t].side[k];
-      const uint32_t *beside =
-          side != SHEET_NONE ? whole->edge.item[side].triangle : NULL;
-      if (beside == NULL ? torn
-                         : is_triangle_culled(numbering, beside[0]) ||
-                               is_triangle_culled(numbering, beside[1]))
-        ok = add_contour(part, numbering, triangle[t].point[k],
-                         triangle[t].point[geom_next_corner(k)]);
+  for (size_t n = 0; ok && n < part->sheet.triangle.count; n++) {
+    const struct sheet_triangle *own = &whole->triangle.item[part->triangle[n]];
+    ok = poll_at(n);
+    for (int k = 0; ok && k < 3; k++) {
+      const uint32_t *beside = own->side[k] != SHEET_NONE
+                                   ? whole->edge.item[own->side[k]].triangle
+                                   : NULL;
+      if (beside != NULL && (is_triangle_culled(numbering, beside[0]) ||
+                             is_triangle_culled(numbering, beside[1])))
+        ok = add_contour(part, numbering, own->point[k],
+                         own->point[geom_next_corner(k)]);
     }
   }
-  return ok;
+  return ok && list_torn_sides(part, numbering);
 }
 
 /* ---- 5. Numbers ---------------------------------------------------------- */
