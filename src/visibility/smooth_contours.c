@@ -330,7 +330,7 @@ static bool add_pieces(struct contour_pieces *c) {
             (c->options.exact ||
              thin_loops_remove(c->curves, c->set, c->sheet, c->topology)) &&
             contour_curves_cut_at_cusps(c->curves) &&
-            page_crossings_cut(c->curves, c->sheet) &&
+            page_crossings_cut(c->curves, c->sheet, c->map) &&
             contour_curves_sort_cuts(c->curves) &&
             triangle_grid_init(&c->grid, c->sheet);
   if (!ok)

@@ -9,7 +9,7 @@
 
 static bool add_segments(struct segment_grid *grid,
                          const struct contour_curves *curves,
-                         const struct sheet *sheet) {
+                         const struct sheet *sheet, const struct map *map) {
   for (uint32_t i = 0; i < curves->step.count; i++)
     if (curves->step.item[i].segment != SHEET_NONE &&
         !segment_grid_add(
@@ -25,7 +25,8 @@ static bool add_segments(struct segment_grid *grid,
   for (size_t i = sheet->edge.count;
        i > 0 && sheet->edge.item[i - 1].edge_class == RECTO_EDGE_INTERSECTION;
        i--)
-    if (!segment_grid_add(grid,
+    if (map->edge_state[i - 1] != MAP_HIDDEN &&
+        !segment_grid_add(grid,
                           sheet_ends(sheet, sheet->edge.item[i - 1].point),
                           SHEET_NONE, true))
       return false;
@@ -64,9 +65,9 @@ static bool cut_at_crossings(struct contour_curves *curves,
 }
 
 bool page_crossings_cut(struct contour_curves *curves,
-                        const struct sheet *sheet) {
+                        const struct sheet *sheet, const struct map *map) {
   struct segment_grid grid = {.contours = 0};
-  bool ok = add_segments(&grid, curves, sheet) &&
+  bool ok = add_segments(&grid, curves, sheet, map) &&
             (grid.contours == 0 ||
              (segment_grid_make(&grid) && cut_at_crossings(curves, &grid)));
   segment_grid_fini(&grid);

@@ -4,14 +4,19 @@
 #define VISIBILITY_CONTOUR_PAGE_CROSSINGS_H
 
 #include "visibility/contour/contour_curves.h"
+#include "visibility/map.h"
 
 /* Adds cuts where the image of a curve crosses
  *   that of a curve or of a border, if the curve is the farther one there;
- *   an intersection of faces, which are the sheet's last edges.
+ *   an intersection of faces that is visible somewhere.  Intersections are the
+ *   sheet's last edges; which of the hidden ones a method finds is its own
+ *   affair, and where a curve becomes hidden by a face that it passes through,
+ *   the intersection is visible.
  * Exact   whether two segments cross; where is rounded
  * Cost    near linear in the segments and crossings
  * Returns false when memory ran out or the caller cancelled. */
 USE_RESULT bool page_crossings_cut(struct contour_curves *curves,
-                                   const struct sheet *sheet);
+                                   const struct sheet *sheet,
+                                   const struct map *map);
 
 #endif
