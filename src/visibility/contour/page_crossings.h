@@ -8,10 +8,11 @@
 
 /* Adds cuts where the image of a curve crosses
  *   that of a curve or of a border, if the curve is the farther one there;
- *   an intersection of faces that is visible somewhere.  Intersections are the
- *   sheet's last edges; which of the hidden ones a method finds is its own
- *   affair, and where a curve becomes hidden by a face that it passes through,
- *   the intersection is visible.
+ *   an intersection of faces, if any part of it is visible.  Where a visible
+ *   curve passes through a face, the intersection is visible there.  Hidden
+ *   intersections are left out, as methods that cull hidden triangles do not
+ *   find them: the drawing would depend on the method.  Intersections are the
+ *   last edges of the sheet.
  * Exact   whether two segments cross; where is rounded
  * Cost    near linear in the segments and crossings
  * Returns false when memory ran out or the caller cancelled. */
