@@ -69,9 +69,12 @@ static bool round_points(struct svg *svg, const struct drawing_point *from,
 
 static void write_point(const struct svg *svg, struct svg_point p,
                         char separator) {
-  stream_number(svg->out, (double)p.x / svg->scale, svg->options->precision);
-  stream_write(svg->out, &separator, 1);
-  stream_number(svg->out, (double)p.y / svg->scale, svg->options->precision);
+  char text[2 * NUMBER_TEXT_SIZE];
+  int decimals = svg->options->precision;
+  size_t count = number_format_scaled(text, p.x, decimals);
+  text[count++] = separator;
+  count += number_format_scaled(text + count, p.y, decimals);
+  stream_write(svg->out, text, count);
 }
 
 /* Writes a step from one point to another, after another number unless it is
@@ -81,8 +84,7 @@ static void write_step(const struct svg *svg, struct svg_point from,
   const int64_t step[2] = {to.x - from.x, to.y - from.y};
   for (int k = 0; k < 2; k++) {
     char text[NUMBER_TEXT_SIZE];
-    size_t count = number_format(text, (double)step[k] / svg->scale,
-                                 svg->options->precision);
+    size_t count = number_format_scaled(text, step[k], svg->options->precision);
     size_t sign = text[0] == '-';
     if (!(first && k == 0) && sign == 0)
       stream_text(svg->out, " ");

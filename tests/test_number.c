@@ -424,6 +424,34 @@ static void there_are_no_needless_characters(void **state) {
   assert_format(-0x1p-30, 9, "-0.000000001");
 }
 
+static void assert_scaled(int64_t value, int decimals, const char *expected) {
+  char text[NUMBER_TEXT_SIZE];
+  size_t length = number_format_scaled(text, value, decimals);
+  assert_string_equal(text, expected);
+  assert_int_equal(length, strlen(expected));
+}
+
+static void scaled_integers_are_written_exactly(void **state) {
+  (void)state;
+  assert_scaled(0, 3, "0");
+  assert_scaled(-1, 3, "-0.001");
+  assert_scaled(-120, 2, "-1.2");
+  assert_scaled(1000, 3, "1");
+  assert_scaled(1050, 3, "1.05");
+  assert_scaled(17, 0, "17");
+  assert_scaled(INT64_MAX, 9, "9223372036.854775807");
+  assert_scaled(INT64_MIN, 9, "-9223372036.854775808");
+  struct random random = {4};
+  for (int i = 0; i < samples(100000); i++) {
+    int decimals = random_int(&random, 0, 9);
+    int64_t value = (int64_t)(random_between(&random, -1, 1) *
+                              pow(10, random_int(&random, 0, 9)));
+    char text[NUMBER_TEXT_SIZE];
+    number_format(text, (double)value / pow(10, decimals), decimals);
+    assert_scaled(value, decimals, text);
+  }
+}
+
 /* What printf writes, less trailing zeros; it rounds as we do but for ties,
  * which are too rare to come up here. */
 static void numbers_are_written_as_printf_writes_them(void **state) {
@@ -565,6 +593,7 @@ int main(void) {
     cmocka_unit_test(integers_are_read_up_to_their_limits),
     cmocka_unit_test(decimals_are_rounded_half_away_from_zero),
     cmocka_unit_test(there_are_no_needless_characters),
+    cmocka_unit_test(scaled_integers_are_written_exactly),
     cmocka_unit_test(numbers_are_written_as_printf_writes_them),
     cmocka_unit_test(exact_text_is_plain_where_that_is_short),
     cmocka_unit_test(exact_text_reads_back_and_is_shortest),

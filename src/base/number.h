@@ -76,6 +76,10 @@ const char *number_parse_int(const char *text, const char *end, int64_t *value);
  * Returns the length; `text` is NUL-terminated. */
 size_t number_format(char text[NUMBER_TEXT_SIZE], double value, int decimals);
 
+/* Writes value / 10^decimals (0 to 9) in the same form; exact. */
+size_t number_format_scaled(char text[NUMBER_TEXT_SIZE], int64_t value,
+                            int decimals);
+
 /* Writes the shortest text that reads back as the same double. */
 size_t number_format_exact(char text[NUMBER_TEXT_SIZE], double value);
 

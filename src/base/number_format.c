@@ -34,22 +34,14 @@ static uint64_t scale_fraction(double fraction, uint64_t scale) {
   return (uint64_t)((product + ((uint128)1 << (shift - 1))) >> shift);
 }
 
-size_t number_format(char text[NUMBER_TEXT_SIZE], double value, int decimals) {
-  static const uint64_t scales[10] = {1,         10,        100,     1000,
-                                      10000,     100000,    1000000, 10000000,
-                                      100000000, 1000000000};
-  assert(isfinite(value) && fabs(value) < 1e9);
-  assert(decimals >= 0 && decimals <= 9);
-  double magnitude = fabs(value);
-  uint64_t scale = scales[decimals];
-  uint64_t whole = (uint64_t)magnitude;
-  uint64_t part = scale_fraction(magnitude - (double)whole, scale);
-  if (part == scale) {
-    whole++;
-    part = 0;
-  }
+static const uint64_t powers_of_ten[10] = {
+    1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000, 1000000000};
+
+/* Writes whole + part / 10^decimals, for part < 10^decimals. */
+static size_t put_fixed_point(char *text, bool negative, uint64_t whole,
+                              uint64_t part, int decimals) {
   char *p = text;
-  if (value < 0 && (whole || part))
+  if (negative && (whole || part))
     *p++ = '-';
   p = put_digits(p, whole, 1);
   if (part) {
@@ -60,6 +52,29 @@ size_t number_format(char text[NUMBER_TEXT_SIZE], double value, int decimals) {
   }
   *p = '\0';
   return (size_t)(p - text);
+}
+
+size_t number_format(char text[NUMBER_TEXT_SIZE], double value, int decimals) {
+  assert(isfinite(value) && fabs(value) < 1e9);
+  assert(decimals >= 0 && decimals <= 9);
+  double magnitude = fabs(value);
+  uint64_t scale = powers_of_ten[decimals];
+  uint64_t whole = (uint64_t)magnitude;
+  uint64_t part = scale_fraction(magnitude - (double)whole, scale);
+  if (part == scale) {
+    whole++;
+    part = 0;
+  }
+  return put_fixed_point(text, value < 0, whole, part, decimals);
+}
+
+size_t number_format_scaled(char text[NUMBER_TEXT_SIZE], int64_t value,
+                            int decimals) {
+  assert(decimals >= 0 && decimals <= 9);
+  uint64_t magnitude = value < 0 ? 0 - (uint64_t)value : (uint64_t)value;
+  uint64_t scale = powers_of_ten[decimals];
+  return put_fixed_point(text, value < 0, magnitude / scale, magnitude % scale,
+                         decimals);
 }
 
 size_t number_format_int(char text[NUMBER_TEXT_SIZE], int64_t value) {
