@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/poll.h"
+#include "geom/vector.h"
 
 void drawing_init(struct drawing *drawing) { *drawing = (struct drawing){0}; }
 
@@ -81,10 +82,10 @@ static void include_points(struct drawing_window *window,
                            const struct drawing_point *point, uint32_t count,
                            double half_width) {
   for (uint32_t i = 0; i < count; i++) {
-    window->x0 = fmin(window->x0, point[i].x - half_width);
-    window->y0 = fmin(window->y0, point[i].y - half_width);
-    window->x1 = fmax(window->x1, point[i].x + half_width);
-    window->y1 = fmax(window->y1, point[i].y + half_width);
+    window->x0 = min_number(window->x0, point[i].x - half_width);
+    window->y0 = min_number(window->y0, point[i].y - half_width);
+    window->x1 = max_number(window->x1, point[i].x + half_width);
+    window->y1 = max_number(window->y1, point[i].y + half_width);
   }
 }
 

@@ -10,12 +10,14 @@
 #include <float.h>
 #include <math.h>
 
+#include "geom/vector.h"
+
 enum { LARGEST_EXPONENT = 100 };
 
 /* ---- The size of the scene ----------------------------------------------- */
 
 static double largest_of(const struct scene_point *p) {
-  return fmax(fabs(p->x), fmax(fabs(p->y), fabs(p->z)));
+  return max_number(max_number(fabs(p->x), fabs(p->y)), fabs(p->z));
 }
 
 /* The largest coordinate of the corners; stops at the first that is at least
@@ -24,7 +26,7 @@ static double largest_corner(const struct scene *scene, const uint32_t *corner,
                              size_t count, double enough) {
   double largest = 0;
   for (size_t c = 0; c < count && largest < enough; c++)
-    largest = fmax(largest, largest_of(&scene->point.item[corner[c]]));
+    largest = max_number(largest, largest_of(&scene->point.item[corner[c]]));
   return largest;
 }
 
@@ -41,7 +43,7 @@ static int choose_exponent(const struct scene *scene) {
                least = 1 / largest_kept;
   double largest = 0;
   for (size_t p = 0; p < scene->point.count; p++)
-    largest = fmax(largest, largest_of(&scene->point.item[p]));
+    largest = max_number(largest, largest_of(&scene->point.item[p]));
   if (largest <= largest_kept && largest_used(scene, least) >= least)
     return 0;
   largest = largest_used(scene, INFINITY);
