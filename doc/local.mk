@@ -9,7 +9,8 @@ EXTRA_DIST += %D%/recto.3.in %D%/manual.awk
 	  $(srcdir)/%D%/recto.3.in >$@.new && mv $@.new $@
 
 EXTRA_DIST += NEWS.md CONTRIBUTING.md BIBLIOGRAPHY.md \
-	%D%/algorithms.md %D%/decisions %D%/draw.sh %D%/glossary.md \
+	%D%/algorithms.md %D%/decisions %D%/draw.sh \
+	%D%/contact_sheet.sh %D%/glossary.md \
 	%D%/python.md %D%/testing.md %D%/gallery.md \
 	%D%/plotting.md %D%/figures.md %D%/testing-with-recto.md \
 	%D%/part-format.md %D%/large.md
@@ -37,4 +38,9 @@ EXTRA_DIST += %D%/images/castle.svg %D%/images/gears.svg %D%/images/knot.svg \
 images: recto
 	bash '$(srcdir)/%D%/draw.sh' ./recto '$(srcdir)/examples/models' \
 	  '$(srcdir)/%D%/images'
-.PHONY: images
+# Twelve drawings by default options, to be looked at.
+contact-sheet: recto
+	$(AM_TESTS_ENVIRONMENT) bash '$(srcdir)/%D%/contact_sheet.sh' ./recto \
+	  '$(srcdir)/examples/models' contact-sheet.svg
+CLEANFILES += contact-sheet.svg
+.PHONY: images contact-sheet
