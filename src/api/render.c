@@ -135,9 +135,11 @@ static recto_status find_topology(struct render *render, recto_error *error) {
     return error_set(error, RECTO_ERROR_EMPTY, NULL, 0,
                      "there is nothing to draw: the weld length is larger than "
                      "all faces");
-  render->topology.drop_after_sheet = !needs_fragments(render) &&
-                                      !draws_smooth_contours(render) &&
-                                      !is_shared(render);
+  render->topology.drop_corners = !needs_fragments(render) &&
+                                  !draws_smooth_contours(render) &&
+                                  !is_shared(render);
+  render->topology.drop_edges = !uses_topology(render) && !is_shared(render) &&
+                                scene_wire_count(render->prepared->scene) == 0;
   return status;
 }
 

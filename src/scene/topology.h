@@ -17,9 +17,10 @@ struct topology {
   uint8_t *class_masks;  /* of all edges at the angle crease_deg, as of
                             topology_class_masks; NULL: not kept */
   double crease_deg;
-  bool drop_after_sheet; /* corner_edge may be freed once the sheet has its
-                            triangles: it is not used later */
-  uint32_t *weld;        /* point -> the point it is welded to; NULL where
+  /* What may be freed once it was laid out, as it is not used later: */
+  bool drop_corners; /* corner_edge */
+  bool drop_edges;   /* edge */
+  uint32_t *weld;    /* point -> the point it is welded to; NULL where
                             nothing was welded */
 };
 

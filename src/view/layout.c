@@ -4,12 +4,17 @@
 
 #include <string.h>
 
-#include "view/layout_phases.h"
+#include "view/layout_face_ranges.h"
 
 static void free_layout(struct layout *layout) {
   mem_free(layout->point_map);
   mem_free(layout->outcode);
   mem_free(layout->sides);
+  mem_free(layout->class_masks);
+  mem_free(layout->coarse);
+  mem_free(layout->ids.bits);
+  mem_free(layout->ids.before);
+  layout_free_face_ranges(layout);
   mem_free(layout->edge_clipped);
   ARRAY_FREE(&layout->clipped);
   ARRAY_FREE(&layout->flags);
@@ -20,6 +25,41 @@ static void free_layout(struct layout *layout) {
   ARRAY_FREE(&layout->fold);
   ARRAY_FREE(&layout->corner);
   triangulation_fini(&layout->triangulation);
+}
+
+/* Makes the triangles that were left out before there were edges; what they do
+ * not need is freed first. */
+static recto_status make_late_triangles(struct layout *layout) {
+  mem_free(layout->sides);
+  mem_free(layout->class_masks);
+  mem_free(layout->outcode);
+  layout->sides = layout->class_masks = layout->outcode = NULL;
+  if (layout->topology->drop_edges)
+    ARRAY_FREE(&layout->topology->edge);
+  bool ok = layout_make_all_triangles(layout);
+  layout_free_face_ranges(layout);
+  return ok ? RECTO_OK : error_memory(layout->error);
+}
+
+/* Runs the phases. */
+static recto_status run_phases(struct layout *layout) {
+  recto_status status = layout_classes(layout);
+  if (status == RECTO_OK)
+    status = layout_points(layout);
+  if (status == RECTO_OK)
+    status = layout_triangles(layout);
+  bool late = layout->face_range != NULL;
+  if (!late && layout->topology->drop_corners)
+    topology_drop_corners(layout->topology);
+  if (status == RECTO_OK)
+    status = layout_edges(layout);
+  if (status == RECTO_OK)
+    status = layout_wires(layout);
+  if (status == RECTO_OK && late)
+    status = make_late_triangles(layout);
+  if (layout->topology->drop_corners)
+    topology_drop_corners(layout->topology);
+  return status;
 }
 
 recto_status layout_sheet(struct sheet *sheet, const struct scene *scene,
@@ -41,15 +81,7 @@ recto_status layout_sheet(struct sheet *sheet, const struct scene *scene,
       .projection = projection_of(camera),
       .error = error,
   };
-  recto_status status = layout_points(&layout);
-  if (status == RECTO_OK)
-    status = layout_triangles(&layout);
-  if (topology->drop_after_sheet)
-    topology_drop_corners(topology);
-  if (status == RECTO_OK)
-    status = layout_edges(&layout);
-  if (status == RECTO_OK)
-    status = layout_wires(&layout);
+  recto_status status = run_phases(&layout);
   if (status == RECTO_OK) {
     sheet->triangle_flags = layout.flags.item;
     layout.flags.item = NULL;

@@ -10,7 +10,7 @@
  *
  * An edge may have several classes: a crease may be a silhouette.  It becomes a
  * sheet edge if one of them is in options->ink.edges.
- * topology   its corners are dropped where `drop_after_sheet` is set
+ * topology   what it may drop is freed as soon as it is not needed
  * all_edges  every edge of a face becomes a sheet edge, of class 0 where no
  *            class of it was requested
  * Errors  RECTO_ERROR_MEMORY; RECTO_ERROR_LIMIT: 2^31 points or triangles. */

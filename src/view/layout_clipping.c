@@ -27,7 +27,7 @@ static recto_status find_clipped_corner(struct layout *layout,
   const struct clip_corner *corner = &polygon->corner[i];
   *point = SHEET_NONE;
   if (corner->origin != CLIP_CUT) {
-    *point = layout->point_map[triangle->point[corner->origin]];
+    *point = layout_sheet_point(layout, triangle->point[corner->origin]);
     return RECTO_OK;
   }
   int reached = polygon->corner[i > 0 ? i - 1 : polygon->count - 1].side;

@@ -73,12 +73,8 @@ static inline int64_t layout_sink_triangle(struct layout_triangle_sink *sink,
                                            const uint32_t side[3]) {
   int64_t area = geom_orient2d(sink->point[point[0]], sink->point[point[1]],
                                sink->point[point[2]]);
-  bool flip = area < 0;
-  *sink->triangle++ =
-      (struct sheet_triangle){{point[0], point[1 + flip], point[2 - flip]},
-                              {side[2 * flip], side[1], side[2 - 2 * flip]},
-                              face};
-  *sink->flags++ = flip ? SHEET_FLIPPED : area == 0 ? SHEET_EDGE_ON : 0;
+  *sink->triangle++ = layout_oriented_triangle(point, side, face, area < 0);
+  *sink->flags++ = layout_flags_of_area(area);
   sink->remaining--;
   return area;
 }
@@ -102,9 +98,9 @@ static inline bool layout_reserve(struct layout *layout, size_t extra) {
  * Returns the sign of its area on the page, in the face's winding. */
 static inline int layout_add_whole(struct layout *layout,
                                    const struct layout_triangle *triangle) {
-  const uint32_t *map = layout->point_map;
-  const uint32_t point[3] = {map[triangle->point[0]], map[triangle->point[1]],
-                             map[triangle->point[2]]};
+  const uint32_t point[3] = {layout_sheet_point(layout, triangle->point[0]),
+                             layout_sheet_point(layout, triangle->point[1]),
+                             layout_sheet_point(layout, triangle->point[2])};
   const uint32_t side[3] = {layout_side_id(layout, triangle, 0),
                             layout_side_id(layout, triangle, 1),
                             layout_side_id(layout, triangle, 2)};

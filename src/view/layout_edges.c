@@ -7,16 +7,12 @@
  *           edges are either.  So it is known how many are made before each.
  *   make    makes the edges of the sheet.
  *   link    makes the sides of triangles refer to these, and them to their
- *           triangles.
+ *           triangles, where these are there (layout_face_ranges.h).
  */
 #include "base/parallel.h"
 #include "base/sort.h"
 #include "scene/edge_classes.h"
-#include "view/layout_phases.h"
-
-/* The classes that an edge has by its faces. */
-static const unsigned face_classes =
-    RECTO_EDGES_ALL & ~(unsigned)(RECTO_EDGE_WIRE | RECTO_EDGE_INTERSECTION);
+#include "view/layout_face_ranges.h"
 
 /* Whether silhouettes are edges of the mesh at a point; else they are found
  * after it was solved (visibility/smooth_contours.h).
@@ -44,8 +40,8 @@ static unsigned class_mask_of(const struct scene *scene,
 static recto_status find_end_points(struct layout *layout, uint32_t edge,
                                     struct layout_clipped *ends) {
   const uint32_t *point = layout->topology->edge.item[edge].point;
-  *ends = (struct layout_clipped){
-      {layout->point_map[point[0]], layout->point_map[point[1]]}};
+  *ends = (struct layout_clipped){{layout_sheet_point(layout, point[0]),
+                                   layout_sheet_point(layout, point[1])}};
   if (ends->point[0] != SHEET_NONE && ends->point[1] != SHEET_NONE)
     return RECTO_OK;
   ends->point[0] = ends->point[1] = SHEET_NONE;
@@ -54,27 +50,8 @@ static recto_status find_end_points(struct layout *layout, uint32_t edge,
   return layout_clip_edge(layout, edge, ends);
 }
 
-/* The map from topology edges to sheet edges, as a bit vector with rank: a bit
- * says whether the edge was made, and as sheet edges are in the same order, the
- * number of bits set before it is its index.  It is queried for every side of
- * every triangle, and is small enough to stay in the cache. */
-struct edge_ids {
-  uint64_t *bits;
-  uint32_t *before;
-};
-
 /* Edges that a thread takes at once: whole words of that map. */
 enum { EDGES_IN_RANGE = 64 * PARALLEL_RANGE(POLL_ITEMS / 64) };
-
-/* The sheet edge of a topology edge; SHEET_NONE: it was not made. */
-static inline uint32_t edge_id_of(const struct edge_ids *edge_ids,
-                                  uint32_t edge) {
-  uint64_t bits = edge_ids->bits[edge / 64], bit = UINT64_C(1) << edge % 64;
-  if (!(bits & bit))
-    return SHEET_NONE;
-  return edge_ids->before[edge / 64] +
-         (uint32_t)__builtin_popcountll(bits & (bit - 1));
-}
 
 static struct sheet_edge sheet_edge_of(struct layout_clipped ends,
                                        uint32_t source, uint32_t group,
@@ -92,30 +69,18 @@ static struct sheet_edge sheet_edge_of(struct layout_clipped ends,
 /* What the phases know, of all edges of the topology. */
 struct edge_layout {
   struct layout *layout;
-  struct edge_ids ids;
-  uint64_t *special;    /* a bit an edge: it is a contour or leaves the page */
-  uint8_t *class_masks; /* one an edge; once they are chosen, the class of each.
-                           NULL where no class of them was requested */
-  uint8_t *coarse;      /* of topology_coarse_parts; or NULL */
+  uint64_t *special; /* a bit an edge: it is a contour or leaves the page */
   struct link_range *link;
 };
 
 static bool edge_layout_init(struct edge_layout *work, struct layout *layout) {
   size_t words = layout->topology->edge.count / 64 + 1;
   *work = (struct edge_layout){.layout = layout};
-  work->ids.bits = mem_calloc(words, sizeof *work->ids.bits);
-  work->ids.before = mem_alloc(words, sizeof *work->ids.before);
+  layout->ids.bits = mem_calloc(words, sizeof *layout->ids.bits);
+  layout->ids.before = mem_alloc(words, sizeof *layout->ids.before);
   work->special = mem_calloc(words, sizeof *work->special);
-  return work->ids.bits != NULL && work->ids.before != NULL &&
+  return layout->ids.bits != NULL && layout->ids.before != NULL &&
          work->special != NULL;
-}
-
-static void edge_layout_fini(struct edge_layout *work) {
-  mem_free(work->ids.bits);
-  mem_free(work->ids.before);
-  mem_free(work->special);
-  mem_free(work->class_masks);
-  mem_free(work->coarse);
 }
 
 static bool is_contour(const struct layout *layout, uint32_t edge) {
@@ -127,28 +92,28 @@ static bool is_contour(const struct layout *layout, uint32_t edge) {
 static bool choose_edges(void *user, struct parallel_range range) {
   struct edge_layout *work = user;
   const struct layout *layout = work->layout;
-  const uint32_t *map = layout->point_map;
-  unsigned wanted = layout->options->ink.edges & face_classes;
+  unsigned wanted = layout->options->ink.edges & LAYOUT_FACE_CLASSES;
   unsigned silhouette = RECTO_EDGE_SILHOUETTE;
   for (uint32_t e = (uint32_t)range.begin; e < range.end; e++) {
     const struct topology_edge *edge = &layout->topology->edge.item[e];
     uint64_t bit = UINT64_C(1) << e % 64;
     bool made = layout->all_edges;
-    if (work->class_masks != NULL) {
+    if (layout->class_masks != NULL) {
       unsigned edge_class = topology_class_of_mask(
-          class_mask_of(layout->scene, edge, work->class_masks[e],
+          class_mask_of(layout->scene, edge, layout->class_masks[e],
                         layout->sides[e]) &
-          (has_mesh_contours(work->coarse, edge->point[0])
+          (has_mesh_contours(layout->coarse, edge->point[0])
                ? wanted
                : wanted & ~silhouette));
-      work->class_masks[e] = (uint8_t)edge_class;
+      layout->class_masks[e] = (uint8_t)edge_class;
       made |= edge_class != 0;
     }
     bool contour = is_contour(layout, e);
     if (made)
-      work->ids.bits[e / 64] |= bit;
-    if (contour || (made && (map[edge->point[0]] == SHEET_NONE ||
-                             map[edge->point[1]] == SHEET_NONE)))
+      layout->ids.bits[e / 64] |= bit;
+    if (contour ||
+        (made && (layout_sheet_point(layout, edge->point[0]) == SHEET_NONE ||
+                  layout_sheet_point(layout, edge->point[1]) == SHEET_NONE)))
       work->special[e / 64] |= bit;
   }
   return true;
@@ -161,7 +126,7 @@ static recto_status clip_edge(struct edge_layout *work, uint32_t edge) {
   struct layout_clipped ends;
   recto_status status = find_end_points(layout, edge, &ends);
   if (status == RECTO_OK && ends.point[0] == SHEET_NONE)
-    work->ids.bits[edge / 64] &= ~(UINT64_C(1) << edge % 64);
+    layout->ids.bits[edge / 64] &= ~(UINT64_C(1) << edge % 64);
   else if (status == RECTO_OK && is_contour(layout, edge))
     status = layout_contour(layout, ends.point[0], ends.point[1]);
   return status;
@@ -169,6 +134,7 @@ static recto_status clip_edge(struct edge_layout *work, uint32_t edge) {
 
 /* Clips the special edges, and counts the edges that are made. */
 static recto_status clip_edges(struct edge_layout *work, size_t *count) {
+  struct layout_edge_ids *ids = &work->layout->ids;
   size_t words = work->layout->topology->edge.count / 64 + 1;
   *count = 0;
   for (size_t w = 0; w < words; w++) {
@@ -178,8 +144,8 @@ static recto_status clip_edges(struct edge_layout *work, size_t *count) {
       if (status != RECTO_OK)
         return status;
     }
-    work->ids.before[w] = (uint32_t)*count;
-    *count += (size_t)__builtin_popcountll(work->ids.bits[w]);
+    ids->before[w] = (uint32_t)*count;
+    *count += (size_t)__builtin_popcountll(ids->bits[w]);
     if (!poll_at(64 * w))
       return error_cancelled(work->layout->error);
   }
@@ -192,13 +158,13 @@ static bool make_edges_of_range(void *user, struct parallel_range range) {
   struct layout *layout = work->layout;
   const uint32_t *group = layout->scene->face_group.item;
   struct sheet_edge *to =
-      layout->sheet->edge.item + work->ids.before[range.begin / 64];
+      layout->sheet->edge.item + layout->ids.before[range.begin / 64];
   for (size_t w = range.begin / 64; 64 * w < range.end; w++)
-    for (uint64_t left = work->ids.bits[w]; left != 0; left &= left - 1) {
+    for (uint64_t left = layout->ids.bits[w]; left != 0; left &= left - 1) {
       uint32_t e = (uint32_t)(64 * w) + (uint32_t)__builtin_ctzll(left);
       uint32_t first = layout->topology->edge.item[e].first;
       unsigned edge_class =
-          work->class_masks != NULL ? work->class_masks[e] : 0;
+          layout->class_masks != NULL ? layout->class_masks[e] : 0;
       struct layout_clipped ends;
       if (find_end_points(layout, e, &ends) != RECTO_OK)
         return false;
@@ -226,14 +192,15 @@ static recto_status make_edges(struct edge_layout *work) {
 }
 
 /* Makes an edge of every fold; only requested ones were stored. */
-static bool make_folds(struct layout *layout, const uint8_t *coarse) {
+static bool make_folds(struct layout *layout) {
   const struct scene *scene = layout->scene;
   unsigned wanted = layout->options->ink.edges & RECTO_EDGE_SILHOUETTE;
   for (size_t f = 0; f < layout->fold.count; f++) {
     const struct layout_fold *fold = &layout->fold.item[f];
     uint32_t group = scene->face_group.item[fold->face];
     uint32_t corner = scene->corner.item[scene->face_start.item[fold->face]];
-    bool is_mesh = has_mesh_contours(coarse, layout_weld(layout, corner));
+    bool is_mesh =
+        has_mesh_contours(layout->coarse, layout_weld(layout, corner));
     struct sheet_edge edge =
         sheet_edge_of(fold->ends, SHEET_NONE, group, is_mesh ? wanted : 0, 0);
     if (!ARRAY_PUSH(&layout->sheet->edge, edge))
@@ -252,15 +219,6 @@ struct late_side {
 struct link_range {
   ARRAY(struct late_side) late;
 };
-
-/* Triangles use an edge in their order. */
-static inline void use_sheet_edge(struct sheet_edge *edge, uint32_t triangle) {
-  uint32_t *of = edge->triangle;
-  if (of[0] == SHEET_NONE)
-    of[0] = triangle;
-  else if (of[1] == SHEET_NONE && of[0] != triangle)
-    of[1] = triangle;
-}
 
 /* The first topology edge that no triangle before this one has: edges are in
  * the order of their first faces. */
@@ -293,13 +251,13 @@ static bool link_sides_of_range(void *user, struct parallel_range range) {
         layout->flags.item[t] |= (uint8_t)(SHEET_INNER << k);
       if (side[k] == SHEET_NONE)
         continue;
-      side[k] = is_edge ? edge_id_of(&work->ids, side[k])
+      side[k] = is_edge ? layout_edge_id(&layout->ids, side[k])
                         : first_fold + (side[k] - edges);
       struct late_side late = {side[k], (uint32_t)t};
       if (side[k] == SHEET_NONE)
         continue;
       if (!is_late)
-        use_sheet_edge(&sheet->edge.item[side[k]], (uint32_t)t);
+        layout_use_edge(&sheet->edge.item[side[k]], (uint32_t)t);
       else if (!ARRAY_PUSH(&link->late, late))
         return false;
     }
@@ -321,51 +279,24 @@ static bool link_sides(struct edge_layout *work) {
   for (size_t r = 0; work->link != NULL && r < ranges; r++) {
     struct link_range *link = &work->link[r];
     for (size_t i = 0; i < link->late.count; i++)
-      use_sheet_edge(&sheet->edge.item[link->late.item[i].edge],
-                     link->late.item[i].triangle);
+      layout_use_edge(&sheet->edge.item[link->late.item[i].edge],
+                      link->late.item[i].triangle);
     ARRAY_FREE(&link->late);
   }
   mem_free(work->link);
   return ok;
 }
 
-/* ---- Classes ------------------------------------------------------------- */
-
-/* Finds the classes of edges that do not depend on the camera, if any is
- * requested, and the parts that sample no smooth surface. */
-static bool find_camera_free_classes(struct edge_layout *work) {
-  const struct layout *layout = work->layout;
-  const struct topology *topology = layout->topology;
-  const struct scene *scene = layout->scene;
-  double crease_deg = layout->options->mesh.crease_deg;
-  double start_deg = layout->options->mesh.crease_start_deg;
-  if (!(layout->options->ink.edges & face_classes))
-    return true;
-  uint8_t *masks = mem_alloc(topology->edge.count, sizeof *masks);
-  work->class_masks = masks;
-  if (masks == NULL ||
-      !topology_class_masks(topology, scene, crease_deg, masks) ||
-      (start_deg > crease_deg &&
-       !topology_drop_weak_creases(topology, scene, start_deg, masks)))
-    return false;
-  if (layout->options->ink.contours != RECTO_CONTOURS_SMOOTH)
-    return true;
-  work->coarse = mem_alloc(scene->point.count, 1);
-  return work->coarse != NULL &&
-         topology_coarse_parts(topology, scene, masks, work->coarse);
-}
-
 recto_status layout_edges(struct layout *layout) {
   struct edge_layout work;
-  recto_status status;
-  if (!edge_layout_init(&work, layout) || !find_camera_free_classes(&work))
-    status = error_memory(layout->error);
-  else
-    status = make_edges(&work);
+  recto_status status = edge_layout_init(&work, layout)
+                            ? make_edges(&work)
+                            : error_memory(layout->error);
+  bool is_linked = layout->face_range != NULL; /* it will be */
   if (status == RECTO_OK &&
-      (!make_folds(layout, work.coarse) || !link_sides(&work)))
+      (!make_folds(layout) || (!is_linked && !link_sides(&work))))
     status = error_memory(layout->error);
-  edge_layout_fini(&work);
+  mem_free(work.special);
   return status;
 }
 

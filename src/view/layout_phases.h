@@ -2,15 +2,19 @@
  * share.
  *
  * Phases, in this order
+ *   classes    finds the classes of edges that do not depend on the camera.
  *   range      computes the depth range of what is inside the printable area,
  *              which is mapped to the sheet's range of z.
  *   points     makes a sheet point of every used scene point inside.
  *   triangles  triangulates the faces, clips them and turns them
  *              counter-clockwise.  Their sides refer to topology edges, or to
  *              folds, numbered from the last of these; for each edge it is
- *              recorded on which of its sides its faces lie.
+ *              recorded on which of its sides its faces lie.  Where no face
+ *              needs triangulation or clipping, the latter is all that is done.
  *   edges      classifies the edges and makes sheet edges of those needed, then
- *              of the folds; then makes the triangles' sides refer to these.
+ *              of the folds.
+ *   link       makes the triangles' sides refer to sheet edges; or makes the
+ *              triangles, where they were left out before.
  *   wires      makes edges of polylines.
  * Invariants
  *   A topology edge is clipped once, when a phase first needs it, from its
@@ -66,6 +70,34 @@ static inline void layout_record_side(uint8_t *sides, bool forward, int sign) {
     *sides = (uint8_t)(*sides + LAYOUT_ONE_FACE);
 }
 
+/* Records what was recorded of another face, alone. */
+static inline void layout_unite_sides(uint8_t *sides, uint8_t of_face) {
+  *sides |= of_face & (LAYOUT_ONE_FACE - 1);
+  if (*sides < LAYOUT_FACES_MAX)
+    *sides = (uint8_t)(*sides + LAYOUT_ONE_FACE);
+}
+
+/* The flags of a triangle by its area, in its face's winding. */
+static inline uint8_t layout_flags_of_area(int64_t area) {
+  return area < 0 ? SHEET_FLIPPED : area == 0 ? SHEET_EDGE_ON : 0;
+}
+
+/* The triangle of three points and the sides after them.
+ * flip  whether they run clockwise on the page */
+static inline struct sheet_triangle
+layout_oriented_triangle(const uint32_t point[3], const uint32_t side[3],
+                         uint32_t face, bool flip) {
+  /* Written so that nothing is looked up in memory. */
+  return (struct sheet_triangle){
+      {point[0], flip ? point[2] : point[1], flip ? point[1] : point[2]},
+      {flip ? side[2] : side[0], side[1], flip ? side[0] : side[2]},
+      face};
+}
+
+/* The classes that an edge has by its faces. */
+#define LAYOUT_FACE_CLASSES                                                    \
+  (RECTO_EDGES_ALL & ~(unsigned)(RECTO_EDGE_WIRE | RECTO_EDGE_INTERSECTION))
+
 /* Whether both faces lie on one side of the edge on the page, or one of them is
  * seen edge-on.  An edge that lost a face to clipping is no silhouette. */
 static inline bool layout_is_silhouette(uint8_t sides) {
@@ -95,17 +127,52 @@ struct layout_fold {
   uint32_t face;
 };
 
+/* The map from topology edges to sheet edges, as a bit vector with rank: a bit
+ * says whether the edge was made, and as sheet edges are in the same order, the
+ * number of bits set before it is its index.  It is queried for every side of
+ * every triangle, and is small enough to stay in the cache. */
+struct layout_edge_ids {
+  uint64_t *bits;
+  uint32_t *before;
+};
+
+/* The sheet edge of a topology edge; SHEET_NONE: it was not made. */
+static inline uint32_t layout_edge_id(const struct layout_edge_ids *ids,
+                                      uint32_t edge) {
+  uint64_t bits = ids->bits[edge / 64], bit = UINT64_C(1) << edge % 64;
+  if (!(bits & bit))
+    return SHEET_NONE;
+  return ids->before[edge / 64] +
+         (uint32_t)__builtin_popcountll(bits & (bit - 1));
+}
+
+/* Notes that a triangle has an edge; triangles do in their order. */
+static inline void layout_use_edge(struct sheet_edge *edge, uint32_t triangle) {
+  uint32_t *of = edge->triangle;
+  if (of[0] == SHEET_NONE)
+    of[0] = triangle;
+  else if (of[1] == SHEET_NONE && of[0] != triangle)
+    of[1] = triangle;
+}
+
 struct layout {
   struct sheet *sheet;
   const struct scene *scene;
-  const struct topology *topology;
+  struct topology *topology;
   const recto_options *options;
   bool all_edges;
   struct projection projection;
-  uint32_t *point_map; /* scene point -> sheet point; SHEET_NONE: outside,
-                          welded to another, or not used */
-  uint8_t *outcode;    /* one a scene point: see clip.h */
-  uint8_t *sides;      /* one a topology edge: LAYOUT_... */
+  uint32_t *point_map;  /* scene point -> sheet point; SHEET_NONE: outside,
+                          welded to another, or not used; NULL: each is that of
+                          its own number */
+  uint8_t *outcode;     /* one a scene point: see clip.h */
+  uint8_t *sides;       /* one a topology edge: LAYOUT_... */
+  uint8_t *class_masks; /* likewise; once they are chosen, the class of each.
+                           NULL where no class of them was requested */
+  uint8_t *coarse;      /* of topology_coarse_parts; or NULL */
+  struct layout_edge_ids ids;
+  struct face_range *face_range; /* of layout_face_ranges.h; NULL: triangles are
+                                    there before the edges */
   /* Topology edge -> clipped; SHEET_NONE: not yet clipped; NULL until the first
    * is. */
   uint32_t *edge_clipped;
@@ -127,12 +194,19 @@ static inline uint32_t layout_weld(const struct layout *layout,
   return weld != NULL ? weld[point] : point;
 }
 
+/* The sheet point of a scene point, or SHEET_NONE. */
+static inline uint32_t layout_sheet_point(const struct layout *layout,
+                                          uint32_t point) {
+  return layout->point_map != NULL ? layout->point_map[point] : point;
+}
+
 static inline struct view_point layout_view(const struct layout *layout,
                                             uint32_t point) {
   return camera_view(&layout->sheet->camera, &layout->scene->point.item[point]);
 }
 
 /* All fail with RECTO_ERROR_MEMORY or RECTO_ERROR_LIMIT. */
+USE_RESULT recto_status layout_classes(struct layout *layout);
 USE_RESULT recto_status layout_points(struct layout *layout);
 USE_RESULT recto_status layout_triangles(struct layout *layout);
 USE_RESULT recto_status layout_edges(struct layout *layout);

@@ -2,6 +2,7 @@
  * where clipping cuts edges. */
 #include "view/layout_phases.h"
 
+#include <stdatomic.h>
 #include <string.h>
 
 #include "base/hash.h"
@@ -26,51 +27,71 @@ static size_t count_used(const uint8_t *used, size_t count) {
 struct projection_work {
   struct layout *layout;
   const uint8_t *used;
+  atomic_bool found_other; /* a point is not used, or outside */
 };
 
 /* Projects the points of a range, each to the place of its own number. */
 static bool project_range(void *user, struct parallel_range range) {
-  const struct projection_work *work = user;
+  struct projection_work *work = user;
   struct layout *layout = work->layout;
   const struct projection projection = layout->projection;
   struct geom_point *point = layout->sheet->point.item;
+  bool all = true;
   for (size_t p = range.begin; p < range.end; p++) {
+    all = all && work->used[p];
     if (!work->used[p])
       continue;
     struct view_point at = layout_view(layout, (uint32_t)p);
-    layout->outcode[p] = clip_outcode(&projection, at);
-    if (layout->outcode[p] == 0)
+    uint8_t outcode = clip_outcode(&projection, at);
+    all = all && outcode == 0;
+    if (outcode == 0)
       point[p] = project_point(&projection, at);
+    else
+      layout->outcode[p] = outcode;
   }
+  if (!all)
+    atomic_store(&work->found_other, true);
   return true;
 }
 
-/* Makes points of the sheet of those that are used and inside.
- * used  one a scene point; the sheet has room for all of these */
-static bool project_points(struct layout *layout, const uint8_t *used) {
-  struct projection_work work = {layout, used};
+/* Moves the points that are used and inside to the front, and maps those of the
+ * scene to them; returns how many there are. */
+static size_t compact_points(struct layout *layout, const uint8_t *used) {
   struct geom_point *point = layout->sheet->point.item;
   size_t points = layout->scene->point.count, count = 0;
-  if (!parallel_ranges(parallel_workers(points, PARALLEL_ITEMS), points,
-                       PARALLEL_ITEMS, project_range, &work))
-    return false;
   for (size_t p = 0; p < points; p++) {
     bool inside = used[p] && layout->outcode[p] == 0;
     layout->point_map[p] = inside ? (uint32_t)count : SHEET_NONE;
     if (inside)
       point[count++] = point[p];
   }
+  return count;
+}
+
+/* Makes points of the sheet of those that are used and inside.
+ * used  one a scene point; the sheet has room for all of these */
+static recto_status project_points(struct layout *layout, const uint8_t *used) {
+  struct projection_work work = {.layout = layout, .used = used};
+  size_t points = layout->scene->point.count, count = points;
+  if (!parallel_ranges(parallel_workers(points, PARALLEL_ITEMS), points,
+                       PARALLEL_ITEMS, project_range, &work))
+    return error_cancelled(layout->error);
+  if (atomic_load(&work.found_other)) {
+    layout->point_map = mem_alloc(points, sizeof *layout->point_map);
+    if (layout->point_map == NULL)
+      return error_memory(layout->error);
+    count = compact_points(layout, used);
+  }
   layout->sheet->point.count = layout->sheet->vertex_count = count;
-  return true;
+  return RECTO_OK;
 }
 
 recto_status layout_points(struct layout *layout) {
   size_t points = layout->scene->point.count;
   recto_status status = RECTO_OK;
   uint8_t *used = used_points(layout->scene, layout->topology->weld);
-  layout->point_map = mem_alloc(points, sizeof *layout->point_map);
   layout->outcode = mem_calloc(points, sizeof *layout->outcode);
-  if (used == NULL || layout->point_map == NULL || layout->outcode == NULL) {
+  if (used == NULL || layout->outcode == NULL) {
     status = error_memory(layout->error);
     goto end;
   }
@@ -84,8 +105,7 @@ recto_status layout_points(struct layout *layout) {
   if (status == RECTO_OK) {
     layout->sheet->z_scale = layout->projection.z_scale;
     layout->sheet->units_per_view = layout->projection.units;
-    if (!project_points(layout, used))
-      status = error_cancelled(layout->error);
+    status = project_points(layout, used);
   }
 end:
   mem_free(used);
@@ -156,8 +176,8 @@ static recto_status find_clipped_end(struct layout *layout, uint32_t outside,
 recto_status layout_segment(struct layout *layout, uint32_t from, uint32_t to,
                             struct layout_clipped *clipped) {
   const uint32_t source[2] = {from, to};
-  *clipped =
-      (struct layout_clipped){{layout->point_map[from], layout->point_map[to]}};
+  *clipped = (struct layout_clipped){
+      {layout_sheet_point(layout, from), layout_sheet_point(layout, to)}};
   if (clipped->point[0] != SHEET_NONE && clipped->point[1] != SHEET_NONE)
     return RECTO_OK;
   struct view_point end[2] = {layout_view(layout, from),
@@ -172,7 +192,7 @@ recto_status layout_segment(struct layout *layout, uint32_t from, uint32_t to,
     if (moved[k])
       status = find_clipped_end(layout, source[k], end[k], &clipped->point[k]);
     else
-      clipped->point[k] = layout->point_map[source[k]];
+      clipped->point[k] = layout_sheet_point(layout, source[k]);
     if (status != RECTO_OK)
       return status;
   }

@@ -10,6 +10,7 @@
 #include "base/poll.h"
 #include "view/coordinate_error.h"
 #include "view/layout_clipping.h"
+#include "view/layout_face_ranges.h"
 #include "view/layout_unclipped.h"
 
 static inline void set_side(const struct layout *layout,
@@ -138,7 +139,7 @@ static double contact_units(const struct sheet *sheet, uint32_t face,
 static const struct geom_point *corner_point(const struct layout *layout,
                                              uint32_t corner) {
   uint32_t point = layout_weld(layout, layout->scene->corner.item[corner]);
-  return &layout->sheet->point.item[layout->point_map[point]];
+  return &layout->sheet->point.item[layout_sheet_point(layout, point)];
 }
 
 static uint32_t farthest_corner(const struct layout *layout, uint32_t start,
@@ -382,12 +383,13 @@ recto_status layout_triangles(struct layout *layout) {
   size_t triangles = layout->scene->corner.count - 2 * (size_t)faces;
   layout->sides =
       mem_calloc(layout->topology->edge.count, sizeof *layout->sides);
-  if (layout->sides == NULL || !layout_reserve(layout, triangles))
+  if (layout->sides == NULL || !layout_record_all_sides(layout))
     return error_memory(layout->error);
-  bool done;
-  if (!layout_all_unclipped(layout, &done))
+  if (layout->face_range != NULL)
+    return RECTO_OK;
+  if (!layout_reserve(layout, triangles))
     return error_memory(layout->error);
-  for (uint32_t face = done ? faces : 0; face < faces; face++) {
+  for (uint32_t face = 0; face < faces; face++) {
     uint32_t next = (face | (POLL_ITEMS - 1)) + 1;
     face = layout_unclipped_faces(layout, face, next < faces ? next : faces);
     if (face == faces)

@@ -10,7 +10,9 @@ librecto_core_la_SOURCES += \
   %D%/camera_extent.c %D%/camera_extent.h \
   %D%/camera_axes.c %D%/camera_axes.h \
   %D%/layout.c %D%/layout.h \
+  %D%/layout_classes.c \
   %D%/layout_edges.c \
+  %D%/layout_face_ranges.c %D%/layout_face_ranges.h \
   %D%/layout_clipping.c %D%/layout_clipping.h \
   %D%/layout_phases.h \
   %D%/layout_points.c \
