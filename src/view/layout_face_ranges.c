@@ -93,9 +93,8 @@ static inline struct face_loop face_loop_of(const struct layout *layout) {
   };
 }
 
-/* The welded corners of a face, and their sheet points.  Returns false where two
- * corners are one.  Loops are written out, as compilers leave
- * them. */
+/* The welded corners of a face, and their sheet points.  Returns false where
+ * two corners are one.  Loops are written out, as compilers leave them. */
 static inline bool find_face_points(const struct face_loop *loop, size_t face,
                                     uint32_t corner[3], uint32_t point[3]) {
   const uint32_t *own = loop->corner + 3 * face, *map = loop->map;
