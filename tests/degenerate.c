@@ -55,7 +55,7 @@ static void aim_along_edge(recto_options *options, const struct scene *scene,
                            int edge, double size, double away) {
   uint32_t faces = scene_face_count(scene);
   uint32_t face = (uint32_t)((uint64_t)faces * (uint32_t)edge / 6);
-  uint32_t corner = scene->face_start.item[face];
+  uint32_t corner = scene_face_start(scene, face);
   struct vector p = point_of(scene, corner), q = point_of(scene, corner + 1);
   aim(options, p, vector_add(q, vector_scale(p, -1)), size, away);
 }

@@ -118,16 +118,12 @@ void ink_fixture_show(struct ink_fixture *k, uint32_t edge, int64_t t0,
 
 uint32_t ink_fixture_face(struct ink_fixture *k, uint32_t group,
                           const double *xyz, uint32_t count) {
-  if (k->scene.face_start.count == 0)
-    assert_true(ARRAY_PUSH(&k->scene.face_start, 0));
   for (uint32_t i = 0; i < count; i++) {
     struct scene_point p = {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
     assert_true(ARRAY_PUSH(&k->scene.corner, (uint32_t)k->scene.point.count));
     assert_true(ARRAY_PUSH(&k->scene.point, p));
   }
-  assert_true(
-      ARRAY_PUSH(&k->scene.face_start, (uint32_t)k->scene.corner.count));
-  assert_true(ARRAY_PUSH(&k->scene.face_group, group));
+  assert_true(scene_end_face(&k->scene, group));
   return scene_face_count(&k->scene) - 1;
 }
 

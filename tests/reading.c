@@ -83,6 +83,30 @@ static const char *element_fault(const struct scene *scene, bool closed,
   return NULL;
 }
 
+/* The same for faces, whose starts and groups need not be stored. */
+static const char *faces_fault(const struct scene *scene) {
+  uint32_t faces = scene_face_count(scene);
+  uint32_t *start = calloc(faces + 1, sizeof *start);
+  uint32_t *group = calloc(faces + 1, sizeof *group);
+  const char *fault = "no memory";
+  if (start != NULL && group != NULL) {
+    for (uint32_t f = 0; f <= faces; f++)
+      start[f] = scene_face_start(scene, f);
+    for (uint32_t f = 0; f < faces; f++)
+      group[f] = scene_face_group(scene, f);
+    size_t starts = scene->face_start.count, groups = scene->face_group.count;
+    fault = element_fault(scene, true, start,
+                          starts > 0  ? starts
+                          : faces > 0 ? (size_t)faces + 1
+                                      : 0,
+                          scene->corner.item, scene->corner.count, group,
+                          groups > 0 ? groups : faces);
+  }
+  free(start);
+  free(group);
+  return fault;
+}
+
 const char *reading_fault(const struct scene *scene) {
   for (size_t i = 0; i < scene->point.count; i++) {
     const struct scene_point *p = &scene->point.item[i];
@@ -96,10 +120,7 @@ const char *reading_fault(const struct scene *scene) {
       if (strcmp(scene->group.item[i].name, scene->group.item[k].name) == 0)
         return "two groups of one name";
   }
-  const char *fault = element_fault(scene, true, scene->face_start.item,
-                                    scene->face_start.count, scene->corner.item,
-                                    scene->corner.count, scene->face_group.item,
-                                    scene->face_group.count);
+  const char *fault = faces_fault(scene);
   if (fault)
     return fault;
   return element_fault(scene, false, scene->wire_start.item,
@@ -139,8 +160,13 @@ bool reading_same(const struct scene *a, const struct scene *b) {
   for (size_t i = 0; i < a->group.count; i++)
     if (strcmp(a->group.item[i].name, b->group.item[i].name) != 0)
       return false;
-  return SAME(a, b, face_start) && SAME(a, b, corner) &&
-         SAME(a, b, face_group) && SAME(a, b, wire_start) &&
+  if (a->face_count != b->face_count)
+    return false;
+  for (uint32_t f = 0; f < a->face_count; f++)
+    if (scene_face_start(a, f + 1) != scene_face_start(b, f + 1) ||
+        scene_face_group(a, f) != scene_face_group(b, f))
+      return false;
+  return SAME(a, b, corner) && SAME(a, b, wire_start) &&
          SAME(a, b, wire_corner) && SAME(a, b, wire_group);
 }
 

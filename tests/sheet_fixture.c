@@ -144,7 +144,7 @@ static void check_fold(const struct sheet_fixture *fixture,
   const struct sheet_triangle *one = &sheet->triangle.item[edge->triangle[0]];
   const struct sheet_triangle *two = &sheet->triangle.item[edge->triangle[1]];
   assert_int_equal(one->face, two->face);
-  assert_int_equal(edge->group, fixture->scene.face_group.item[one->face]);
+  assert_int_equal(edge->group, scene_face_group(&fixture->scene, one->face));
 }
 
 static void check_edges(const struct sheet_fixture *fixture) {

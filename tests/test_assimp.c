@@ -36,8 +36,8 @@ static void polygons_stay_polygons(void **state) {
   read_file(&r, temporary_file(state, "a.off", off, sizeof off - 1), NULL);
   assert_read(&r);
   assert_int_equal(scene_face_count(&r.scene), 2);
-  assert_int_equal(r.scene.face_start.item[1], 4);
-  assert_int_equal(r.scene.face_start.item[2], 9);
+  assert_int_equal(scene_face_start(&r.scene, 1), 4);
+  assert_int_equal(scene_face_start(&r.scene, 2), 9);
   assert_int_equal(r.diagnostics.count[SCENE_FAULT_ZERO_AREA], 1);
   const struct scene_point *p = &r.scene.point.item[r.scene.corner.item[5]];
   assert_true(p->x == 0.5 && p->y == 0 && p->z == 0);

@@ -26,7 +26,7 @@ static void run(struct pipeline *pipeline, const struct scene *scene,
 static double facing(const struct pipeline *pipeline, const struct scene *scene,
                      uint32_t face) {
   const double *back = pipeline->camera.back;
-  const uint32_t *corner = scene->corner.item + scene->face_start.item[face];
+  const uint32_t *corner = scene->corner.item + scene_face_start(scene, face);
   const struct scene_point *p = scene->point.item;
   struct vector a = {p[corner[0]].x, p[corner[0]].y, p[corner[0]].z};
   struct vector b = {p[corner[1]].x, p[corner[1]].y, p[corner[1]].z};
@@ -376,9 +376,10 @@ static void a_doubled_mesh_is_drawn_once(void **state) {
   scene_init(&once);
   scenes_copy(&once, &twice, 0);
   uint32_t half = scene_face_count(&twice) / 2;
-  once.face_group.count = half;
-  once.face_start.count = half + 1;
-  once.corner.count = once.face_start.item[half];
+  once.corner.count = scene_face_start(&once, half);
+  once.face_count = half;
+  once.face_group.count = once.face_group.count > 0 ? half : 0;
+  once.face_start.count = once.face_start.count > 0 ? half + 1 : 0;
   options.ink.fill = RECTO_FILL_PAINT;
   run(&pipeline, &twice, &options);
   run(&alone, &once, &options);

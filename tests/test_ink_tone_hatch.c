@@ -348,7 +348,7 @@ static void flats_beside_fillets_have_one_tone(void **state) {
     assert_true(f >= 2 || fabs(tone.max - 0.2) < 1.0 / TONE_STEPS);
   }
   /* The fillet begins with it; its corners 0 and 3 are the flat's. */
-  const float *corner = tones.corner + scene.face_start.item[2];
+  const float *corner = tones.corner + scene_face_start(&scene, 2);
   assert_true(fabs(corner[0] - 0.2) < 1e-6 && fabs(corner[3] - 0.2) < 1e-6);
   assert_true(fabs(corner[1] - 0.2) > 0.01);
   tones_fini(&tones);
@@ -459,6 +459,7 @@ static void hatching_fails_cleanly_when_memory_runs_out(void **state) {
   scene_init(&scene);
   build_group(&scene, "ball");
   build_ball(&scene, 6);
+  assert_true(scene_list_groups(&scene));
   p.sheet.face_group = scene.face_group.item;
   for (int lit = 0; lit < 2; lit++) {
     options.ink.light[2] = lit;

@@ -304,7 +304,7 @@ static void the_last_line_needs_no_end(void **state) {
 
 static void assert_group(const struct reading *r, uint32_t face,
                          const char *name) {
-  uint32_t group = r->scene.face_group.item[face];
+  uint32_t group = scene_face_group(&r->scene, face);
   assert_string_equal(r->scene.group.item[group].name, name);
 }
 
@@ -332,7 +332,7 @@ static void objects_groups_and_materials_are_groups(void **state) {
   for (uint32_t i = 0; i < 9; i++)
     assert_group(&r, i, names[i]);
   assert_int_equal(r.scene.group.count, 6);
-  assert_int_equal(r.scene.wire_group.item[0], r.scene.face_group.item[7]);
+  assert_int_equal(r.scene.wire_group.item[0], scene_face_group(&r.scene, 7));
   reading_fini(&r);
 }
 

@@ -43,7 +43,7 @@ static void assert_refused(const char *text, unsigned long line,
 
 static const struct scene_point *corner(const struct reading *r, uint32_t face,
                                         uint32_t k) {
-  uint32_t at = r->scene.face_start.item[face] + k;
+  uint32_t at = scene_face_start(&r->scene, face) + k;
   return &r->scene.point.item[r->scene.corner.item[at]];
 }
 
@@ -144,8 +144,8 @@ static void assert_square_and_triangle(const struct reading *r) {
   assert_int_equal(r->warnings, 0);
   assert_int_equal(r->scene.point.count, 5);
   assert_int_equal(scene_face_count(&r->scene), 2);
-  assert_int_equal(r->scene.face_start.item[1], 4);
-  assert_int_equal(r->scene.face_start.item[2], 7);
+  assert_int_equal(scene_face_start(&r->scene, 1), 4);
+  assert_int_equal(scene_face_start(&r->scene, 2), 7);
   assert_true(corner(r, 0, 2)->x == 2 && corner(r, 0, 2)->y == 2);
   assert_true(corner(r, 1, 2)->x == 1 && corner(r, 1, 2)->z == 3);
 }
@@ -311,7 +311,7 @@ static void read_coloured(struct reading *r, const char *text) {
 
 static uint32_t colour_of(const struct reading *r, uint32_t face) {
   const struct scene_group *group =
-      &r->scene.group.item[r->scene.face_group.item[face]];
+      &r->scene.group.item[scene_face_group(&r->scene, face)];
   return group->has_colour ? group->colour : PLY_NO_COLOUR;
 }
 
@@ -327,9 +327,10 @@ static void faces_of_one_colour_are_a_group(void **state) {
   read_coloured(&r, faces_in_colour);
   assert_int_equal(colour_of(&r, 0), 0xff0010);
   assert_int_equal(colour_of(&r, 1), 0x010203);
-  assert_int_equal(r.scene.face_group.item[0], r.scene.face_group.item[2]);
+  assert_int_equal(scene_face_group(&r.scene, 0),
+                   scene_face_group(&r.scene, 2));
   const struct scene_group *group =
-      &r.scene.group.item[r.scene.face_group.item[0]];
+      &r.scene.group.item[scene_face_group(&r.scene, 0)];
   assert_string_equal(group->name, "colour #ff0010");
   reading_fini(&r);
 }
@@ -402,7 +403,7 @@ static void colours_make_no_lines(void **state) {
   struct reading r;
   (void)state;
   read_coloured(&r, faces_in_colour);
-  uint32_t a = r.scene.face_group.item[0], b = r.scene.face_group.item[1];
+  uint32_t a = scene_face_group(&r.scene, 0), b = scene_face_group(&r.scene, 1);
   assert_int_not_equal(a, b);
   assert_false(scene_groups_differ(&r.scene, a, b));
   assert_true(scene_groups_differ(&r.scene, a, 0));

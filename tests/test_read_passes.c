@@ -28,19 +28,18 @@ static recto_status gather(void *user, const struct scene *scene,
                            recto_error *error) {
   struct scene *all = &((struct gathered *)user)->scene;
   uint32_t faces = scene_face_count(all);
-  uint32_t corners = (uint32_t)all->corner.count;
   uint32_t wire_corners = (uint32_t)all->wire_corner.count;
   (void)error;
-  if (scene->face_start.count > 0) {
-    all->face_start.count -= all->face_start.count > 0;
-    APPEND(&all->face_start, &scene->face_start, corners);
+  for (uint32_t f = 0; f < scene_face_count(scene); f++) {
+    for (uint32_t c = scene_face_start(scene, f);
+         c < scene_face_start(scene, f + 1); c++)
+      assert_true(ARRAY_PUSH(&all->corner, scene->corner.item[c]));
+    assert_true(scene_end_face(all, scene_face_group(scene, f)));
   }
   if (scene->wire_start.count > 0) {
     all->wire_start.count -= all->wire_start.count > 0;
     APPEND(&all->wire_start, &scene->wire_start, wire_corners);
   }
-  APPEND(&all->corner, &scene->corner, 0);
-  APPEND(&all->face_group, &scene->face_group, 0);
   APPEND(&all->face_skipped, &scene->face_skipped, faces);
   APPEND(&all->wire_corner, &scene->wire_corner, 0);
   APPEND(&all->wire_group, &scene->wire_group, 0);
@@ -56,6 +55,8 @@ static recto_status gather(void *user, const struct scene *scene,
 
 /* Moves faces and polylines to a scene that has none. */
 static void move_elements(struct scene *to, struct scene *from) {
+  to->face_count = from->face_count;
+  from->face_count = 0;
   MOVE(&to->corner, &from->corner);
   MOVE(&to->face_start, &from->face_start);
   MOVE(&to->face_group, &from->face_group);

@@ -75,7 +75,41 @@ static void a_face_without_a_group_gets_one(void **state) {
   POLYGON(r, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   assert_int_equal(r->scene.group.count, 1);
   assert_string_equal(r->scene.group.item[0].name, "default");
-  assert_int_equal(r->scene.face_group.item[0], 0);
+  assert_int_equal(scene_face_group(&r->scene, 0), 0);
+}
+
+static void use_group(struct reading *r, const char *name) {
+  assert_int_equal(scene_use_group(&r->scene, name, strlen(name), &r->error),
+                   RECTO_OK);
+}
+
+/* Triangles of one group take no memory for where they begin, nor for the
+ * group. */
+static void only_what_differs_is_stored_of_faces(void **state) {
+  struct reading *r = *state;
+  struct scene_snapshot triangles;
+  for (int i = 0; i < 3; i++)
+    POLYGON(r, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  assert_null(r->scene.face_start.item);
+  assert_null(r->scene.face_group.item);
+  assert_int_equal(scene_face_start(&r->scene, 3), 9);
+  scene_snapshot(&r->scene, &triangles);
+  for (int round = 0; round < 2; round++) {
+    POLYGON(r, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+    use_group(r, "other");
+    POLYGON(r, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    static const uint32_t start[] = {0, 3, 6, 9, 13, 16};
+    for (uint32_t f = 0; f < 5; f++) {
+      assert_int_equal(scene_face_start(&r->scene, f), start[f]);
+      assert_int_equal(scene_face_corners(&r->scene, f),
+                       start[f + 1] - start[f]);
+      assert_int_equal(scene_face_group(&r->scene, f), f == 4);
+    }
+    assert_null(reading_fault(&r->scene));
+    scene_restore(&r->scene, &triangles);
+    assert_int_equal(scene_face_count(&r->scene), 3);
+    assert_null(reading_fault(&r->scene));
+  }
 }
 
 static void a_name_is_one_group(void **state) {
@@ -126,7 +160,7 @@ static void files_have_groups_of_their_own(void **state) {
   for (uint32_t i = 0; i < sizeof row / sizeof *row; i++) {
     read_file_with_group(r, row[i][0], row[i][1]);
     for (uint32_t k = 0; k < 2; k++) {
-      uint32_t group = r->scene.face_group.item[2 * i + k];
+      uint32_t group = scene_face_group(&r->scene, 2 * i + k);
       assert_string_equal(r->scene.group.item[group].name, row[i][2 + k]);
     }
   }
@@ -593,6 +627,7 @@ int main(void) {
 #define T(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
   const struct CMUnitTest tests[] = {
       T(a_face_without_a_group_gets_one),
+      T(only_what_differs_is_stored_of_faces),
       T(a_name_is_one_group),
       T(files_have_groups_of_their_own),
       T(names_become_clean_utf_8),

@@ -34,8 +34,9 @@ static void every_scene_keeps_the_invariants(void **state) {
     for (size_t i = 0; i < scene.corner.count; i++)
       assert_true(scene.corner.item[i] < scene.point.count);
     for (uint32_t i = 0; i < faces; i++) {
-      assert_true(scene.face_start.item[i + 1] - scene.face_start.item[i] >= 3);
-      assert_true(scene.face_group.item[i] < scene.group.count);
+      assert_true(
+          scene_face_start(&scene, i + 1) - scene_face_start(&scene, i) >= 3);
+      assert_true(scene_face_group(&scene, i) < scene.group.count);
     }
     scene_fini(&scene);
   }
@@ -102,8 +103,8 @@ static void a_seed_names_one_small_scene(void **state) {
 static unsigned count_sides(const struct scene *scene, uint32_t a, uint32_t b) {
   unsigned count = 0;
   for (uint32_t i = 0; i < scene_face_count(scene); i++) {
-    uint32_t start = scene->face_start.item[i];
-    uint32_t corners = scene->face_start.item[i + 1] - start;
+    uint32_t start = scene_face_start(scene, i);
+    uint32_t corners = scene_face_start(scene, i + 1) - start;
     for (uint32_t k = 0; k < corners; k++)
       count += scene->corner.item[start + k] == a &&
                scene->corner.item[start + (k + 1) % corners] == b;
@@ -114,8 +115,8 @@ static unsigned count_sides(const struct scene *scene, uint32_t a, uint32_t b) {
 /* Every side has a twin in the opposite direction. */
 static bool is_closed(const struct scene *scene) {
   for (uint32_t i = 0; i < scene_face_count(scene); i++) {
-    uint32_t start = scene->face_start.item[i];
-    uint32_t corners = scene->face_start.item[i + 1] - start;
+    uint32_t start = scene_face_start(scene, i);
+    uint32_t corners = scene_face_start(scene, i + 1) - start;
     for (uint32_t k = 0; k < corners; k++) {
       uint32_t a = scene->corner.item[start + k];
       uint32_t b = scene->corner.item[start + (k + 1) % corners];
@@ -131,8 +132,8 @@ static bool is_closed(const struct scene *scene) {
 static double volume_6(const struct scene *scene) {
   double volume = 0;
   for (uint32_t i = 0; i < scene_face_count(scene); i++) {
-    uint32_t start = scene->face_start.item[i];
-    for (uint32_t k = start + 2; k < scene->face_start.item[i + 1]; k++) {
+    uint32_t start = scene_face_start(scene, i);
+    for (uint32_t k = start + 2; k < scene_face_start(scene, i + 1); k++) {
       const struct scene_point *p = scene->point.item;
       struct scene_point a = p[scene->corner.item[start]];
       struct scene_point b = p[scene->corner.item[k - 1]];
@@ -220,10 +221,10 @@ static void a_shuffled_copy_has_the_same_faces_in_another_order(void **state) {
   assert_memory_not_equal(shuffled.corner.item, scene.corner.item,
                           scene.corner.count * sizeof *scene.corner.item);
   uint64_t sum = 0, sum_shuffled = 0;
-  for (size_t i = 0; i < scene.corner.count; i++) {
-    sum += scene.corner.item[i] * (1 + scene.face_group.item[i / 4]);
+  for (uint32_t i = 0; i < scene.corner.count; i++) {
+    sum += scene.corner.item[i] * (1 + scene_face_group(&scene, i / 4));
     sum_shuffled +=
-        shuffled.corner.item[i] * (1 + shuffled.face_group.item[i / 4]);
+        shuffled.corner.item[i] * (1 + scene_face_group(&shuffled, i / 4));
   }
   assert_int_equal(sum, sum_shuffled);
   scene_fini(&scene);

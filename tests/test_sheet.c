@@ -226,7 +226,7 @@ static void planes_stay_planes(void **state) {
     sheet_fixture_out(&fixture, true);
     for (uint32_t f = 0; f < 6; f++) {
       const uint32_t *corner =
-          fixture.scene.corner.item + fixture.scene.face_start.item[f];
+          fixture.scene.corner.item + scene_face_start(&fixture.scene, f);
       struct geom_point p[4];
       for (int k = 0; k < 4; k++)
         p[k] = where(&fixture, corner[k]);
@@ -293,8 +293,8 @@ static void a_noisy_flat_scene_does_not_blow_depth_up(void **state) {
 static int64_t outline_area(const struct sheet_fixture *fixture,
                             uint32_t face) {
   const struct scene *scene = &fixture->scene;
-  uint32_t start = scene->face_start.item[face];
-  uint32_t count = scene->face_start.item[face + 1] - start;
+  uint32_t start = scene_face_start(scene, face);
+  uint32_t count = scene_face_start(scene, face + 1) - start;
   int64_t area = 0;
   for (uint32_t c = 1; c + 1 < count; c++)
     area += geom_orient2d(where(fixture, scene->corner.item[start]),

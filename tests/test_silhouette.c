@@ -190,8 +190,8 @@ static struct known *list_known(const struct sheet_fixture *fixture) {
 
 static void turn_faces(struct scene *scene, struct random *random) {
   for (uint32_t f = 0; f < scene_face_count(scene); f++) {
-    uint32_t *first = scene->corner.item + scene->face_start.item[f];
-    uint32_t *last = scene->corner.item + scene->face_start.item[f + 1] - 1;
+    uint32_t *first = scene->corner.item + scene_face_start(scene, f);
+    uint32_t *last = scene->corner.item + scene_face_start(scene, f + 1) - 1;
     if (random_below(random, 2))
       continue;
     for (; first < last; first++, last--) {

@@ -114,7 +114,8 @@ static void groups_go_with_their_faces(void **state) {
   /* Quads: two triangles, eight quarters. */
   assert_int_equal(scene_face_count(&fine), 8 * scene_face_count(&coarse));
   for (uint32_t i = 0; i < scene_face_count(&fine); i++)
-    assert_int_equal(fine.face_group.item[i], coarse.face_group.item[i / 8]);
+    assert_int_equal(scene_face_group(&fine, i),
+                     scene_face_group(&coarse, i / 8));
   scene_fini(&coarse);
   scene_fini(&fine);
 }

@@ -48,8 +48,8 @@ static void check(const struct scene *scene, const struct topology *topology) {
   uint8_t *forward = calloc(edges + 1, 1);
   uint32_t next = 0;
   for (uint32_t f = 0; f < scene_face_count(scene); f++) {
-    uint32_t start = scene->face_start.item[f];
-    uint32_t end = scene->face_start.item[f + 1];
+    uint32_t start = scene_face_start(scene, f);
+    uint32_t end = scene_face_start(scene, f + 1);
     for (uint32_t c = start; c < end; c++) {
       uint32_t to = c + 1 < end ? c + 1 : start;
       uint32_t a = stands_for(topology, scene->corner.item[c]);

@@ -590,8 +590,8 @@ static recto_scene *tear(const struct scene *scene, double noise) {
   recto_error error;
   assert_int_equal(recto_scene_create(&torn, &error), RECTO_OK);
   for (uint32_t f = 0; f < scene_face_count(scene); f++) {
-    uint32_t start = scene->face_start.item[f], corner[64];
-    uint32_t count = scene->face_start.item[f + 1] - start;
+    uint32_t start = scene_face_start(scene, f), corner[64];
+    uint32_t count = scene_face_start(scene, f + 1) - start;
     assert_true(count <= 64);
     for (uint32_t k = 0; k < count; k++) {
       const struct scene_point *p =

@@ -13,12 +13,12 @@ struct group_numbers {
 /* Numbers the faces; `next` has a 0 for each group. */
 static void number_group_faces(struct group_numbers *numbers,
                                const struct scene *scene, uint32_t *next) {
-  const uint32_t *group = scene->face_group.item;
   for (uint32_t f = 0; f < numbers->faces && poll_at(f); f++) {
-    if (f > 0 && group[f] == group[f - 1])
-      next[group[f]] +=
+    uint32_t group = scene_face_group(scene, f);
+    if (f > 0 && group == scene_face_group(scene, f - 1))
+      next[group] +=
           scene_face_number(scene, f) - scene_face_number(scene, f - 1) - 1;
-    numbers->face[f] = next[group[f]]++;
+    numbers->face[f] = next[group]++;
   }
 }
 
@@ -49,7 +49,7 @@ static bool make_numbers(struct group_numbers *numbers,
     number_group_faces(numbers, whole, next);
   for (uint32_t e = 0; ok && e < numbers->edges && poll_at(e); e++) {
     uint32_t face = topology->edge.item[e].first;
-    numbers->edge[e] = next_edge[scene->face_group.item[face]]++;
+    numbers->edge[e] = next_edge[scene_face_group(scene, face)]++;
   }
   for (uint32_t w = 0; ok && w < numbers->wires && poll_at(w); w++)
     numbers->wire[w] = next_wire[whole->wire_group.item[w]]++;

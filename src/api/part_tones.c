@@ -21,15 +21,15 @@ bool part_tones_are_wanted(const recto_options *options) {
 static void select_tones(struct part_tones *to, const struct part_scene *part,
                          const struct tones *tones, const struct picked *all) {
   const struct scene *scene = &part->scene;
-  const uint32_t *from_start = all->scene.face_start.item;
   uint32_t face = 0;
   for (uint32_t f = 0; f < scene_face_count(scene); f++) {
-    uint32_t start = scene->face_start.item[f];
+    uint32_t start = scene_face_start(scene, f);
     while (all->face_number.item[face] < part->face_number[f])
       face++;
     to->uniform[f] = tones->uniform[face];
-    memcpy(to->corner + start, tones->corner + from_start[face],
-           (scene->face_start.item[f + 1] - start) * sizeof *to->corner);
+    memcpy(to->corner + start,
+           tones->corner + scene_face_start(&all->scene, face),
+           (scene_face_start(scene, f + 1) - start) * sizeof *to->corner);
   }
 }
 

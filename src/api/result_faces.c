@@ -105,7 +105,7 @@ static bool add_fragment_results(recto_drawing *drawing,
         face_shading_of(s->scene, from->face, &s->sheet->camera, s->options);
     const recto_fragment fragment = {
         .face = scene_face_number(s->scene, from->face),
-        .group = s->scene->face_group.item[from->face],
+        .group = scene_face_group(s->scene, from->face),
         .colour = shading.colour,
         .brightness = shading.brightness,
         .is_back = shading.is_back,

@@ -52,7 +52,8 @@ static bool set_normals(struct rounded *r) {
 /* Twice the area of a face, fast; 0 or infinite where squares of coordinates
  * are beyond the range of doubles. */
 static double twice_area(const struct scene *scene, uint32_t face) {
-  const uint32_t *start = &scene->face_start.item[face];
+  const uint32_t start[2] = {scene_face_start(scene, face),
+                             scene_face_start(scene, face + 1)};
   const uint32_t *corner = scene->corner.item;
   const struct scene_point *point = scene->point.item;
   const struct scene_point *p = &point[corner[start[0]]];

@@ -24,7 +24,7 @@ struct assembly {
 
 /* Where the corners of the current face begin. */
 static uint32_t first_corner(const struct scene *scene) {
-  return scene->face_start.item[scene->face_start.count - 1];
+  return scene_face_start(scene, scene_face_count(scene));
 }
 
 static bool add_face_corner(struct assembly *a, uint32_t point) {
@@ -49,8 +49,7 @@ static bool end_cut_face(struct assembly *a, uint32_t group) {
     return true;
   }
   scene->corner.count = count;
-  return ARRAY_PUSH(&scene->face_group, group) &&
-         ARRAY_PUSH(&scene->face_start, (uint32_t)count);
+  return scene_end_face(scene, group);
 }
 
 /* Finds the points of the cut that are corners of what is left.  The others lie
@@ -87,35 +86,34 @@ static bool is_needless(const struct assembly *a, uint32_t point) {
 
 static bool add_face_part(struct assembly *a, const struct cut_part *part) {
   const struct cut_corner *corner = a->cutter->corner.item + part->corner;
-  size_t faces = a->scene->face_group.count;
+  size_t faces = a->scene->face_count;
   for (uint32_t i = 0; i < part->count; i++)
     if (!(part->united && is_needless(a, corner[i].point)) &&
         !add_face_corner(a, corner[i].point))
       return false;
-  return end_cut_face(a, a->cutter->scene->face_group.item[part->face]) &&
-         (a->scene->face_group.count == faces ||
-          ARRAY_PUSH(&a->face, part->face));
+  return end_cut_face(a, scene_face_group(a->cutter->scene, part->face)) &&
+         (a->scene->face_count == faces || ARRAY_PUSH(&a->face, part->face));
 }
 
 static bool add_whole_cut_face(struct assembly *a, uint32_t face) {
   const struct scene *from = a->cutter->scene;
   struct scene *scene = a->scene;
-  uint32_t past = from->face_start.item[face + 1];
-  size_t faces = scene->face_group.count;
-  if (!ARRAY_RESERVE(&scene->corner, past - from->face_start.item[face]))
+  uint32_t past = scene_face_start(from, face + 1);
+  size_t faces = scene->face_count;
+  if (!ARRAY_RESERVE(&scene->corner, past - scene_face_start(from, face)))
     return false;
-  for (uint32_t c = from->face_start.item[face]; c < past; c++)
+  for (uint32_t c = scene_face_start(from, face); c < past; c++)
     scene->corner.item[scene->corner.count++] =
         cut_weld(a->cutter, from->corner.item[c]);
-  return end_cut_face(a, from->face_group.item[face]) &&
-         (scene->face_group.count == faces || ARRAY_PUSH(&a->face, face));
+  return end_cut_face(a, scene_face_group(from, face)) &&
+         (scene->face_count == faces || ARRAY_PUSH(&a->face, face));
 }
 
 static bool add_face_sides(struct assembly *a, uint32_t face) {
   const struct scene *scene = a->scene;
   const uint32_t *corner = scene->corner.item;
-  for (uint32_t c = scene->face_start.item[face];
-       c < scene->face_start.item[face + 1]; c++) {
+  for (uint32_t c = scene_face_start(scene, face);
+       c < scene_face_start(scene, face + 1); c++) {
     uint32_t from = corner[c], to = corner[scene_next_corner(scene, face, c)];
     const struct sort_key side = {sort_pair_key(from, to), from < to};
     if (!ARRAY_PUSH(&a->side, side))
@@ -181,8 +179,6 @@ static bool keep_inner_sides(struct assembly *a) {
 static bool add_cut_scene_faces(struct assembly *a) {
   const struct cutter *cutter = a->cutter;
   size_t next = 0;
-  if (!ARRAY_PUSH(&a->scene->face_start, 0))
-    return false;
   for (uint32_t face = 0; face < scene_face_count(cutter->scene); face++) {
     if (!poll_at(face))
       return false;

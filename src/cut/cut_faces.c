@@ -52,7 +52,7 @@ static bool store_part(struct cutter *cutter, const struct cut_loop *loop,
 
 /* Stores the sides in the planes of a part that goes. */
 static bool store_lines(struct cutter *cutter, const struct cut_loop *loop) {
-  uint32_t group = cutter->scene->face_group.item[loop->face];
+  uint32_t group = scene_face_group(cutter->scene, loop->face);
   for (size_t i = 0; i < loop->corner.count; i++) {
     const struct cut_corner *corner = &loop->corner.item[i];
     const struct cut_line line = {
@@ -387,8 +387,8 @@ static bool unite_parts(struct cutter *cutter, size_t first,
 static enum cut_fate fate_of_face(const struct cutter *cutter, uint32_t face) {
   const struct scene *scene = cutter->scene;
   unsigned whole = (1u << cutter->points.planes) - 1, any = 0, all = whole;
-  for (uint32_t c = scene->face_start.item[face];
-       c < scene->face_start.item[face + 1]; c++) {
+  for (uint32_t c = scene_face_start(scene, face);
+       c < scene_face_start(scene, face + 1); c++) {
     unsigned beyond =
         cutter->points.beyond[cut_weld(cutter, scene->corner.item[c])];
     any |= beyond;
@@ -412,8 +412,8 @@ recto_status cut_faces(struct cutter *cutter, recto_error *error) {
       continue;
     loop.face = face;
     loop.corner.count = 0;
-    for (uint32_t c = scene->face_start.item[face];
-         ok && c < scene->face_start.item[face + 1]; c++)
+    for (uint32_t c = scene_face_start(scene, face);
+         ok && c < scene_face_start(scene, face + 1); c++)
       ok = add_corner(&loop, cut_weld(cutter, scene->corner.item[c]),
                       CUT_NO_PLANE);
     end_loop(&loop);

@@ -21,6 +21,7 @@ static void cutter_fini(struct cutter *cutter) {
 static void borrow(struct scene *to, const struct scene *from) {
   *to = *from;
   memset(&to->point, 0, sizeof to->point);
+  to->face_count = 0;
   memset(&to->face_start, 0, sizeof to->face_start);
   memset(&to->corner, 0, sizeof to->corner);
   memset(&to->face_group, 0, sizeof to->face_group);

@@ -57,12 +57,12 @@ static bool find_neighbouring_cuts(struct neighbours *neighbours,
   bool ok = true;
   for (uint32_t f = scene->cut->first_face; ok && f < scene_face_count(scene);
        f++)
-    for (uint32_t c = scene->face_start.item[f];
-         ok && c < scene->face_start.item[f + 1]; c++) {
+    for (uint32_t c = scene_face_start(scene, f);
+         ok && c < scene_face_start(scene, f + 1); c++) {
       const struct sort_key own = {
           sort_pair_key(scene->corner.item[c],
                         scene->corner.item[scene_next_corner(scene, f, c)]),
-          scene->face_group.item[f]};
+          scene_face_group(scene, f)};
       ok = ARRAY_PUSH(&side, own);
     }
   ok = ok && sort_keys_alone(side.item, side.count);
@@ -132,7 +132,7 @@ struct cut_hatch *cut_hatch_of_groups(const struct scene *scene,
             find_neighbouring_cuts(&neighbours, scene);
   for (uint32_t f = scene->cut->first_face; ok && f < scene_face_count(scene);
        f++)
-    hatch[scene->face_group.item[f]].pitch_mm = 1;
+    hatch[scene_face_group(scene, f)].pitch_mm = 1;
   if (ok)
     choose_styles(scene, &neighbours, style, hatch, options);
   for (uint32_t g = 0; ok && g < groups; g++) {

@@ -34,7 +34,8 @@ static bool are_parallel(const double a[3], const double b[3]) {
 /* Whether the corners of a face lie in its plane. */
 static bool is_planar(const struct scene *scene, uint32_t face,
                       const double normal[3]) {
-  const uint32_t *start = &scene->face_start.item[face];
+  const uint32_t start[2] = {scene_face_start(scene, face),
+                             scene_face_start(scene, face + 1)};
   const struct scene_point *first =
       &scene->point.item[scene->corner.item[start[0]]];
   double twice_area = vector_length(normal);
@@ -63,7 +64,8 @@ void planar_regions_join(struct planar_regions *regions, uint32_t f,
  * flat, however large it is. */
 static bool is_alone(const struct planar_regions *regions,
                      const struct scene *scene, uint32_t face) {
-  const uint32_t *start = &scene->face_start.item[face];
+  const uint32_t start[2] = {scene_face_start(scene, face),
+                             scene_face_start(scene, face + 1)};
   return start[1] - start[0] == 3 && !regions->region[face].is_joined;
 }
 
@@ -72,7 +74,8 @@ void planar_regions_measure(struct planar_regions *regions,
                             const double normal[3]) {
   struct planar_region *region =
       &regions->region[union_find_root(regions->set, face)];
-  const uint32_t *start = &scene->face_start.item[face];
+  const uint32_t start[2] = {scene_face_start(scene, face),
+                             scene_face_start(scene, face + 1)};
   bool is_first = region->triangles == 0;
   for (int k = 0; k < 3; k++)
     region->normal[k] += normal[k];

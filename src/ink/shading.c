@@ -15,7 +15,7 @@ static const uint32_t palette[] = {
 /* The colour of the face's group: its own if it has one, else that of the
  * palette at the group's index modulo the palette's size. */
 uint32_t face_colour_of(const struct scene *scene, uint32_t face) {
-  uint32_t group = scene->face_group.item[face];
+  uint32_t group = scene_face_group(scene, face);
   if (group < scene->group.count && scene->group.item[group].has_colour)
     return scene->group.item[group].colour;
   return palette[group % (sizeof palette / sizeof palette[0])];

@@ -83,8 +83,8 @@ static void join_at_smooth_edges(struct tone_work *w) {
   for (size_t e = 0; e < topology->edge.count; e++)
     w->first_use[e] = SCENE_NONE;
   for (uint32_t f = 0; f < scene_face_count(w->scene) && poll_at(f); f++)
-    for (uint32_t c = w->scene->face_start.item[f];
-         c < w->scene->face_start.item[f + 1]; c++) {
+    for (uint32_t c = scene_face_start(w->scene, f);
+         c < scene_face_start(w->scene, f + 1); c++) {
       uint32_t e = topology->corner_edge[c];
       if (!is_smooth(w, e))
         continue;
@@ -123,7 +123,8 @@ static struct drawing_point project_corner(const struct camera *camera,
  * plane. */
 static double page_area(const struct tone_work *w, uint32_t face) {
   const struct camera *camera = &w->sheet->camera;
-  const uint32_t *start = &w->scene->face_start.item[face];
+  const uint32_t start[2] = {scene_face_start(w->scene, face),
+                             scene_face_start(w->scene, face + 1)};
   struct drawing_point o = project_corner(camera, w->scene, start[0]);
   struct drawing_point p = project_corner(camera, w->scene, start[0] + 1);
   double twice = 0;
@@ -182,8 +183,8 @@ static void mark_beside_flat(struct tone_work *w) {
   for (uint32_t f = 0; f < scene_face_count(w->scene) && poll_at(f); f++) {
     if (flat_of(w, f) == NULL)
       continue;
-    for (uint32_t c = w->scene->face_start.item[f];
-         c < w->scene->face_start.item[f + 1]; c++)
+    for (uint32_t c = scene_face_start(w->scene, f);
+         c < scene_face_start(w->scene, f + 1); c++)
       w->beside_flat[w->corner_set[c]] = true;
   }
 }
@@ -193,8 +194,8 @@ static void mark_beside_flat(struct tone_work *w) {
 static void sum_normals(struct tone_work *w) {
   for (uint32_t f = 0; f < scene_face_count(w->scene) && poll_at(f); f++) {
     bool is_flat = flat_of(w, f) != NULL;
-    for (uint32_t c = w->scene->face_start.item[f];
-         c < w->scene->face_start.item[f + 1]; c++) {
+    for (uint32_t c = scene_face_start(w->scene, f);
+         c < scene_face_start(w->scene, f + 1); c++) {
       uint32_t set = w->corner_set[c];
       if (w->beside_flat[set] && !is_flat)
         continue;
@@ -226,8 +227,8 @@ static void set_corners(struct tone_work *w, struct tones *tones) {
   for (uint32_t f = 0; f < scene_face_count(w->scene) && poll_at(f); f++) {
     uint32_t region = union_find_root(w->face_root, f);
     bool away = is_away(w, f);
-    for (uint32_t c = w->scene->face_start.item[f];
-         c < w->scene->face_start.item[f + 1]; c++) {
+    for (uint32_t c = scene_face_start(w->scene, f);
+         c < scene_face_start(w->scene, f + 1); c++) {
       uint32_t set = w->corner_set[c];
       float *known = &w->set_tone[set].of[away];
       if (*known < 0)
@@ -256,8 +257,8 @@ static void set_regions(struct tone_work *w, struct tones *tones) {
     double tone = is_even ? (min + max) / 2
                           : tone_of_normal(w, flat->normal, is_away(w, f));
     double rounded = round(tone * TONE_STEPS) / TONE_STEPS;
-    for (uint32_t c = w->scene->face_start.item[f];
-         c < w->scene->face_start.item[f + 1]; c++)
+    for (uint32_t c = scene_face_start(w->scene, f);
+         c < scene_face_start(w->scene, f + 1); c++)
       tones->corner[c] = (float)rounded;
   }
 }
@@ -427,8 +428,8 @@ static bool find_planes(const struct tones *tones, uint32_t first,
 }
 
 struct tone tones_of_face(const struct tones *tones, uint32_t face) {
-  uint32_t first = tones->scene->face_start.item[face];
-  uint32_t count = tones->scene->face_start.item[face + 1] - first;
+  uint32_t first = scene_face_start(tones->scene, face);
+  uint32_t count = scene_face_start(tones->scene, face + 1) - first;
   struct tone tone = {.origin = tone_position(tones, first),
                       .uniform = tones->uniform[face]};
   double sum = 0;

@@ -17,8 +17,8 @@ static struct judge_point3 error_of_face(const struct judge_options *options,
                                          const struct scene *scene,
                                          uint32_t face) {
   struct judge_point3 error = {0, 0, 0};
-  for (uint32_t c = scene->face_start.item[face];
-       c < scene->face_start.item[face + 1]; c++) {
+  for (uint32_t c = scene_face_start(scene, face);
+       c < scene_face_start(scene, face + 1); c++) {
     uint32_t point = scene->corner.item[c];
     struct judge_point3 at =
         point3_along(options->origin, 1, judge_point3_at(scene, point));

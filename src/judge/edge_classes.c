@@ -139,8 +139,8 @@ unsigned judge_class_mask_of_pair(const struct judge_facings *facings,
   const struct judge_facing *g = &facings->facing[t->face];
   unsigned class_mask = 0;
   if (scene_groups_differ(facings->scene,
-                          facings->scene->face_group.item[s->face],
-                          facings->scene->face_group.item[t->face]))
+                          scene_face_group(facings->scene, s->face),
+                          scene_face_group(facings->scene, t->face)))
     class_mask |= RECTO_EDGE_GROUP;
   double one = slope_at_side(facings, s), two = slope_at_side(facings, t);
   if (judge_is_silhouette(one, against ? two : -two))
@@ -167,8 +167,8 @@ static bool set_facings(struct judge_facings *facings, const double *contact) {
   bool ok = true;
   for (uint32_t i = 0; ok && i < faces && poll_at(i); i++) {
     corner.count = 0;
-    for (uint32_t c = scene->face_start.item[i];
-         ok && c < scene->face_start.item[i + 1]; c++)
+    for (uint32_t c = scene_face_start(scene, i);
+         ok && c < scene_face_start(scene, i + 1); c++)
       ok = ARRAY_PUSH(&corner, judge_point3_at(scene, scene->corner.item[c]));
     if (ok)
       facings->facing[i] =

@@ -180,8 +180,8 @@ static bool list_scene_sides(const struct scene *scene,
   if (!ARRAY_RESERVE(&sides->side, scene->corner.count))
     return false;
   for (uint32_t i = 0; i < scene_face_count(scene); i++) {
-    uint32_t start = scene->face_start.item[i];
-    uint32_t count = scene->face_start.item[i + 1] - start;
+    uint32_t start = scene_face_start(scene, i);
+    uint32_t count = scene_face_start(scene, i + 1) - start;
     if (!poll_at(i))
       return false;
     for (uint32_t k = 0; k < count; k++) {

@@ -7,7 +7,7 @@
 enum { FEW_CORNERS = 32 };
 
 static uint32_t corner_count(const struct scene *scene, uint32_t face) {
-  return scene->face_start.item[face + 1] - scene->face_start.item[face];
+  return scene_face_start(scene, face + 1) - scene_face_start(scene, face);
 }
 
 /* A hash of a face and the ends of a side, in either order. */
@@ -24,7 +24,7 @@ static uint64_t side_key(uint32_t face, const struct judge_point3 end[2]) {
 /* The ends of the side of a face that starts at its corner i. */
 static void side_ends(const struct scene *scene, uint32_t face, uint32_t i,
                       struct judge_point3 end[2]) {
-  const uint32_t *corner = scene->corner.item + scene->face_start.item[face];
+  const uint32_t *corner = scene->corner.item + scene_face_start(scene, face);
   end[0] = judge_point3_at(scene, corner[i]);
   end[1] = judge_point3_at(
       scene, corner[i + 1 < corner_count(scene, face) ? i + 1 : 0]);

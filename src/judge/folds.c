@@ -11,8 +11,8 @@ struct fold_finder {
 /* Whether a face has a side between two points. */
 static bool is_side(const struct scene *scene, uint32_t face, uint32_t a,
                     uint32_t b) {
-  uint32_t start = scene->face_start.item[face];
-  uint32_t count = scene->face_start.item[face + 1] - start;
+  uint32_t start = scene_face_start(scene, face);
+  uint32_t count = scene_face_start(scene, face + 1) - start;
   for (uint32_t i = 0; i < count; i++) {
     uint32_t p = scene->corner.item[start + i];
     uint32_t q = scene->corner.item[start + (i + 1) % count];

@@ -67,8 +67,8 @@ static bool is_alike(const struct judge_missing_run *run, uint32_t a,
   if ((s->class_mask & -s->class_mask) != (t->class_mask & -t->class_mask))
     return false;
   return s->face[0] == SCENE_NONE || t->face[0] == SCENE_NONE ||
-         scene->face_group.item[s->face[0]] ==
-             scene->face_group.item[t->face[0]];
+         scene_face_group(scene, s->face[0]) ==
+             scene_face_group(scene, t->face[0]);
 }
 
 /* Whether the fan has an end with the same direction: of edges with one image

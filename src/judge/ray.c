@@ -105,8 +105,8 @@ static enum shared_end triangle_shares(const struct judge_ray *ray,
                                        const struct judge_triangle *t,
                                        const struct judge_end *end) {
   const struct scene *scene = all->scene;
-  uint32_t start = scene->face_start.item[t->face];
-  uint32_t count = scene->face_start.item[t->face + 1] - start;
+  uint32_t start = scene_face_start(scene, t->face);
+  uint32_t count = scene_face_start(scene, t->face + 1) - start;
   enum shared_end most = SHARED_NO;
   for (uint32_t i = 0; i < count && most != SHARED; i++) {
     enum shared_end here = corner_is_at(

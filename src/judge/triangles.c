@@ -136,8 +136,8 @@ static struct judge_triangle triangle_of(const struct scene *scene,
 }
 
 struct judge_point3 judge_area(const struct scene *scene, uint32_t face) {
-  uint32_t start = scene->face_start.item[face];
-  uint32_t count = scene->face_start.item[face + 1] - start;
+  uint32_t start = scene_face_start(scene, face);
+  uint32_t count = scene_face_start(scene, face + 1) - start;
   struct judge_point3 sum = {0, 0, 0};
   struct judge_point3 first = judge_point3_at(scene, scene->corner.item[start]);
   for (uint32_t i = 1; i + 1 < count; i++) {
@@ -156,8 +156,8 @@ struct judge_point3 judge_area(const struct scene *scene, uint32_t face) {
  * extent  set to the distance of the corner farthest from the first one */
 static double off_plane_of(const struct scene *scene, uint32_t face,
                            double *extent) {
-  uint32_t start = scene->face_start.item[face];
-  uint32_t count = scene->face_start.item[face + 1] - start;
+  uint32_t start = scene_face_start(scene, face);
+  uint32_t count = scene_face_start(scene, face + 1) - start;
   struct judge_point3 normal = judge_area(scene, face);
   double off = 0;
   *extent = 0;
@@ -243,8 +243,8 @@ static bool add_large_face(struct face_adder *adder, uint32_t face,
 static bool add_face_triangles(struct face_adder *adder, uint32_t face) {
   const struct scene *scene = adder->scene;
   struct judge_triangles *all = adder->all;
-  uint32_t start = scene->face_start.item[face];
-  uint32_t count = scene->face_start.item[face + 1] - start;
+  uint32_t start = scene_face_start(scene, face);
+  uint32_t count = scene_face_start(scene, face + 1) - start;
   const uint32_t *corner = scene->corner.item + start;
   size_t first = all->triangle.count;
   if (count > JUDGE_TRIANGULATION_MAX)

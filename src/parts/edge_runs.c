@@ -13,7 +13,7 @@ struct run_work {
 
 uint32_t edge_runs_first_side(const struct part_sources *from, uint32_t edge) {
   uint32_t face = from->topology->edge.item[edge].first;
-  uint32_t start = from->scene->scene.face_start.item[face], side = start;
+  uint32_t start = scene_face_start(&from->scene->scene, face), side = start;
   while (from->topology->corner_edge[side] != edge)
     side++;
   return side - start;
@@ -34,7 +34,8 @@ static void mark_edges_of_class(struct run_work *work) {
 static bool add_runs_of_face(struct run_work *work, uint32_t face) {
   const struct part_scene *scene = work->from->scene;
   const struct topology *topology = work->from->topology;
-  const uint32_t *start = &scene->scene.face_start.item[face];
+  const uint32_t start[2] = {scene_face_start(&scene->scene, face),
+                             scene_face_start(&scene->scene, face + 1)};
   struct part *part = work->part;
   for (uint32_t i = start[0]; i < start[1]; i++) {
     uint32_t edge = topology->corner_edge[i], place = i - start[0];
@@ -42,7 +43,7 @@ static bool add_runs_of_face(struct run_work *work, uint32_t face) {
         edge_runs_first_side(work->from, edge) != place)
       continue;
     const struct part_edge_run own = {scene->face_number[face], place,
-                                      scene->scene.face_group.item[face], 1};
+                                      scene_face_group(&scene->scene, face), 1};
     if (work->goes_on && !work->has_class[edge])
       part->run.item[part->run.count - 1].count++;
     else if (!ARRAY_PUSH(&part->run, own))
@@ -56,8 +57,9 @@ static bool add_runs_of_face(struct run_work *work, uint32_t face) {
 static bool face_follows(const struct part_scene *scene, uint32_t before,
                          uint32_t face) {
   const uint32_t *number = scene->face_number;
-  const uint32_t *group = scene->scene.face_group.item;
-  return number[before] + 1 == number[face] && group[before] == group[face];
+  return number[before] + 1 == number[face] &&
+         scene_face_group(&scene->scene, before) ==
+             scene_face_group(&scene->scene, face);
 }
 
 bool edge_runs_collect(struct part *part, const struct part_sources *from) {

@@ -114,14 +114,11 @@ static uint32_t count_in_group(struct group_counts *counts, uint32_t group,
 static bool pick_face(struct picked *picked, const struct scene *from,
                       uint32_t face, uint32_t number) {
   struct scene *to = &picked->scene;
-  uint32_t start = from->face_start.item[face];
-  if (to->face_start.count == 0 && !ARRAY_PUSH(&to->face_start, 0))
-    return false;
-  for (uint32_t i = start; i < from->face_start.item[face + 1]; i++)
+  for (uint32_t i = scene_face_start(from, face);
+       i < scene_face_start(from, face + 1); i++)
     if (!ARRAY_PUSH(&to->corner, from->corner.item[i]))
       return false;
-  return ARRAY_PUSH(&to->face_start, (uint32_t)to->corner.count) &&
-         ARRAY_PUSH(&to->face_group, from->face_group.item[face]) &&
+  return scene_end_face(to, scene_face_group(from, face)) &&
          ARRAY_PUSH(&picked->face_number, number);
 }
 
@@ -145,17 +142,17 @@ static recto_status take_faces(struct face_pick *pick,
   const struct scene *scene = block->scene;
   uint32_t skipped = 0;
   for (uint32_t f = 0; f < scene_face_count(scene); f++) {
-    uint32_t start = scene->face_start.item[f];
-    uint32_t count = scene->face_start.item[f + 1] - start;
+    uint32_t start = scene_face_start(scene, f);
+    uint32_t count = scene_face_start(scene, f + 1) - start;
     const uint32_t *corner = scene->corner.item + start;
     while (skipped < scene->face_skipped.count &&
            scene->face_skipped.item[skipped] <= f)
       skipped++;
     uint32_t number = block->face + f + skipped;
     pick->face_hash = hash_add(pick->face_hash, (uint64_t)number << 32 |
-                                                    scene->face_group.item[f]);
+                                                    scene_face_group(scene, f));
     pick->face_hash = hash_corners(pick->face_hash, corner, count);
-    uint32_t group = scene->face_group.item[f], in_group = 0;
+    uint32_t group = scene_face_group(scene, f), in_group = 0;
     if (pick->counts_groups) {
       if (!have_group(pick, group))
         return error_memory(error);

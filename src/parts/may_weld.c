@@ -96,8 +96,8 @@ bool part_scene_may_weld(const struct part_scene *part,
   uint8_t *is_corner = mem_calloc(scene->point.count, 1);
   bool ok = is_corner != NULL && list_border_points(&points, part, topology);
   for (uint32_t f = 0; ok && f < scene_face_count(scene); f++)
-    for (uint32_t c = scene->face_start.item[f];
-         c < scene->face_start.item[f + 1] && part->is_kept[f]; c++)
+    for (uint32_t c = scene_face_start(scene, f);
+         c < scene_face_start(scene, f + 1) && part->is_kept[f]; c++)
       is_corner[topology->weld != NULL ? topology->weld[scene->corner.item[c]]
                                        : scene->corner.item[c]] = 1;
   for (size_t i = 0; ok && i < points.list.count && !*may_weld; i++)

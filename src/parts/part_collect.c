@@ -250,8 +250,8 @@ static bool collect_fragments(struct collection *c) {
 static void need_faces_of_edges(struct collection *c) {
   const struct scene *scene = &c->from->scene->scene;
   for (uint32_t f = 0; f < scene_face_count(scene); f++)
-    for (uint32_t i = scene->face_start.item[f];
-         i < scene->face_start.item[f + 1]; i++)
+    for (uint32_t i = scene_face_start(scene, f);
+         i < scene_face_start(scene, f + 1); i++)
       if (c->edge_needed[c->from->topology->corner_edge[i]])
         c->face_needed[f] = 1;
 }
@@ -274,7 +274,7 @@ static bool store_element(struct collection *c, const uint32_t *corner,
 static bool store_tones(struct collection *c, uint32_t face,
                         struct part_element *element) {
   const float *tone = c->from->tone;
-  uint32_t start = c->from->scene->scene.face_start.item[face];
+  uint32_t start = scene_face_start(&c->from->scene->scene, face);
   if (tone == NULL)
     return true;
   element->uniform = c->from->uniform[face];
@@ -293,12 +293,12 @@ static bool collect_elements(struct collection *c) {
   struct part *part = c->part;
   need_faces_of_edges(c);
   for (uint32_t f = 0; f < scene_face_count(scene); f++) {
-    uint32_t start = scene->face_start.item[f];
+    uint32_t start = scene_face_start(scene, f);
     struct part_element face = {
         .number = c->from->scene->face_number[f],
-        .group = scene->face_group.item[f],
+        .group = scene_face_group(scene, f),
         .in_group = number_in_group(c->from->scene->face_in_group, f),
-        .count = scene->face_start.item[f + 1] - start};
+        .count = scene_face_start(scene, f + 1) - start};
     if (c->face_needed[f] &&
         !(store_element(c, scene->corner.item + start, &face, true) &&
           store_tones(c, f, &face) && ARRAY_PUSH(&part->face, face)))

@@ -84,8 +84,8 @@ uint32_t part_join_find_edge(const struct join_work *work,
   if (key.kind == PART_EDGE_FOLD)
     return nth_edge(work, work->fold.item, work->fold.count, true, element,
                     key.place);
-  uint32_t start = join->scene.face_start.item[element];
-  if (key.place >= join->scene.face_start.item[element + 1] - start)
+  uint32_t start = scene_face_start(&join->scene, element);
+  if (key.place >= scene_face_start(&join->scene, element + 1) - start)
     return SHEET_NONE;
   return work->sheet_edge[join->topology.corner_edge[start + key.place]];
 }
@@ -233,7 +233,8 @@ static bool is_before_edge(const struct part_edge_run *run,
 
 uint32_t *part_join_edge_numbers(const struct part_join *join) {
   const struct part *all = &join->all;
-  size_t edges = join->topology.edge.count, run = 0, face = 0;
+  size_t edges = join->topology.edge.count, run = 0;
+  uint32_t face = 0;
   uint32_t *number = mem_alloc(edges, sizeof *number);
   uint32_t *next = mem_calloc(all->common.group.count, sizeof *next);
   for (size_t e = 0; number != NULL && e < edges; e++)
@@ -251,8 +252,8 @@ uint32_t *part_join_edge_numbers(const struct part_join *join) {
       face++;
     if (run < all->run.count && all->run.item[run].face == key.element &&
         all->run.item[run].place == key.place)
-      number[join->topology
-                 .corner_edge[join->scene.face_start.item[face] + key.place]] =
+      number[join->topology.corner_edge[scene_face_start(&join->scene, face) +
+                                        key.place]] =
           next[all->run.item[run].group];
   }
   if (next == NULL) {

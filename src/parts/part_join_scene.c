@@ -147,9 +147,7 @@ static recto_status add_joined_faces(struct join_work *work) {
   struct scene *scene = &work->join->scene;
   const struct part *all = work->all;
   /* Corners of polylines may be among them. */
-  if (!ARRAY_RESERVE(&scene->corner, all->corner.count) ||
-      !ARRAY_RESERVE(&scene->face_start, all->face.count + 1) ||
-      !ARRAY_RESERVE(&scene->face_group, all->face.count))
+  if (!scene_reserve_faces(scene, all->face.count, all->corner.count))
     return error_memory(work->error);
   for (uint32_t f = 0; f < all->face.count; f++) {
     const struct part_element *face = &all->face.item[f];

@@ -56,9 +56,9 @@ static struct part_window box_of(const struct page_place *place,
 static struct part_window box_of_face(const struct part_scene *part,
                                       uint32_t face) {
   const struct scene *scene = &part->scene;
-  uint32_t start = scene->face_start.item[face];
+  uint32_t start = scene_face_start(scene, face);
   return box_of(part->place, scene->corner.item + start,
-                scene->face_start.item[face + 1] - start);
+                scene_face_start(scene, face + 1) - start);
 }
 
 static int32_t limit_to_sheet(int64_t at) {
@@ -230,14 +230,14 @@ static void keep_faces(struct part_scene_work *work) {
   set_outcodes(work);
   for (uint32_t f = 0; f < scene_face_count(scene) && poll_at(f); f++) {
     unsigned beyond = PAGE_OUTCODE;
-    for (uint32_t c = scene->face_start.item[f];
-         c < scene->face_start.item[f + 1]; c++)
+    for (uint32_t c = scene_face_start(scene, f);
+         c < scene_face_start(scene, f + 1); c++)
       beyond &= work->flag[scene->corner.item[c]];
     if (beyond != 0)
       continue;
     work->face_state[f] = KEPT;
-    for (uint32_t c = scene->face_start.item[f];
-         c < scene->face_start.item[f + 1]; c++)
+    for (uint32_t c = scene_face_start(scene, f);
+         c < scene_face_start(scene, f + 1); c++)
       work->flag[scene->corner.item[c]] |= CORNER_KEPT;
   }
   keep_wire_corners(work);
@@ -295,8 +295,8 @@ static recto_status add_ring(struct part_scene_work *work) {
   const struct scene *scene = &part->scene;
   for (uint32_t f = 0; is_picked && f < scene_face_count(scene) && poll_at(f);
        f++)
-    for (uint32_t c = scene->face_start.item[f];
-         c < scene->face_start.item[f + 1] && work->face_state[f] == LEFT_OUT;
+    for (uint32_t c = scene_face_start(scene, f);
+         c < scene_face_start(scene, f + 1) && work->face_state[f] == LEFT_OUT;
          c++)
       if (is_at_kept_corner(work, &set, scene->corner.item[c]))
         work->face_state[f] = OF_RING;
@@ -325,9 +325,11 @@ static void trim_faces(struct part_scene_work *work, uint8_t *used) {
   struct part_scene *part = work->part;
   struct scene *scene = &part->scene;
   uint32_t faces = scene_face_count(scene), kept = 0, corners = 0;
+  bool has_starts = scene->face_start.count > 0;
+  bool has_groups = scene->face_group.count > 0;
   for (uint32_t f = 0; f < faces; f++) {
-    uint32_t start = scene->face_start.item[f];
-    uint32_t count = scene->face_start.item[f + 1] - start;
+    uint32_t start = scene_face_start(scene, f);
+    uint32_t count = scene_face_start(scene, f + 1) - start;
     if (work->face_state[f] == LEFT_OUT)
       continue;
     for (uint32_t i = 0; i < count; i++) {
@@ -338,14 +340,18 @@ static void trim_faces(struct part_scene_work *work, uint8_t *used) {
     part->face_number[kept] = part->face_number[f];
     if (part->face_in_group != NULL)
       part->face_in_group[kept] = part->face_in_group[f];
-    scene->face_group.item[kept] = scene->face_group.item[f];
-    scene->face_start.item[kept++] = corners;
+    if (has_groups)
+      scene->face_group.item[kept] = scene->face_group.item[f];
     corners += count;
+    kept++;
+    if (has_starts)
+      scene->face_start.item[kept] = corners;
   }
-  if (faces > 0)
-    scene->face_start.item[kept] = corners;
-  scene->face_start.count = kept > 0 ? (size_t)kept + 1 : 0;
-  scene->face_group.count = kept;
+  if (has_starts)
+    scene->face_start.count = kept > 0 ? (size_t)kept + 1 : 0;
+  if (has_groups)
+    scene->face_group.count = kept;
+  scene->face_count = kept;
   scene->corner.count = corners;
 }
 

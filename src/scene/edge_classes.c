@@ -43,9 +43,9 @@ static inline void add_product(struct face_normal *sum,
 static struct face_normal sum_area(const struct scene *scene, uint32_t face,
                                    double scale) {
   const struct scene_point *point = scene->point.item;
-  const uint32_t *corner = scene->corner.item + scene->face_start.item[face];
+  const uint32_t *corner = scene->corner.item + scene_face_start(scene, face);
   uint32_t count =
-      scene->face_start.item[face + 1] - scene->face_start.item[face];
+      scene_face_start(scene, face + 1) - scene_face_start(scene, face);
   struct face_normal sum = {0, 0, 0, 0};
   struct face_normal a =
       scaled_difference(&point[corner[0]], &point[corner[1]], scale);
@@ -63,9 +63,9 @@ static struct face_normal sum_area(const struct scene *scene, uint32_t face,
 static double scale_of_face(const struct scene *scene, uint32_t face) {
   const struct scene_point *point = scene->point.item;
   const uint32_t *corner = scene->corner.item;
-  uint32_t first = scene->face_start.item[face];
+  uint32_t first = scene_face_start(scene, face);
   double extent = 0;
-  for (uint32_t c = first; c < scene->face_start.item[face + 1]; c++) {
+  for (uint32_t c = first; c < scene_face_start(scene, face + 1); c++) {
     struct face_normal d =
         scaled_difference(&point[corner[first]], &point[corner[c]], 1);
     extent = fmax(extent, fmax(fabs(d.x), fmax(fabs(d.y), fabs(d.z))));
@@ -103,10 +103,10 @@ static inline struct face_normal area_of_triangle(const struct scene_point *p,
 static inline struct face_normal normal_of_face(const struct scene *scene,
                                                 uint32_t face) {
   const struct scene_point *point = scene->point.item;
-  uint32_t start = scene->face_start.item[face];
+  uint32_t start = scene_face_start(scene, face);
   const uint32_t *corner = scene->corner.item + start;
   struct face_normal n;
-  if (scene->face_start.item[face + 1] - start == 3)
+  if (scene_face_start(scene, face + 1) - start == 3)
     n = area_of_triangle(&point[corner[0]], &point[corner[1]],
                          &point[corner[2]]);
   else
@@ -134,8 +134,9 @@ static unsigned plain_class_mask(const struct topology_edge *edge,
                                  const struct scene *scene) {
   if (edge->uses != 2)
     return RECTO_EDGE_BORDER;
-  const uint32_t *group = scene->face_group.item;
-  return scene_groups_differ(scene, group[edge->first], group[edge->second])
+  return scene->face_group.count > 0 &&
+                 scene_groups_differ(scene, scene->face_group.item[edge->first],
+                                     scene->face_group.item[edge->second])
              ? RECTO_EDGE_GROUP
              : 0;
 }
@@ -165,8 +166,8 @@ static bool is_of_face_in_cut(const struct topology_edge *edge,
                     cut->planes[edge->point[1] - cut->first_point];
   if (edge->uses != 1 || edge->first >= cut->first_face)
     return false;
-  for (uint32_t c = scene->face_start.item[edge->first];
-       c < scene->face_start.item[edge->first + 1]; c++)
+  for (uint32_t c = scene_face_start(scene, edge->first);
+       c < scene_face_start(scene, edge->first + 1); c++)
     planes &= scene->corner.item[c] < cut->first_point
                   ? 0
                   : cut->planes[scene->corner.item[c] - cut->first_point];
@@ -233,8 +234,8 @@ struct crease_work {
 
 /* The first three corners of a face. */
 MEM_PREFETCH_INLINE void prefetch_corners(const struct scene *scene,
-                                          size_t face) {
-  const uint32_t *corner = scene->corner.item + scene->face_start.item[face];
+                                          uint32_t face) {
+  const uint32_t *corner = scene->corner.item + scene_face_start(scene, face);
   for (int k = 0; k < 3; k++)
     MEM_PREFETCH(&scene->point.item[corner[k]]);
 }
@@ -243,7 +244,7 @@ static bool find_normal_directions(void *user, struct parallel_range range) {
   const struct crease_work *work = user;
   for (size_t f = range.begin; f < range.end; f++) {
     if (f + MEM_PREFETCH_AHEAD < range.end)
-      prefetch_corners(work->scene, f + MEM_PREFETCH_AHEAD);
+      prefetch_corners(work->scene, (uint32_t)f + MEM_PREFETCH_AHEAD);
     struct face_normal n = normal_of_face(work->scene, (uint32_t)f);
     double scale = n.square > 0 ? DIRECTION_ONE / sqrt(n.square) : 0;
     work->direction[f] = (struct crease_direction){

@@ -38,10 +38,8 @@ static inline uint32_t edge_range_look_up(const struct edge_range *range,
 
 /* How many corners its faces have. */
 static inline size_t edge_range_corners(const struct edge_range *range) {
-  const uint32_t *start = range->scene->face_start.item; /* NULL: no faces */
-  return range->face == range->end_face
-             ? 0
-             : start[range->end_face] - start[range->face];
+  return scene_face_start(range->scene, range->end_face) -
+         scene_face_start(range->scene, range->face);
 }
 
 void edge_range_fini(struct edge_range *range);

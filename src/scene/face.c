@@ -235,9 +235,7 @@ recto_status scene_add_face(struct scene *scene, const uint32_t *corner,
   if (status != RECTO_OK)
     return status;
   /* One more, so that there is an address where there are no corners. */
-  if (!ARRAY_RESERVE(&scene->corner, count + 1) ||
-      !ARRAY_RESERVE(&scene->face_start, 2) ||
-      !ARRAY_RESERVE(&scene->face_group, 1))
+  if (!ARRAY_RESERVE(&scene->corner, count + 1))
     return error_memory(error);
   uint32_t *to = ARRAY_AT(&scene->corner, scene->corner.count);
   if (is_certainly_valid(scene, corner, count)) {
@@ -253,13 +251,11 @@ recto_status scene_add_face(struct scene *scene, const uint32_t *corner,
     if (count > 3 && !unite_corners(scene, to, count))
       return error_memory(error);
   }
-  if (scene->face_start.count == 0)
-    scene->face_start.item[scene->face_start.count++] = 0;
   scene->corner.count += count;
-  scene->face_start.item[scene->face_start.count++] =
-      (uint32_t)scene->corner.count;
-  scene->face_group.item[scene->face_group.count++] = scene->current_group;
-  return RECTO_OK;
+  if (scene_end_face(scene, scene->current_group))
+    return RECTO_OK;
+  scene->corner.count -= count;
+  return error_memory(error);
 }
 
 recto_status scene_add_wire(struct scene *scene, const uint32_t *corner,

@@ -17,7 +17,8 @@ void newell_normal(const struct scene_point *point, const uint32_t *corner,
 /* That of a face of the scene. */
 static inline void newell_normal_of_face(const struct scene *scene,
                                          uint32_t face, double normal[3]) {
-  const uint32_t *start = &scene->face_start.item[face];
+  const uint32_t start[2] = {scene_face_start(scene, face),
+                             scene_face_start(scene, face + 1)};
   newell_normal(scene->point.item, scene->corner.item + start[0],
                 start[1] - start[0], normal);
 }

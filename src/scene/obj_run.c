@@ -173,10 +173,11 @@ static bool read_faces(const struct obj_parser *p, struct run *run) {
   struct scene *scene = p->scene;
   size_t corners = scene->corner.count + 3 * run->before, read = 0;
   uint32_t *corner = scene->corner.item + corners;
+  size_t face = scene->face_count + run->before;
   uint32_t *start =
-      scene->face_start.item + scene->face_start.count + run->before;
+      scene->face_start.count > 0 ? scene->face_start.item + face + 1 : NULL;
   uint32_t *group =
-      scene->face_group.item + scene->face_group.count + run->before;
+      scene->face_group.count > 0 ? scene->face_group.item + face : NULL;
   const char *begin[MEM_PREFETCH_AHEAD]; /* of faces, by number */
   bool goes_on = true;
   do {
@@ -195,8 +196,10 @@ static bool read_faces(const struct obj_parser *p, struct run *run) {
     if (run->count == read ||
         !obj_is_surely_bent(scene, &corner[3 * run->count]))
       break;
-    start[run->count] = (uint32_t)(corners + 3 * (run->count + 1));
-    group[run->count] = scene->current_group;
+    if (start != NULL)
+      start[run->count] = (uint32_t)(corners + 3 * (run->count + 1));
+    if (group != NULL)
+      group[run->count] = scene->current_group;
     run->count++;
   } while (true);
   if (run->count < read)
@@ -205,15 +208,18 @@ static bool read_faces(const struct obj_parser *p, struct run *run) {
 }
 
 static void add_run_faces(struct obj_parser *p, const struct run *run) {
-  p->scene->corner.count += 3 * run->count;
-  p->scene->face_start.count += run->count;
-  p->scene->face_group.count += run->count;
+  struct scene *scene = p->scene;
+  scene->corner.count += 3 * run->count;
+  scene->face_count += (uint32_t)run->count;
+  if (scene->face_start.count > 0)
+    scene->face_start.count += run->count;
+  if (scene->face_group.count > 0)
+    scene->face_group.count += run->count;
 }
 
 static bool reserve_faces(struct scene *scene, size_t count) {
-  return ARRAY_RESERVE(&scene->corner, 3 * count) &&
-         ARRAY_RESERVE(&scene->face_start, count) &&
-         ARRAY_RESERVE(&scene->face_group, count);
+  return (scene->current_group == 0 || scene_list_groups(scene)) &&
+         scene_reserve_faces(scene, count, 3 * count);
 }
 
 /* ---- In parallel --------------------------------------------------------- */
@@ -336,7 +342,7 @@ recto_status obj_run_points(struct obj_parser *p) {
 
 recto_status obj_run_faces(struct obj_parser *p) {
   const struct scene *scene = p->scene;
-  if (p->bad.count || p->renamed || scene->face_start.count == 0 ||
+  if (p->bad.count || p->renamed || scene->face_count == 0 ||
       scene->corner.count > SCENE_LIMIT - 3 * PLAIN_RUN)
     return RECTO_OK;
   return read_run(p, &faces);

@@ -125,9 +125,7 @@ recto_status obj_add_triangles(struct obj_parser *p, const uint32_t *corner,
                                size_t count) {
   struct scene *scene = p->scene;
   const struct scene_point *point = scene->point.item;
-  if (!ARRAY_RESERVE(&scene->corner, 3 * count) ||
-      !ARRAY_RESERVE(&scene->face_start, count + 1) ||
-      !ARRAY_RESERVE(&scene->face_group, count))
+  if (!scene_reserve_faces(scene, count, 3 * count))
     return error_memory(p->error);
   for (size_t f = 0; f < count; f++, p->line++) {
     const uint32_t *own = corner + 3 * f;
@@ -135,7 +133,7 @@ recto_status obj_add_triangles(struct obj_parser *p, const uint32_t *corner,
       MEM_PREFETCH(&point[own[3 * MEM_PREFETCH_AHEAD + k]]);
     if (!poll_at(f))
       return error_cancelled(p->error);
-    if (p->bad.count > 0 || p->renamed || scene->face_start.count == 0 ||
+    if (p->bad.count > 0 || p->renamed || scene->face_count == 0 ||
         !obj_is_surely_bent(scene, own)) {
       recto_status status = obj_add_triangle(p, own);
       if (status != RECTO_OK)
@@ -144,9 +142,8 @@ recto_status obj_add_triangles(struct obj_parser *p, const uint32_t *corner,
     }
     memcpy(scene->corner.item + scene->corner.count, own, 3 * sizeof *own);
     scene->corner.count += 3;
-    scene->face_start.item[scene->face_start.count++] =
-        (uint32_t)scene->corner.count;
-    scene->face_group.item[scene->face_group.count++] = scene->current_group;
+    if (!scene_end_face(scene, scene->current_group))
+      return error_memory(p->error);
   }
   return RECTO_OK;
 }

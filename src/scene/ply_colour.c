@@ -111,7 +111,8 @@ static recto_status use_colour(struct scene *scene, uint32_t colour,
 static recto_status use_groups(struct ply_parser *p, size_t first) {
   struct scene *scene = p->scene;
   uint32_t before = scene->current_group, colour = PLY_NO_COLOUR;
-  recto_status status = RECTO_OK;
+  recto_status status =
+      scene_list_groups(scene) ? RECTO_OK : error_memory(p->error);
   for (size_t i = 0; i < p->face_colour.count && status == RECTO_OK; i++) {
     if (p->face_colour.item[i] == PLY_NO_COLOUR)
       continue;

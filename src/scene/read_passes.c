@@ -165,13 +165,6 @@ void read_passes_guess_used(const struct read_passes *passes, uint8_t *used) {
 
 /* ---- Faces --------------------------------------------------------------- */
 
-static void drop_elements(struct scene *scene) {
-  scene->face_start.count = scene->corner.count = scene->face_group.count =
-      scene->face_skipped.count = 0;
-  scene->wire_start.count = scene->wire_corner.count = scene->wire_group.count =
-      0;
-}
-
 static void begin_faces(struct read_passes *passes, recto_error *error) {
   struct obj_parser *p = &passes->parser;
   p->ahead = true;
@@ -222,7 +215,7 @@ recto_status read_passes_faces(struct read_passes *passes,
       break;
     if (status == RECTO_OK)
       status = take(user, p->scene, error);
-    drop_elements(p->scene);
+    scene_drop_elements(p->scene);
     if (status == RECTO_OK)
       status = keep_names(passes);
   }

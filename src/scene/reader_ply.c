@@ -291,8 +291,7 @@ static recto_status read_ply_items(struct ply_parser *p,
   if (element->kind == PLY_UNKNOWN)
     return skip_elements(p, element);
   size_t most = most_of(p, element);
-  if (!ARRAY_RESERVE(&p->scene->face_start, most + 1) ||
-      !ARRAY_RESERVE(&p->scene->face_group, most))
+  if (!scene_reserve_faces(p->scene, most, 0))
     return error_memory(p->error);
   return read_others(p, element);
 }

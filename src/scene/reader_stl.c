@@ -122,9 +122,7 @@ static recto_status read_binary(struct scene *scene, const char *bytes,
   status = scene_use_group(scene, NULL, 0, error);
   if (status != RECTO_OK)
     return status;
-  if (!ARRAY_RESERVE(&scene->corner, 3 * triangles) ||
-      !ARRAY_RESERVE(&scene->face_start, triangles + 1) ||
-      !ARRAY_RESERVE(&scene->face_group, triangles))
+  if (!scene_reserve_faces(scene, triangles, 3 * triangles))
     return error_memory(error);
   /* Closed surfaces have half as many points as triangles. */
   struct positions positions;

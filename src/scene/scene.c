@@ -35,6 +35,7 @@ void scene_fini(struct scene *scene) {
   scene_forget_without_unit(scene);
   ARRAY_FREE(&scene->without_unit);
   ARRAY_FREE(&scene->point);
+  scene->face_count = 0;
   ARRAY_FREE(&scene->face_start);
   ARRAY_FREE(&scene->corner);
   ARRAY_FREE(&scene->face_group);
@@ -178,7 +179,7 @@ recto_status scene_use_group(struct scene *scene, const char *name,
 
 void scene_snapshot(const struct scene *scene, struct scene_snapshot *before) {
   before->points = scene->point.count;
-  before->faces = scene->face_group.count;
+  before->faces = scene->face_count;
   before->skipped = scene->face_skipped.count;
   before->corners = scene->corner.count;
   before->wires = scene->wire_group.count;
@@ -190,9 +191,12 @@ void scene_snapshot(const struct scene *scene, struct scene_snapshot *before) {
 
 void scene_restore(struct scene *scene, const struct scene_snapshot *before) {
   scene->point.count = before->points;
-  scene->face_group.count = before->faces;
+  scene->face_count = (uint32_t)before->faces;
+  if (scene->face_group.count > 0)
+    scene->face_group.count = before->faces;
   scene->face_skipped.count = before->skipped;
-  scene->face_start.count = before->faces ? before->faces + 1 : 0;
+  if (scene->face_start.count > 0)
+    scene->face_start.count = before->faces ? before->faces + 1 : 0;
   scene->corner.count = before->corners;
   scene->wire_group.count = before->wires;
   scene->wire_start.count = before->wires ? before->wires + 1 : 0;
@@ -202,6 +206,67 @@ void scene_restore(struct scene *scene, const struct scene_snapshot *before) {
   scene->current_group = before->current_group;
   if (scene->group_slot != NULL)
     fill_slots(scene);
+}
+
+/* ---- Faces --------------------------------------------------------------- */
+
+bool scene_list_starts(struct scene *scene) {
+  size_t faces = scene->face_count;
+  if (scene->face_start.count > 0)
+    return true;
+  if (!ARRAY_RESERVE(&scene->face_start, faces + 2))
+    return false;
+  for (uint32_t f = 0; f <= faces; f++)
+    scene->face_start.item[f] = 3 * f;
+  scene->face_start.count = faces + 1;
+  return true;
+}
+
+bool scene_list_groups(struct scene *scene) {
+  size_t faces = scene->face_count;
+  if (scene->face_group.count > 0)
+    return true;
+  if (!ARRAY_RESERVE(&scene->face_group, faces + 1))
+    return false;
+  for (size_t f = 0; f < faces; f++)
+    scene->face_group.item[f] = 0;
+  scene->face_group.count = faces;
+  return true;
+}
+
+bool scene_reserve_faces(struct scene *scene, size_t faces, size_t corners) {
+  return ARRAY_RESERVE(&scene->corner, corners) &&
+         (scene->face_start.count == 0 ||
+          ARRAY_RESERVE(&scene->face_start, faces)) &&
+         (scene->face_group.count == 0 ||
+          ARRAY_RESERVE(&scene->face_group, faces));
+}
+
+bool scene_end_face(struct scene *scene, uint32_t group) {
+  size_t corners =
+      scene->corner.count - scene_face_start(scene, scene->face_count);
+  bool has_starts = corners != 3 || scene->face_start.count > 0;
+  bool has_groups = group != 0 || scene->face_group.count > 0;
+  if ((has_starts &&
+       (!scene_list_starts(scene) || !ARRAY_RESERVE(&scene->face_start, 1))) ||
+      (has_groups &&
+       (!scene_list_groups(scene) || !ARRAY_RESERVE(&scene->face_group, 1))))
+    return false;
+  if (has_starts)
+    scene->face_start.item[scene->face_start.count++] =
+        (uint32_t)scene->corner.count;
+  if (has_groups)
+    scene->face_group.item[scene->face_group.count++] = group;
+  scene->face_count++;
+  return true;
+}
+
+void scene_drop_elements(struct scene *scene) {
+  scene->face_count = 0;
+  scene->face_start.count = scene->corner.count = scene->face_group.count =
+      scene->face_skipped.count = 0;
+  scene->wire_start.count = scene->wire_corner.count = scene->wire_group.count =
+      0;
 }
 
 /* ---- The precision of the coordinates ------------------------------------ */

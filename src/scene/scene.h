@@ -51,12 +51,15 @@ struct scene_cut {
 
 struct scene {
   ARRAY(struct scene_point) point;
-  /* Face f has corners corner[face_start[f] .. face_start[f + 1]), indices
-   * of points, in the file's order; face_start has one more item than there
-   * are faces, or none where there are no faces. */
+  /* Face f has corners corner[s(f) .. s(f + 1)), indices of points, in the
+   * file's order: s is scene_face_start.  What most scenes have in common is
+   * not stored: face_start has one more item than there are faces, or none
+   * where all faces are triangles, and face_group one a face, or none where all
+   * are of group 0. */
+  uint32_t face_count;
   ARRAY(uint32_t) face_start;
   ARRAY(uint32_t) corner;
-  ARRAY(uint32_t) face_group; /* one a face */
+  ARRAY(uint32_t) face_group;
   /* For each face that was skipped, how many there were before it;
    * ascending. */
   ARRAY(uint32_t) face_skipped;
@@ -92,17 +95,35 @@ void scene_init(struct scene *scene);
 void scene_fini(struct scene *scene);
 
 static inline uint32_t scene_face_count(const struct scene *scene) {
-  return (uint32_t)scene->face_group.count;
+  return scene->face_count;
 }
 static inline uint32_t scene_wire_count(const struct scene *scene) {
   return (uint32_t)scene->wire_group.count;
 }
 
+/* Where the corners of a face begin; of the number of all faces, where those of
+ * the last end. */
+static inline uint32_t scene_face_start(const struct scene *scene,
+                                        uint32_t face) {
+  return scene->face_start.count > 0 ? scene->face_start.item[face] : 3 * face;
+}
+
+static inline uint32_t scene_face_corners(const struct scene *scene,
+                                          uint32_t face) {
+  return scene_face_start(scene, face + 1) - scene_face_start(scene, face);
+}
+
+static inline uint32_t scene_face_group(const struct scene *scene,
+                                        uint32_t face) {
+  return scene->face_group.count > 0 ? scene->face_group.item[face] : 0;
+}
+
 /* The corner after one of a face's, around the face. */
 static inline uint32_t scene_next_corner(const struct scene *scene,
                                          uint32_t face, uint32_t corner) {
-  const uint32_t *start = &scene->face_start.item[face];
-  return corner + 1 < start[1] ? corner + 1 : start[0];
+  return corner + 1 < scene_face_start(scene, face + 1)
+             ? corner + 1
+             : scene_face_start(scene, face);
 }
 
 static inline bool scene_is_cut_face(const struct scene *scene, uint32_t face) {
@@ -151,6 +172,23 @@ USE_RESULT recto_status scene_add_face(struct scene *scene,
                                        unsigned long line,
                                        struct diagnostics *diagnostics,
                                        recto_error *error);
+/* Makes a face of the corners that were put behind those of the last face.
+ * They are to be valid.  Returns false when memory ran out. */
+USE_RESULT bool scene_end_face(struct scene *scene, uint32_t group);
+
+/* Makes room for so many faces and corners that are added soon; false when
+ * memory ran out. */
+USE_RESULT bool scene_reserve_faces(struct scene *scene, size_t faces,
+                                    size_t corners);
+
+/* Stores the groups of faces, or where their corners begin, though all are of
+ * group 0, or triangles; false when memory ran out. */
+USE_RESULT bool scene_list_groups(struct scene *scene);
+USE_RESULT bool scene_list_starts(struct scene *scene);
+
+/* Removes the faces, polylines and what is known of skipped ones. */
+void scene_drop_elements(struct scene *scene);
+
 /* Records that a face of the source is not added, so that those after it keep
  * their numbers; scene_add_face does it for those that it skips.
  * Errors  RECTO_ERROR_MEMORY */

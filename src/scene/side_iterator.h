@@ -39,8 +39,8 @@ static inline bool next_side(struct side_iterator *it) {
     if (face == it->end_face)
       return false;
     it->face = face;
-    it->corner = it->scene->face_start.item[face];
-    it->end = it->scene->face_start.item[face + 1];
+    it->corner = scene_face_start(it->scene, face);
+    it->end = scene_face_start(it->scene, face + 1);
     it->from = welded_corner(it, it->corner);
   } else {
     it->corner++;

@@ -112,7 +112,7 @@ static bool renumber_sides(void *user, struct parallel_range corners) {
   const struct edge_range *range = &join->range[join->at];
   const uint32_t *number = join->number[join->at];
   uint32_t *edge =
-      range->corner_edge + range->scene->face_start.item[range->face];
+      range->corner_edge + scene_face_start(range->scene, range->face);
   for (size_t c = corners.begin; c < corners.end; c++)
     edge[c] = number[edge[c]];
   return true;

@@ -45,8 +45,8 @@ static double square_between(const struct scene_point *a,
 /* The square of the longest side. */
 static double face_size(const struct scene *scene, uint32_t face) {
   const struct scene_point *point = scene->point.item;
-  uint32_t start = scene->face_start.item[face];
-  uint32_t end = scene->face_start.item[face + 1];
+  uint32_t start = scene_face_start(scene, face);
+  uint32_t end = scene_face_start(scene, face + 1);
   double most = 0;
   uint32_t before = scene->corner.item[end - 1];
   for (uint32_t c = start; c < end; c++) {

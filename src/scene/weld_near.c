@@ -189,16 +189,12 @@ static recto_status map_faces(struct scene *to, const struct scene *from,
   recto_status status = RECTO_OK;
   uint32_t faces = scene_face_count(from);
   size_t skipped = 0; /* of those that `from` skipped */
-  if (!ARRAY_RESERVE(&to->corner, from->corner.count) ||
-      !ARRAY_RESERVE(&to->face_start, (size_t)faces + 1) ||
-      !ARRAY_RESERVE(&to->face_group, faces))
+  if (!ARRAY_RESERVE(&to->corner, from->corner.count))
     return error_memory(error);
-  if (faces > 0)
-    to->face_start.item[to->face_start.count++] = 0;
   for (uint32_t f = 0; f < faces && status == RECTO_OK; f++) {
-    uint32_t start = from->face_start.item[f];
-    uint32_t count = from->face_start.item[f + 1] - start;
-    to->current_group = from->face_group.item[f];
+    uint32_t start = scene_face_start(from, f);
+    uint32_t count = scene_face_start(from, f + 1) - start;
+    to->current_group = scene_face_group(from, f);
     if (!poll_at(f))
       status = error_cancelled(error);
     for (; status == RECTO_OK && skipped < from->face_skipped.count &&
@@ -213,8 +209,8 @@ static recto_status map_faces(struct scene *to, const struct scene *from,
     }
     memcpy(to->corner.item + to->corner.count, corner, count * sizeof *corner);
     to->corner.count += count;
-    to->face_start.item[to->face_start.count++] = (uint32_t)to->corner.count;
-    to->face_group.item[to->face_group.count++] = to->current_group;
+    if (!scene_end_face(to, to->current_group))
+      return error_memory(error);
   }
   return status;
 }
@@ -237,6 +233,7 @@ static recto_status map_wires(struct scene *to, const struct scene *from,
 static void share_arrays(struct welded *welded, const struct scene *scene) {
   struct scene *own = &welded->scene;
   *own = *scene;
+  own->face_count = 0;
   memset(&own->corner, 0, sizeof own->corner);
   memset(&own->face_start, 0, sizeof own->face_start);
   memset(&own->face_group, 0, sizeof own->face_group);

@@ -21,8 +21,8 @@ enum { CORNERS_MAX = 64 };
 static void measure(const struct sheet *sheet, uint32_t face, double error[3]) {
   const struct scene *scene = sheet->scene;
   error[0] = error[1] = error[2] = 0;
-  for (uint32_t c = scene->face_start.item[face];
-       c < scene->face_start.item[face + 1]; c++) {
+  for (uint32_t c = scene_face_start(scene, face);
+       c < scene_face_start(scene, face + 1); c++) {
     uint32_t point = scene->corner.item[c];
     const struct scene_point *p = &scene->point.item[point];
     struct precision precision =
@@ -35,8 +35,8 @@ static void measure(const struct sheet *sheet, uint32_t face, double error[3]) {
 
 bool coordinate_error_store(struct sheet *sheet, uint32_t face) {
   struct sheet_face_error error = {.face = face};
-  const uint32_t *start = sheet->scene->face_start.item + face;
-  if (start[1] - start[0] <= CORNERS_MAX || sheet->camera.error > 0)
+  if (scene_face_corners(sheet->scene, face) <= CORNERS_MAX ||
+      sheet->camera.error > 0)
     return true;
   measure(sheet, face, error.along);
   return ARRAY_PUSH(&sheet->face_error, error);

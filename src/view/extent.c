@@ -29,24 +29,20 @@ static void grow_by_cut(struct extent *extent, const struct camera *camera,
   grow_extent(extent, camera, cut);
 }
 
-/* Includes the crossings of all sides of faces or polylines.
- * start   index of the first corner of each, `count` of them and one more
+/* Includes the crossings of all sides of a face or polyline.
  * closed  whether a side joins the last corner to the first */
 static void grow_by_cuts(struct extent *extent, const struct camera *camera,
-                         const struct scene *scene, const uint32_t *start,
-                         uint32_t count, const uint32_t *corner, bool closed) {
-  for (uint32_t i = 0; i < count; i++) {
-    struct view_point first =
-        camera_view(camera, &scene->point.item[corner[start[i]]]);
-    struct view_point a = first;
-    for (uint32_t c = start[i] + 1; c < start[i + 1]; c++) {
-      struct view_point b = camera_view(camera, &scene->point.item[corner[c]]);
-      grow_by_cut(extent, camera, a, b);
-      a = b;
-    }
-    if (closed)
-      grow_by_cut(extent, camera, a, first);
+                         const struct scene *scene, const uint32_t *corner,
+                         uint32_t count, bool closed) {
+  struct view_point first = camera_view(camera, &scene->point.item[corner[0]]);
+  struct view_point a = first;
+  for (uint32_t c = 1; c < count; c++) {
+    struct view_point b = camera_view(camera, &scene->point.item[corner[c]]);
+    grow_by_cut(extent, camera, a, b);
+    a = b;
   }
+  if (closed)
+    grow_by_cut(extent, camera, a, first);
 }
 
 struct extent extent_of_drawing(const struct camera *camera,
@@ -63,11 +59,14 @@ struct extent extent_of_drawing(const struct camera *camera,
     else
       any_cut = cuts;
   }
-  if (any_cut) {
-    grow_by_cuts(&extent, camera, scene, scene->face_start.item,
-                 scene_face_count(scene), scene->corner.item, true);
-    grow_by_cuts(&extent, camera, scene, scene->wire_start.item,
-                 scene_wire_count(scene), scene->wire_corner.item, false);
+  for (uint32_t f = 0; any_cut && f < scene_face_count(scene); f++)
+    grow_by_cuts(&extent, camera, scene,
+                 scene->corner.item + scene_face_start(scene, f),
+                 scene_face_corners(scene, f), true);
+  for (uint32_t w = 0; any_cut && w < scene_wire_count(scene); w++) {
+    const uint32_t *start = scene->wire_start.item + w;
+    grow_by_cuts(&extent, camera, scene, scene->wire_corner.item + start[0],
+                 start[1] - start[0], false);
   }
   return extent;
 }

@@ -70,7 +70,8 @@ recto_status layout_sheet(struct sheet *sheet, const struct scene *scene,
   memset(sheet, 0, sizeof *sheet);
   sheet->camera = *camera;
   sheet->scene = scene;
-  sheet->face_group = scene->face_group.item;
+  sheet->face_group =
+      scene->face_group.count > 0 ? scene->face_group.item : NULL;
   sheet->topology = topology;
   struct layout layout = {
       .sheet = sheet,

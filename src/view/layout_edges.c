@@ -156,7 +156,6 @@ static recto_status clip_edges(struct edge_layout *work, size_t *count) {
 static bool make_edges_of_range(void *user, struct parallel_range range) {
   const struct edge_layout *work = user;
   struct layout *layout = work->layout;
-  const uint32_t *group = layout->scene->face_group.item;
   struct sheet_edge *to =
       layout->sheet->edge.item + layout->ids.before[range.begin / 64];
   for (size_t w = range.begin / 64; 64 * w < range.end; w++)
@@ -168,7 +167,8 @@ static bool make_edges_of_range(void *user, struct parallel_range range) {
       struct layout_clipped ends;
       if (find_end_points(layout, e, &ends) != RECTO_OK)
         return false;
-      *to++ = sheet_edge_of(ends, e, group[first], edge_class, 0);
+      *to++ = sheet_edge_of(ends, e, scene_face_group(layout->scene, first),
+                            edge_class, 0);
     }
   return true;
 }
@@ -197,8 +197,8 @@ static bool make_folds(struct layout *layout) {
   unsigned wanted = layout->options->ink.edges & RECTO_EDGE_SILHOUETTE;
   for (size_t f = 0; f < layout->fold.count; f++) {
     const struct layout_fold *fold = &layout->fold.item[f];
-    uint32_t group = scene->face_group.item[fold->face];
-    uint32_t corner = scene->corner.item[scene->face_start.item[fold->face]];
+    uint32_t group = scene_face_group(scene, fold->face);
+    uint32_t corner = scene->corner.item[scene_face_start(scene, fold->face)];
     bool is_mesh =
         has_mesh_contours(layout->coarse, layout_weld(layout, corner));
     struct sheet_edge edge =

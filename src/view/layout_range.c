@@ -101,8 +101,8 @@ static void grow_by_triangle(struct depth_range *range,
 /* The same for a face.  Returns false when memory ran out. */
 static bool grow_by_face(struct depth_range *range, struct layout *layout,
                          const struct projection *projection, uint32_t face) {
-  uint32_t start = layout->scene->face_start.item[face];
-  uint32_t count = layout->scene->face_start.item[face + 1] - start;
+  uint32_t start = scene_face_start(layout->scene, face);
+  uint32_t count = scene_face_start(layout->scene, face + 1) - start;
   const uint32_t *corner = layout->scene->corner.item + start;
   if (count == 3) {
     grow_by_triangle(range, layout, projection, corner);
@@ -135,8 +135,8 @@ static bool grow_by_faces(struct depth_range *range, struct layout *layout) {
       layout->projection.perspective && layout->sheet->camera.near_chosen;
   for (uint32_t face = 0; face < scene_face_count(layout->scene); face++) {
     unsigned any = 0, all = ~0u;
-    for (uint32_t c = layout->scene->face_start.item[face];
-         c < layout->scene->face_start.item[face + 1]; c++) {
+    for (uint32_t c = scene_face_start(layout->scene, face);
+         c < scene_face_start(layout->scene, face + 1); c++) {
       uint8_t code =
           layout->outcode[layout_weld(layout, layout->scene->corner.item[c])];
       any |= code;
@@ -200,10 +200,10 @@ static bool grow_by_all_lines(struct depth_range *range,
   const struct scene *scene = layout->scene;
   bool grew = false;
   for (uint32_t face = 0; face < scene_face_count(scene); face++) {
-    uint32_t start = scene->face_start.item[face];
+    uint32_t start = scene_face_start(scene, face);
     grew |=
         grow_by_lines(range, layout, scene->corner.item + start,
-                      scene->face_start.item[face + 1] - start, true, force);
+                      scene_face_start(scene, face + 1) - start, true, force);
   }
   for (uint32_t w = 0; w < scene_wire_count(scene); w++) {
     uint32_t start = scene->wire_start.item[w];

@@ -342,8 +342,8 @@ static recto_status add_polygon_face(struct layout *layout, uint32_t face,
 }
 
 static recto_status layout_face(struct layout *layout, uint32_t face) {
-  uint32_t start = layout->scene->face_start.item[face];
-  uint32_t count = layout->scene->face_start.item[face + 1] - start;
+  uint32_t start = scene_face_start(layout->scene, face);
+  uint32_t count = scene_face_start(layout->scene, face + 1) - start;
   unsigned any = 0, all = ~0u, beyond = 0;
   for (uint32_t c = start; c < start + count; c++) {
     uint8_t code =

@@ -11,16 +11,16 @@ static inline uint32_t add_unclipped_faces(const struct layout *layout,
                                            uint32_t face, uint32_t end) {
   enum { AHEAD = 3 * MEM_PREFETCH_AHEAD };
   const struct scene *scene = layout->scene;
-  const uint32_t *start = scene->face_start.item, *own = scene->corner.item;
+  const uint32_t *own = scene->corner.item;
   const uint32_t *corner_edge = layout->topology->corner_edge;
   struct layout_triangle_sink sink = *to; /* in registers */
   uint8_t *sides = layout->sides;
   const size_t corners = scene->corner.count;
   for (; face < end && sink.remaining > 0; face++) {
-    uint32_t c = start[face], corner[3], point[3];
+    uint32_t c = scene_face_start(scene, face), corner[3], point[3];
     for (uint32_t k = c; k < c + 3 && k + AHEAD < corners; k++)
       MEM_PREFETCH(&sink.point[layout_sheet_point(layout, own[k + AHEAD])]);
-    if (start[face + 1] - c != 3 ||
+    if (scene_face_start(scene, face + 1) - c != 3 ||
         !layout_welded_corners(corner, own + c, layout->topology->weld))
       break;
     for (int k = 0; k < 3; k++)

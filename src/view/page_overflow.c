@@ -109,8 +109,8 @@ static void measure_line(struct measure *measure, uint32_t from, uint32_t to) {
  * eye, in the order of its corners. */
 static double side_of_face(const struct measure *measure, uint32_t face) {
   const struct scene *scene = measure->scene;
-  uint32_t start = scene->face_start.item[face];
-  uint32_t end = scene->face_start.item[face + 1];
+  uint32_t start = scene_face_start(scene, face);
+  uint32_t end = scene_face_start(scene, face + 1);
   struct view_point at =
       view_of_scene_point(measure, scene->corner.item[start]);
   double normal[3] = {0, 0, 0};

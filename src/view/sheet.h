@@ -90,7 +90,7 @@ struct sheet {
   const struct scene *scene; /* borrowed, not owned; for the precision of its
                                 coordinates; NULL: exact */
   ARRAY(struct sheet_face_error) face_error; /* by face */
-  const uint32_t *face_group;                /* the scene's, borrowed */
+  const uint32_t *face_group; /* the scene's, borrowed; NULL: all of group 0 */
   uint32_t first_filled; /* faces before this one get no visible fragments */
   const struct topology *topology; /* the scene's, borrowed; NULL: unknown */
   /* Mesh edges in topology order, then diagonals that are silhouettes, then
@@ -139,6 +139,11 @@ static inline bool sheet_is_one_face(const struct sheet *sheet, uint32_t f,
   return one == other ||
          (cut != NULL && one < cut->first_face && other < cut->first_face &&
           cut->face[one] == cut->face[other]);
+}
+
+static inline uint32_t sheet_face_group(const struct sheet *sheet,
+                                        uint32_t face) {
+  return sheet->face_group != NULL ? sheet->face_group[face] : 0;
 }
 
 /* The points of an edge or a contour, from its `point`. */

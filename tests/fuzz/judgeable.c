@@ -21,9 +21,9 @@ static bool has_corner_twice(const uint32_t *corner, size_t count) {
 static bool are_polygons_simple(const struct scene *scene) {
   struct triangulation triangulation = {0};
   bool simple = true;
-  for (size_t f = 0; simple && f < scene_face_count(scene); f++) {
-    const uint32_t *corner = scene->corner.item + scene->face_start.item[f];
-    size_t count = scene->face_start.item[f + 1] - scene->face_start.item[f];
+  for (uint32_t f = 0; simple && f < scene_face_count(scene); f++) {
+    const uint32_t *corner = scene->corner.item + scene_face_start(scene, f);
+    size_t count = scene_face_start(scene, f + 1) - scene_face_start(scene, f);
     if (count == 3)
       continue;
     if (!triangulate(&triangulation, scene->point.item, corner, count))
@@ -52,11 +52,11 @@ static double beyond(const recto_plane *plane, const struct scene_point *p) {
 }
 
 /* Whether all corners of a face are near a plane and not all in it. */
-static bool is_face_near(const struct scene *scene, size_t face,
+static bool is_face_near(const struct scene *scene, uint32_t face,
                          const recto_plane *plane, double near) {
   bool all_in = true;
-  for (uint32_t i = scene->face_start.item[face];
-       i < scene->face_start.item[face + 1]; i++) {
+  for (uint32_t i = scene_face_start(scene, face);
+       i < scene_face_start(scene, face + 1); i++) {
     const struct scene_point *p = &scene->point.item[scene->corner.item[i]];
     double by = beyond(plane, p);
     all_in = all_in && by == 0;
@@ -69,7 +69,7 @@ static bool is_face_near(const struct scene *scene, size_t face,
 static bool is_plane_clear(const struct scene *scene, const recto_plane *plane,
                            double diagonal) {
   double left = 0;
-  for (size_t f = 0; f < scene_face_count(scene); f++)
+  for (uint32_t f = 0; f < scene_face_count(scene); f++)
     if (is_face_near(scene, f, plane, NEAR_SHARE * diagonal))
       return false;
   for (size_t i = 0; i < scene->point.count; i++)

@@ -186,10 +186,10 @@ void scenes_copy(struct scene *to, const struct scene *from, uint64_t seed) {
   for (size_t i = 0; i < from->group.count; i++)
     build_group(to, from->group.item[i].name);
   for (uint32_t i = 0; i < faces; i++) {
-    uint32_t face = order[i], start = from->face_start.item[face];
-    to->current_group = from->face_group.item[face];
+    uint32_t face = order[i], start = scene_face_start(from, face);
+    to->current_group = scene_face_group(from, face);
     build_face(to, from->corner.item + start,
-               from->face_start.item[face + 1] - start);
+               scene_face_start(from, face + 1) - start);
   }
   struct diagnostics silent = {.file = "scenes"};
   for (uint32_t i = 0; i < scene_wire_count(from); i++) {

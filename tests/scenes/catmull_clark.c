@@ -39,13 +39,14 @@ static void add_to(struct vector *sum, struct vector more) {
 }
 
 static void find_face_points(struct step *step) {
-  const uint32_t *start = step->from->face_start.item;
   for (uint32_t f = 0; f < scene_face_count(step->from); f++) {
+    uint32_t start = scene_face_start(step->from, f);
+    uint32_t end = scene_face_start(step->from, f + 1);
     struct vector sum = vector_of(0, 0, 0);
-    for (uint32_t c = start[f]; c < start[f + 1]; c++)
+    for (uint32_t c = start; c < end; c++)
       add_to(&sum, place(step->from, point_at(step, c)));
-    step->face_point[f] = vector_scale(sum, 1.0 / (start[f + 1] - start[f]));
-    for (uint32_t c = start[f]; c < start[f + 1]; c++) {
+    step->face_point[f] = vector_scale(sum, 1.0 / (end - start));
+    for (uint32_t c = start; c < end; c++) {
       struct ring *ring = &step->ring[point_at(step, c)];
       add_to(&ring->faces, step->face_point[f]);
       ring->face_count++;
@@ -102,11 +103,12 @@ static struct vector edge_point(const struct step *step,
 }
 
 static void add_face(const struct step *step, struct scene *to, uint32_t face) {
-  const uint32_t *start = step->from->face_start.item;
+  uint32_t start = scene_face_start(step->from, face);
+  uint32_t end = scene_face_start(step->from, face + 1);
   uint32_t first_edge = (uint32_t)step->from->point.count;
   uint32_t first_face = first_edge + (uint32_t)step->topology.edge.count;
-  for (uint32_t c = start[face]; c < start[face + 1]; c++) {
-    uint32_t before = (c > start[face] ? c : start[face + 1]) - 1;
+  for (uint32_t c = start; c < end; c++) {
+    uint32_t before = (c > start ? c : end) - 1;
     build_quad(to, point_at(step, c),
                first_edge + step->topology.corner_edge[c], first_face + face,
                first_edge + step->topology.corner_edge[before]);

@@ -29,7 +29,7 @@ void scenes_unwelded(struct scene *scene, recto_options *options) {
   for (uint32_t i = 0; i < scene_face_count(&whole); i++) {
     double xyz[9];
     for (unsigned k = 0; k < 3; k++) {
-      uint32_t corner = whole.corner.item[whole.face_start.item[i] + k];
+      uint32_t corner = whole.corner.item[scene_face_start(&whole, i) + k];
       const struct scene_point *p = &whole.point.item[corner];
       xyz[3 * k] = p->x;
       xyz[3 * k + 1] = p->y;

@@ -65,8 +65,8 @@ static void visit_triangles(struct subdivision *sub,
                                           uint32_t face)) {
   const struct scene *from = sub->from;
   for (uint32_t i = 0; i < scene_face_count(from); i++) {
-    uint32_t start = from->face_start.item[i];
-    for (uint32_t k = start + 2; k < from->face_start.item[i + 1]; k++) {
+    uint32_t start = scene_face_start(from, i);
+    for (uint32_t k = start + 2; k < scene_face_start(from, i + 1); k++) {
       const uint32_t corner[3] = {from->corner.item[start],
                                   from->corner.item[k - 1],
                                   from->corner.item[k]};
@@ -149,7 +149,7 @@ static void add_quarters(struct subdivision *sub, const uint32_t corner[3],
   uint32_t middle[3];
   for (int k = 0; k < 3; k++)
     middle[k] = edge_of(sub, corner[k], corner[(k + 1) % 3])->middle;
-  sub->to->current_group = sub->from->face_group.item[face];
+  sub->to->current_group = scene_face_group(sub->from, face);
   build_triangle(sub->to, corner[0], middle[0], middle[2]);
   build_triangle(sub->to, corner[1], middle[1], middle[0]);
   build_triangle(sub->to, corner[2], middle[2], middle[1]);

@@ -37,7 +37,7 @@ static bool colour_range(void *user, struct parallel_range range) {
     colours->prototype[i] =
         (struct drawing_fill){.colour = colour_of_fill(colours, face),
                               .face = face,
-                              .group = colours->scene->face_group.item[face]};
+                              .group = scene_face_group(colours->scene, face)};
   }
   return true;
 }

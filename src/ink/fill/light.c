@@ -39,7 +39,7 @@ double light_brightness(const double normal[3], const struct light *light) {
 
 bool light_is_turned_away(const struct scene *scene, uint32_t face,
                           const struct camera *camera, const double normal[3]) {
-  uint32_t corner = scene->corner.item[scene->face_start.item[face]];
+  uint32_t corner = scene->corner.item[scene_face_start(scene, face)];
   const struct scene_point *o = &scene->point.item[corner];
   double eye[3];
   memcpy(eye, camera->back, sizeof eye);

@@ -300,7 +300,7 @@ static bool hatch_faces(struct hatch *h, const struct scene *scene,
   for (size_t i = 0, end, n = 0; ok && i < map->fragment.count; i = end, n++) {
     end = hatch_regions_end(&h->regions, i);
     uint32_t face = map->fragment.item[h->regions.fragment[i]].face;
-    uint32_t group = scene->face_group.item[face];
+    uint32_t group = scene_face_group(scene, face);
     ok = poll_at(n);
     if (scene_is_cut_face(scene, face) != cuts ||
         (hatch != NULL && (hatch[group].angle_deg != style->angle_deg ||

@@ -32,7 +32,7 @@ static bool is_within_cut_face(const struct hatch_regions *regions,
   if (!scene_is_cut_face(scene, face) || !scene_is_cut_face(scene, other))
     return false;
   return face == other ||
-         (scene->face_group.item[face] == scene->face_group.item[other] &&
+         (scene_face_group(scene, face) == scene_face_group(scene, other) &&
           !(hatch_regions_side_is_inked(regions, &map->corner.item[a->side]) &&
             hatch_regions_side_is_inked(regions, &map->corner.item[b->side])));
 }
@@ -56,8 +56,8 @@ static bool is_within_region(const struct hatch_regions *regions,
   return p->side == MAP_SIDE_EDGE && q->side == MAP_SIDE_EDGE &&
          p->id == q->id && !hatch_regions_side_is_inked(regions, p) &&
          scene_is_cut_face(scene, face) == scene_is_cut_face(scene, other) &&
-         pens_of_hatch(pens, scene->face_group.item[face]) ==
-             pens_of_hatch(pens, scene->face_group.item[other]);
+         pens_of_hatch(pens, scene_face_group(scene, face)) ==
+             pens_of_hatch(pens, scene_face_group(scene, other));
 }
 
 static void set_crossable(const struct hatch_regions *regions,

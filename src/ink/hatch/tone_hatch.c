@@ -265,7 +265,7 @@ static bool add_tone_stroke(struct tone_hatching *h,
       .layer = piece->pen,
       .face = piece->face,
       .edge = DRAWING_NONE,
-      .group = h->tones.scene->face_group.item[piece->face]};
+      .group = scene_face_group(h->tones.scene, piece->face)};
   return stroke_add(h->drawing, &attributes, point, 2, false);
 }
 
@@ -300,7 +300,7 @@ static bool add_curved_fragments(struct tone_hatching *h,
                                  const struct map *map) {
   for (size_t i = 0; i < map->fragment.count; i++) {
     const struct map_fragment *fragment = &map->fragment.item[i];
-    uint32_t group = h->tones.scene->face_group.item[fragment->face];
+    uint32_t group = scene_face_group(h->tones.scene, fragment->face);
     if (scene_is_cut_face(h->tones.scene, fragment->face))
       continue;
     h->face = fragment->face;

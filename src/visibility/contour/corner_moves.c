@@ -22,8 +22,8 @@ static void list_contour(struct corner_moves *moves, uint32_t edge) {
   if (t == SHEET_NONE || moves->map->edge_state[edge] != MAP_VISIBLE)
     return;
   uint32_t face = moves->sheet->triangle.item[t].face;
-  for (uint32_t c = scene->face_start.item[face];
-       c < scene->face_start.item[face + 1]; c++) {
+  for (uint32_t c = scene_face_start(scene, face);
+       c < scene_face_start(scene, face + 1); c++) {
     uint32_t point = scene->corner.item[c];
     if (moves->topology->weld != NULL)
       point = moves->topology->weld[point];

@@ -13,8 +13,8 @@
 uint32_t facing_corner_of_edge(const struct facing *f, uint32_t face,
                                uint32_t edge) {
   const uint32_t *point = f->topology->edge.item[edge].point;
-  for (uint32_t c = f->scene->face_start.item[face];
-       c < f->scene->face_start.item[face + 1]; c++) {
+  for (uint32_t c = scene_face_start(f->scene, face);
+       c < scene_face_start(f->scene, face + 1); c++) {
     uint32_t p = facing_point(f, c);
     uint32_t q = facing_point(f, scene_next_corner(f->scene, face, c));
     if ((p == point[0] && q == point[1]) || (p == point[1] && q == point[0]))
@@ -85,7 +85,7 @@ static bool find_face_signs(struct facing *f) {
   uint32_t faces = scene_face_count(f->scene);
   f->face_sign = mem_alloc(faces, 1);
   for (uint32_t face = 0; f->face_sign != NULL && face < faces; face++) {
-    uint32_t first = facing_point(f, f->scene->face_start.item[face]);
+    uint32_t first = facing_point(f, scene_face_start(f->scene, face));
     double n[3], at[3], v[3];
     (void)poll_at(face);
     newell_normal_of_face(f->scene, face, n);
@@ -100,16 +100,16 @@ static bool find_face_signs(struct facing *f) {
 
 static void record_signs(struct facing *f) {
   for (uint32_t face = 0; face < scene_face_count(f->scene); face++)
-    for (uint32_t c = f->scene->face_start.item[face];
-         c < f->scene->face_start.item[face + 1]; c++)
+    for (uint32_t c = scene_face_start(f->scene, face);
+         c < scene_face_start(f->scene, face + 1); c++)
       f->signs[facing_slot(f, c)] |= f->face_sign[face];
 }
 
 /* The union of the signs of a face's slots. */
 static unsigned signs_of_face(const struct facing *f, uint32_t face) {
   unsigned signs = 0;
-  for (uint32_t c = f->scene->face_start.item[face];
-       c < f->scene->face_start.item[face + 1]; c++)
+  for (uint32_t c = scene_face_start(f->scene, face);
+       c < scene_face_start(f->scene, face + 1); c++)
     signs |= f->signs[facing_slot(f, c)];
   return signs;
 }
@@ -123,8 +123,8 @@ static bool number_needed(struct facing *f) {
       continue;
     if (!ARRAY_PUSH(&f->mixed, face))
       return false;
-    for (uint32_t c = f->scene->face_start.item[face];
-         c < f->scene->face_start.item[face + 1]; c++) {
+    for (uint32_t c = scene_face_start(f->scene, face);
+         c < scene_face_start(f->scene, face + 1); c++) {
       uint32_t *place = &f->place[facing_slot(f, c)];
       if (*place == SHEET_NONE)
         *place = (uint32_t)f->count++;
@@ -143,8 +143,8 @@ static double angle_between(const double a[3], const double b[3]) {
 
 /* Adds a face's share to those normals of its corners that are needed. */
 static void add_face(struct facing *f, uint32_t face) {
-  uint32_t start = f->scene->face_start.item[face];
-  uint32_t end = f->scene->face_start.item[face + 1], first = start;
+  uint32_t start = scene_face_start(f->scene, face);
+  uint32_t end = scene_face_start(f->scene, face + 1), first = start;
   double n[3];
   while (first < end && f->place[facing_slot(f, first)] == SHEET_NONE)
     first++;
@@ -174,8 +174,8 @@ static void add_face(struct facing *f, uint32_t face) {
 
 /* Sets the values of the slots of a face. */
 static void set_values(struct facing *f, uint32_t face) {
-  for (uint32_t c = f->scene->face_start.item[face];
-       c < f->scene->face_start.item[face + 1]; c++) {
+  for (uint32_t c = scene_face_start(f->scene, face);
+       c < scene_face_start(f->scene, face + 1); c++) {
     uint32_t slot = facing_slot(f, c), place = f->place[slot];
     double at[3], v[3];
     facing_position(f, facing_point(f, c), at);
@@ -227,8 +227,8 @@ static bool crease_apices(struct facing *f, double crease_deg, bool *is_lost) {
     newell_normal_of_face(f->scene, face, n);
     if (!vector_normalise(n))
       continue;
-    for (uint32_t c = f->scene->face_start.item[face];
-         c < f->scene->face_start.item[face + 1]; c++)
+    for (uint32_t c = scene_face_start(f->scene, face);
+         c < scene_face_start(f->scene, face + 1); c++)
       if (vector_dot(f->normal[f->place[facing_slot(f, c)]], n) < cosine)
         is_apex[facing_point(f, c)] = any = true;
   }

@@ -10,8 +10,8 @@ static bool add_part_face(struct part_size *part, uint32_t face) {
 
 /* Adds the faces beside one. */
 static bool add_part_neighbours(struct part_size *part, uint32_t face) {
-  for (uint32_t c = part->scene->face_start.item[face];
-       c < part->scene->face_start.item[face + 1]; c++) {
+  for (uint32_t c = scene_face_start(part->scene, face);
+       c < scene_face_start(part->scene, face + 1); c++) {
     const struct topology_edge *edge =
         &part->topology->edge.item[part->topology->corner_edge[c]];
     if (edge->uses == 2 && !(add_part_face(part, edge->first) &&

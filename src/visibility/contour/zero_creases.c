@@ -32,7 +32,7 @@ static bool node_of_vertex(struct zero_finder *z, uint32_t point,
 static bool is_front(const struct facing *f, uint32_t face) {
   double n[3], at[3], v[3];
   newell_normal_of_face(f->scene, face, n);
-  facing_position(f, facing_point(f, f->scene->face_start.item[face]), at);
+  facing_position(f, facing_point(f, scene_face_start(f->scene, face)), at);
   facing_view(f->camera, at, v);
   return vector_dot(n, v) < 0;
 }

@@ -99,8 +99,8 @@ static uint32_t *place_of_side(struct zero_finder *z, uint32_t face,
  * side  as in triangulation.h */
 static bool node_of_side(struct zero_finder *z, uint32_t face, uint32_t side,
                          uint32_t c, uint32_t d, uint32_t *node) {
-  uint32_t start = z->facing->scene->face_start.item[face];
-  uint32_t count = z->facing->scene->face_start.item[face + 1] - start;
+  uint32_t start = scene_face_start(z->facing->scene, face);
+  uint32_t count = scene_face_start(z->facing->scene, face + 1) - start;
   uint32_t *place =
       side < count
           ? place_of_side(z, face,
@@ -203,8 +203,8 @@ static bool cross_polygon(struct zero_finder *z, uint32_t face, uint32_t start,
 
 static bool cross_face(struct zero_finder *z, uint32_t face) {
   const struct facing *f = z->facing;
-  uint32_t start = f->scene->face_start.item[face];
-  uint32_t count = f->scene->face_start.item[face + 1] - start;
+  uint32_t start = scene_face_start(f->scene, face);
+  uint32_t count = scene_face_start(f->scene, face + 1) - start;
   bool front = false, back = false;
   for (uint32_t c = start; c < start + count; c++) {
     bool is_back = facing_is_back(f, facing_slot(f, c));

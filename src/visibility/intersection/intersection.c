@@ -201,7 +201,8 @@ static bool add_edges_in_order(struct sheet *sheet, struct segment_order *order,
     edge[i] = (struct sheet_edge){
         .triangle = {s->triangle[0], s->triangle[1]},
         .source = SHEET_NONE,
-        .group = sheet->face_group[sheet->triangle.item[s->triangle[0]].face],
+        .group =
+            sheet_face_group(sheet, sheet->triangle.item[s->triangle[0]].face),
         .edge_class = RECTO_EDGE_INTERSECTION};
   }
   if (!add_intersection_points(sheet, order, n, edge))
