@@ -207,8 +207,13 @@ bool edge_range_find(struct edge_range *range, bool with_hubs) {
   return number_edges(range);
 }
 
-void edge_range_fini(struct edge_range *range) {
-  ARRAY_FREE(&range->edge);
+void edge_range_drop_lists(struct edge_range *range) {
   mem_free(range->head);
   mem_free(range->next);
+  range->head = range->next = NULL;
+}
+
+void edge_range_fini(struct edge_range *range) {
+  ARRAY_FREE(&range->edge);
+  edge_range_drop_lists(range);
 }

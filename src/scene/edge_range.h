@@ -42,6 +42,9 @@ static inline size_t edge_range_corners(const struct edge_range *range) {
          scene_face_start(range->scene, range->face);
 }
 
+/* Frees what edge_range_look_up needs. */
+void edge_range_drop_lists(struct edge_range *range);
+
 void edge_range_fini(struct edge_range *range);
 
 #endif

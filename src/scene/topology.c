@@ -130,6 +130,9 @@ static bool join_range(struct edge_join *join, size_t at, int workers) {
   bool ok =
       join->number[at] != NULL && join->first != NULL &&
       parallel_ranges(workers, edges, PARALLEL_ITEMS, look_up_edges, join);
+  /* Nothing is looked up after the last range was. */
+  for (size_t r = 0; at + 1 == join->ranges && r < at; r++)
+    edge_range_drop_lists(&join->range[r]);
   for (size_t i = 0; ok && i < parts; i++) {
     uint32_t own = join->first[i];
     join->first[i] = (uint32_t)topology->edge.count;
@@ -154,6 +157,7 @@ static bool join_ranges(struct edge_join *join, int workers) {
   topology->edge.item = join->range[0].edge.item;
   topology->edge.count = join->range[0].edge.count;
   topology->edge.capacity = join->range[0].edge.capacity;
+  edge_range_drop_lists(&join->range[join->ranges - 1]);
   bool ok = true;
   for (size_t r = 1; ok && r < join->ranges; r++)
     ok = join_range(join, r, workers);
