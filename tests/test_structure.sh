@@ -293,7 +293,7 @@ check_length() {
   (cd "$1" && sources . | xargs awk '
     BEGIN {
       split("src/recto.h backends/writer_svg.c backends/writer_cairo.c " \
-            "src/parts/part_merge.c src/parts/part_file.c " \
+            "src/parts/part_merge.c " \
             "src/api/part.c " \
             "src/cli/options.c", name, " ")
       for (i in name)

@@ -25,6 +25,7 @@
 #include "base/stream.h"
 #include "ink/tone.h"
 #include "parts/part_collect.h"
+#include "parts/part_common.h"
 #include "parts/part_file.h"
 #include "scene/weld_near.h"
 #include "view/camera_aim.h"
@@ -128,7 +129,7 @@ static recto_status make_common(struct part_work *work, recto_error *error) {
   uint64_t sum;
   if (!copy_names(common, path, work->pick.source.scene))
     return error_memory(error);
-  recto_status status = part_file_checksum_common(common, &sum, error);
+  recto_status status = part_common_checksum(common, &sum, error);
   common->id = hash_add(hash_model(&work->pick), sum);
   common->id = hash_add_double(common->id, o->mesh.weld);
   return status;

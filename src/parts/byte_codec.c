@@ -1,6 +1,7 @@
 /* byte_codec.c - numbers as bytes, and their checksum. */
 #include "parts/byte_codec.h"
 
+#include <math.h>
 #include <string.h>
 
 static void fail_for_memory(struct byte_codec *codec) {
@@ -18,6 +19,13 @@ void byte_codec_i64(struct byte_codec *codec, int64_t *value) {
   uint64_t number = codec->writes ? (uint64_t)*value : 0;
   byte_codec_number(codec, &number, 8);
   memcpy(value, &number, sizeof *value);
+}
+
+void byte_codec_doubles(struct byte_codec *codec, double *value, int count) {
+  for (int i = 0; i < count; i++) {
+    byte_codec_double(codec, &value[i]);
+    byte_codec_require(codec, isfinite(value[i]));
+  }
 }
 
 void byte_codec_float(struct byte_codec *codec, float *value) {

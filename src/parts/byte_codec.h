@@ -102,12 +102,35 @@ void byte_codec_i64(struct byte_codec *codec, int64_t *value);
 void byte_codec_float(struct byte_codec *codec, float *value);
 void byte_codec_bool(struct byte_codec *codec, bool *value);
 
+/* Doubles that are finite. */
+void byte_codec_doubles(struct byte_codec *codec, double *value, int count);
+
+/* Fails in reading where a condition does not hold. */
+static inline void byte_codec_require(struct byte_codec *codec,
+                                      bool condition) {
+  codec->failed |= !codec->writes && !condition;
+}
+
 /* A parameter of an edge: in [0, 1], numbers below 2^126. */
 void byte_codec_ratio(struct byte_codec *codec, struct ratio *value);
 
 /* A number of items of at least `size` bytes each, of which there cannot be
  * more than there are bytes; 0 after a failure. */
 void byte_codec_count(struct byte_codec *codec, size_t *count, size_t size);
+
+/* Makes room for the items of a list that is read, and sets its count. */
+#define BYTE_CODEC_LIST(codec, array, size)                                    \
+  do {                                                                         \
+    size_t count_ = (array)->count;                                            \
+    byte_codec_count((codec), &count_, (size));                                \
+    if (!(codec)->writes) {                                                    \
+      if (!ARRAY_RESERVE((array), count_)) {                                   \
+        (codec)->failed = (codec)->out_of_memory = true;                       \
+        count_ = 0;                                                            \
+      }                                                                        \
+      (array)->count = count_;                                                 \
+    }                                                                          \
+  } while (0)
 
 /* A text; in reading, allocated, the caller's to free, NULL after a failure.
  * It has no NUL within. */

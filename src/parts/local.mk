@@ -9,6 +9,7 @@ librecto_core_la_SOURCES += \
   %D%/merge_order.c %D%/merge_order.h \
   %D%/page_windows.c %D%/page_windows.h \
   %D%/part.c %D%/part.h \
+  %D%/part_common.c %D%/part_common.h \
   %D%/part_collect.c %D%/part_collect.h \
   %D%/part_file.c %D%/part_file.h \
   %D%/part_join.c %D%/part_join.h \

@@ -2,13 +2,10 @@
 #include "parts/part.h"
 
 #include "base/sort.h"
+#include "parts/part_common.h"
 
 void part_fini(struct part *part) {
-  mem_free(part->common.path);
-  for (size_t g = 0; g < part->common.group.count; g++)
-    mem_free(part->common.group.item[g].name);
-  ARRAY_FREE(&part->common.group);
-  ARRAY_FREE(&part->common.precision);
+  part_common_fini(&part->common);
   ARRAY_FREE(&part->point);
   ARRAY_FREE(&part->face);
   ARRAY_FREE(&part->wire);

@@ -1,12 +1,9 @@
 /* part_file.c - writes and reads parts, by one description of the format. */
 #include "parts/part_file.h"
 
-#include <limits.h>
-#include <math.h>
 #include <string.h>
 
-#include "parts/byte_codec.h"
-#include "parts/page_windows.h"
+#include "parts/part_common.h"
 #include "scene/limit.h"
 
 static const unsigned char magic[8] = {'r', 'e', 'c', 't', 'o', 'p', 't', '\n'};
@@ -14,8 +11,6 @@ enum { FORMAT_VERSION = 3, SUM_SIZE = 8, HEAD_SIZE = 8 + 4 + 8 };
 
 /* Sizes of items, at least, in bytes. */
 enum {
-  GROUP_SIZE = 14,
-  PRECISION_SIZE = 21,
   POINT_SIZE = 28,
   ELEMENT_SIZE = 12,
   NUMBER_SIZE = 4,
@@ -27,147 +22,18 @@ enum {
   CORNER_SIZE = 25
 };
 
-static void require(struct byte_codec *codec, bool condition) {
-  codec->failed |= !codec->writes && !condition;
-}
-
-/* Makes room for the items of a list that is read, and sets its count. */
-#define CODE_COUNT(codec, array, size)                                         \
-  do {                                                                         \
-    size_t count_ = (array)->count;                                            \
-    byte_codec_count((codec), &count_, (size));                                \
-    if (!(codec)->writes) {                                                    \
-      if (!ARRAY_RESERVE((array), count_)) {                                   \
-        (codec)->failed = (codec)->out_of_memory = true;                       \
-        count_ = 0;                                                            \
-      }                                                                        \
-      (array)->count = count_;                                                 \
-    }                                                                          \
-  } while (0)
-
-/* ---- What all parts have in common --------------------------------------- */
-
-static void code_doubles(struct byte_codec *codec, double *value, int count) {
-  for (int i = 0; i < count; i++) {
-    byte_codec_double(codec, &value[i]);
-    require(codec, isfinite(value[i]));
-  }
-}
-
-static void code_precision(struct byte_codec *codec,
-                           struct precision *precision) {
-  code_doubles(codec, &precision->absolute, 1);
-  code_doubles(codec, &precision->relative, 1);
-  require(codec, precision->absolute >= 0 && precision->relative >= 0);
-}
-
-static void code_camera(struct byte_codec *codec, struct camera *camera) {
-  code_doubles(codec, camera->right, 3);
-  code_doubles(codec, camera->up, 3);
-  code_doubles(codec, camera->back, 3);
-  code_doubles(codec, camera->eye, 3);
-  byte_codec_bool(codec, &camera->perspective);
-  code_doubles(codec, &camera->s, 1);
-  code_doubles(codec, camera->middle_mm, 2);
-  code_doubles(codec, &camera->near_d, 1);
-  code_doubles(codec, &camera->d_min, 1);
-  code_doubles(codec, &camera->d_max, 1);
-  code_doubles(codec, camera->page_mm, 2);
-  code_doubles(codec, &camera->margin_mm, 1);
-  code_doubles(codec, &camera->size, 1);
-  code_doubles(codec, &camera->contact, 1);
-  code_doubles(codec, &camera->contact_most, 1);
-  code_doubles(codec, &camera->error, 1);
-  code_precision(codec, &camera->unstated);
-  byte_codec_bool(codec, &camera->near_chosen);
-  camera->all_on_page = true;
-  for (int k = 0; k < 2; k++)
-    require(codec, camera->page_mm[k] > 0 && camera->page_mm[k] <= 2000 &&
-                       camera->margin_mm >= 0 &&
-                       2 * camera->margin_mm < camera->page_mm[k] &&
-                       fabs(camera->middle_mm[k]) <= 1e9);
-  require(codec, camera->s > 0 && camera->d_min <= camera->d_max &&
-                     camera->near_d <= camera->d_min &&
-                     (!camera->perspective || camera->near_d > 0));
-}
-
-/* Is added to the colour of a group that has no name of its own. */
-#define NAMELESS UINT32_C(0x1000000)
-
-static void code_groups(struct byte_codec *codec, struct part_common *common) {
-  CODE_COUNT(codec, &common->group, GROUP_SIZE);
-  for (size_t g = 0; g < common->group.count; g++) {
-    struct scene_group *group = &common->group.item[g];
-    if (!codec->writes)
-      *group = (struct scene_group){.name = NULL};
-    byte_codec_text(codec, &group->name);
-    uint32_t colour = group->colour | (group->is_nameless ? NAMELESS : 0);
-    byte_codec_u32(codec, &colour);
-    group->colour = colour & 0xffffff;
-    group->is_nameless = (colour & NAMELESS) != 0;
-    byte_codec_bool(codec, &group->has_colour);
-    byte_codec_bool(codec, &group->is_shade);
-    require(codec, colour <= (0xffffff | NAMELESS));
-  }
-}
-
-static void code_precisions(struct byte_codec *codec,
-                            struct part_common *common) {
-  CODE_COUNT(codec, &common->precision, PRECISION_SIZE);
-  for (size_t r = 0; r < common->precision.count; r++) {
-    struct precision_range *range = &common->precision.item[r];
-    byte_codec_u32(codec, &range->first_point);
-    byte_codec_bool(codec, &range->stated);
-    code_precision(codec, &range->precision);
-    require(codec, r == 0 || range->first_point > range[-1].first_point);
-  }
-}
-
-static void code_common(struct byte_codec *codec, struct part_common *common) {
-  byte_codec_u64(codec, &common->id);
-  byte_codec_u32(codec, &common->parts);
-  byte_codec_u32(codec, &common->edges);
-  byte_codec_bool(codec, &common->has_fragments);
-  byte_codec_bool(codec, &common->has_hidden);
-  byte_codec_u32(codec, &common->hidden_by_max);
-  byte_codec_bool(codec, &common->has_ids);
-  byte_codec_bool(codec, &common->has_tones);
-  if (common->has_tones)
-    code_doubles(codec, common->light, PART_LIGHT);
-  code_doubles(codec, &common->crease_deg, 1);
-  code_doubles(codec, &common->crease_start_deg, 1);
-  code_camera(codec, &common->camera);
-  byte_codec_u32(codec, &common->camera_kind);
-  code_doubles(codec, &common->azimuth_deg, 1);
-  code_doubles(codec, &common->elevation_deg, 1);
-  code_doubles(codec, common->eye, 3);
-  code_doubles(codec, &common->fov_deg, 1);
-  byte_codec_text(codec, &common->path);
-  code_groups(codec, common);
-  code_precisions(codec, common);
-  require(codec, common->parts > 0 && common->parts <= PAGE_WINDOWS_MAX &&
-                     common->edges <= RECTO_EDGES_ALL &&
-                     common->hidden_by_max <= INT_MAX &&
-                     (common->has_hidden || common->hidden_by_max == 0) &&
-                     common->crease_deg >= 0 && common->crease_deg <= 180 &&
-                     common->crease_start_deg >= 0 &&
-                     common->crease_start_deg <= 180 &&
-                     common->camera_kind <= RECTO_CAMERA_EYE &&
-                     common->fov_deg >= 0 && common->fov_deg <= 179);
-}
-
 /* ---- Lists --------------------------------------------------------------- */
 
 static void code_points(struct byte_codec *codec, struct part *part) {
-  CODE_COUNT(codec, &part->point, POINT_SIZE);
+  BYTE_CODEC_LIST(codec, &part->point, POINT_SIZE);
   for (size_t p = 0; p < part->point.count && !codec->failed; p++) {
     struct part_point *point = &part->point.item[p];
     byte_codec_u32(codec, &point->number);
-    code_doubles(codec, &point->at.x, 1);
-    code_doubles(codec, &point->at.y, 1);
-    code_doubles(codec, &point->at.z, 1);
-    require(codec, point->number < SCENE_LIMIT &&
-                       (p == 0 || point->number > point[-1].number));
+    byte_codec_doubles(codec, &point->at.x, 1);
+    byte_codec_doubles(codec, &point->at.y, 1);
+    byte_codec_doubles(codec, &point->at.z, 1);
+    byte_codec_require(codec, point->number < SCENE_LIMIT &&
+                                  (p == 0 || point->number > point[-1].number));
   }
 }
 
@@ -190,12 +56,13 @@ static void code_element(struct byte_codec *codec, struct part *part,
       byte_codec_u32(codec, &part->corner.item[element->corner + i]);
     return;
   }
-  require(codec, element->group < part->common.group.count &&
-                     element->count >= least &&
-                     element->count <= codec->left / NUMBER_SIZE &&
-                     part->corner.count + element->count < SCENE_LIMIT &&
-                     element->number < SCENE_LIMIT &&
-                     (is_first || element->number > element[-1].number));
+  byte_codec_require(codec,
+                     element->group < part->common.group.count &&
+                         element->count >= least &&
+                         element->count <= codec->left / NUMBER_SIZE &&
+                         part->corner.count + element->count < SCENE_LIMIT &&
+                         element->number < SCENE_LIMIT &&
+                         (is_first || element->number > element[-1].number));
   element->corner = (uint32_t)part->corner.count;
   if (codec->failed)
     return;
@@ -222,7 +89,7 @@ static void code_tones(struct byte_codec *codec, struct part *part,
       tone = part->tone.item[face->corner + i];
     if (i == 0 || !uniform)
       byte_codec_float(codec, &tone);
-    require(codec, tone >= 0 && tone <= 1);
+    byte_codec_require(codec, tone >= 0 && tone <= 1);
     if (!codec->writes && !ARRAY_PUSH(&part->tone, tone))
       codec->failed = codec->out_of_memory = true;
   }
@@ -235,10 +102,10 @@ static void code_face(struct byte_codec *codec, struct part *part,
 }
 
 static void code_elements(struct byte_codec *codec, struct part *part) {
-  CODE_COUNT(codec, &part->face, ELEMENT_SIZE);
+  BYTE_CODEC_LIST(codec, &part->face, ELEMENT_SIZE);
   for (size_t f = 0; f < part->face.count && !codec->failed; f++)
     code_face(codec, part, &part->face.item[f], f == 0);
-  CODE_COUNT(codec, &part->wire, ELEMENT_SIZE);
+  BYTE_CODEC_LIST(codec, &part->wire, ELEMENT_SIZE);
   for (size_t w = 0; w < part->wire.count && !codec->failed; w++)
     code_element(codec, part, &part->wire.item[w], w == 0, 2);
 }
@@ -247,17 +114,17 @@ static void code_interval(struct byte_codec *codec,
                           struct map_interval *interval) {
   byte_codec_ratio(codec, &interval->t0);
   byte_codec_ratio(codec, &interval->t1);
-  require(codec,
-          !codec->failed && ratio_compare(interval->t0, interval->t1) < 0);
+  byte_codec_require(codec, !codec->failed &&
+                                ratio_compare(interval->t0, interval->t1) < 0);
 }
 
 static void code_intervals(struct byte_codec *codec, struct part *part) {
-  CODE_COUNT(codec, &part->interval, INTERVAL_SIZE);
+  BYTE_CODEC_LIST(codec, &part->interval, INTERVAL_SIZE);
   for (size_t i = 0; i < part->interval.count && !codec->failed; i++)
     code_interval(codec, &part->interval.item[i]);
   if (part->common.hidden_by_max == 0)
     return;
-  CODE_COUNT(codec, &part->over_limit, INTERVAL_SIZE);
+  BYTE_CODEC_LIST(codec, &part->over_limit, INTERVAL_SIZE);
   for (size_t i = 0; i < part->over_limit.count && !codec->failed; i++)
     code_interval(codec, &part->over_limit.item[i]);
 }
@@ -272,11 +139,12 @@ static void code_over_limit(struct byte_codec *codec, const struct part *part,
   byte_codec_u32(codec, &over->count);
   if (codec->writes)
     return;
-  require(codec, over->count <= part->over_limit.count - *next);
+  byte_codec_require(codec, over->count <= part->over_limit.count - *next);
   *next += codec->failed ? 0 : over->count;
   const struct map_interval *interval = part->over_limit.item;
   for (size_t i = over->interval + 1u; i < *next; i++)
-    require(codec, ratio_compare(interval[i - 1].t1, interval[i].t0) < 0);
+    byte_codec_require(codec,
+                       ratio_compare(interval[i - 1].t1, interval[i].t0) < 0);
 }
 
 /* The intervals of edges follow one another.
@@ -290,23 +158,25 @@ static void code_visibility(struct byte_codec *codec, const struct part *part,
     byte_codec_u32(codec, &visibility->count);
   if (codec->writes)
     return;
-  require(codec,
-          visibility->state <= MAP_MIXED &&
-              (visibility->state != MAP_MIXED || visibility->count > 0) &&
-              visibility->count <= part->interval.count - *next);
+  byte_codec_require(
+      codec, visibility->state <= MAP_MIXED &&
+                 (visibility->state != MAP_MIXED || visibility->count > 0) &&
+                 visibility->count <= part->interval.count - *next);
   visibility->interval = (uint32_t)*next;
   *next += codec->failed ? 0 : visibility->count;
   const struct map_interval *interval = part->interval.item;
   for (size_t i = visibility->interval + 1u; i < *next; i++)
-    require(codec, ratio_compare(interval[i - 1].t1, interval[i].t0) <= 0);
+    byte_codec_require(codec,
+                       ratio_compare(interval[i - 1].t1, interval[i].t0) <= 0);
 }
 
 static void code_key(struct byte_codec *codec, struct part_edge_key *key) {
   byte_codec_u8(codec, &key->kind);
   byte_codec_u32(codec, &key->element);
   byte_codec_u32(codec, &key->place);
-  require(codec, key->kind <= PART_EDGE_OF_WIRE && key->element < SCENE_LIMIT &&
-                     key->place < SCENE_LIMIT);
+  byte_codec_require(codec, key->kind <= PART_EDGE_OF_WIRE &&
+                                key->element < SCENE_LIMIT &&
+                                key->place < SCENE_LIMIT);
 }
 
 static bool is_one_class(unsigned edge_class) {
@@ -316,7 +186,7 @@ static bool is_one_class(unsigned edge_class) {
 
 static void code_edges(struct byte_codec *codec, struct part *part) {
   size_t next = 0, next_over = 0;
-  CODE_COUNT(codec, &part->edge, EDGE_SIZE - 4);
+  BYTE_CODEC_LIST(codec, &part->edge, EDGE_SIZE - 4);
   for (size_t e = 0; e < part->edge.count && !codec->failed; e++) {
     struct part_edge *edge = &part->edge.item[e];
     code_key(codec, &edge->key);
@@ -324,12 +194,13 @@ static void code_edges(struct byte_codec *codec, struct part *part) {
     code_visibility(codec, part, &edge->visibility, &next);
     code_over_limit(codec, part, &edge->over_limit, &next_over);
     bool is_wire = edge->key.kind == PART_EDGE_OF_WIRE;
-    require(codec,
-            is_one_class(edge->edge_class) &&
-                (edge->edge_class == RECTO_EDGE_WIRE) == is_wire &&
-                (e == 0 || part_edge_key_compare(edge[-1].key, edge->key) < 0));
+    byte_codec_require(
+        codec,
+        is_one_class(edge->edge_class) &&
+            (edge->edge_class == RECTO_EDGE_WIRE) == is_wire &&
+            (e == 0 || part_edge_key_compare(edge[-1].key, edge->key) < 0));
   }
-  CODE_COUNT(codec, &part->crossing, CROSSING_SIZE - 4);
+  BYTE_CODEC_LIST(codec, &part->crossing, CROSSING_SIZE - 4);
   for (size_t i = 0; i < part->crossing.count && !codec->failed; i++) {
     struct part_crossing *crossing = &part->crossing.item[i];
     for (int k = 0; k < 2; k++) {
@@ -339,31 +210,33 @@ static void code_edges(struct byte_codec *codec, struct part *part) {
       int64_t xyz[3] = {end->x, end->y, end->z};
       for (int axis = 0; axis < 3; axis++)
         byte_codec_i64(codec, &xyz[axis]);
-      require(codec, xyz[0] >= -SHEET_XY_MAX && xyz[0] <= SHEET_XY_MAX &&
-                         xyz[1] >= -SHEET_XY_MAX && xyz[1] <= SHEET_XY_MAX &&
-                         xyz[2] >= 0 && xyz[2] <= SHEET_Z_MAX);
+      byte_codec_require(
+          codec, xyz[0] >= -SHEET_XY_MAX && xyz[0] <= SHEET_XY_MAX &&
+                     xyz[1] >= -SHEET_XY_MAX && xyz[1] <= SHEET_XY_MAX &&
+                     xyz[2] >= 0 && xyz[2] <= SHEET_Z_MAX);
       if (!codec->writes && !codec->failed)
         *end = (struct geom_point){(int32_t)xyz[0], (int32_t)xyz[1], xyz[2]};
     }
     code_visibility(codec, part, &crossing->visibility, &next);
     code_over_limit(codec, part, &crossing->over_limit, &next_over);
-    require(codec, part_triangle_compare(crossing->triangle[0],
-                                         crossing->triangle[1]) < 0);
+    byte_codec_require(codec, part_triangle_compare(crossing->triangle[0],
+                                                    crossing->triangle[1]) < 0);
   }
 }
 
 static void code_runs(struct byte_codec *codec, struct part *part) {
   if (!part->common.has_ids)
     return;
-  CODE_COUNT(codec, &part->run, RUN_SIZE);
+  BYTE_CODEC_LIST(codec, &part->run, RUN_SIZE);
   for (size_t r = 0; r < part->run.count && !codec->failed; r++) {
     struct part_edge_run *run = &part->run.item[r];
     byte_codec_u32(codec, &run->face);
     byte_codec_u32(codec, &run->place);
     byte_codec_u32(codec, &run->group);
     byte_codec_u32(codec, &run->count);
-    require(codec, run->group < part->common.group.count && run->count > 0 &&
-                       (r == 0 || part_edge_run_compare(&run[-1], run) < 0));
+    byte_codec_require(
+        codec, run->group < part->common.group.count && run->count > 0 &&
+                   (r == 0 || part_edge_run_compare(&run[-1], run) < 0));
   }
 }
 
@@ -378,30 +251,31 @@ static void code_corner(struct byte_codec *codec, struct part_corner *corner) {
   byte_codec_u8(codec, &corner->side);
   if (corner->side == MAP_SIDE_EDGE || corner->side == MAP_SIDE_OCCLUDER) {
     code_key(codec, &corner->along.edge);
-    require(codec, corner->along.edge.kind <= PART_EDGE_FOLD);
+    byte_codec_require(codec, corner->along.edge.kind <= PART_EDGE_FOLD);
   } else {
     byte_codec_u32(codec, &corner->along.of.line[0]);
     byte_codec_u32(codec, &corner->along.of.line[1]);
     if (corner->side == MAP_SIDE_INTERSECTION)
       byte_codec_u32(codec, &corner->along.of.face);
   }
-  require(codec, corner->side <= MAP_SIDE_CLIP && corner->x >= -most &&
-                     corner->x <= most && corner->y >= -most &&
-                     corner->y <= most);
+  byte_codec_require(codec, corner->side <= MAP_SIDE_CLIP &&
+                                corner->x >= -most && corner->x <= most &&
+                                corner->y >= -most && corner->y <= most);
 }
 
 static void code_loops(struct byte_codec *codec, struct part *part,
                        struct part_fragment *fragment) {
   if (!codec->writes) {
-    require(codec, fragment->loops > 0 &&
-                       fragment->loops <= codec->left / NUMBER_SIZE &&
-                       part->loop.count + fragment->loops < SCENE_LIMIT);
+    byte_codec_require(codec,
+                       fragment->loops > 0 &&
+                           fragment->loops <= codec->left / NUMBER_SIZE &&
+                           part->loop.count + fragment->loops < SCENE_LIMIT);
     fragment->loop = (uint32_t)part->loop.count;
   }
   for (uint32_t l = 0; l < fragment->loops && !codec->failed; l++) {
     uint32_t count = codec->writes ? part->loop.item[fragment->loop + l] : 0;
     byte_codec_u32(codec, &count);
-    require(codec, count >= 3 && count <= codec->left / CORNER_SIZE);
+    byte_codec_require(codec, count >= 3 && count <= codec->left / CORNER_SIZE);
     if (!codec->writes && !codec->failed && !ARRAY_PUSH(&part->loop, count))
       codec->failed = codec->out_of_memory = true;
   }
@@ -409,13 +283,13 @@ static void code_loops(struct byte_codec *codec, struct part *part,
 
 static void code_fragments(struct byte_codec *codec, struct part *part) {
   size_t corner = 0;
-  CODE_COUNT(codec, &part->fragment, FRAGMENT_SIZE);
+  BYTE_CODEC_LIST(codec, &part->fragment, FRAGMENT_SIZE);
   for (size_t f = 0; f < part->fragment.count && !codec->failed; f++) {
     struct part_fragment *fragment = &part->fragment.item[f];
     byte_codec_u32(codec, &fragment->face);
     byte_codec_u32(codec, &fragment->loops);
     code_loops(codec, part, fragment);
-    require(codec, f == 0 || fragment->face >= fragment[-1].face);
+    byte_codec_require(codec, f == 0 || fragment->face >= fragment[-1].face);
     for (uint32_t l = 0; l < fragment->loops && !codec->failed; l++)
       for (uint32_t k = 0;
            k < part->loop.item[fragment->loop + l] && !codec->failed; k++) {
@@ -430,13 +304,13 @@ static void code_fragments(struct byte_codec *codec, struct part *part) {
 }
 
 static void code_part(struct byte_codec *codec, struct part *part) {
-  code_common(codec, &part->common);
+  part_common_code(codec, &part->common);
   byte_codec_u32(codec, &part->index);
   for (int k = 0; k < 2; k++) {
     byte_codec_u32(codec, (uint32_t *)&part->window.low[k]);
     byte_codec_u32(codec, (uint32_t *)&part->window.high[k]);
   }
-  require(codec, part->index < part->common.parts);
+  byte_codec_require(codec, part->index < part->common.parts);
   code_points(codec, part);
   code_elements(codec, part);
   code_intervals(codec, part);
@@ -529,16 +403,4 @@ recto_status part_file_parse(struct part *part, const void *bytes, size_t count,
              ? error_memory(error)
              : refuse(path, "the part is damaged: a value is out of range",
                       error);
-}
-
-recto_status part_file_checksum_common(struct part_common *common,
-                                       uint64_t *sum, recto_error *error) {
-  struct byte_codec codec = {.writes = true};
-  uint64_t id = common->id;
-  common->id = 0;
-  code_common(&codec, common);
-  common->id = id;
-  *sum = byte_codec_checksum(codec.bytes.item, codec.bytes.count);
-  ARRAY_FREE(&codec.bytes);
-  return codec.failed ? error_memory(error) : RECTO_OK;
 }

@@ -21,10 +21,4 @@ USE_RESULT recto_status part_file_parse(struct part *part, const void *bytes,
                                         size_t count, const char *path,
                                         recto_error *error);
 
-/* A checksum of what all parts have in common, but for the id.
- * Errors  RECTO_ERROR_MEMORY */
-USE_RESULT recto_status part_file_checksum_common(struct part_common *common,
-                                                  uint64_t *sum,
-                                                  recto_error *error);
-
 #endif
