@@ -2,7 +2,15 @@
 #include "parts/part.h"
 
 #include "base/sort.h"
-#include "parts/part_common.h"
+
+void part_common_fini(struct part_common *common) {
+  mem_free(common->path);
+  for (size_t g = 0; g < common->group.count; g++)
+    mem_free(common->group.item[g].name);
+  ARRAY_FREE(&common->group);
+  ARRAY_FREE(&common->precision);
+  *common = (struct part_common){0};
+}
 
 void part_fini(struct part *part) {
   part_common_fini(&part->common);

@@ -166,6 +166,7 @@ struct part {
 };
 
 /* Zero-initialised is empty. */
+void part_common_fini(struct part_common *common);
 void part_fini(struct part *part);
 
 /* Whether a segment's or a triangle's bounding box meets the window. */

@@ -126,12 +126,3 @@ recto_status part_common_checksum(struct part_common *common, uint64_t *sum,
   ARRAY_FREE(&codec.bytes);
   return codec.failed ? error_memory(error) : RECTO_OK;
 }
-
-void part_common_fini(struct part_common *common) {
-  mem_free(common->path);
-  for (size_t g = 0; g < common->group.count; g++)
-    mem_free(common->group.item[g].name);
-  ARRAY_FREE(&common->group);
-  ARRAY_FREE(&common->precision);
-  *common = (struct part_common){0};
-}

@@ -12,9 +12,6 @@ void part_common_code(struct byte_codec *codec, struct part_common *common);
 /* A checksum of it, but for the id.
  * Errors  RECTO_ERROR_MEMORY */
 USE_RESULT recto_status part_common_checksum(struct part_common *common,
-                                             uint64_t *sum,
-                                             recto_error *error);
-
-void part_common_fini(struct part_common *common);
+                                             uint64_t *sum, recto_error *error);
 
 #endif
