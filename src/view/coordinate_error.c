@@ -58,6 +58,28 @@ void coordinate_error_of_face(const struct sheet *sheet, uint32_t face,
     measure(sheet, face, error);
 }
 
+void coordinate_error_of_triangle(const struct sheet *sheet, uint32_t triangle,
+                                  double error[3]) {
+  if (sheet->triangle_error != NULL)
+    memcpy(error, sheet->triangle_error[triangle],
+           sizeof sheet->triangle_error[triangle]);
+  else
+    coordinate_error_of_face(sheet, sheet->triangle.item[triangle].face, error);
+}
+
+bool coordinate_error_store_all(struct sheet *sheet) {
+  size_t count = sheet->triangle.count;
+  double(*error)[3] = NULL;
+  if (sheet->scene == NULL || sheet->camera.error > 0 ||
+      sheet->camera.contact >= 0)
+    return true;
+  error = mem_alloc(count, sizeof *error);
+  for (uint32_t t = 0; error != NULL && t < count; t++)
+    coordinate_error_of_triangle(sheet, t, error[t]);
+  sheet->triangle_error = error;
+  return error != NULL;
+}
+
 double coordinate_error_contact(const struct sheet *sheet, uint32_t face) {
   if (sheet->camera.contact >= 0)
     return sheet->camera.contact;

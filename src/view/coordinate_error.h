@@ -24,6 +24,15 @@ USE_RESULT bool coordinate_error_store(struct sheet *sheet, uint32_t face);
 void coordinate_error_of_face(const struct sheet *sheet, uint32_t face,
                               double error[3]);
 
+/* The same of a triangle's face. */
+void coordinate_error_of_triangle(const struct sheet *sheet, uint32_t triangle,
+                                  double error[3]);
+
+/* Stores the errors of all triangles, where faces have different ones: for a
+ * sheet of few triangles of a large scene, whose faces and points are far apart
+ * in memory.  Returns false when memory ran out. */
+USE_RESULT bool coordinate_error_store_all(struct sheet *sheet);
+
 /* An upper bound of a face's contact tolerance, whatever its normal, in scene
  * units: camera.contact where that is not negative, else the length of the
  * vector of the errors above. */

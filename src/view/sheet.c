@@ -24,6 +24,7 @@ bool sheet_drop_triangles(struct sheet *sheet) {
   sheet->triangles_dropped = true;
   ARRAY_FREE(&sheet->triangle);
   mem_free(sheet->triangle_flags);
+  mem_free(sheet->triangle_error);
   sheet->triangle_flags = NULL;
   return true;
 }

@@ -14,6 +14,7 @@
 
 #include "base/poll.h"
 #include "base/sort.h"
+#include "view/coordinate_error.h"
 
 /* The numbers in the part, plus 1, of what is in it, else 0; before it is
  * numbered, 1. */
@@ -224,6 +225,7 @@ bool potentially_visible_init(struct potentially_visible *part,
       mem_calloc(whole->edge.count, sizeof *numbering.edge)};
   *part = (struct potentially_visible){.sheet = *whole};
   part->sheet.triangle_flags = NULL;
+  part->sheet.triangle_error = NULL;
   memset(&part->sheet.point, 0, sizeof part->sheet.point);
   memset(&part->sheet.triangle, 0, sizeof part->sheet.triangle);
   memset(&part->sheet.edge, 0, sizeof part->sheet.edge);
@@ -231,7 +233,8 @@ bool potentially_visible_init(struct potentially_visible *part,
   bool ok = numbering.point != NULL && numbering.triangle != NULL &&
             numbering.edge != NULL && list_triangles(part, &numbering) &&
             list_edges(part, &numbering) && list_points(part, &numbering) &&
-            list_contours(part, &numbering);
+            list_contours(part, &numbering) &&
+            coordinate_error_store_all(&part->sheet);
   if (ok)
     renumber(part, &numbering);
   mem_free(numbering.point);
@@ -247,6 +250,7 @@ void potentially_visible_fini(struct potentially_visible *part) {
   ARRAY_FREE(&part->sheet.edge);
   ARRAY_FREE(&part->sheet.contour);
   mem_free(part->sheet.triangle_flags);
+  mem_free(part->sheet.triangle_error);
   mem_free(part->triangle);
   mem_free(part->edge);
 }

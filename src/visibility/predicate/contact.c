@@ -32,7 +32,7 @@ struct contact_length contact_length_of(const struct sheet *sheet,
     return (struct contact_length){
         sqrt(x * x + y * y + third * third) * camera->contact,
         camera->contact * (s * m[0] + s * m[1] + third_most)};
-  coordinate_error_of_face(sheet, sheet->triangle.item[triangle].face, error);
+  coordinate_error_of_triangle(sheet, triangle, error);
   struct contact_length contact = {0};
   for (int k = 0; k < 3; k++) {
     double right = camera->right[k], up = camera->up[k], back = camera->back[k];
