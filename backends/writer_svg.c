@@ -6,27 +6,10 @@
  * requested number of decimals, and written without exponents or trailing
  * zeros.  The y axis of SVG points down; the page's y is reversed in the
  * numbers, not by a transform. */
-#include <math.h>
 #include <string.h>
 
+#include "backends/svg_batch.h"
 #include "backends/svg_text.h"
-#include "backends/writer.h"
-#include "base/number.h"
-
-/* A point rounded to the last decimal that is written, y down. */
-struct svg_point {
-  int64_t x, y;
-};
-
-struct svg {
-  const struct drawing *drawing;
-  const struct writer_options *options;
-  struct stream *out;
-  double scale;                   /* 10 to the power of the precision */
-  ARRAY(struct svg_point) point;  /* of the current stroke or loop */
-  struct drawing_polyline chords; /* of the current stroke's curve */
-  char **group_id;                /* by groups: of each, or NULL */
-};
 
 /* ---- Text ---------------------------------------------------------------- */
 
@@ -35,231 +18,6 @@ struct svg {
 static void write_length(const struct svg *svg, double mm) {
   int decimals = svg->options->precision;
   stream_number(svg->out, mm, decimals > 3 ? decimals : 3);
-}
-
-/* ---- Geometry ------------------------------------------------------------ */
-
-static struct svg_point round_point(const struct svg *svg,
-                                    struct drawing_point p) {
-  return (struct svg_point){
-      llround(p.x * svg->scale),
-      llround((svg->drawing->height_mm - p.y) * svg->scale)};
-}
-
-/* Rounds points to svg->point, without those that repeat the previous one, and
- * if `closed`, without those at the end that repeat the first.  Returns false
- * when memory ran out. */
-static bool round_points(struct svg *svg, const struct drawing_point *from,
-                         uint32_t count, bool closed) {
-  svg->point.count = 0;
-  for (uint32_t i = 0; i < count; i++) {
-    struct svg_point p = round_point(svg, from[i]);
-    const struct svg_point *last = ARRAY_AT(&svg->point, svg->point.count);
-    if (svg->point.count > 0 && last[-1].x == p.x && last[-1].y == p.y)
-      continue;
-    if (!ARRAY_PUSH(&svg->point, p))
-      return false;
-  }
-  while (closed && svg->point.count > 1 &&
-         svg->point.item[svg->point.count - 1].x == svg->point.item[0].x &&
-         svg->point.item[svg->point.count - 1].y == svg->point.item[0].y)
-    svg->point.count--;
-  return true;
-}
-
-static void write_point(const struct svg *svg, struct svg_point p,
-                        char separator) {
-  char text[2 * NUMBER_TEXT_SIZE];
-  int decimals = svg->options->precision;
-  size_t count = number_format_scaled(text, p.x, decimals);
-  text[count++] = separator;
-  count += number_format_scaled(text + count, p.y, decimals);
-  stream_write(svg->out, text, count);
-}
-
-/* Writes a step from one point to another, after another number unless it is
- * the first one of its command; without a 0 before the decimal point. */
-static void write_step(const struct svg *svg, struct svg_point from,
-                       struct svg_point to, bool first) {
-  const int64_t step[2] = {to.x - from.x, to.y - from.y};
-  for (int k = 0; k < 2; k++) {
-    char text[NUMBER_TEXT_SIZE];
-    size_t count = number_format_scaled(text, step[k], svg->options->precision);
-    size_t sign = text[0] == '-';
-    if (!(first && k == 0) && sign == 0)
-      stream_text(svg->out, " ");
-    stream_write(svg->out, text, sign);
-    if (count > sign + 1 && text[sign] == '0')
-      sign++;
-    stream_write(svg->out, text + sign, count - sign);
-  }
-}
-
-/* Writes svg->point as path data; relative where others are curves, for a
- * smaller file. */
-static void write_path_data(const struct svg *svg, bool closed) {
-  bool relative = svg->drawing->control.count > 0;
-  for (size_t i = 0; i < svg->point.count; i++) {
-    const struct svg_point *p = &svg->point.item[i];
-    if (i < 2 || !relative)
-      stream_text(svg->out, i == 0 ? "M" : relative ? "l" : "L");
-    if (i > 0 && relative)
-      write_step(svg, p[-1], *p, i == 1);
-    else
-      write_point(svg, *p, ' ');
-  }
-  if (closed)
-    stream_text(svg->out, "Z");
-}
-
-/* Writes a curve as path data, without straight pieces that rounding has
- * reduced to a point.  Its points are relative, which takes fewer bytes:
- * differences of rounded ones, so that they add up to these.  A command is not
- * repeated. */
-static void write_curve_data(const struct svg *svg,
-                             const struct drawing_curve *curve, bool closed) {
-  const struct drawing_point *control =
-      svg->drawing->control.item + curve->control;
-  struct svg_point last = round_point(svg, control[0]);
-  const char *command = "M";
-  stream_text(svg->out, command);
-  write_point(svg, last, ' ');
-  for (uint32_t i = 0; i + 3 < curve->count; i += 3) {
-    struct svg_point end = round_point(svg, control[i + 3]);
-    bool straight = drawing_piece_is_straight(control + i);
-    if (straight && end.x == last.x && end.y == last.y)
-      continue;
-    bool first = *command != (straight ? 'l' : 'c');
-    command = straight ? "l" : "c";
-    if (first)
-      stream_text(svg->out, command);
-    for (uint32_t k = straight ? 3 : 1; k <= 3; k++, first = false)
-      write_step(svg, last, round_point(svg, control[i + k]), first);
-    last = end;
-  }
-  if (closed)
-    stream_text(svg->out, "Z");
-}
-
-/* Writes svg->point as the points of a polyline or polygon. */
-static void write_point_list(const struct svg *svg) {
-  for (size_t i = 0; i < svg->point.count; i++) {
-    if (i > 0)
-      stream_text(svg->out, " ");
-    write_point(svg, svg->point.item[i], ',');
-  }
-}
-
-/* ---- Elements ------------------------------------------------------------ */
-
-static void write_id(const struct svg *svg, const char *name, uint32_t id) {
-  if (id == DRAWING_NONE)
-    return;
-  stream_text(svg->out, name);
-  stream_int(svg->out, id);
-  stream_text(svg->out, "\"");
-}
-
-static const char *class_name(const struct drawing_stroke *stroke) {
-  return stroke->text ? "text"
-         : stroke->edge_class == 0
-             ? "hatch"
-             : recto_edge_class_name((recto_edge_class)stroke->edge_class);
-}
-
-static void write_stroke_ids(const struct svg *svg,
-                             const struct drawing_stroke *stroke,
-                             uint32_t index) {
-  struct drawing_source source = {stroke->face, stroke->edge};
-  if (index < svg->drawing->stroke_source.count)
-    source = svg->drawing->stroke_source.item[index];
-  write_id(svg, " data-face=\"", source.face);
-  write_id(svg, " data-edge=\"", source.edge);
-  stream_text(svg->out, " data-class=\"");
-  stream_text(svg->out, class_name(stroke));
-  stream_text(svg->out, "\"");
-}
-
-/* Rounds the points of a stroke to svg->point: if elements have no curves,
- * those of a polyline within half a step of its curve. */
-static bool round_stroke(struct svg *svg, const struct drawing_stroke *stroke,
-                         const struct drawing_curve *curve) {
-  const struct drawing *drawing = svg->drawing;
-  if (curve == NULL || !svg->options->polyline)
-    return round_points(svg, drawing->point.item + stroke->point, stroke->count,
-                        stroke->closed);
-  return drawing_flatten(drawing, stroke, curve, 0.5 / svg->scale,
-                         &svg->chords) &&
-         round_points(svg, svg->chords.point.item,
-                      (uint32_t)svg->chords.point.count, stroke->closed);
-}
-
-/* Writes a stroke, unless rounding has reduced it to one point.  Returns false
- * when memory ran out. */
-static bool write_stroke(struct svg *svg, uint32_t index) {
-  const struct drawing_stroke *stroke = &svg->drawing->stroke.item[index];
-  const struct drawing_curve *curve = drawing_curve_of(svg->drawing, index);
-  if (!round_stroke(svg, stroke, curve))
-    return false;
-  if (svg->point.count < 2)
-    return true;
-  /* A loop of two points is a line, and written as one. */
-  bool closed = stroke->closed && svg->point.count > 2;
-  bool polyline = svg->options->polyline;
-  stream_text(svg->out, !polyline ? "<path"
-                        : closed  ? "<polygon"
-                                  : "<polyline");
-  if (svg->drawing->ids)
-    write_stroke_ids(svg, stroke, index);
-  stream_text(svg->out, polyline ? " points=\"" : " d=\"");
-  if (polyline)
-    write_point_list(svg);
-  else if (curve != NULL)
-    write_curve_data(svg, curve, closed);
-  else
-    write_path_data(svg, closed);
-  stream_text(svg->out, "\"/>\n");
-  return true;
-}
-
-/* Begins the element of a fill, or of the stroke along its outline that closes
- * seams.  The latter inherits everything but its colour from its group. */
-static void open_fill(const struct svg *svg, uint32_t index, bool seam) {
-  const struct drawing *drawing = svg->drawing;
-  const struct drawing_fill *fill = &drawing->fill.item[index];
-  struct stream *out = svg->out;
-  stream_text(out, "<path");
-  if (drawing->ids && !seam)
-    write_id(svg, " data-face=\"",
-             index < drawing->fill_source.count
-                 ? drawing->fill_source.item[index].face
-                 : fill->face);
-  stream_text(out, seam ? " stroke=\"" : " fill=\"");
-  svg_write_colour(out, fill->colour);
-  stream_text(out, seam ? "\" d=\""
-                        : "\" fill-rule=\"evenodd\" stroke=\"none\" d=\"");
-}
-
-/* Writes a fill, or its seam stroke, unless rounding has reduced all loops to
- * fewer than three points.  Returns false when memory ran out. */
-static bool write_fill(struct svg *svg, uint32_t index, bool seam) {
-  const struct drawing_fill *fill = &svg->drawing->fill.item[index];
-  bool open = false;
-  for (uint32_t i = 0; i < fill->loops; i++) {
-    const struct drawing_loop *loop = &svg->drawing->loop.item[fill->loop + i];
-    if (!round_points(svg, svg->drawing->point.item + loop->point, loop->count,
-                      true))
-      return false;
-    if (svg->point.count < 3)
-      continue;
-    if (!open)
-      open_fill(svg, index, seam);
-    open = true;
-    write_path_data(svg, true);
-  }
-  if (open)
-    stream_text(svg->out, "\"/>\n");
-  return true;
 }
 
 /* Writes the beginning of an element of a class, up to the end of the class's
@@ -281,9 +39,11 @@ static void write_class(const struct svg *svg, const char *element,
 
 /* Writes the strokes that close the seams of a layer's fills.  They come before
  * all fills of the layer, so that they do not paint over any of them. */
-static bool write_seams(struct svg *svg, uint32_t layer) {
+static bool write_seams(struct svg *svg, struct svg_batch *batch,
+                        uint32_t layer) {
   const struct drawing *drawing = svg->drawing;
   bool open = false;
+  svg_batch_begin(batch, svg, SVG_SEAM, layer);
   for (uint32_t i = 0; drawing->seam_mm > 0 && i < drawing->fill.count; i++) {
     if (drawing->fill.item[i].layer != layer)
       continue;
@@ -296,7 +56,7 @@ static bool write_seams(struct svg *svg, uint32_t layer) {
       stream_text(svg->out, "\">\n");
       open = true;
     }
-    if (!write_fill(svg, i, true))
+    if (!svg_batch_write(batch, i))
       return false;
   }
   if (open)
@@ -394,19 +154,22 @@ static void open_class(const struct svg *svg, struct svg_nesting *open,
 }
 
 /* Writes the fills of a layer, then its strokes. */
-static bool write_contents(struct svg *svg, uint32_t index) {
+static bool write_contents(struct svg *svg, struct svg_batch *batch,
+                           uint32_t index) {
   const struct drawing *drawing = svg->drawing;
   double layer_mm = drawing->layer.item[index].width_mm;
   struct svg_nesting open = {.layer = index, .group = DRAWING_NONE};
-  bool ok = write_seams(svg, index);
+  bool ok = write_seams(svg, batch, index);
+  svg_batch_begin(batch, svg, SVG_FILL, index);
   for (uint32_t i = 0; i < drawing->fill.count && ok; i++)
     if (drawing->fill.item[i].layer == index) {
       if (!writer_goes_on(drawing, svg->out, i))
         break;
       open_group(svg, &open, drawing->fill.item[i].group);
       open_class(svg, &open, "fill", layer_mm);
-      ok = write_fill(svg, i, false);
+      ok = svg_batch_write(batch, i);
     }
+  svg_batch_begin(batch, svg, SVG_STROKE, index);
   for (size_t i = 0; i < drawing->stroke.count && ok; i++) {
     const struct drawing_stroke *stroke = &drawing->stroke.item[i];
     if (stroke->layer != index)
@@ -414,15 +177,16 @@ static bool write_contents(struct svg *svg, uint32_t index) {
     if (!writer_goes_on(drawing, svg->out, drawing->fill.count + i))
       break;
     open_group(svg, &open, stroke->group);
-    open_class(svg, &open, stroke->hidden ? "hidden" : class_name(stroke),
+    open_class(svg, &open, stroke->hidden ? "hidden" : svg_class_name(stroke),
                drawing_width_mm(drawing, stroke));
-    ok = write_stroke(svg, (uint32_t)i);
+    ok = svg_batch_write(batch, (uint32_t)i);
   }
   close_nesting(svg, &open);
   return ok;
 }
 
-static bool write_layer(struct svg *svg, uint32_t index) {
+static bool write_layer(struct svg *svg, struct svg_batch *batch,
+                        uint32_t index) {
   const struct drawing_layer *layer = &svg->drawing->layer.item[index];
   struct stream *out = svg->out;
   stream_text(out, "<g");
@@ -434,7 +198,7 @@ static bool write_layer(struct svg *svg, uint32_t index) {
   stream_text(out, "\" stroke-width=\"");
   write_length(svg, layer->width_mm);
   stream_text(out, "\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n");
-  if (!write_contents(svg, index))
+  if (!write_contents(svg, batch, index))
     return false;
   stream_text(out, "</g>\n");
   return true;
@@ -507,10 +271,12 @@ static recto_status write_svg(const struct drawing *drawing,
     svg.group_id =
         svg_ids_make(drawing->group_name.item, drawing->group_name.count);
   bool ok = !drawing->by_groups || svg.group_id != NULL;
+  struct svg_batch batch = {0};
   write_head(&svg);
   for (uint32_t i = 0; i < drawing->layer.count && ok; i++)
-    ok = write_layer(&svg, i);
+    ok = write_layer(&svg, &batch, i);
   stream_text(stream, "</svg>\n");
+  svg_batch_fini(&batch);
   ARRAY_FREE(&svg.point);
   ARRAY_FREE(&svg.chords.point);
   svg_ids_free(svg.group_id, drawing->group_name.count);

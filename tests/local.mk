@@ -22,6 +22,8 @@ unit_tests += %D%/test_cut_drawings
 unit_tests += %D%/test_rounded_warning
 %C%_test_rounded_warning_SOURCES = %D%/test_rounded_warning.c
 
+unit_tests += %D%/test_svg_batch
+%C%_test_svg_batch_SOURCES = %D%/test_svg_batch.c
 unit_tests += %D%/test_svg
 %C%_test_svg_SOURCES = %D%/test_svg.c
 

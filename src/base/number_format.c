@@ -9,9 +9,11 @@
 
 __extension__ typedef unsigned __int128 uint128;
 
+enum { DIGITS_MAX = 20 }; /* of 64 bits, in decimal */
+
 /* Writes the digits of `value`, at least `least`, and returns their end. */
 static char *put_digits(char *text, uint64_t value, int least) {
-  char reversed[20];
+  char reversed[DIGITS_MAX];
   int count = 0;
   for (; value || count < least; value /= 10)
     reversed[count++] = (char)('0' + value % 10);
@@ -68,13 +70,33 @@ size_t number_format(char text[NUMBER_TEXT_SIZE], double value, int decimals) {
   return put_fixed_point(text, value < 0, whole, part, decimals);
 }
 
+/* The digits before and after the point are one number's, which takes no
+ * division by a power of ten that is not known to the compiler. */
 size_t number_format_scaled(char text[NUMBER_TEXT_SIZE], int64_t value,
                             int decimals) {
   assert(decimals >= 0 && decimals <= 9);
-  uint64_t magnitude = value < 0 ? 0 - (uint64_t)value : (uint64_t)value;
-  uint64_t scale = powers_of_ten[decimals];
-  return put_fixed_point(text, value < 0, magnitude / scale, magnitude % scale,
-                         decimals);
+  uint64_t rest = value < 0 ? 0 - (uint64_t)value : (uint64_t)value;
+  char digits[DIGITS_MAX], *end = digits + sizeof digits, *first = end;
+  for (; rest > UINT32_MAX; rest /= 10)
+    *--first = (char)('0' + rest % 10);
+  for (uint32_t low = (uint32_t)rest; low != 0; low /= 10)
+    *--first = (char)('0' + low % 10);
+  while (end - first <= decimals)
+    *--first = '0';
+  const char *point = end - decimals;
+  while (end > point && end[-1] == '0')
+    end--;
+  char *p = text;
+  if (value < 0)
+    *p++ = '-';
+  while (first < point)
+    *p++ = *first++;
+  if (first < end)
+    *p++ = '.';
+  while (first < end)
+    *p++ = *first++;
+  *p = '\0';
+  return (size_t)(p - text);
 }
 
 size_t number_format_int(char text[NUMBER_TEXT_SIZE], int64_t value) {
@@ -149,7 +171,7 @@ static char *put_decimal(char *p, struct decimal decimal) {
     decimal.digits /= 10;
     decimal.exponent++;
   }
-  char digits[20];
+  char digits[DIGITS_MAX];
   int count = (int)(put_digits(digits, decimal.digits, 1) - digits);
   int point = count + decimal.exponent; /* how many digits stand before it */
   bool plain = point > -5 && point <= 17;

@@ -192,6 +192,8 @@ const char *stream_memory(const struct stream *stream, size_t *count) {
   return stream->buffer.item;
 }
 
+void stream_clear_memory(struct stream *stream) { stream->buffer.count = 0; }
+
 /* ---- Closing ------------------------------------------------------------- */
 
 void stream_discard(struct stream *stream) {

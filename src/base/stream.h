@@ -59,6 +59,9 @@ USE_RESULT recto_status stream_complete(struct stream *stream,
  * counted); borrowed from the stream, until it is written to or freed. */
 const char *stream_memory(const struct stream *stream, size_t *count);
 
+/* Empties a memory stream, and keeps its memory. */
+void stream_clear_memory(struct stream *stream);
+
 /* Flushes, closes and renames; on a fault removes what was written.  Frees
  * the stream in either case. */
 USE_RESULT recto_status stream_finish(struct stream *stream,
