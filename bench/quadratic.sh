@@ -108,6 +108,7 @@ done <<'END'
 axis 5000
 axis 10000
 axis 20000
+axis 100000
 book 5000
 book 20000
 near 5000
@@ -115,8 +116,11 @@ polygon 5000
 polygon 20000
 comb 200000
 bellows 20000
+bellows 100000
 cycle 1000
 cycle 4000
+slivers 1000
+slivers 3000
 slivers 10000
 needles 25000 0.3
 needles 100000 0.05

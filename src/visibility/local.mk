@@ -18,9 +18,12 @@ librecto_core_la_SOURCES += \
   %D%/fragments/side_provenance.c %D%/fragments/side_provenance.h \
   %D%/index/bsp.c %D%/index/bsp.h \
   %D%/index/bsp_plane.c %D%/index/bsp_plane.h \
+  %D%/index/bvh.c %D%/index/bvh.h \
+  %D%/index/common_corners.c %D%/index/common_corners.h \
   %D%/index/duplicate_triangles.c %D%/index/duplicate_triangles.h \
   %D%/index/kdop8.h \
   %D%/index/triangle_grid.c %D%/index/triangle_grid.h \
+  %D%/index/upper_plane.c %D%/index/upper_plane.h \
   %D%/intersection/candidate_pairs.c %D%/intersection/candidate_pairs.h \
   %D%/intersection/edge_crossing.c %D%/intersection/edge_crossing.h \
   %D%/intersection/edge_fan.c %D%/intersection/edge_fan.h \

@@ -4,8 +4,6 @@
 
 #include <string.h>
 
-#include "visibility/index/bsp.h"
-
 bool edge_query_init(struct edge_query *query, const struct sheet *sheet,
                      const struct tile_candidates *lists) {
   memset(query, 0, sizeof *query);
@@ -36,10 +34,12 @@ static void shrink_rest(struct edge_query *query) {
       rest.to.num == query->rest.to.num)
     return; /* the same interval, or practically the same */
   query->rest = rest;
-  double share = ratio_to_double(rest.to) - ratio_to_double(rest.from);
-  if (!(share < 0.75 * query->share))
+  double from = ratio_to_double(rest.from), to = ratio_to_double(rest.to);
+  if (!(to - from < 0.75 * query->share))
     return;
-  query->share = share;
+  query->share = to - from;
+  query->from = from;
+  query->to = to;
   query->end[0] = point_of_edge(query, rest.from);
   query->end[1] = point_of_edge(query, rest.to);
   query->kdop = kdop8_of_point(query->end[0]);
@@ -125,32 +125,37 @@ static void update_kdop_query(struct cell_query *at,
   at->kdop_query = kdop8_query(&at->range, &query->kdop);
 }
 
-/* Tests the triangles of a cell whose list has a BSP. */
-static bool test_bsp(struct edge_query *query, struct cell_query *at) {
+/* Sets the query of a tree to what is left of the edge. */
+static void update_bvh_query(struct bvh_query *at, const struct bvh *bvh,
+                             const struct edge_query *query) {
+  bvh_query_set(at, bvh, (struct geom_segment){query->p, query->q}, query->end,
+                query->from, query->to);
+}
+
+/* Tests the triangles of a cell whose list has a BVH. */
+static bool test_bvh(struct edge_query *query, const struct bvh *bvh,
+                     struct cell_query *at) {
+  const struct triangle_grid *grid = &query->lists->grid;
+  uint32_t start = grid->lists.start[at->cell];
+  struct bvh_traversal traversal = bvh_traversal_start();
+  struct bvh_query shape;
+  size_t i, end;
   if (!test_recent(query))
     return false;
   update_kdop_query(at, query);
-  const struct triangle_grid *grid = &query->lists->grid;
-  struct bsp_query shape = {.kind = BSP_SEGMENT,
-                            .p = {query->end[0], query->end[1]}};
-  struct bsp_traversal traversal =
-      bsp_traversal_from(triangle_grid_bsp(grid, at->cell));
-  const uint64_t *key = query->lists->key + grid->lists.start[at->cell];
-  const struct bsp_node *node;
+  update_bvh_query(&shape, bvh, query);
   while (!query->intervals.occluded &&
-         (node = bsp_next(grid->bsp, &traversal, &shape)) != NULL) {
-    const struct bsp_member *member = grid->bsp->member.item + node->from;
-    for (uint32_t i = 0; i < node->count; i++) {
-      if (!kdop8_overlaps(key[member[i].list_index], at->kdop_query))
+         bvh_next(bvh, &traversal, &shape, &i, &end)) {
+    double before = query->share;
+    for (; i < end && !query->intervals.occluded; i++) {
+      if (!kdop8_overlaps(query->lists->key[start + i], at->kdop_query))
         continue;
-      if (!add_triangle_occlusion(query, member[i].triangle))
+      if (!add_triangle_occlusion(query, grid->lists.item[start + i]))
         return false;
-      if (query->intervals.occluded)
-        return true;
       update_kdop_query(at, query);
     }
-    shape.p[0] = query->end[0];
-    shape.p[1] = query->end[1];
+    if (query->share != before)
+      update_bvh_query(&shape, bvh, query);
   }
   return true;
 }
@@ -167,8 +172,9 @@ static bool test_cell(struct edge_query *query, int x, int y) {
     return true;
   at.range = tile_candidates_range(list, x, y);
   update_kdop_query(&at, query);
-  if (triangle_grid_bsp(&list->grid, cell) != SHEET_NONE)
-    return test_bsp(query, &at);
+  const struct bvh *bvh = tile_candidates_bvh(list, cell);
+  if (bvh != NULL)
+    return test_bvh(query, bvh, &at);
   for (;; i++) {
     while (i < end && !kdop8_overlaps(list->key[i], at.kdop_query))
       i++;
@@ -196,6 +202,8 @@ bool edge_query_solve(struct edge_query *query, uint32_t e) {
   edge_intervals_start(&query->intervals);
   query->rest = edge_intervals_remaining(&query->intervals);
   query->share = 1;
+  query->from = 0;
+  query->to = 1;
   query->tried_recent = false;
   query->end[0] = query->p;
   query->end[1] = query->q;

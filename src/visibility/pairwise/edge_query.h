@@ -6,7 +6,8 @@
  * outside of which the edge is known to be hidden, which shrinks as occluders
  * are found.
  *
- * Where a list is so long that it has a BSP, the triangles that hid much of the
+ * Where a list is so long that it has a BVH, only what may hide the remaining
+ * part by its bounds is tested, and the triangles that hid much of the
  * edges before are tested first: in a crowd the same few near ones hide most
  * edges, and what they hide is tested against no other.
  */
@@ -16,7 +17,7 @@
 #include "visibility/predicate/edge_intervals.h"
 #include "visibility/pairwise/tile_candidates.h"
 
-enum { EDGE_QUERY_RECENT = 64 };
+enum { EDGE_QUERY_RECENT = 16 };
 
 /* The state of the queries of one thread, one edge after another. */
 struct edge_query {
@@ -37,8 +38,8 @@ struct edge_query {
   struct geom_point end[2];
   struct kdop8 kdop;
   struct occluded_interval rest; /* its parameters on the edge */
-  double share;                  /* its share of the edge's length */
-  bool tried_recent;             /* it met a list with a BSP */
+  double from, to, share;        /* the same, and the difference */
+  bool tried_recent;             /* it met a list with a BVH */
   bool several_cells; /* the edge crosses several cells, so that a triangle may
                          be found more than once */
 };

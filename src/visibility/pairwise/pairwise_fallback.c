@@ -31,7 +31,7 @@ bool pairwise_fallback_init(struct pairwise_fallback *fallback,
     return false;
   memset(fallback->wanted, 1, tiles);
   if (!tile_candidates_fill(&fallback->lists, &fallback->tiles, sheet,
-                            fallback->wanted) ||
+                            fallback->wanted, true, fragments) ||
       !edge_query_init(&fallback->edge, sheet, &fallback->lists) ||
       (fragments && !init_faces(fallback)))
     return false;

@@ -16,14 +16,25 @@ enum { LONG_LIST = 32, TILES_OF_TWO = 5 };
 /* Cells that a thread takes at once: a list has some ten triangles. */
 enum { CELLS_IN_RANGE = PARALLEL_RANGE(1024) };
 
+/* The shortest list that has a tree.  Where faces are solved as well, shorter
+ * ones than those that have a BSP are better sorted from near to far. */
+enum { BVH_LIST_MIN = 512 };
+
 /* If the sheet has more triangles, none is prepared as an occluder, to bound
  * the memory. */
 enum { PREPARED_MAX = 1 << 16 };
 
 void tile_candidates_fini(struct tile_candidates *list) {
   triangle_grid_fini(&list->grid);
+  for (size_t i = 0; i < list->bvh_count; i++)
+    bvh_fini(&list->bvh[i]);
+  mem_free(list->bvh);
+  mem_free(list->bvh_of);
   mem_free(list->key);
   mem_free(list->occluder);
+  list->bvh = NULL;
+  list->bvh_count = 0;
+  list->bvh_of = NULL;
   list->key = NULL;
   list->occluder = NULL;
 }
@@ -95,6 +106,70 @@ static bool enlarge_cells(struct tile_candidates *list,
          prepare_occluders(list, sheet, all, count);
   }
   mem_free(all);
+  return ok;
+}
+
+/* ---- Trees of long lists ------------------------------------------------- */
+
+static size_t list_length(const struct tile_candidates *list, size_t cell) {
+  return list->grid.lists.start[cell + 1] - list->grid.lists.start[cell];
+}
+
+/* The lists of a range of cells or, for trees, of trees. */
+struct list_work {
+  struct tile_candidates *list;
+  const struct sheet *sheet;
+  const uint32_t *cell; /* of each tree */
+};
+
+static bool build_trees_of_range(void *user, struct parallel_range range) {
+  const struct list_work *work = user;
+  const struct number_lists *lists = &work->list->grid.lists;
+  for (size_t i = range.begin; i < range.end; i++) {
+    size_t cell = work->cell[i];
+    if (!poll_now() || !bvh_init(&work->list->bvh[i], work->sheet,
+                                 lists->item + lists->start[cell],
+                                 list_length(work->list, cell)))
+      return false;
+  }
+  return true;
+}
+
+/* Numbers the cells with long lists; NULL when memory ran out.
+ * count  of them */
+static uint32_t *number_long_lists(struct tile_candidates *list, size_t count) {
+  size_t cells = triangle_grid_cell_count(&list->grid);
+  uint32_t *cell_of = mem_alloc(count, sizeof *cell_of), n = 0;
+  list->bvh_of = mem_alloc(cells, sizeof *list->bvh_of);
+  for (size_t c = 0; cell_of != NULL && list->bvh_of != NULL && c < cells;
+       c++) {
+    bool is_long = list_length(list, c) >= list->long_list;
+    list->bvh_of[c] = is_long ? n : SHEET_NONE;
+    if (is_long)
+      cell_of[n++] = (uint32_t)c;
+  }
+  return cell_of;
+}
+
+/* Builds the trees of all long lists, and prepares the triangles. */
+static bool add_trees(struct tile_candidates *list, const struct sheet *sheet) {
+  size_t cells = triangle_grid_cell_count(&list->grid), count = 0, listed;
+  for (size_t c = 0; c < cells; c++)
+    count += list_length(list, c) >= list->long_list;
+  if (count == 0)
+    return true;
+  struct list_work work = {list, sheet, number_long_lists(list, count)};
+  list->bvh = mem_calloc(count, sizeof *list->bvh);
+  uint32_t *all =
+      list->occluder == NULL ? list_all(&list->grid, &listed) : NULL;
+  bool ok = work.cell != NULL && list->bvh_of != NULL && list->bvh != NULL;
+  list->bvh_count = list->bvh != NULL ? count : 0;
+  ok = ok && (list->occluder != NULL ||
+              (all != NULL && prepare_occluders(list, sheet, all, listed)));
+  ok = ok && parallel_ranges(parallel_workers(count, 1), count, 1,
+                             build_trees_of_range, &work);
+  mem_free(all);
+  mem_free((void *)(uintptr_t)work.cell);
   return ok;
 }
 
@@ -178,14 +253,8 @@ static void sort_list(struct tile_candidates *list, size_t from, size_t to,
   }
 }
 
-/* The lists of a range of cells. */
-struct key_work {
-  struct tile_candidates *list;
-  const struct sheet *sheet;
-};
-
 static bool add_keys_of_range(void *user, struct parallel_range range) {
-  const struct key_work *work = user;
+  const struct list_work *work = user;
   const struct triangle_grid *grid = &work->list->grid;
   struct sort_key scratch[TRIANGLE_GRID_SPLIT];
   for (size_t cell = range.begin; cell < range.end; cell++) {
@@ -195,7 +264,8 @@ static bool add_keys_of_range(void *user, struct parallel_range range) {
     if (from == to)
       continue;
     compute_keys(work->list, work->sheet, cell, grid->lists.start[range.end]);
-    if (to - from < TRIANGLE_GRID_SPLIT)
+    if (to - from < TRIANGLE_GRID_SPLIT &&
+        tile_candidates_bvh(work->list, cell) == NULL)
       sort_list(work->list, from, to, scratch);
   }
   return true;
@@ -203,7 +273,7 @@ static bool add_keys_of_range(void *user, struct parallel_range range) {
 
 static bool add_keys(struct tile_candidates *list, const struct sheet *sheet) {
   size_t cells = triangle_grid_cell_count(&list->grid);
-  struct key_work work = {list, sheet};
+  struct list_work work = {.list = list, .sheet = sheet};
   list->key = mem_alloc(list->grid.lists.start[cells], sizeof *list->key);
   return list->key != NULL &&
          parallel_ranges(parallel_workers(cells, CELLS_IN_RANGE), cells,
@@ -212,11 +282,16 @@ static bool add_keys(struct tile_candidates *list, const struct sheet *sheet) {
 
 bool tile_candidates_fill(struct tile_candidates *list,
                           const struct tile_classification *tiles,
-                          const struct sheet *sheet, const uint8_t *wanted) {
+                          const struct sheet *sheet, const uint8_t *wanted,
+                          bool edges, bool fragments) {
   tile_candidates_fini(list);
-  *list = (struct tile_candidates){
-      .grid = tiles->grid, .cells_are_tiles = true, .tiles = tiles};
+  *list = (struct tile_candidates){.grid = tiles->grid,
+                                   .cells_are_tiles = true,
+                                   .tiles = tiles,
+                                   .long_list = fragments ? TRIANGLE_GRID_SPLIT
+                                                          : BVH_LIST_MIN};
   return triangle_grid_fill(&list->grid, sheet, tiles->footprint, wanted) &&
-         enlarge_cells(list, sheet) && triangle_grid_split(&list->grid, true) &&
+         enlarge_cells(list, sheet) && (!edges || add_trees(list, sheet)) &&
+         (!fragments || triangle_grid_split(&list->grid, true)) &&
          add_keys(list, sheet);
 }

@@ -5,12 +5,14 @@
  * and two of them would be paired in each tile that they share, larger cells
  * are used instead if they give fewer pairs of the triangles that are listed
  * anywhere.  Each entry has an 8-DOP key (kdop8.h).  Entries are sorted from
- * near to far.
+ * near to far.  Long lists have a BVH instead (bvh.h), for edges, and a BSP
+ * (bsp.h), for faces.
  */
 #ifndef VISIBILITY_PAIRWISE_TILE_CANDIDATES_H
 #define VISIBILITY_PAIRWISE_TILE_CANDIDATES_H
 
 #include "visibility/predicate/occlusion.h"
+#include "visibility/index/bvh.h"
 #include "visibility/index/kdop8.h"
 #include "visibility/pairwise/tile_classification.h"
 
@@ -18,8 +20,13 @@ struct tile_candidates {
   struct triangle_grid grid;
   bool cells_are_tiles; /* false: they are larger */
   uint64_t *key;        /* of kdop8.h, one per entry */
-  /* One per triangle, prepared for those in the lists of larger cells, which
-   * are tested repeatedly; NULL: none is prepared. */
+  size_t long_list;     /* the shortest list that has a tree */
+  struct bvh *bvh;      /* one per long list, in the order of the cells */
+  size_t bvh_count;
+  uint32_t *bvh_of; /* per cell: its tree in `bvh`; SHEET_NONE: its list is
+                           short; NULL: all lists are */
+  /* One per triangle, prepared for those in lists of larger cells and in long
+   * ones, which are tested repeatedly; NULL: none is prepared. */
   struct occluder *occluder;
   const struct tile_classification *tiles; /* borrowed, not owned */
 };
@@ -27,12 +34,22 @@ struct tile_candidates {
 /* Lists the triangles of the wanted tiles, in place of all lists made before; a
  * zero-initialised struct has none.
  * wanted  one per tile: not 0 where a list is needed
+ * edges, fragments  whether edges and faces will be solved
  * Returns false when memory ran out. */
 USE_RESULT bool tile_candidates_fill(struct tile_candidates *list,
                                      const struct tile_classification *tiles,
                                      const struct sheet *sheet,
-                                     const uint8_t *wanted);
+                                     const uint8_t *wanted, bool edges,
+                                     bool fragments);
 void tile_candidates_fini(struct tile_candidates *list);
+
+/* The tree of a cell's list; NULL: the list is short. */
+static inline const struct bvh *
+tile_candidates_bvh(const struct tile_candidates *list, size_t cell) {
+  return list->bvh_of == NULL || list->bvh_of[cell] == SHEET_NONE
+             ? NULL
+             : &list->bvh[list->bvh_of[cell]];
+}
 
 /* The range that the keys of a cell's list, which is not empty, are relative
  * to. */

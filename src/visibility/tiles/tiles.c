@@ -62,7 +62,8 @@ static bool mark_intersected_tiles(struct tiles_work *work) {
 static bool list_faces(struct tiles_work *work) {
   work->states.more_wanted = false;
   return tile_candidates_fill(&work->lists, &work->tiles, work->sheet,
-                              work->states.wanted);
+                              work->states.wanted, work->request->edges,
+                              work->request->fragments);
 }
 
 /* ---- 5. Pairs ------------------------------------------------------------ */
