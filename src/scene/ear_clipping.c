@@ -203,6 +203,7 @@ static void update_corner(struct ear_clipper *clipper, uint32_t b) {
 struct ear {
   const struct triangulation_corner *corner;
   uint32_t a, b, c;
+  uint32_t *blocker; /* gets the corner that was found in it */
 };
 
 /* Whether p is not convex, in the closed triangle a, b, c, and at none of its
@@ -212,18 +213,23 @@ static bool is_reflex_in_ear(const void *user, uint32_t p) {
   const struct triangulation_corner *corner = ear->corner;
   const double *at = corner[p].at, *a = corner[ear->a].at,
                *b = corner[ear->b].at, *c = corner[ear->c].at;
-  if (corner[p].turn > 0 || is_at(at, a) || is_at(at, b) || is_at(at, c))
+  if (corner[p].turn > 0 || is_at(at, a) || is_at(at, b) || is_at(at, c) ||
+      exact_orient2d(c, a, at) < 0 || exact_orient2d(a, b, at) < 0 ||
+      exact_orient2d(b, c, at) < 0)
     return false;
-  return exact_orient2d(c, a, at) >= 0 && exact_orient2d(a, b, at) >= 0 &&
-         exact_orient2d(b, c, at) >= 0;
+  *ear->blocker = p;
+  return true;
 }
 
+/* The corner that blocked b when it was last tested is tried first: of a
+ * polygon that is not simple, corners are tested again and again. */
 static bool is_ear(const struct ear_clipper *clipper, uint32_t b) {
-  const struct triangulation_corner *corner = clipper->corner;
-  struct ear ear = {corner, corner[b].prev, b, corner[b].next};
+  struct triangulation_corner *corner = clipper->corner;
+  struct ear ear = {corner, corner[b].prev, b, corner[b].next,
+                    &corner[b].blocker};
   const double *triangle[3] = {corner[ear.a].at, corner[b].at,
                                corner[ear.c].at};
-  return corner[b].turn > 0 &&
+  return corner[b].turn > 0 && !is_reflex_in_ear(&ear, corner[b].blocker) &&
          !reflex_tree_query(&clipper->triangulation->tree, triangle,
                             is_reflex_in_ear, &ear);
 }
@@ -379,6 +385,7 @@ static void link_corners(struct ear_clipper *clipper) {
     corner[c].side = c;
     corner[c].turn = 1;
     corner[c].slot = 0;
+    corner[c].blocker = c;
   }
   for (uint32_t side = 0; side < 2 * clipper->count; side++)
     clipper->triangulation->same.item[side] = side;

@@ -22,6 +22,7 @@ struct triangulation_corner {
   uint32_t next, prev; /* among the corners that are left */
   uint32_t side;       /* the side that starts here: see above */
   uint32_t slot;       /* in the queue, from 1; 0: not in it */
+  uint32_t blocker;    /* a corner found in its ear before; itself: none */
   int8_t turn;      /* 1 convex, 0 straight or a spike, -1 reflex, 2 cut off */
   uint8_t priority; /* in the queue: see ear_clipping.c */
 };
