@@ -44,7 +44,7 @@ static bool write_stl(const char *path, const struct scene *scene) {
   fwrite(header, sizeof header, 1, file);
   for (uint32_t i = 0; i < count; i++) {
     unsigned char facet[50] = {0}, *at = facet + 12;
-    const uint32_t *corner = scene->corner.item + scene->face_start.item[i];
+    const uint32_t *corner = scene->corner.item + scene_face_start(scene, i);
     for (int k = 0; k < 3; k++) {
       const struct scene_point *p = &scene->point.item[corner[k]];
       put_float(&at, p->x);

@@ -115,10 +115,9 @@ static void fill(float *depth, const struct pixel *a, const struct pixel *b,
 
 static void fill_all(const struct scene *scene, const struct pixel *pixel,
                      float *depth) {
-  const uint32_t *start = scene->face_start.item;
   for (uint32_t i = 0; i < scene_face_count(scene); i++) {
-    const uint32_t *corner = scene->corner.item + start[i];
-    for (uint32_t k = 2; k < start[i + 1] - start[i]; k++)
+    const uint32_t *corner = scene->corner.item + scene_face_start(scene, i);
+    for (uint32_t k = 2; k < scene_face_corners(scene, i); k++)
       fill(depth, &pixel[corner[0]], &pixel[corner[k - 1]], &pixel[corner[k]]);
   }
 }
