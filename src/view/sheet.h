@@ -92,7 +92,7 @@ struct sheet {
   ARRAY(struct sheet_face_error) face_error; /* by face */
   double (*triangle_error)[3]; /* the coordinates' error of each triangle's
                                   face; NULL: to be found by its face */
-  const uint32_t *face_group; /* the scene's, borrowed; NULL: all of group 0 */
+  const uint32_t *face_group;  /* the scene's, borrowed; NULL: all of group 0 */
   uint32_t first_filled; /* faces before this one get no visible fragments */
   const struct topology *topology; /* the scene's, borrowed; NULL: unknown */
   /* Mesh edges in topology order, then diagonals that are silhouettes, then
