@@ -19,6 +19,19 @@ struct topology_edge {
 
 enum { TOPOLOGY_NONE = 0x7fffffff, TOPOLOGY_FACE_BITS = (1 << 30) - 1 };
 
+/* An edge of one face, whose way is kept until a second one comes.
+ * forward  it runs from its lower point to its upper one */
+static inline struct topology_edge
+topology_new_edge(uint32_t lower, uint32_t upper, uint32_t face, bool forward) {
+  return (struct topology_edge){
+      .point = {lower, upper},
+      .first = face & TOPOLOGY_FACE_BITS,
+      .uses = 1,
+      .second = TOPOLOGY_NONE,
+      .same_way = forward,
+  };
+}
+
 /* Adds a face to an edge that has one.
  * forward  it runs along it from its lower point to its upper one */
 static inline void topology_use_edge(struct topology_edge *edge, uint32_t face,
