@@ -206,17 +206,24 @@ struct point_slots {
   int count;
 };
 
+/* The number of a cell; all that are too far away have one. */
+static int64_t number_of_cell(double quotient) {
+  if (!(fabs(quotient) < 0x1p62))
+    return INT64_MAX;
+  int64_t whole = (int64_t)quotient;
+  return whole - ((double)whole > quotient);
+}
+
 static struct point_slots find_slots(const struct scene_point *p, double length,
                                      const struct slots *slots) {
   enum { LENGTHS = 64 }; /* in a cell's side */
   const double at[3] = {p->x, p->y, p->z}, per_side = 1 / (LENGTHS * length);
-  double cell[3][2];
+  int64_t cell[3][2];
   struct point_slots found = {.count = 0};
   int differ = 0;
   for (int k = 0; k < 3; k++) {
-    /* -0 becomes 0 */
-    cell[k][0] = floor((at[k] - length) * per_side) + 0.0;
-    cell[k][1] = floor((at[k] + length) * per_side) + 0.0;
+    cell[k][0] = number_of_cell((at[k] - length) * per_side);
+    cell[k][1] = number_of_cell((at[k] + length) * per_side);
     differ |= (cell[k][0] != cell[k][1]) << k;
   }
   for (int i = 0; i < 8; i++) {
@@ -224,7 +231,7 @@ static struct point_slots find_slots(const struct scene_point *p, double length,
     if ((i & ~differ) != 0)
       continue;
     for (int k = 0; k < 3; k++)
-      hash = hash_add_double(hash, cell[k][i >> k & 1]);
+      hash = hash_add(hash, (uint64_t)cell[k][i >> k & 1]);
     found.slot[found.count++] =
         (size_t)((hash * HASH_GOLDEN) >> (64 - slots->bits));
   }
@@ -261,13 +268,26 @@ static bool is_isolated(const struct slots *slots,
   return true;
 }
 
+/* The slots of a member.  Those who mark need not compute them again: entering
+ * it stored the only slot of most members as their representative, which is not
+ * known yet. */
+static struct point_slots slots_of_member(const struct slot_visit *visit,
+                                          struct cluster_member *member) {
+  if (visit->marking && member->representative != SCENE_NONE)
+    return (struct point_slots){{member->representative}, 1};
+  struct point_slots of = find_slots(&visit->scene->point.item[member->point],
+                                     visit->length, &visit->slots);
+  bool is_one = of.count == 1 && of.slot[0] < SCENE_NONE;
+  member->representative = is_one ? (uint32_t)of.slot[0] : SCENE_NONE;
+  return of;
+}
+
 /* Enters the members of a range that are not CLUSTER_ALONE, or, if `marking`,
  * marks those that no other is near as that.  Slots are fetched for a group of
  * members at a time, as most are not in the cache. */
 static bool visit_slots(void *user, struct parallel_range range) {
   enum { GROUP = 32 };
   const struct slot_visit *visit = user;
-  const struct scene_point *point = visit->scene->point.item;
   struct cluster_member *member = visit->member;
   for (size_t i = range.begin; i < range.end;) {
     struct point_slots of[GROUP];
@@ -275,7 +295,7 @@ static bool visit_slots(void *user, struct parallel_range range) {
     for (; n < GROUP && i < range.end; i++) {
       if (member[i].halvings == CLUSTER_ALONE)
         continue;
-      of[n] = find_slots(&point[member[i].point], visit->length, &visit->slots);
+      of[n] = slots_of_member(visit, &member[i]);
       for (int k = 0; k < of[n].count; k++)
         MEM_PREFETCH((const void *)&visit->slots.word[of[n].slot[k] / 32]);
       group[n++] = i;
