@@ -214,28 +214,29 @@ static int64_t number_of_cell(double quotient) {
   return whole - ((double)whole > quotient);
 }
 
-static struct point_slots find_slots(const struct scene_point *p, double length,
-                                     const struct slots *slots) {
+static void find_slots(const struct scene_point *p, double length,
+                       const struct slots *slots, struct point_slots *found) {
   enum { LENGTHS = 64 }; /* in a cell's side */
   const double at[3] = {p->x, p->y, p->z}, per_side = 1 / (LENGTHS * length);
   int64_t cell[3][2];
-  struct point_slots found = {.count = 0};
   int differ = 0;
   for (int k = 0; k < 3; k++) {
     cell[k][0] = number_of_cell((at[k] - length) * per_side);
     cell[k][1] = number_of_cell((at[k] + length) * per_side);
     differ |= (cell[k][0] != cell[k][1]) << k;
   }
+  found->count = 0;
   for (int i = 0; i < 8; i++) {
     uint64_t hash = slots->seed;
     if ((i & ~differ) != 0)
       continue;
     for (int k = 0; k < 3; k++)
       hash = hash_add(hash, (uint64_t)cell[k][i >> k & 1]);
-    found.slot[found.count++] =
+    found->slot[found->count++] =
         (size_t)((hash * HASH_GOLDEN) >> (64 - slots->bits));
+    if (differ == 0)
+      break;
   }
-  return found;
 }
 
 /* Enters a point into its slots. */
@@ -271,15 +272,18 @@ static bool is_isolated(const struct slots *slots,
 /* The slots of a member.  Those who mark need not compute them again: entering
  * it stored the only slot of most members as their representative, which is not
  * known yet. */
-static struct point_slots slots_of_member(const struct slot_visit *visit,
-                                          struct cluster_member *member) {
-  if (visit->marking && member->representative != SCENE_NONE)
-    return (struct point_slots){{member->representative}, 1};
-  struct point_slots of = find_slots(&visit->scene->point.item[member->point],
-                                     visit->length, &visit->slots);
-  bool is_one = of.count == 1 && of.slot[0] < SCENE_NONE;
-  member->representative = is_one ? (uint32_t)of.slot[0] : SCENE_NONE;
-  return of;
+static void slots_of_member(const struct slot_visit *visit,
+                            struct cluster_member *member,
+                            struct point_slots *of) {
+  if (visit->marking && member->representative != SCENE_NONE) {
+    of->count = 1;
+    of->slot[0] = member->representative;
+    return;
+  }
+  find_slots(&visit->scene->point.item[member->point], visit->length,
+             &visit->slots, of);
+  bool is_one = of->count == 1 && of->slot[0] < SCENE_NONE;
+  member->representative = is_one ? (uint32_t)of->slot[0] : SCENE_NONE;
 }
 
 /* Enters the members of a range that are not CLUSTER_ALONE, or, if `marking`,
@@ -295,7 +299,7 @@ static bool visit_slots(void *user, struct parallel_range range) {
     for (; n < GROUP && i < range.end; i++) {
       if (member[i].halvings == CLUSTER_ALONE)
         continue;
-      of[n] = slots_of_member(visit, &member[i]);
+      slots_of_member(visit, &member[i], &of[n]);
       for (int k = 0; k < of[n].count; k++)
         MEM_PREFETCH((const void *)&visit->slots.word[of[n].slot[k] / 32]);
       group[n++] = i;
