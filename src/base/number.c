@@ -8,7 +8,9 @@
  *   3. |e| <= 27: 5^|e| fits in 64 bits, and the product, or the quotient
  *      with its remainder, is exact in 128 bits.
  *   4. The rest goes to decimal.c.
- * Source: [Clinger] How to read floating point numbers accurately, 1990.
+ * Sources
+ *   [Clinger] How to read floating point numbers accurately, 1990.
+ *   [Moller] Moller, Granlund: Improved division by invariant integers, 2011.
  */
 #include "base/number.h"
 
@@ -37,15 +39,6 @@ const double number_power_of_ten[16] = {1e0,  1e1,  1e2,  1e3, 1e4,  1e5,
                                         1e12, 1e13, 1e14, 1e15};
 #endif
 
-static uint64_t power_of_five(int power) {
-  uint64_t result = 1;
-  for (; power >= 5; power -= 5)
-    result *= 3125;
-  for (; power > 0; power--)
-    result *= 5;
-  return result;
-}
-
 /* How many zero bits stand above the highest one of x > 0. */
 static int leading_zeros(uint64_t x) { return __builtin_clzll(x); }
 
@@ -70,32 +63,97 @@ static const char *parse_exponent(const char *text, const char *end,
 
 /* ---- Rounding ------------------------------------------------------------ */
 
+/* 5^k, shifted to have its top bit set, and its reciprocal [Moller]:
+ * floor((2^128 - 1) / shifted) - 2^64. */
+struct power_of_five {
+  uint64_t shifted, reciprocal;
+  int shift;
+};
+
+static const struct power_of_five power_of_five[POWER_OF_FIVE_MAX + 1] = {
+    {UINT64_C(0x8000000000000000), UINT64_C(0xffffffffffffffff), 63},
+    {UINT64_C(0xa000000000000000), UINT64_C(0x9999999999999999), 61},
+    {UINT64_C(0xc800000000000000), UINT64_C(0x47ae147ae147ae14), 59},
+    {UINT64_C(0xfa00000000000000), UINT64_C(0x0624dd2f1a9fbe76), 57},
+    {UINT64_C(0x9c40000000000000), UINT64_C(0xa36e2eb1c432ca57), 54},
+    {UINT64_C(0xc350000000000000), UINT64_C(0x4f8b588e368f0846), 52},
+    {UINT64_C(0xf424000000000000), UINT64_C(0x0c6f7a0b5ed8d36b), 50},
+    {UINT64_C(0x9896800000000000), UINT64_C(0xad7f29abcaf48578), 47},
+    {UINT64_C(0xbebc200000000000), UINT64_C(0x5798ee2308c39df9), 45},
+    {UINT64_C(0xee6b280000000000), UINT64_C(0x12e0be826d694b2e), 43},
+    {UINT64_C(0x9502f90000000000), UINT64_C(0xb7cdfd9d7bdbab7d), 40},
+    {UINT64_C(0xba43b74000000000), UINT64_C(0x5fd7fe17964955fd), 38},
+    {UINT64_C(0xe8d4a51000000000), UINT64_C(0x19799812dea11197), 36},
+    {UINT64_C(0x9184e72a00000000), UINT64_C(0xc25c268497681c26), 33},
+    {UINT64_C(0xb5e620f480000000), UINT64_C(0x6849b86a12b9b01e), 31},
+    {UINT64_C(0xe35fa931a0000000), UINT64_C(0x203af9ee756159b2), 29},
+    {UINT64_C(0x8e1bc9bf04000000), UINT64_C(0xcd2b297d889bc2b6), 26},
+    {UINT64_C(0xb1a2bc2ec5000000), UINT64_C(0x70ef54646d496892), 24},
+    {UINT64_C(0xde0b6b3a76400000), UINT64_C(0x2725dd1d243aba0e), 22},
+    {UINT64_C(0x8ac7230489e80000), UINT64_C(0xd83c94fb6d2ac34a), 19},
+    {UINT64_C(0xad78ebc5ac620000), UINT64_C(0x79ca10c9242235d5), 17},
+    {UINT64_C(0xd8d726b7177a8000), UINT64_C(0x2e3b40a0e9b4f7dd), 15},
+    {UINT64_C(0x878678326eac9000), UINT64_C(0xe392010175ee5962), 12},
+    {UINT64_C(0xa968163f0a57b400), UINT64_C(0x82db34012b25144e), 10},
+    {UINT64_C(0xd3c21bcecceda100), UINT64_C(0x357c299a88ea76a5), 8},
+    {UINT64_C(0x84595161401484a0), UINT64_C(0xef2d0f5da7dd8aa2), 5},
+    {UINT64_C(0xa56fa5b99019a5c8), UINT64_C(0x8c240c4aecb13bb5), 3},
+    {UINT64_C(0xcecb8f27f4200f3a), UINT64_C(0x3ce9a36f23c0fc90), 1},
+};
+
+/* The quotient of high * 2^64 + low and a divisor that is more than `high`, by
+ * its reciprocal, and whether a remainder is left [Moller, algorithm 4]. */
+static inline uint64_t divide_by_power(uint64_t high, uint64_t low,
+                                       const struct power_of_five *divisor,
+                                       bool *rest) {
+  uint64_t d = divisor->shifted;
+  uint128 estimate =
+      (uint128)divisor->reciprocal * high + ((uint128)high << 64 | low);
+  uint64_t quotient = (uint64_t)(estimate >> 64) + 1;
+  uint64_t remainder = low - quotient * d;
+  if (remainder > (uint64_t)estimate) {
+    quotient--;
+    remainder += d;
+  }
+  if (remainder >= d) {
+    quotient++;
+    remainder -= d;
+  }
+  *rest = remainder != 0;
+  return quotient;
+}
+
+/* The quotient below has 63 or 64 bits, as both numbers have their top bits set
+ * and the dividend half a bit less.  A bit that it lacks at its end is made up
+ * for by the remainder: rounding looks at 54 bits and whether anything
+ * follows. */
+double number_scale_down(uint64_t w, int digits) {
+  const struct power_of_five *five = &power_of_five[digits];
+  bool rest;
+  if (w == 0)
+    return 0;
+  int shift = leading_zeros(w);
+  w <<= shift;
+  uint64_t quotient = divide_by_power(w >> 1, w << 63, five, &rest);
+  int up = leading_zeros(quotient);
+  return decimal_round(quotient << up, rest,
+                       five->shift - shift - 63 - digits - up);
+}
+
 /* w * 10^e for w > 0, |e| <= POWER_OF_FIVE_MAX: rounds once. */
 static double scale_exactly(uint64_t w, int e) {
-  int shift = leading_zeros(w);
-  if (e >= 0) {
-    uint128 product = (uint128)w * power_of_five(e);
-    uint64_t high = (uint64_t)(product >> 64), low = (uint64_t)product;
-    if (high == 0)
-      return decimal_round(low << leading_zeros(low), false,
-                           e - leading_zeros(low));
-    int up = leading_zeros(high);
-    product <<= up;
-    return decimal_round((uint64_t)(product >> 64), (uint64_t)product != 0,
-                         e + 64 - up);
-  }
-  /* Both are shifted to have their top bits set, and w half a bit less, so
-   * that the quotient has 63 or 64 bits.  A bit that it lacks at its end is
-   * made up for by the remainder: rounding looks at 54 bits and whether
-   * anything follows. */
-  uint64_t five = power_of_five(-e);
-  int five_shift = leading_zeros(five);
-  uint64_t divisor = five << five_shift;
-  uint128 dividend = (uint128)(w << shift) << 63;
-  uint64_t quotient = (uint64_t)(dividend / divisor);
-  bool rest = dividend != (uint128)quotient * divisor;
-  int up = leading_zeros(quotient);
-  return decimal_round(quotient << up, rest, five_shift - shift - 63 + e - up);
+  if (e < 0)
+    return number_scale_down(w, -e);
+  const struct power_of_five *five = &power_of_five[e];
+  uint128 product = (uint128)w * (five->shifted >> five->shift);
+  uint64_t high = (uint64_t)(product >> 64), low = (uint64_t)product;
+  if (high == 0)
+    return decimal_round(low << leading_zeros(low), false,
+                         e - leading_zeros(low));
+  int up = leading_zeros(high);
+  product <<= up;
+  return decimal_round((uint64_t)(product >> 64), (uint64_t)product != 0,
+                       e + 64 - up);
 }
 
 /* ---- Parsing ------------------------------------------------------------- */

@@ -26,41 +26,54 @@ enum { NUMBER_PLAIN_ROOM = 32 };
 /* 1e0 to 1e15, all of them exact. */
 extern const double number_power_of_ten[16];
 
-/* Parses [-]digits[.digits] where there are at most 7 digits before the point
- * and 15 behind it: whole numbers up to 2^53 over a power of ten that is a
- * double, so one division rounds once [Clinger].
+/* w / 10^digits, rounded once; 0 <= digits <= 27. */
+double number_scale_down(uint64_t w, int digits);
+
+/* Appends the digits at `text` to *sum, and returns how many there are, up to
+ * 8. */
+static inline int number_add_chunk(const char *text, uint64_t *sum) {
+  uint64_t chunk;
+  int count = digits_count(text, &chunk);
+  if (count > 0)
+    *sum =
+        *sum * (uint64_t)number_power_of_ten[count] + digits_sum(chunk, count);
+  return count;
+}
+
+/* Parses [-]digits[.digits] where there are at most 7 digits before the point,
+ * or at most 2 where more than 15 are behind it, and 19 in all.  Whole numbers
+ * up to 2^53 over a power of ten that is a double are divided, which rounds
+ * once [Clinger].
  * text  has NUMBER_PLAIN_ROOM bytes at least
  * Returns where it stopped, or NULL where there is something else.
  * Exact: as number_parse_double. */
 static inline const char *number_parse_plain(const char *text, double *value) {
-  enum { DIGITS_MAX = 19 }; /* so many fit in 64 bits */
-  uint64_t chunk;
+  enum { CHUNK = 8, DIGITS_MAX = 19 /* so many fit in 64 bits */ };
+  uint64_t sum = 0;
   bool negative = *text == '-';
   text += negative;
-  int whole = digits_count(text, &chunk), decimals = 0;
-  if (FLT_EVAL_METHOD != 0 || whole == 0 || whole == 8)
+  int whole = number_add_chunk(text, &sum), decimals = 0;
+  if (FLT_EVAL_METHOD != 0 || whole == 0 || whole == CHUNK)
     return NULL;
-  uint64_t sum = digits_sum(chunk, whole);
   text += whole;
   if (*text == '.') {
-    decimals = digits_count(++text, &chunk);
+    decimals = number_add_chunk(++text, &sum);
     if (decimals == 0)
       return NULL;
-    sum = sum * (uint64_t)number_power_of_ten[decimals] +
-          digits_sum(chunk, decimals);
-    text += decimals;
-    if (decimals == 8 && digits_is_one(*text)) {
-      int more = digits_count(text, &chunk);
-      decimals += more;
-      if (more == 8 || whole + decimals > DIGITS_MAX)
+    if (decimals == CHUNK)
+      decimals += number_add_chunk(text + CHUNK, &sum);
+    if (decimals == 2 * CHUNK) {
+      if (whole > 2)
         return NULL;
-      sum = sum * (uint64_t)number_power_of_ten[more] + digits_sum(chunk, more);
-      text += more;
-      if (sum > UINT64_C(1) << 53)
-        return NULL;
+      decimals += number_add_chunk(text + 2 * CHUNK, &sum);
     }
+    if (whole + decimals > DIGITS_MAX)
+      return NULL;
+    text += decimals;
   }
-  double magnitude = (double)(int64_t)sum / number_power_of_ten[decimals];
+  double magnitude = sum <= UINT64_C(1) << 53 && decimals < 16
+                         ? (double)(int64_t)sum / number_power_of_ten[decimals]
+                         : number_scale_down(sum, decimals);
   *value = negative ? -magnitude : magnitude;
   return text;
 }
