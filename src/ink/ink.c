@@ -40,7 +40,7 @@ static recto_status make_graph(struct ink *ink, struct segment_graph *graph,
   double step = ink->options->output.unit_mm * SHEET_UNITS_PER_MM;
   recto_status status = segment_graph_collect(graph, ink->sheet, ink->map,
                                               ink->pens, ink->options, error);
-  counts->segments = graph->segment.count;
+  counts->segments = graph->segment.count - graph->dots;
   if (status == RECTO_OK)
     status = segment_graph_unite(graph, &rows, error);
   if (status == RECTO_OK)

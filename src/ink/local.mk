@@ -41,6 +41,7 @@ librecto_core_la_SOURCES += \
   %D%/lines/pairing.c %D%/lines/pairing.h \
   %D%/lines/paths.h \
   %D%/lines/segment_graph.h \
+  %D%/lines/segment_order.c \
   %D%/lines/segments.c \
   %D%/lines/short_cycles.c \
   %D%/lines/simplify.c \

@@ -21,6 +21,7 @@ struct gaps {
   const struct pens *pens;
   ARRAY(struct sort_key) loose;   /* pen key and class, end */
   ARRAY(struct drawing_point) at; /* of a group of equal keys, grid units */
+  struct graph_segments added;    /* those that close gaps */
 };
 
 static const struct graph_segment *segment_of(const struct gaps *g,
@@ -71,7 +72,7 @@ static bool is_gap(const struct gaps *g, uint32_t a, uint32_t b, double near) {
          u.x * v.x + u.y * v.y < 0;
 }
 
-/* Adds a segment from one end to the other, which is sorted in later. */
+/* Adds a segment from one end to the other, which is merged in later. */
 static bool close_gap(struct gaps *g, uint32_t a, uint32_t b) {
   struct segment_graph *graph = g->graph;
   struct graph_segment s = *segment_of(g, a);
@@ -80,7 +81,7 @@ static bool close_gap(struct gaps *g, uint32_t a, uint32_t b) {
   s.node[1] = from < to ? to : from;
   return ARRAY_PUSH(&graph->gap_end, graph->node.item[from]) &&
          ARRAY_PUSH(&graph->gap_end, graph->node.item[to]) &&
-         ARRAY_PUSH(&graph->segment, s);
+         ARRAY_PUSH(&g->added, s);
 }
 
 /* The search for the other end of a gap, for each of a group. */
@@ -142,19 +143,29 @@ static bool close_all(struct gaps *g) {
   return true;
 }
 
+static int compare_nodes(const void *first, const void *second, void *user) {
+  const struct graph_segment *a = first, *b = second;
+  (void)user;
+  return a->node[0] != b->node[0] ? compare_numbers(a->node[0], b->node[0])
+                                  : compare_numbers(a->node[1], b->node[1]);
+}
+
+static bool merge_added(struct gaps *g) {
+  return sort_stable(g->added.item, g->added.count, sizeof *g->added.item,
+                     compare_nodes, NULL) &&
+         graph_segments_merge(&g->graph->segment, &g->added);
+}
+
 recto_status segment_graph_close_gaps(struct segment_graph *graph,
                                       const struct pens *pens,
                                       recto_error *error) {
   struct gaps g = {.graph = graph, .pens = pens};
-  size_t before = graph->segment.count;
-  bool ok =
-      collect_loose_ends(&g) && close_all(&g) &&
-      (graph->segment.count == before || segment_graph_sort_segments(graph));
+  bool ok = collect_loose_ends(&g) && close_all(&g) && merge_added(&g);
+  bool changed = g.added.count > 0;
   ARRAY_FREE(&g.loose);
   ARRAY_FREE(&g.at);
+  ARRAY_FREE(&g.added);
   if (!ok)
     return error_memory(error);
-  return graph->segment.count == before
-             ? RECTO_OK
-             : segment_graph_index_ends(graph, error);
+  return changed ? segment_graph_index_ends(graph, error) : RECTO_OK;
 }

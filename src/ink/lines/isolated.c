@@ -123,29 +123,13 @@ bool segment_graph_restore_near_isolated(struct segment_graph *graph) {
   return ok;
 }
 
-static bool is_after(const struct graph_segment *a,
-                     const struct graph_segment *b) {
-  return a->node[0] > b->node[0] ||
-         (a->node[0] == b->node[0] && a->node[1] > b->node[1]);
-}
-
-/* Merges the two sorted arrays. */
 recto_status segment_graph_merge_isolated(struct segment_graph *graph,
                                           recto_error *error) {
-  struct graph_segments a = graph->isolated, b = graph->segment;
-  size_t i = a.count, k = b.count;
-  if (!ARRAY_RESERVE(&a, k))
+  struct graph_segments all = graph->isolated;
+  if (!graph_segments_merge(&all, &graph->segment))
     return error_memory(error);
-  a.count += k;
-  /* From the end, so that what is still to be moved is not overwritten. */
-  while (k > 0) {
-    bool later = i > 0 && is_after(&a.item[i - 1], &b.item[k - 1]);
-    a.item[i + k - 1] = later ? a.item[i - 1] : b.item[k - 1];
-    i -= later;
-    k -= !later;
-  }
   ARRAY_FREE(&graph->segment);
-  graph->segment = a;
+  graph->segment = all;
   graph->isolated = (struct graph_segments){NULL, 0, 0};
   return segment_graph_index_ends(graph, error);
 }

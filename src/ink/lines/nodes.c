@@ -214,64 +214,8 @@ static void renumber_segments(struct unite *u) {
     if (a != b)
       graph->segment.item[kept++] = s;
   }
-  graph->dots += graph->segment.count - kept;
+  graph->dots = graph->segment.count - kept;
   graph->segment.count = kept;
-}
-
-static int compare_second(const void *first, const void *second, void *user) {
-  const struct graph_segment *a = first, *b = second;
-  (void)user;
-  return (a->node[1] > b->node[1]) - (a->node[1] < b->node[1]);
-}
-
-/* Sorts segments with a common first node by the second: by insertion, or where
- * a fan makes them many, by merging. */
-static bool sort_run(struct graph_segment *segment, size_t count) {
-  enum { INSERTION_SORT_MAX = 16 };
-  if (count > INSERTION_SORT_MAX)
-    return sort_stable(segment, count, sizeof *segment, compare_second, NULL);
-  for (size_t i = 1; i < count; i++) {
-    struct graph_segment moving = segment[i];
-    size_t hole = i;
-    for (; hole > 0 && segment[hole - 1].node[1] > moving.node[1]; hole--)
-      segment[hole] = segment[hole - 1];
-    segment[hole] = moving;
-  }
-  return true;
-}
-
-/* `start` has room for the nodes and one, all 0. */
-static bool sort_into(struct graph_segment *sorted, uint32_t *start,
-                      const struct segment_graph *graph) {
-  for (size_t i = 0; i < graph->segment.count; i++)
-    start[graph->segment.item[i].node[0] + 1]++;
-  for (size_t n = 0; n < graph->node.count; n++)
-    start[n + 1] += start[n];
-  for (size_t i = 0; i < graph->segment.count; i++) {
-    (void)poll_at(i);
-    sorted[start[graph->segment.item[i].node[0]]++] = graph->segment.item[i];
-  }
-  /* start[n] is now the end of the run of node n. */
-  for (size_t n = 0, from = 0; n < graph->node.count; from = start[n++])
-    if (!poll_at(n) || !sort_run(sorted + from, start[n] - from))
-      return false;
-  return true;
-}
-
-bool segment_graph_sort_segments(struct segment_graph *graph) {
-  size_t count = graph->segment.count;
-  struct graph_segment *sorted = mem_alloc(count, sizeof *sorted);
-  uint32_t *start = mem_calloc(graph->node.count + 1, sizeof *start);
-  bool ok = sorted != NULL && start != NULL && sort_into(sorted, start, graph);
-  if (ok) {
-    mem_free(graph->segment.item);
-    graph->segment.item = sorted;
-    graph->segment.capacity = count;
-    sorted = NULL;
-  }
-  mem_free(sorted);
-  mem_free(start);
-  return ok;
 }
 
 recto_status segment_graph_unite(struct segment_graph *graph,

@@ -29,27 +29,6 @@ struct overlap_finder {
   ARRAY(uint32_t) member; /* segments of clusters, with repetitions */
 };
 
-static void list_ends(struct segment_graph *graph, size_t ends) {
-  for (size_t e = ends; e-- > 0;) {
-    (void)poll_at(e);
-    number_lists_put(&graph->ends, graph->segment.item[e >> 1].node[e & 1],
-                     (uint32_t)e);
-  }
-}
-
-recto_status segment_graph_index_ends(struct segment_graph *graph,
-                                      recto_error *error) {
-  size_t nodes = graph->node.count, ends = 2 * graph->segment.count;
-  number_lists_fini(&graph->ends);
-  if (!number_lists_init(&graph->ends, nodes))
-    return error_memory(error);
-  list_ends(graph, ends);
-  if (!number_lists_allocate(&graph->ends, nodes))
-    return error_memory(error);
-  list_ends(graph, ends);
-  return RECTO_OK;
-}
-
 /* ---- 1 Duplicates -------------------------------------------------------- */
 
 static void drop_duplicate_runs(struct overlap_finder *w) {

@@ -97,7 +97,7 @@ void node_rows_fini(struct node_rows *rows);
 /* Fills an empty graph with the visible intervals of the drawable edges, and
  * the hidden ones if options->ink.hidden requests them.  An end of an interval
  * at an end of the edge is the sheet's point; others are rounded to the grid
- * once.
+ * once.  Segments without length are counted in dots.
  * Errors  RECTO_ERROR_MEMORY; RECTO_ERROR_LIMIT: 2^31 segments. */
 USE_RESULT recto_status segment_graph_collect(struct segment_graph *graph,
                                               const struct sheet *sheet,
@@ -176,12 +176,18 @@ USE_RESULT recto_status segment_graph_close_gaps(struct segment_graph *graph,
                                                  const struct pens *pens,
                                                  recto_error *error);
 
-/* Lists the ends at each node. */
+/* Lists the ends at each node.  The segments are sorted. */
 USE_RESULT recto_status segment_graph_index_ends(struct segment_graph *graph,
                                                  recto_error *error);
 
-/* Sorts the segments again by first, then by second node. */
+/* Sorts the segments again by first, then by second node; equal ones keep their
+ * order. */
 USE_RESULT bool segment_graph_sort_segments(struct segment_graph *graph);
+
+/* Adds sorted segments to others that are sorted too, of equal ones behind
+ * these.  Returns false when memory ran out. */
+USE_RESULT bool graph_segments_merge(struct graph_segments *to,
+                                     const struct graph_segments *from);
 
 /* Drops the segments i with drop[i] != 0 and indexes the ends anew.  Nodes
  * stay; some may have no ends afterwards. */
