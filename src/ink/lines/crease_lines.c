@@ -2,13 +2,36 @@
 #include "ink/lines/crease_lines.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/poll.h"
 #include "base/union_find.h"
 #include "scene/angle.h"
 #include "scene/newell_normal.h"
 
-double crease_cosine(const struct sheet *sheet, const struct sheet_edge *edge) {
+/* Faces of more corners have their normals kept. */
+enum { SMALL_FACE_MAX = 16 };
+
+static void find_normal(const struct scene *scene, uint32_t face,
+                        struct large_face_normals *normals, double normal[3]) {
+  const uint32_t *start = &scene->face_start.item[face];
+  if (start[1] - start[0] <= SMALL_FACE_MAX) {
+    newell_normal_of_face(scene, face, normal);
+    return;
+  }
+  int k = normals->last;
+  if (normals->face[k] != face)
+    k = 1 - k;
+  if (normals->face[k] != face) {
+    newell_normal_of_face(scene, face, normals->normal[k]);
+    normals->face[k] = face;
+  }
+  normals->last = k;
+  memcpy(normal, normals->normal[k], sizeof normals->normal[k]);
+}
+
+double crease_cosine(const struct sheet *sheet, const struct sheet_edge *edge,
+                     struct large_face_normals *normals) {
   double n[2][3], dot = 0, square[2] = {0, 0};
   if ((edge->edge_class & (RECTO_EDGE_CREASE | RECTO_EDGE_SILHOUETTE)) == 0)
     return 1;
@@ -18,7 +41,7 @@ double crease_cosine(const struct sheet *sheet, const struct sheet_edge *edge) {
       return 1;
     if (!sheet->triangles_dropped)
       face = sheet->triangle.item[face].face;
-    newell_normal_of_face(sheet->scene, face, n[k]);
+    find_normal(sheet->scene, face, normals, n[k]);
   }
   for (int i = 0; i < 3; i++) {
     dot += n[0][i] * n[1][i];
@@ -31,11 +54,12 @@ double crease_cosine(const struct sheet *sheet, const struct sheet_edge *edge) {
 
 uint32_t *crease_lines_create(const struct sheet *sheet, double crease_deg) {
   double crease = angle_of_degrees(crease_deg).cosine;
+  struct large_face_normals normals = large_face_normals_start();
   uint32_t *line = union_find_create(sheet->point.count);
   for (size_t e = 0; line != NULL && e < sheet->edge.count; e++) {
     const struct sheet_edge *edge = &sheet->edge.item[e];
     (void)poll_at(e);
-    if (crease_is_joined(edge, crease_cosine(sheet, edge), crease))
+    if (crease_is_joined(edge, crease_cosine(sheet, edge, &normals), crease))
       union_find_join(line, edge->point[0], edge->point[1]);
   }
   return line;

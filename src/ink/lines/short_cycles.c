@@ -71,6 +71,7 @@ static bool list_cycle_candidates(struct cycle_search *c,
                                   const struct sheet *sheet,
                                   const struct pens *pens, double crease_deg) {
   const struct segment_graph *graph = c->graph;
+  struct large_face_normals normals = large_face_normals_start();
   uint32_t *line = crease_lines_create(sheet, crease_deg);
   uint8_t *is_free = line != NULL ? find_free_lines(sheet, line) : NULL;
   bool ok = is_free != NULL;
@@ -83,7 +84,7 @@ static bool list_cycle_candidates(struct cycle_search *c,
     uint32_t pen = pens_of_line(pens, edge->edge_class, edge->group);
     double shortest = pens_shortest_crease_mm(pens, pen) * SHEET_UNITS_PER_MM;
     struct cycle_candidate made = {
-        i, crease_cosine(sheet, edge), length_of_segment(graph, i),
+        i, crease_cosine(sheet, edge, &normals), length_of_segment(graph, i),
         pens_short_cycle_mm(pens, pen) * SHEET_UNITS_PER_MM};
     if (made.length >= shortest)
       continue;

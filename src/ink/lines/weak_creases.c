@@ -68,10 +68,11 @@ static void look_at_edges(const struct sheet *sheet,
   double crease = angle_of_degrees(angles->crease_deg).cosine;
   double start = angle_of_degrees(angles->start_deg).cosine;
   double very = angle_of_degrees(angles->zigzag_deg).cosine;
+  struct large_face_normals normals = large_face_normals_start();
   for (size_t e = 0; e < sheet->edge.count; e++) {
     const struct sheet_edge *edge = &sheet->edge.item[e];
     const uint32_t *point = edge->point;
-    double cosine = crease_cosine(sheet, edge);
+    double cosine = crease_cosine(sheet, edge, &normals);
     (void)poll_at(e);
     struct crease_line *of = &lines[union_find_root(line, point[0])];
     of->is_sharp = of->is_sharp || cosine < start;
