@@ -98,6 +98,41 @@ static void a_polygon_is_not_tested_with_itself(void **state) {
   scene_fini(&scene);
 }
 
+/* Nor are triangles about one edge, but with what pierces them. */
+static void pages_are_not_tested_with_each_other(void **state) {
+  (void)state;
+  enum { PAGES = 2000 };
+  struct scene scene;
+  recto_options options;
+  struct pipeline pipeline;
+  recto_options_init(&options);
+  scene_init(&scene);
+  uint32_t a = build_point(&scene, 0, 0, -1), b = build_point(&scene, 0, 0, 1);
+  for (int i = 0; i < PAGES; i++) {
+    double angle = 2 * acos(-1) * i / PAGES;
+    build_triangle(&scene, a, b,
+                   build_point(&scene, cos(angle), sin(angle), 0));
+  }
+  build_parallelogram(&scene, vector_of(-2, 0.3, -0.5), vector_of(4, 0, 0),
+                      vector_of(0, 0, 1));
+  options.ink.edges = RECTO_EDGE_INTERSECTION;
+  options.solver.threads = 1;
+  int64_t segments[2];
+  for (int k = 0; k < 2; k++) {
+    pipeline_run(&pipeline, &scene, &options,
+                 k == 0 ? &solver_tiles : &solver_brute);
+    assert_int_equal(pipeline.status, RECTO_OK);
+    segments[k] = report_get(pipeline.report, "intersections", "segments", 0);
+    assert_in_range(
+        report_get(pipeline.report, "intersections", "pairs_tested", 0),
+        segments[k], 100 * PAGES);
+    pipeline_fini(&pipeline);
+  }
+  assert_true(segments[0] > PAGES / 4);
+  assert_int_equal(segments[0], segments[1]);
+  scene_fini(&scene);
+}
+
 /* The scenes are large enough for their lists to be split by a BSP. */
 static void solvers_agree_on_long_lists(void **state) {
   (void)state;
@@ -215,6 +250,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(pairs_grow_as_the_corners_do),
       cmocka_unit_test(a_polygon_is_not_tested_with_itself),
+      cmocka_unit_test(pages_are_not_tested_with_each_other),
       cmocka_unit_test(solvers_agree_on_long_lists),
       cmocka_unit_test(edges_around_one_edge_are_tested_with_few),
       cmocka_unit_test(a_bellows_of_1300_is_the_same_by_all),

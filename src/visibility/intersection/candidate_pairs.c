@@ -14,7 +14,8 @@
 /* The shortest list for which a BSP is worth while. */
 enum { BSP_LIST_MIN = 256 };
 
-/* The shortest list of which the most frequent face is looked for. */
+/* The shortest list of which the most frequent face or edge is looked for; the
+ * latter in a sample of so many triangles. */
 enum { FACE_LIST_MIN = 64 };
 
 /* What the tests use of a triangle, computed once per list. */
@@ -24,6 +25,7 @@ struct swept_triangle {
   int x0, y0;        /* the cell of the box's lower left corner */
   uint32_t triangle;
   uint64_t right_copy; /* bsp.h */
+  bool in_group;       /* it is not tested with others that are, too */
   bool has_plane;      /* `plane` has been computed */
   struct plane_filter plane;
 };
@@ -47,6 +49,7 @@ static void make_swept_triangle(const struct pair_sweep *sweep,
   s->y0 = triangle_grid_cell(s->box.y0, grid->y0, grid->shift, grid->rows);
   s->triangle = triangle;
   s->right_copy = right_copy;
+  s->in_group = false;
   s->has_plane = false;
 }
 
@@ -221,9 +224,34 @@ static void add_to_list(struct pair_sweep *sweep, uint32_t triangle,
       (struct sort_key){(uint64_t)sweep->swept.item[i].low, (uint32_t)i};
 }
 
-static uint32_t face_at(const struct pair_sweep *sweep, size_t i) {
-  const struct swept_triangle *f = &sweep->swept.item[sweep->key.item[i].value];
-  return sweep->sheet->triangle.item[f->triangle].face;
+/* ---- Groups -------------------------------------------------------------- */
+
+/* Triangles of a list that are not tested with each other: those of one face,
+ * of which a polygon of many corners has very many, or those about one edge of
+ * the mesh, which have nothing else in common. */
+struct pair_group {
+  uint32_t face;     /* SHEET_NONE: the edge counts */
+  uint32_t point[2]; /* the edge's ends; SHEET_NONE: there is no group */
+};
+
+/* Does a triangle have an edge of the mesh between these points as a side? */
+static bool has_mesh_edge(const struct sheet *sheet, uint32_t f,
+                          const uint32_t point[2]) {
+  const uint32_t *p = sheet->triangle.item[f].point;
+  for (int k = 0; k < 3; k++) {
+    uint32_t a = p[k], b = p[geom_next_corner(k)];
+    if ((a == point[0] && b == point[1]) || (a == point[1] && b == point[0]))
+      return !sheet_is_inner_side(sheet, f, k);
+  }
+  return false;
+}
+
+static bool is_in_group(const struct pair_sweep *sweep,
+                        const struct pair_group *group, uint32_t f) {
+  return group->face != SHEET_NONE
+             ? sweep->sheet->triangle.item[f].face == group->face
+             : group->point[0] != SHEET_NONE &&
+                   has_mesh_edge(sweep->sheet, f, group->point);
 }
 
 /* The only face that may have more than half of the list's triangles, by the
@@ -232,40 +260,73 @@ static uint32_t majority_face(const struct pair_sweep *sweep) {
   uint32_t face = SHEET_NONE;
   size_t lead = 0;
   for (size_t i = 0; i < sweep->swept.count; i++) {
+    uint32_t own =
+        sweep->sheet->triangle.item[sweep->swept.item[i].triangle].face;
     if (lead == 0)
-      face = face_at(sweep, i);
-    lead = face_at(sweep, i) == face ? lead + 1 : lead - 1;
+      face = own;
+    lead = own == face ? lead + 1 : lead - 1;
   }
   return face;
 }
 
-/* Lists the keys whose triangles are not of that face. */
-static bool list_others(struct pair_sweep *sweep, uint32_t face) {
+/* Finds an edge that more than half of a sample of the list have, and the
+ * list's middle triangle. */
+static bool find_common_edge(const struct pair_sweep *sweep,
+                             uint32_t point[2]) {
+  const struct swept_triangle *swept = sweep->swept.item;
+  size_t n = sweep->swept.count;
+  const uint32_t *p = sweep->sheet->triangle.item[swept[n / 2].triangle].point;
+  for (int k = 0; k < 3; k++) {
+    size_t having = 0;
+    point[0] = p[k];
+    point[1] = p[geom_next_corner(k)];
+    for (size_t i = 0; i < FACE_LIST_MIN; i++)
+      having += has_mesh_edge(sweep->sheet,
+                              swept[i * n / FACE_LIST_MIN].triangle, point);
+    if (having > FACE_LIST_MIN / 2)
+      return true;
+  }
+  return false;
+}
+
+static struct pair_group choose_group(const struct pair_sweep *sweep) {
+  struct pair_group group = {SHEET_NONE, {SHEET_NONE, SHEET_NONE}};
+  if (sweep->swept.count >= FACE_LIST_MIN &&
+      !find_common_edge(sweep, group.point))
+    group.face = majority_face(sweep);
+  return group;
+}
+
+/* Marks the triangles of the group, and lists the keys of the others. */
+static bool list_others(struct pair_sweep *sweep,
+                        const struct pair_group *group) {
   sweep->other.count = 0;
-  for (size_t i = 0; i < sweep->swept.count; i++)
-    if (face_at(sweep, i) != face &&
-        !ARRAY_PUSH(&sweep->other, sweep->key.item[i]))
+  for (size_t i = 0; i < sweep->swept.count; i++) {
+    struct swept_triangle *f = &sweep->swept.item[sweep->key.item[i].value];
+    f->in_group = is_in_group(sweep, group, f->triangle);
+    if (!f->in_group && !ARRAY_PUSH(&sweep->other, sweep->key.item[i]))
       return false;
+  }
   return true;
 }
 
-/* Tests the pairs of the list, but not those of the face that has most of it:
- * a polygon of many corners has very many. */
+/* ---- Sweeping ------------------------------------------------------------ */
+
+/* Tests the pairs of the list, but not those of its group. */
 static bool sweep_list(struct pair_sweep *sweep) {
   struct swept_triangle *swept = sweep->swept.item;
   struct sort_key *key = sweep->key.item;
   size_t n = sweep->swept.count, others = 0;
+  struct pair_group group = choose_group(sweep);
   sort_keys(key, key + n, n);
-  uint32_t face = n < FACE_LIST_MIN ? SHEET_NONE : majority_face(sweep);
-  if (face != SHEET_NONE && !list_others(sweep, face))
+  if (n >= FACE_LIST_MIN && !list_others(sweep, &group))
     return false;
   for (size_t i = 0; i < n; i++) {
     struct swept_triangle *f = &swept[key[i].value];
-    bool is_of_face = face != SHEET_NONE && face_at(sweep, i) == face;
-    const struct sort_key *g = is_of_face ? sweep->other.item : key;
-    size_t end = is_of_face ? sweep->other.count : n;
-    size_t first = is_of_face ? others : i + 1, j = first;
-    others += !is_of_face;
+    const struct sort_key *g = f->in_group ? sweep->other.item : key;
+    size_t end = f->in_group ? sweep->other.count : n;
+    size_t first = f->in_group ? others : i + 1, j = first;
+    others += !f->in_group;
     for (; j < end && g[j].key <= (uint64_t)f->high; j++)
       if (!visit_pair(sweep, f, &swept[g[j].value]))
         return false;

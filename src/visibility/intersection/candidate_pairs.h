@@ -20,8 +20,9 @@ struct pair_sweep {
   int x, y;     /* the current cell */
   ARRAY(struct swept_triangle) swept;
   ARRAY(struct sort_key) key; /* twice as many: sorted by depth, and scratch */
-  ARRAY(struct sort_key) other; /* those that are not of the face that most of
-                                   the list's triangles are of */
+  ARRAY(struct sort_key) other; /* those that are not of the face, or about the
+                                   edge, that most of the list's triangles are
+                                   of */
   struct bsp bsp;
 };
 
