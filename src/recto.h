@@ -782,6 +782,44 @@ RECTO_USE_RESULT recto_status recto_scene_has_part(
     const recto_scene *scene, const recto_options *options, unsigned number,
     unsigned count, const char *path, bool *is_there, recto_error *error);
 
+/* Makes the plan of a drawing's parts, a file by which recto_plan_write_part
+ * draws each of them without the model: it holds the camera, the windows, and
+ * of each window the faces that its part has.  So the model is read once for
+ * all of them, and a part needs no more memory than for its window.  The plan
+ * takes about 32 bytes for each triangle on disk, and 60 in memory while it is
+ * made.
+ * options  of the drawing, as for recto_scene_write_part; where they want
+ *          tones, these are found once, for the plan
+ * count    at most RECTO_PARTS_MAX
+ * path     written whole or not at all, as by recto_drawing_write
+ * Errors   as of recto_scene_write_part, but for corners that welding might
+ *          join, which a part finds */
+RECTO_USE_RESULT recto_status
+recto_scene_write_plan(const recto_scene *scene, const recto_options *options,
+                       unsigned count, const char *path, recto_error *error);
+
+/* Draws a part by a plan.  The file has the bytes that recto_scene_write_part
+ * writes, and may be joined with such parts.
+ * plan     the path of the plan, a regular file
+ * options  those of the solver are used; camera, page, mesh and edges are those
+ *          of the plan, and so is what is solved; NULL: the defaults
+ * count    that of the plan
+ * Errors   as of recto_scene_write_part; RECTO_ERROR_ARGUMENT: the plan has
+ *          another count; RECTO_ERROR_FORMAT: it is none, cut short or damaged;
+ *          RECTO_ERROR_UNSUPPORTED: it is of another version, or the options
+ *          want fills, hidden lines, a number of hiding faces, ids or tones
+ *          that it was made without */
+RECTO_USE_RESULT recto_status recto_plan_write_part(
+    const char *plan, const recto_options *options, unsigned number,
+    unsigned count, const char *path, recto_error *error);
+
+/* Sets *is_there to whether a file is the very part that recto_plan_write_part
+ * would write there, whole, and need not be made again.
+ * Errors  those of it, but for the solver's */
+RECTO_USE_RESULT recto_status recto_plan_has_part(
+    const char *plan, const recto_options *options, unsigned number,
+    unsigned count, const char *path, bool *is_there, recto_error *error);
+
 /* Joins the parts of a drawing, in any order, and inks it: the drawing is the
  * one that recto_scene_render would make of the whole, to the byte.  Camera,
  * page and mesh are those of the parts, and so are the edges; of the options

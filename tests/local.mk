@@ -276,6 +276,9 @@ unit_tests += %D%/test_read_passes
 unit_tests += %D%/test_parts_read
 %C%_test_parts_read_SOURCES = %D%/test_parts_read.c %D%/temporary.c \
   %D%/temporary.h
+unit_tests += %D%/test_plan
+%C%_test_plan_SOURCES = %D%/test_plan.c %D%/temporary.c %D%/temporary.h
+%C%_test_plan_LDADD = %D%/scenes/libscenes.la $(LDADD)
 unit_tests += %D%/test_parts
 %C%_test_parts_SOURCES = %D%/test_parts.c %D%/temporary.c %D%/temporary.h
 %C%_test_parts_LDADD = %D%/scenes/libscenes.la $(LDADD)

@@ -199,7 +199,7 @@ claim "the drawing is the same, a line an option" draws_the_same
 always='--output --format --from --method --view --sheet --views --view-names --detail --turntable --azimuth --elevation --camera
 --up --ortho --fit --no-fit --near --cut --section --page --landscape --portrait --margin --edges
 --weld --fill --stats --verify --check --tolerance --threads --progress --quiet --completion --version --help
---part --join'
+--part --plan --parts-plan --join'
 every_option_has_its_row() {
   grep -oE -- '^ +(-.,)? *--[a-z-]+' help.txt | grep -oE -- '--[a-z-]+' |
     LC_ALL=C sort -u >offered

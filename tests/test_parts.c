@@ -51,14 +51,59 @@ static recto_status join_all(void *const *state, const recto_options *options,
   return status;
 }
 
-/* Draws a scene at once and in parts.  Returns false where it cannot be drawn
- * in parts, or not at all. */
+/* Writes the parts again, by a plan; returns the first error. */
+static recto_status write_planned(void *const *state, const recto_scene *scene,
+                                  const recto_options *options, unsigned count,
+                                  recto_error *error) {
+  char *plan = mem_copy_text(temporary_path(state, "drawing.plan"));
+  recto_status status =
+      recto_scene_write_plan(scene, options, count, plan, error);
+  for (unsigned i = 1; i <= count && status == RECTO_OK; i++) {
+    char name[40];
+    snprintf(name, sizeof name, "planned-%u.recto", i);
+    status = recto_plan_write_part(plan, NULL, i, count,
+                                   temporary_path(state, name), error);
+  }
+  mem_free(plan);
+  return status;
+}
+
+/* Checks that parts by a plan have the bytes of those without one, or are
+ * refused as these were.
+ * status, why  what became of the parts without one */
+static void compare_planned(void *const *state, const recto_scene *scene,
+                            const recto_options *options, unsigned count,
+                            const char *name, recto_status status,
+                            const char *why) {
+  recto_error error = {0};
+  recto_status planned = write_planned(state, scene, options, count, &error);
+  if (planned != status || (status != RECTO_OK && strcmp(error.text, why) != 0))
+    fail_msg("%s by a plan: %s", name, error.text);
+  for (unsigned i = 1; i <= count && status == RECTO_OK; i++) {
+    char file[40];
+    size_t sizes[2];
+    snprintf(file, sizeof file, "planned-%u.recto", i);
+    char *a = temporary_read(part_path(state, i, count), &sizes[0]);
+    char *b = temporary_read(temporary_path(state, file), &sizes[1]);
+    assert_non_null(a);
+    assert_non_null(b);
+    if (sizes[0] != sizes[1] || memcmp(a, b, sizes[0]) != 0)
+      fail_msg("%s: part %u of %u is another by a plan", name, i, count);
+    free(a);
+    free(b);
+  }
+}
+
+/* Draws a scene at once and in parts, and these by a plan too if that is
+ * wanted.  Returns false where it cannot be drawn in parts, or not at all. */
 static bool compare_parts(void *const *state, const recto_scene *scene,
                           const recto_options *options, unsigned count,
-                          const char *name) {
+                          const char *name, bool by_plan) {
   recto_drawing *whole = NULL, *joined = NULL;
   recto_error error = {0};
   recto_status status = write_parts(state, scene, options, count, &error);
+  if (by_plan)
+    compare_planned(state, scene, options, count, name, status, error.text);
   if (status == RECTO_ERROR_UNSUPPORTED || status == RECTO_ERROR_EMPTY)
     return false;
   if (status == RECTO_OK)
@@ -123,7 +168,8 @@ static void joined_parts_are_the_drawing(void **state) {
     for (int mode = 0; mode < MODES && in_parts; mode++)
       for (size_t i = 0; i < counts && in_parts; i++) {
         set_mode(&options, mode);
-        in_parts = compare_parts(state, scene, &options, count[i], entry->name);
+        in_parts = compare_parts(state, scene, &options, count[i], entry->name,
+                                 (mode + (int)i) % 2 == 0);
       }
     if (!in_parts)
       print_message("not in parts: %s\n", entry->name);

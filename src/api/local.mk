@@ -22,7 +22,10 @@ librecto_core_la_SOURCES += \
   %D%/multiview_layout.h \
   %D%/part.c \
   %D%/part_check.c %D%/part_check.h \
+  %D%/part_solve.c %D%/part_solve.h \
+  %D%/part_survey.c %D%/part_survey.h \
   %D%/part_tones.c %D%/part_tones.h \
+  %D%/plan.c \
   %D%/render.c %D%/render.h \
   %D%/render_scene.c \
   %D%/render_warnings.c %D%/render_warnings.h \

@@ -56,37 +56,50 @@ recto_status part_check_solve(const recto_options *o, recto_error *error) {
   return what != NULL ? refuse_parts(what, error) : RECTO_OK;
 }
 
+recto_status part_check_number(unsigned number, unsigned count,
+                               recto_error *error) {
+  if (count >= 1 && count <= RECTO_PARTS_MAX && number >= 1 && number <= count)
+    return RECTO_OK;
+  return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
+                   "there is no part %u of %u: there are at most %d", number,
+                   count, RECTO_PARTS_MAX);
+}
+
+static recto_status refuse_without(bool of_plan, const char *missing,
+                                   const char *how, recto_error *error) {
+  return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
+                   "the %s made without %s: make %s with %s",
+                   of_plan ? "plan was" : "parts were", missing,
+                   of_plan ? "it" : "them", how);
+}
+
 recto_status part_check_ink(const recto_options *o,
-                            const struct part_common *common,
+                            const struct part_common *common, bool of_plan,
                             recto_error *error) {
-  const char *what = name_unsupported(o);
-  if (what != NULL)
-    return refuse_parts(what, error);
+  const char *never = name_unsupported(o);
+  if (never != NULL)
+    return refuse_parts(never, error);
   if (o->ink.fill != RECTO_FILL_NONE && !common->has_fragments)
-    return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
-                     "the parts were made without visible faces: make them "
-                     "with --fill");
+    return refuse_without(of_plan, "visible faces", "--fill", error);
   double light[PART_LIGHT];
   _Static_assert((int)PART_LIGHT == (int)TONES_LIGHT, "are one light");
   tones_set_light(light, &common->camera, o);
   if (part_tones_are_wanted(o) &&
       (!common->has_tones || memcmp(light, common->light, sizeof light) != 0))
-    return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
-                     "the parts were made without these tones: make them with "
-                     "the same --fill hatch, --light, --ambient, --fill-light "
-                     "and --pen");
+    return refuse_without(of_plan, "these tones",
+                          "the same --fill hatch, --light, --ambient, "
+                          "--fill-light and --pen",
+                          error);
   if (o->ink.ids && !common->has_ids)
-    return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
-                     "the parts were made without ids: make them with --ids");
+    return refuse_without(of_plan, "ids", "--ids", error);
   if (o->ink.hidden != RECTO_HIDDEN_NONE && !common->has_hidden)
-    return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
-                     "the parts were made without hidden lines: make them with "
-                     "--hidden");
+    return refuse_without(of_plan, "hidden lines", "--hidden", error);
   uint32_t limit = part_hidden_by_max(o);
   if (limit != 0 && limit != common->hidden_by_max)
     return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
-                     "the parts do not know what more than %lu faces hide: "
-                     "make them with --hidden=%lu",
-                     (unsigned long)limit, (unsigned long)limit);
+                     "the %s not know what more than %lu faces hide: make %s "
+                     "with --hidden=%lu",
+                     of_plan ? "plan does" : "parts do", (unsigned long)limit,
+                     of_plan ? "it" : "them", (unsigned long)limit);
   return RECTO_OK;
 }

@@ -13,10 +13,16 @@ uint32_t part_hidden_by_max(const recto_options *options);
 USE_RESULT recto_status part_check_solve(const recto_options *options,
                                          recto_error *error);
 
-/* Whether parts have what these options want to ink.
- * Errors  RECTO_ERROR_UNSUPPORTED */
+/* Whether there is a part of this number, from 1.
+ * Errors  RECTO_ERROR_ARGUMENT */
+USE_RESULT recto_status part_check_number(unsigned number, unsigned count,
+                                          recto_error *error);
+
+/* Whether parts, or a plan of them, have what these options want to ink.
+ * of_plan  it is a plan that has it, for messages
+ * Errors   RECTO_ERROR_UNSUPPORTED */
 USE_RESULT recto_status part_check_ink(const recto_options *options,
                                        const struct part_common *common,
-                                       recto_error *error);
+                                       bool of_plan, recto_error *error);
 
 #endif

@@ -8,7 +8,6 @@
 
 #include <string.h>
 
-#include "ink/tone.h"
 #include "scene/topology.h"
 
 bool part_tones_are_wanted(const recto_options *options) {
@@ -33,13 +32,10 @@ static void select_tones(struct part_tones *to, const struct part_scene *part,
   }
 }
 
-/* Finds the tones of the whole model.
- * whole  with points and groups that are borrowed */
-static recto_status find_whole_tones(struct tones *tones,
-                                     const struct scene *whole,
-                                     const struct camera *camera,
-                                     const recto_options *options,
-                                     recto_error *error) {
+recto_status part_tones_of_whole(struct tones *tones, const struct scene *whole,
+                                 const struct camera *camera,
+                                 const recto_options *options,
+                                 recto_error *error) {
   struct topology topology = {.corner_edge = NULL};
   recto_status status = topology_init(&topology, whole, error);
   const struct sheet sheet = {.camera = *camera, .topology = &topology};
@@ -55,7 +51,7 @@ recto_status part_tones_find(struct part_tones *tones,
                              const struct camera *camera,
                              const recto_options *options, recto_error *error) {
   const struct scene *scene = &part->scene;
-  struct face_pick all = {.source = *source, .picks = true};
+  struct face_pick all = {.source = *source, .picks_all = true};
   struct tones of_whole = {.corner = NULL};
   tones->corner = mem_alloc(scene->corner.count, sizeof *tones->corner);
   tones->uniform = mem_alloc(scene_face_count(scene), 1);
@@ -63,12 +59,8 @@ recto_status part_tones_find(struct part_tones *tones,
                             ? face_pick_pass(&all, error)
                             : error_memory(error);
   if (status == RECTO_OK) {
-    struct scene whole = all.picked.scene;
-    whole.point.item = source->scene->point.item;
-    whole.point.count = source->scene->point.count;
-    whole.group.item = source->scene->group.item;
-    whole.group.count = source->scene->group.count;
-    status = find_whole_tones(&of_whole, &whole, camera, options, error);
+    const struct scene whole = face_pick_scene(&all);
+    status = part_tones_of_whole(&of_whole, &whole, camera, options, error);
   }
   if (status == RECTO_OK)
     select_tones(tones, part, &of_whole, &all.picked);

@@ -2,6 +2,7 @@
 #ifndef API_PART_TONES_H
 #define API_PART_TONES_H
 
+#include "ink/tone.h"
 #include "parts/part_scene.h"
 #include "view/camera.h"
 
@@ -26,6 +27,13 @@ USE_RESULT recto_status part_tones_find(struct part_tones *tones,
                                         const struct camera *camera,
                                         const recto_options *options,
                                         recto_error *error);
+/* Finds the tones of a whole model that is held, its edges too meanwhile; end
+ * with tones_fini either way. */
+USE_RESULT recto_status part_tones_of_whole(struct tones *tones,
+                                            const struct scene *whole,
+                                            const struct camera *camera,
+                                            const recto_options *options,
+                                            recto_error *error);
 void part_tones_fini(struct part_tones *tones);
 
 #endif

@@ -5,6 +5,7 @@ librecto_core_la_SOURCES += \
   %D%/decimal.c %D%/decimal.h \
   %D%/digits.h \
   %D%/file_attributes.c %D%/file_attributes.h \
+  %D%/file_reader.c %D%/file_reader.h \
   %D%/gunzip.c %D%/gunzip.h \
   %D%/gzip.c %D%/gzip.h \
   %D%/hash.h \

@@ -38,6 +38,8 @@ struct arguments {
   /* Drawings in parts. */
   int part, parts;     /* the part to draw, from 1, and how many; 0: none */
   bool resumes, joins; /* the models are parts */
+  int planned_parts;   /* of the plan to write; 0: none */
+  const char *plan;    /* by which the part is drawn; NULL: by the model */
 
   struct view_hidden {
     const char *view;

@@ -86,9 +86,10 @@ struct option_entry {
                              const char *value);
   /* The conditions under which the option has an effect: all of them. */
   enum option_use use[OPTION_USES];
-  bool of_parts; /* a join takes it from the parts */
-  bool adds;     /* given again, it adds a value; else it replaces the first */
-  bool is_file;  /* given again, another value is an error */
+  bool of_parts;  /* a join takes it from the parts, and these from a plan */
+  bool of_solver; /* but for those that only say how parts are solved */
+  bool adds;      /* given again, it adds a value; else it replaces the first */
+  bool is_file;   /* given again, another value is an error */
 };
 
 #endif

@@ -57,7 +57,7 @@ static const struct {
 
 /* All formats where none is known, which is an error of its own. */
 static uint64_t find_format(const struct arguments *a) {
-  const char *name = a->parts > 0 && a->format == NULL
+  const char *name = (a->parts > 0 || a->planned_parts > 0) && a->format == NULL
                          ? "svg"
                          : recto_output_format(a->output, a->format);
   if (name == NULL)

@@ -218,27 +218,54 @@ static bool settle_camera(struct arguments *a, char message[MESSAGE_SIZE]) {
   return true;
 }
 
+/* How many of --plan, --part and --join are given. */
+static int count_part_modes(const struct arguments *a) {
+  return (a->planned_parts > 0) + (a->parts > 0) + a->joins;
+}
+
 /* An error of the options for parts and frames; NULL: none. */
 static const char *judge_parts(const struct arguments *a) {
   if (a->past_frame > 0 && a->turntable > 0 && a->past_frame > a->turntable)
     return "--frames goes beyond the last drawing of --turntable";
-  if (a->parts == 0 && !a->joins)
+  if (a->plan != NULL && a->parts == 0)
+    return "--parts-plan is for --part";
+  if (a->plan != NULL && a->model_count > 0)
+    return "--parts-plan has what a part needs of the model: leave out the "
+           "model";
+  if (count_part_modes(a) == 0)
     return NULL;
   if (a->parts > 0 && a->joins)
     return "--part and --join exclude each other";
+  if (count_part_modes(a) > 1)
+    return "--plan, --part and --join exclude each other";
   if (a->check_file != NULL)
-    return "--check takes neither --part nor --join";
+    return "--check takes none of --plan, --part and --join";
   if (frames_count(a) > 1)
-    return "--part and --join make one drawing: leave out --turntable and "
-           "further views";
-  if (a->parts > 0 && a->stats)
-    return "--part makes no drawing: leave out --stats";
+    return "--plan, --part and --join make one drawing: leave out --turntable "
+           "and further views";
+  if (!a->joins && a->stats)
+    return a->parts > 0 ? "--part makes no drawing: leave out --stats"
+                        : "--plan makes no drawing: leave out --stats";
   return NULL;
+}
+
+/* Whether no option is given that the plan of --parts-plan decides. */
+static bool judge_plan(const struct arguments *a, char message[MESSAGE_SIZE]) {
+  for (int i = 0; a->plan != NULL && !option_is_end(&option_table[i]); i++) {
+    const struct option_entry *entry = &option_table[i];
+    if (!a->seen[i] || !entry->of_parts || entry->of_solver)
+      continue;
+    snprintf(message, MESSAGE_SIZE,
+             "--%s is decided by the plan: give it to --plan, not to --part",
+             entry->name);
+    return false;
+  }
+  return true;
 }
 
 /* An error of the files' names; NULL: none. */
 static const char *judge_files(const struct arguments *a) {
-  if (a->model_count == 0)
+  if (a->model_count == 0 && a->plan == NULL)
     return "no model: see recto --help";
   if (a->check_file != NULL && (a->output != NULL || a->stats ||
                                 a->options.verify > 0 || a->format != NULL))
@@ -276,6 +303,8 @@ static bool settle_files(struct arguments *a, char message[MESSAGE_SIZE]) {
     snprintf(message, MESSAGE_SIZE, "%s", wrong);
     return false;
   }
+  if (!judge_plan(a, message))
+    return false;
   if (a->output == NULL)
     return true;
   const char *pattern[] = {a->output, a->stats_file};
@@ -287,7 +316,7 @@ static bool settle_files(struct arguments *a, char message[MESSAGE_SIZE]) {
       return false;
     }
   }
-  if (a->parts > 0 && a->format == NULL)
+  if ((a->parts > 0 || a->planned_parts > 0) && a->format == NULL)
     return true;
   if (recto_output_format(a->output, a->format) == NULL) {
     explain_format(a, message);

@@ -280,28 +280,70 @@ static recto_status draw_models(const struct arguments *arguments,
   return status;
 }
 
+/* Reads what parts or a plan of them are made of.
+ * options  get the format of the drawing */
+static recto_status read_for_parts(const struct arguments *arguments,
+                                   recto_scene **scene, recto_options *options,
+                                   recto_error *error) {
+  *options = arguments->options;
+  options->output.format =
+      arguments->format != NULL ? arguments->format : "svg";
+  recto_status status = recto_scene_create(scene, error);
+  if (status == RECTO_OK && arguments->model_count == 1)
+    status = recto_scene_read_for_parts(*scene, arguments->model[0],
+                                        arguments->from, options, error);
+  else if (status == RECTO_OK)
+    status = read_models(arguments, *scene, error);
+  if (status == RECTO_OK)
+    status = recto_scene_try_output(*scene, arguments->output, NULL, error);
+  signals_catch();
+  return status;
+}
+
 /* Draws one part of a drawing. */
 static recto_status draw_part(const struct arguments *arguments,
                               recto_error *error) {
   recto_scene *scene = NULL;
-  recto_options options = arguments->options;
+  recto_options options;
   unsigned part = (unsigned)arguments->part, parts = (unsigned)arguments->parts;
   bool is_there = false;
-  options.output.format = arguments->format != NULL ? arguments->format : "svg";
-  recto_status status = recto_scene_create(&scene, error);
-  if (status == RECTO_OK && arguments->model_count == 1)
-    status = recto_scene_read_for_parts(scene, arguments->model[0],
-                                        arguments->from, &options, error);
-  else if (status == RECTO_OK)
-    status = read_models(arguments, scene, error);
-  if (status == RECTO_OK)
-    status = recto_scene_try_output(scene, arguments->output, NULL, error);
-  signals_catch();
+  recto_status status = read_for_parts(arguments, &scene, &options, error);
   if (status == RECTO_OK && arguments->resumes)
     status = recto_scene_has_part(scene, &options, part, parts,
                                   arguments->output, &is_there, error);
   if (status == RECTO_OK && !is_there)
     status = recto_scene_write_part(scene, &options, part, parts,
+                                    arguments->output, error);
+  progress_bar_end();
+  recto_scene_destroy(scene);
+  return status;
+}
+
+/* Draws one by a plan. */
+static recto_status draw_planned_part(const struct arguments *arguments,
+                                      recto_error *error) {
+  recto_options options = arguments->options;
+  unsigned part = (unsigned)arguments->part, parts = (unsigned)arguments->parts;
+  bool is_there = false;
+  recto_status status = RECTO_OK;
+  signals_catch();
+  if (arguments->resumes)
+    status = recto_plan_has_part(arguments->plan, &options, part, parts,
+                                 arguments->output, &is_there, error);
+  return status == RECTO_OK && !is_there
+             ? recto_plan_write_part(arguments->plan, &options, part, parts,
+                                     arguments->output, error)
+             : status;
+}
+
+static recto_status write_plan(const struct arguments *arguments,
+                               recto_error *error) {
+  recto_scene *scene = NULL;
+  recto_options options;
+  recto_status status = read_for_parts(arguments, &scene, &options, error);
+  if (status == RECTO_OK)
+    status = recto_scene_write_plan(scene, &options,
+                                    (unsigned)arguments->planned_parts,
                                     arguments->output, error);
   progress_bar_end();
   recto_scene_destroy(scene);
@@ -335,6 +377,18 @@ static int status_of(recto_status status) {
              : EXIT_FAILED;
 }
 
+/* Draws, or makes what a drawing is made of. */
+static recto_status run_drawing(const struct arguments *arguments,
+                                recto_error *error) {
+  if (arguments->planned_parts > 0)
+    return write_plan(arguments, error);
+  if (arguments->parts > 0)
+    return arguments->plan != NULL ? draw_planned_part(arguments, error)
+                                   : draw_part(arguments, error);
+  return arguments->joins ? join_parts(arguments, error)
+                          : draw_models(arguments, error);
+}
+
 int cli_run(struct arguments *arguments) {
   recto_error error = {0};
   bool is_right = true;
@@ -351,9 +405,7 @@ int cli_run(struct arguments *arguments) {
   if (!arguments->quiet)
     progress_bar_start(arguments->progress);
   recto_status status = checks ? check_drawing(arguments, &is_right, &error)
-                        : arguments->parts > 0 ? draw_part(arguments, &error)
-                        : arguments->joins     ? join_parts(arguments, &error)
-                                               : draw_models(arguments, &error);
+                               : run_drawing(arguments, &error);
   progress_bar_end();
   if (status != RECTO_OK && !signals_are_of_a_pipe())
     message_print(error.file, error.line, error.text);

@@ -4,6 +4,8 @@
  * lies in one byte. */
 #include "parts/face_pick.h"
 
+#include <string.h>
+
 #include "base/hash.h"
 #include "base/poll.h"
 #include "scene/limit.h"
@@ -72,7 +74,7 @@ static bool face_is_picked(const struct face_pick *pick, const uint32_t *corner,
   bool picked = beyond == 0;
   for (uint32_t i = 0; i < count && !picked && pick->kept != NULL; i++)
     picked = is_at_kept(pick, corner[i]);
-  return picked && pick->picks;
+  return (picked && pick->picks) || pick->picks_all;
 }
 
 static bool wire_is_picked(const struct face_pick *pick, const uint32_t *corner,
@@ -83,7 +85,7 @@ static bool wire_is_picked(const struct face_pick *pick, const uint32_t *corner,
                                   pick->flag[corner[i - 1]] & OUTCODE) == 0);
     pick->flag[corner[i]] |= USED;
   }
-  return picked && pick->picks;
+  return (picked && pick->picks) || pick->picks_all;
 }
 
 /* ---- Numbers within groups ----------------------------------------------- */
@@ -136,41 +138,89 @@ static bool pick_wire(struct picked *picked, const struct scene *from,
          ARRAY_PUSH(&picked->wire_number, number);
 }
 
+/* Picks all faces of a block but for their numbers. */
+static bool pick_block(struct picked *picked, const struct scene *from) {
+  struct scene *to = &picked->scene;
+  uint32_t faces = scene_face_count(from);
+  size_t corners = from->corner.count, before = to->corner.count;
+  if (faces == 0)
+    return true;
+  if ((from->face_start.count > 0 && !scene_list_starts(to)) ||
+      (from->face_group.count > 0 && !scene_list_groups(to)) ||
+      !scene_reserve_faces(to, faces, corners) ||
+      !ARRAY_RESERVE(&picked->face_number, faces))
+    return false;
+  memcpy(to->corner.item + before, from->corner.item,
+         corners * sizeof *to->corner.item);
+  to->corner.count += corners;
+  to->face_count += faces;
+  if (to->face_start.count > 0)
+    for (uint32_t f = 0; f < faces; f++)
+      to->face_start.item[to->face_start.count++] =
+          (uint32_t)before + scene_face_start(from, f + 1);
+  if (to->face_group.count > 0)
+    for (uint32_t f = 0; f < faces; f++)
+      to->face_group.item[to->face_group.count++] = scene_face_group(from, f);
+  return true;
+}
+
+static recto_status refuse_corners(recto_error *error) {
+  return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
+                   "the part has more than 2^31 corners");
+}
+
+/* Picks a face if it is wanted. */
+static recto_status take_face(struct face_pick *pick, const struct scene *scene,
+                              uint32_t face, uint32_t number,
+                              recto_error *error) {
+  uint32_t start = scene_face_start(scene, face);
+  uint32_t count = scene_face_corners(scene, face);
+  uint32_t group = scene_face_group(scene, face), in_group = 0;
+  if (pick->counts_groups) {
+    if (!have_group(pick, group))
+      return error_memory(error);
+    in_group = count_in_group(&pick->counts, group, number);
+  }
+  bool is_picked = face_is_picked(pick, scene->corner.item + start, count);
+  if (pick->picks_all)
+    pick->picked.face_number.item[pick->picked.face_number.count++] = number;
+  if (!is_picked)
+    return RECTO_OK;
+  if (!pick->picks_all && count > SCENE_LIMIT - pick->picked.scene.corner.count)
+    return refuse_corners(error);
+  return (pick->picks_all || pick_face(&pick->picked, scene, face, number)) &&
+                 (!pick->counts_groups ||
+                  ARRAY_PUSH(&pick->picked.face_in_group, in_group))
+             ? RECTO_OK
+             : error_memory(error);
+}
+
 static recto_status take_faces(struct face_pick *pick,
                                const struct face_block *block,
                                recto_error *error) {
   const struct scene *scene = block->scene;
+  recto_status status = RECTO_OK;
   uint32_t skipped = 0;
-  for (uint32_t f = 0; f < scene_face_count(scene); f++) {
+  if (pick->picks_all &&
+      scene->corner.count > SCENE_LIMIT - pick->picked.scene.corner.count)
+    return refuse_corners(error);
+  if (pick->picks_all && !pick_block(&pick->picked, scene))
+    return error_memory(error);
+  for (uint32_t f = 0; f < scene_face_count(scene) && status == RECTO_OK; f++) {
     uint32_t start = scene_face_start(scene, f);
-    uint32_t count = scene_face_start(scene, f + 1) - start;
-    const uint32_t *corner = scene->corner.item + start;
     while (skipped < scene->face_skipped.count &&
            scene->face_skipped.item[skipped] <= f)
       skipped++;
     uint32_t number = block->face + f + skipped;
     pick->face_hash = hash_add(pick->face_hash, (uint64_t)number << 32 |
                                                     scene_face_group(scene, f));
-    pick->face_hash = hash_corners(pick->face_hash, corner, count);
-    uint32_t group = scene_face_group(scene, f), in_group = 0;
-    if (pick->counts_groups) {
-      if (!have_group(pick, group))
-        return error_memory(error);
-      in_group = count_in_group(&pick->counts, group, number);
-    }
-    if (face_is_picked(pick, corner, count)) {
-      if (count > SCENE_LIMIT - pick->picked.scene.corner.count)
-        return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
-                         "the part has more than 2^31 corners");
-      if (!pick_face(&pick->picked, scene, f, number) ||
-          (pick->counts_groups &&
-           !ARRAY_PUSH(&pick->picked.face_in_group, in_group)))
-        return error_memory(error);
-    }
+    pick->face_hash = hash_corners(pick->face_hash, scene->corner.item + start,
+                                   scene_face_corners(scene, f));
+    status = take_face(pick, scene, f, number, error);
     if (!poll_at(f))
       return error_cancelled(error);
   }
-  return RECTO_OK;
+  return status;
 }
 
 static recto_status take_wires(struct face_pick *pick,
@@ -215,6 +265,18 @@ recto_status face_pick_pass(struct face_pick *pick, recto_error *error) {
   for (size_t p = 0; p < pick->source.scene->point.count; p++)
     pick->flag[p] &= OUTCODE;
   return face_source_pass(&pick->source, take_faces_and_wires, pick, error);
+}
+
+struct scene face_pick_scene(const struct face_pick *pick) {
+  const struct scene *source = pick->source.scene;
+  struct scene scene = pick->picked.scene;
+  scene.point.item = source->point.item;
+  scene.point.count = source->point.count;
+  scene.precision.item = source->precision.item;
+  scene.precision.count = source->precision.count;
+  scene.group.item = source->group.item;
+  scene.group.count = source->group.count;
+  return scene;
 }
 
 void picked_fini(struct picked *picked) {

@@ -21,6 +21,7 @@ struct face_pick {
   struct face_source source;
   bool picks;             /* faces whose boxes meet the box of the last aim, and
                              polylines of which a segment does; */
+  bool picks_all;         /* all faces and polylines, without an aim */
   struct place_set *kept; /* with this, also faces with a corner there */
   struct picked picked;
   uint64_t face_hash, wire_hash; /* of all faces, and all polylines */
@@ -47,6 +48,10 @@ USE_RESULT recto_status face_pick_pass(struct face_pick *pick,
 
 /* Whether a face or a polyline has the point, as the last pass found. */
 bool face_pick_uses(const struct face_pick *pick, size_t point);
+
+/* All faces and polylines that were picked, with the points and groups of the
+ * source: all arrays are borrowed. */
+struct scene face_pick_scene(const struct face_pick *pick);
 
 void face_pick_fini(struct face_pick *pick);
 void picked_fini(struct picked *picked);

@@ -20,4 +20,12 @@ librecto_core_la_SOURCES += \
   %D%/part_points.c %D%/part_points.h \
   %D%/part_scene.c %D%/part_scene.h \
   %D%/part_sources.h \
-  %D%/place_set.c %D%/place_set.h
+  %D%/place_set.c %D%/place_set.h \
+  %D%/plan_bytes.c %D%/plan_bytes.h \
+  %D%/plan_faces.c %D%/plan_faces.h \
+  %D%/plan_file.c %D%/plan_file.h \
+  %D%/plan_section.c %D%/plan_section.h \
+  %D%/plan_section_check.c \
+  %D%/plan_section_make.c \
+  %D%/ring_corners.c %D%/ring_corners.h \
+  %D%/window_grid.c %D%/window_grid.h

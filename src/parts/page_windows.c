@@ -178,3 +178,48 @@ bool page_window_owns(const struct part_window *window, const int32_t at[2]) {
       return false;
   return true;
 }
+
+/* ---- Boxes --------------------------------------------------------------- */
+
+struct part_window page_box(const struct page_place *place,
+                            const uint32_t *corner, uint32_t count) {
+  struct part_window box;
+  for (int k = 0; k < 2; k++) {
+    box.low[k] = box.high[k] = place[corner[0]].at[k];
+    for (uint32_t c = 1; c < count; c++) {
+      int32_t at = place[corner[c]].at[k];
+      box.low[k] = at < box.low[k] ? at : box.low[k];
+      box.high[k] = at > box.high[k] ? at : box.high[k];
+    }
+  }
+  return box;
+}
+
+static int32_t limit_to_sheet(int64_t at) {
+  return at < -SHEET_XY_MAX  ? -SHEET_XY_MAX
+         : at > SHEET_XY_MAX ? SHEET_XY_MAX
+                             : (int32_t)at;
+}
+
+static bool window_is_empty(const struct part_window *box) {
+  return box->low[0] > box->high[0];
+}
+
+struct part_window page_window_widen(const struct part_window *box,
+                                     int64_t by) {
+  struct part_window wide = *box;
+  for (int k = 0; k < 2 && !window_is_empty(box); k++) {
+    wide.low[k] = limit_to_sheet(box->low[k] - by);
+    wide.high[k] = limit_to_sheet(box->high[k] + by);
+  }
+  return wide;
+}
+
+void page_window_include(struct part_window *box,
+                         const struct part_window *other) {
+  for (int k = 0; k < 2; k++) {
+    box->low[k] = other->low[k] < box->low[k] ? other->low[k] : box->low[k];
+    box->high[k] =
+        other->high[k] > box->high[k] ? other->high[k] : box->high[k];
+  }
+}

@@ -48,4 +48,15 @@ USE_RESULT bool page_windows_make(const struct camera *camera,
  * borders are its own, the upper ones are not. */
 bool page_window_owns(const struct part_window *window, const int32_t at[2]);
 
+/* The box of so many corners, at least one. */
+struct part_window page_box(const struct page_place *place,
+                            const uint32_t *corner, uint32_t count);
+
+/* The box with so much more on each side; an empty one stays so. */
+struct part_window page_window_widen(const struct part_window *box, int64_t by);
+
+/* Enlarges the box by another one. */
+void page_window_include(struct part_window *box,
+                         const struct part_window *other);
+
 #endif

@@ -38,48 +38,12 @@ struct part_scene_work {
 
 /* ---- Boxes --------------------------------------------------------------- */
 
-/* The box of so many corners. */
-static struct part_window box_of(const struct page_place *place,
-                                 const uint32_t *corner, uint32_t count) {
-  struct part_window box;
-  for (int k = 0; k < 2; k++) {
-    box.low[k] = box.high[k] = place[corner[0]].at[k];
-    for (uint32_t c = 1; c < count; c++) {
-      int32_t at = place[corner[c]].at[k];
-      box.low[k] = at < box.low[k] ? at : box.low[k];
-      box.high[k] = at > box.high[k] ? at : box.high[k];
-    }
-  }
-  return box;
-}
-
 static struct part_window box_of_face(const struct part_scene *part,
                                       uint32_t face) {
   const struct scene *scene = &part->scene;
-  uint32_t start = scene_face_start(scene, face);
-  return box_of(part->place, scene->corner.item + start,
-                scene_face_start(scene, face + 1) - start);
-}
-
-static int32_t limit_to_sheet(int64_t at) {
-  return at < -SHEET_XY_MAX  ? -SHEET_XY_MAX
-         : at > SHEET_XY_MAX ? SHEET_XY_MAX
-                             : (int32_t)at;
-}
-
-static bool is_empty(const struct part_window *box) {
-  return box->low[0] > box->high[0];
-}
-
-/* The box with so much more on each side; an empty one stays so. */
-static struct part_window widen_window(const struct part_window *box,
-                                       int64_t by) {
-  struct part_window wide = *box;
-  for (int k = 0; k < 2 && !is_empty(box); k++) {
-    wide.low[k] = limit_to_sheet(box->low[k] - by);
-    wide.high[k] = limit_to_sheet(box->high[k] + by);
-  }
-  return wide;
+  return page_box(part->place,
+                  scene->corner.item + scene_face_start(scene, face),
+                  scene_face_corners(scene, face));
 }
 
 /* Whether one box lies within another. */
@@ -91,17 +55,8 @@ static bool window_is_within(const struct part_window *box,
   return true;
 }
 
-static void include_in_box(struct part_window *box,
-                           const struct part_window *other) {
-  for (int k = 0; k < 2; k++) {
-    box->low[k] = other->low[k] < box->low[k] ? other->low[k] : box->low[k];
-    box->high[k] =
-        other->high[k] > box->high[k] ? other->high[k] : box->high[k];
-  }
-}
-
 static struct part_window first_box(const struct part_scene_request *request) {
-  return widen_window(&request->window, request->margin + request->reach);
+  return page_window_widen(&request->window, request->margin + request->reach);
 }
 
 bool part_scene_aim(struct face_pick *pick,
@@ -188,9 +143,9 @@ static void set_kept_box(struct part_scene_work *work) {
        f++) {
     struct part_window box = box_of_face(part, f);
     if (page_window_owns(window, box.low))
-      include_in_box(&work->box, &box);
+      page_window_include(&work->box, &box);
   }
-  work->box = widen_window(&work->box, work->request->margin);
+  work->box = page_window_widen(&work->box, work->request->margin);
 }
 
 /* Sets on which sides of the box the points lie. */
@@ -257,8 +212,8 @@ list_corners_beyond(const struct part_scene_work *work, uint8_t *is_beyond) {
     is_beyond[p] = (work->flag[p] & CORNER_KEPT) != 0 &&
                    (work->flag[p] & PAGE_OUTCODE) != 0;
     if (is_beyond[p])
-      include_in_box(&all, &(struct part_window){{at->at[0], at->at[1]},
-                                                 {at->at[0], at->at[1]}});
+      page_window_include(&all, &(struct part_window){{at->at[0], at->at[1]},
+                                                      {at->at[0], at->at[1]}});
   }
   return all;
 }

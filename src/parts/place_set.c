@@ -44,6 +44,12 @@ bool place_set_has(const struct place_set *set,
   return set->slot[find_position(set, point)] != 0;
 }
 
+uint32_t place_set_find(const struct place_set *set,
+                        const struct scene_point *point) {
+  uint32_t slot = set->slot[find_position(set, point)];
+  return slot != 0 ? slot - 1 : SCENE_NONE;
+}
+
 void place_set_fini(struct place_set *set) {
   mem_free(set->slot);
   *set = (struct place_set){.point = NULL};

@@ -21,6 +21,10 @@ USE_RESULT bool place_set_init(struct place_set *set,
                                const uint8_t *is_in, size_t count);
 bool place_set_has(const struct place_set *set,
                    const struct scene_point *point);
+/* The first point of the set at the position of this one; SCENE_NONE: there is
+ * none. */
+uint32_t place_set_find(const struct place_set *set,
+                        const struct scene_point *point);
 void place_set_fini(struct place_set *set);
 
 #endif

@@ -1,0 +1,130 @@
+/* part_solve.c - solves the scene of a part, and writes what it knows.
+ *
+ * Phases
+ *   edges    of the scene; whether corners there might be welded
+ *   solve    on the page grid of the whole
+ *   collect  what lies in the window
+ *   save     to a file */
+#include "api/part_solve.h"
+
+#include "api/part_check.h"
+#include "base/parallel.h"
+#include "base/stream.h"
+#include "parts/part_collect.h"
+#include "parts/part_file.h"
+#include "view/layout.h"
+#include "visibility/quantitative_invisibility.h"
+#include "visibility/solver.h"
+
+/* Finds the edges, and refuses what parts cannot weld. */
+static recto_status find_part_edges(struct part_solve *work,
+                                    recto_error *error) {
+  bool may_weld = false;
+  recto_status status =
+      topology_init(&work->topology, &work->scene.scene, error);
+  if (status == RECTO_OK && !part_scene_may_weld(&work->scene, &work->topology,
+                                                 work->weld, &may_weld))
+    status = error_memory(error);
+  if (status == RECTO_OK && may_weld)
+    return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
+                     "corners of borders lie within %.3g of each other, which "
+                     "parts cannot weld; --weld 0 leaves them apart",
+                     work->weld);
+  return status;
+}
+
+static recto_status solve_part_scene(struct part_solve *work,
+                                     recto_error *error) {
+  const recto_options *o = work->options;
+  recto_options lower = *o; /* of two angles of creases: part_join.c */
+  struct solver_request request = solver_request_of(o);
+  const char *why;
+  lower.mesh.crease_start_deg = 0;
+  recto_status status =
+      layout_sheet(&work->sheet, &work->scene.scene, &work->topology,
+                   &work->part.common.camera, &lower,
+                   work->part.common.has_fragments, error);
+  if (status != RECTO_OK)
+    return status;
+  request.fragments = work->part.common.has_fragments;
+  request.threads = parallel_threads();
+  work->map.keeps_side_lines = true;
+  const struct solver *solver =
+      o->solver.method == RECTO_METHOD_AUTO
+          ? solver_choose(&work->sheet, &request, &why)
+          : solver_by_method(o->solver.method);
+  struct report *report = report_create();
+  status = solver->solve(&work->sheet, &request, &work->map, report, error);
+  if (status == RECTO_OK && part_hidden_by_max(o) > 0 &&
+      work->map.edge_state != NULL)
+    status = quantitative_invisibility_find(
+        &work->map, &work->sheet, o->ink.hidden_by_max, false, report, error);
+  report_destroy(report);
+  return status;
+}
+
+static recto_status collect_part(struct part_solve *work, recto_error *error) {
+  const struct part_sources sources = {.scene = &work->scene,
+                                       .topology = &work->topology,
+                                       .sheet = &work->sheet,
+                                       .map = &work->map,
+                                       .tone = work->tones.corner,
+                                       .uniform = work->tones.uniform};
+  return part_collect(&work->part, &sources, error);
+}
+
+recto_status part_solve_run(struct part_solve *work, recto_error *error) {
+  recto_status status = find_part_edges(work, error);
+  if (status != RECTO_OK || scene_face_count(&work->scene.scene) +
+                                    scene_wire_count(&work->scene.scene) ==
+                                0)
+    return status;
+  status = solve_part_scene(work, error);
+  return status == RECTO_OK ? collect_part(work, error) : status;
+}
+
+recto_status part_solve_save(struct part_solve *work, const char *path,
+                             const struct file_identity *file, size_t files,
+                             const char *what, recto_error *error) {
+  struct byte_array bytes = {.item = NULL};
+  struct stream *stream = NULL;
+  recto_status status = part_file_make(&work->part, &bytes, error);
+  if (status == RECTO_OK)
+    status = stream_open(&stream, path, error);
+  for (size_t i = 0; status == RECTO_OK && i < files; i++)
+    if (stream_replaces(stream, file[i]))
+      status = error_set(error, RECTO_ERROR_ARGUMENT, path, 0,
+                         "the part would replace the %s", what);
+  if (status == RECTO_OK) {
+    stream_write(stream, bytes.item, bytes.count);
+    status = stream_finish(stream, error);
+  } else {
+    stream_discard(stream);
+  }
+  ARRAY_FREE(&bytes);
+  return status;
+}
+
+bool part_solve_find(const char *path, uint32_t index, uint64_t *id) {
+  struct input input = {.bytes = NULL};
+  struct part part;
+  bool is_there = false;
+  if (input_load(&input, path, NULL) == RECTO_OK &&
+      part_file_parse(&part, input.bytes, input.count, path, NULL) ==
+          RECTO_OK) {
+    is_there = part.index == index;
+    *id = part.common.id;
+    part_fini(&part);
+  }
+  input_unload(&input);
+  return is_there;
+}
+
+void part_solve_fini(struct part_solve *work) {
+  map_fini(&work->map);
+  sheet_fini(&work->sheet);
+  topology_fini(&work->topology);
+  part_scene_fini(&work->scene);
+  part_tones_fini(&work->tones);
+  part_fini(&work->part);
+}
