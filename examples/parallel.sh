@@ -3,10 +3,11 @@
 #
 #   examples/parallel.sh MODEL N OUTPUT [OPTION...]
 #
-# The options are those of the drawing.  JOBS parts run at once, all processors
-# by default; a part takes one thread, and as much memory as doc/large.md says.
-# SSH=host1,host2 spreads them over hosts, which see the model and the folder of
-# the parts at the same paths, as on a common file system, and have recto.
+# The options are those of the drawing.  The model is read once, for a plan of
+# the parts.  JOBS parts run at once then, all processors by default; a part
+# takes one thread, and as much memory as doc/large.md says.  SSH=host1,host2
+# spreads them over hosts, which see the folder of the parts at the same path, as
+# on a common file system, and have recto.
 #
 # A part that fails is tried twice more.  Run again, the script makes only what
 # is not there: recto keeps a part that is whole (--resume).  PARTS names the
@@ -17,18 +18,20 @@ if test $# -lt 3; then
   exit 2
 fi
 recto=${RECTO:-recto}
-model=$(realpath "$1") count=$2 output=$3
+model=$1 count=$2 output=$3
 shift 3
 parts=${PARTS:-$output.parts}
 mkdir -p "$parts"
 parts=$(realpath "$parts")
 
-# Every part gets all options, and so does the join, which says what it has no
-# use for; --quiet keeps that to itself.
+# The plan gets all options, and so does the join, which says what it has no use
+# for; --quiet keeps that to itself.
+"$recto" "$model" --plan "$count" -o "$parts/drawing.plan" "$@"
+
 seq "$count" |
   parallel --will-cite --jobs "${JOBS:-100%}" ${SSH:+--sshlogin "$SSH"} \
     --retries 3 --joblog "$parts/jobs.log" --quote \
-    "$recto" "$model" --part "{}/$count" -o "$parts/part-{}.recto" \
-    --resume --threads 1 "$@"
+    "$recto" --parts-plan "$parts/drawing.plan" --part "{}/$count" \
+    -o "$parts/part-{}.recto" --resume --threads 1
 
 "$recto" --join "$parts"/part-*.recto --quiet -o "$output" "$@"

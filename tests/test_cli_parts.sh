@@ -165,6 +165,93 @@ makes_others_again() {
 claim "and makes damaged ones, and those of other options, again" \
   makes_others_again
 
+# ---- Plans ------------------------------------------------------------------
+
+plans() { # OPTION...
+  local i
+  make_parts plain "$@" -q &&
+    "$recto" "$models/gears.obj" --plan 3 -o gears.plan -q "$@" || return 1
+  for i in 1 2 3; do
+    "$recto" --parts-plan gears.plan --part $i/3 -o "planned-$i.recto" &&
+      cmp "plain-$i.recto" "planned-$i.recto" || return 1
+  done
+}
+claim "parts by a plan are those without one, of lines" plans --hidden dashed
+claim "and of fills with ids, seen in perspective" \
+  plans --fill shade --ids --fov 40
+claim "and of tones" plans --fill hatch --light=-1,2,1
+joins_planned() {
+  plans --hidden dashed &&
+    "$recto" --join planned-1.recto plain-2.recto planned-3.recto \
+      --hidden dashed -o p.svg && cmp whole.svg p.svg
+}
+claim "they are joined with the others" joins_planned
+keeps_planned() {
+  local before
+  before=$(stat -c '%i' planned-?.recto)
+  "$recto" --parts-plan gears.plan --part 1/3 -o planned-1.recto --resume &&
+    test "$(stat -c '%i' planned-?.recto)" = "$before" &&
+    cp short.recto planned-2.recto &&
+    "$recto" --parts-plan gears.plan --part 2/3 -o planned-2.recto --resume &&
+    cmp plain-2.recto planned-2.recto
+}
+claim "--resume keeps parts of the plan, and makes damaged ones again" \
+  keeps_planned
+claim "a plan of another number of parts is named" \
+  says "gears.plan: the plan is one of 3 parts, not of 4" \
+  --parts-plan gears.plan --part 1/4
+head -c 5000 gears.plan >short.plan
+claim "a plan that is cut short is named" \
+  says "short.plan: the plan is cut short" --parts-plan short.plan --part 1/3
+{ head -c 5000 gears.plan && printf '\377' && tail -c +5002 gears.plan; } >flip.plan
+claim "a damaged plan is named" \
+  says "flip.plan: the plan is damaged: the checksum of part 1 is wrong" \
+  --parts-plan flip.plan --part 1/3
+claim "a model is no plan" says "this is no plan of a drawing" \
+  --parts-plan "$models/gears.obj" --part 1/3
+claim "what the plan decides cannot be given to a part" \
+  says "--azimuth is decided by the plan" \
+  --parts-plan gears.plan --part 1/3 --azimuth 3
+claim "nor what it does not have" \
+  says "the plan was made without visible faces: make it with --fill" \
+  --parts-plan gears.plan --part 1/3 --fill shade
+claim "nor the model" says "leave out the model" \
+  "$models/gears.obj" --parts-plan gears.plan --part 1/3
+claim "a plan is of parts" says "--parts-plan is for --part" \
+  --parts-plan gears.plan
+claim "a plan refuses what parts refuse" \
+  says "drawings in parts have no cuts" "$models/gears.obj" --plan 2 --cut 1,0,0,0
+replaces_no_model() {
+  cp "$models/star.obj" star.obj
+  "$recto" star.obj --plan 2 -o star.obj 2>err && return 1
+  cmp "$models/star.obj" star.obj && grep -q 'replace' err
+}
+claim "a plan does not replace its model" replaces_no_model
+far_plan() {
+  "$recto" "$models/gears.obj" --plan 3 --azimuth 46 --hidden dashed -o far.plan &&
+    "$recto" --parts-plan far.plan --part 2/3 -o far-2.recto &&
+    says "far-2.recto: the part belongs to another drawing than p-1.recto" \
+      --join p-1.recto far-2.recto p-3.recto
+}
+claim "parts of a foreign plan are named" far_plan
+
+plans_real_models() {
+  local model i
+  for model in "$RECTO_MODELS"/*.obj; do
+    "$recto" "$model" -q --plan 3 --hidden dashed -o real.plan || return 1
+    for i in 1 2 3; do
+      "$recto" "$model" -q --part $i/3 --hidden dashed -o real.recto &&
+        "$recto" --parts-plan real.plan -q --part $i/3 -o planned.recto &&
+        cmp real.recto planned.recto || return 1
+    done
+  done
+}
+if test -d "${RECTO_MODELS:-/nonexistent}"; then
+  claim "plans of real models make their parts" plans_real_models
+else
+  skip "plans of real models make their parts" "no RECTO_MODELS"
+fi
+
 # ---- Frames -----------------------------------------------------------------
 
 makes_frames() {
@@ -183,7 +270,7 @@ claim "--frames ends with the turntable" says "--frames goes beyond" \
 # Part 2 is killed once; GNU parallel runs it again.
 cat >killed-once <<SCRIPT
 #!/bin/bash
-if test "\$3" = 2/4 && ! test -e "$PWD/was-killed"; then
+if [[ "\$*" == *"--part 2/4"* ]] && ! test -e "$PWD/was-killed"; then
   : >"$PWD/was-killed"
   kill -KILL \$\$
 fi

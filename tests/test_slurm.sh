@@ -91,6 +91,7 @@ test -n "$ready" || skip_all "the daemons do not start: $(tail -qn 2 log/* | tr 
 # ---- The jobs ---------------------------------------------------------------
 
 export RECTO=$recto MODEL=$model OUTPUT=$PWD/joined.svg OPTIONS='--hidden dashed'
+export COUNT=4
 submit() {
   sbatch --parsable --mem=100 --time=5 --output="$PWD/log/job-%A-%a" "$@" "$script"
 }
@@ -102,8 +103,9 @@ runs_to_its_end() {
   say "still queued: $(squeue -h)" && false
 }
 draw_by_slurm() {
-  local parts
-  parts=$(submit --array=1-4) || return 1
+  local plan parts
+  plan=$(STEP=plan submit) || return 1
+  parts=$(submit --array=1-4 --dependency="afterok:$plan") || return 1
   submit --dependency="afterok:$parts" >join.id || return 1
   runs_to_its_end && "$recto" "$model" --hidden dashed -o whole.svg &&
     cmp whole.svg joined.svg && return 0
@@ -113,15 +115,15 @@ make_one_again() {
   local ids
   ids=$(stat -c %i joined.svg.parts/part-[134].recto)
   rm joined.svg joined.svg.parts/part-2.recto
-  export COUNT=4
   submit --array=2 >one.id && runs_to_its_end &&
     test "$(stat -c %i joined.svg.parts/part-[134].recto)" = "$ids" &&
     test -s joined.svg.parts/part-2.recto
 }
 has_all_jobs() {
-  test "$(grep -c "_job_complete: .* WEXITSTATUS 0" log/slurmctld)" -eq 6
+  test "$(grep -c "_job_complete: .* WEXITSTATUS 0" log/slurmctld)" -eq 7
 }
-claim "an array job and a dependent join make the drawing" draw_by_slurm
+claim "a plan, an array job and a join, each after the other, make the drawing" \
+  draw_by_slurm
 claim "a part that is missing is made again alone" make_one_again
-claim "by the log six jobs ended well, none of them otherwise" has_all_jobs
+claim "by the log seven jobs ended well, none of them otherwise" has_all_jobs
 finish

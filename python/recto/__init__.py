@@ -26,7 +26,14 @@ from ._library import (
     text_of,
 )
 from ._options import EDGE_CLASSES, METHODS, PAGES, VIEWS, Options
-from ._scene import Scene, Verdict, draw, join
+from ._scene import (
+    Scene,
+    Verdict,
+    draw,
+    has_planned_part,
+    join,
+    write_planned_part,
+)
 
 __version__ = text_of(lib.recto_version())
 NONE: int = lib.RECTO_NONE
@@ -58,5 +65,7 @@ __all__ = [
     "VerifyError",
     "Warning",
     "draw",
+    "has_planned_part",
     "join",
+    "write_planned_part",
 ]

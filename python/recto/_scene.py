@@ -327,6 +327,19 @@ class Scene:
             )
         return bool(is_there[0])
 
+    def write_plan(
+        self, path: str | os.PathLike[str], count: int, /, **options: Unpack[Options]
+    ) -> None:
+        """Makes the plan of `count` parts of a drawing, a file by which
+        write_planned_part draws each of them without the model."""
+        filled = Filled({"format": "svg", **options})
+        with self._use.reading():
+            filled.call.finish(
+                lib.recto_scene_write_plan(
+                    self._owner, filled.at, count, path_of(path), filled.call.error
+                )
+            )
+
     def check(
         self, path: str | os.PathLike[str], /, **options: Unpack[Options]
     ) -> Verdict:
@@ -356,6 +369,51 @@ class Scene:
             (at[0][0], at[0][1]) if found.false_mm > 0 else None,
             (at[1][0], at[1][1]) if found.missing_mm > 0 else None,
         )
+
+
+def write_planned_part(
+    plan: str | os.PathLike[str],
+    path: str | os.PathLike[str],
+    number: int,
+    count: int,
+    /,
+    **options: Unpack[Options],
+) -> None:
+    """Draws part `number`, from 1, of `count` by a plan that Scene.write_plan
+    wrote, and writes the file that Scene.write_part would write.  The plan says
+    what is drawn; options are those of the solver."""
+    filled = Filled(options)
+    filled.call.finish(
+        lib.recto_plan_write_part(
+            path_of(plan), filled.at, number, count, path_of(path), filled.call.error
+        )
+    )
+
+
+def has_planned_part(
+    plan: str | os.PathLike[str],
+    path: str | os.PathLike[str],
+    number: int,
+    count: int,
+    /,
+    **options: Unpack[Options],
+) -> bool:
+    """Whether a file is the very part that write_planned_part would write there,
+    and whole."""
+    filled = Filled(options)
+    is_there = ffi.new("bool *")
+    filled.call.finish(
+        lib.recto_plan_has_part(
+            path_of(plan),
+            filled.at,
+            number,
+            count,
+            path_of(path),
+            is_there,
+            filled.call.error,
+        )
+    )
+    return bool(is_there[0])
 
 
 def join(

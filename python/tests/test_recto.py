@@ -304,7 +304,7 @@ def test_every_option():
     words = re.findall(r"^ +(?:-\w, |    )--([a-z-]+)", text, re.M)
     names = {word.replace("-", "_") for word in words}
     others = "output from turntable no_fit stats check tolerance quiet version help "
-    others += "completion frames part join resume"
+    others += "completion frames part join resume plan parts_plan"
     known = set(recto.Options.__annotations__)
     assert names - known == set(others.split()), names ^ known
     options = recto._options
@@ -522,6 +522,28 @@ def test_parts():
     read.write_part("read.recto", 1, 1, **options)
     read = recto.Scene.read("cube.obj").render(**options).svg()
     assert recto.join(["read.recto"], **options).svg() == read
+
+
+def test_planned_parts():
+    """A part by a plan is the one without a plan"""
+    options = {"hidden": "dashed", "ids": True}
+    scene = cube()
+    scene.write_plan("cube.plan", 2, **options)
+    for number in (1, 2):
+        scene.write_part("own.recto", number, 2, **options)
+        assert not recto.has_planned_part("cube.plan", "planned.recto", number, 2)
+        recto.write_planned_part("cube.plan", "planned.recto", number, 2)
+        assert recto.has_planned_part("cube.plan", "planned.recto", number, 2)
+        with open("own.recto", "rb") as own, open("planned.recto", "rb") as planned:
+            assert own.read() == planned.read()
+    wrong = "cube.plan", "planned.recto", 1, 3
+    error = raised(recto.ArgumentError, recto.write_planned_part, *wrong)
+    assert "the plan is one of 2 parts, not of 3" in str(error), error
+    wrong = "cube.plan", "planned.recto", 1, 2
+    error = raised(
+        recto.UnsupportedError, recto.write_planned_part, *wrong, fill="shade"
+    )
+    assert "--fill" in str(error), error
 
 
 def test_polyline():

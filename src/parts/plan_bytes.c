@@ -26,10 +26,9 @@ static inline uint64_t load_word(const unsigned char *at) {
          (uint64_t)at[6] << 48 | (uint64_t)at[7] << 56;
 }
 
-/* Adds whole blocks to the sum: each step is a bijection, so that no change of
- * a single word leaves it as it was. */
-static void add_blocks(struct plan_bytes *bytes, const void *item,
-                       size_t blocks) {
+/* Each step is a bijection, so that no change of a single word leaves the sum as
+ * it was. */
+void plan_bytes_add(struct plan_bytes *bytes, const void *item, size_t blocks) {
   const unsigned char *at = item;
   uint64_t a = bytes->lane[0], b = bytes->lane[1], c = bytes->lane[2],
            d = bytes->lane[3];
@@ -68,12 +67,12 @@ static void write_blocks(struct plan_bytes *bytes, const void *item,
                          size_t count) {
   size_t blocks = count / PLAN_BLOCK, rest = count % PLAN_BLOCK;
   unsigned char last[PLAN_BLOCK] = {0};
-  add_blocks(bytes, item, blocks);
+  plan_bytes_add(bytes, item, blocks);
   stream_write(bytes->stream, item, count);
   if (rest == 0)
     return;
   memcpy(last, (const unsigned char *)item + blocks * PLAN_BLOCK, rest);
-  add_blocks(bytes, last, 1);
+  plan_bytes_add(bytes, last, 1);
   stream_write(bytes->stream, last + rest, PLAN_BLOCK - rest);
 }
 
@@ -104,7 +103,7 @@ void plan_bytes_array(struct plan_bytes *bytes, void *item, size_t count,
     bytes->status = file_reader_read(bytes->reader, bytes->place, item,
                                      (size_t)padded, bytes->error);
     if (bytes->status == RECTO_OK)
-      add_blocks(bytes, item, (size_t)padded / PLAN_BLOCK);
+      plan_bytes_add(bytes, item, (size_t)padded / PLAN_BLOCK);
     if (bytes->status == RECTO_OK && !is_little_endian())
       swap_numbers(item, count, size);
   }

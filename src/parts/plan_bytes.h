@@ -34,6 +34,8 @@ static inline uint64_t plan_bytes_size(size_t count, size_t size) {
 
 /* Begins another sum. */
 void plan_bytes_begin_sum(struct plan_bytes *bytes);
+/* Adds blocks of PLAN_BLOCK bytes to it. */
+void plan_bytes_add(struct plan_bytes *bytes, const void *item, size_t blocks);
 uint64_t plan_bytes_sum(const struct plan_bytes *bytes);
 
 /* Writes or reads an array of numbers of 1, 4 or 8 bytes.

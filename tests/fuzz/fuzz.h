@@ -32,6 +32,7 @@ extern const struct fuzz_target fuzz_target_mtl;
 extern const struct fuzz_target fuzz_target_obj;
 extern const struct fuzz_target fuzz_target_options;
 extern const struct fuzz_target fuzz_target_part;
+extern const struct fuzz_target fuzz_target_plan;
 extern const struct fuzz_target fuzz_target_ply;
 extern const struct fuzz_target fuzz_target_scene;
 extern const struct fuzz_target fuzz_target_stl;

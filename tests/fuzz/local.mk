@@ -4,7 +4,7 @@ fuzz_sources = %D%/fuzz.h %D%/targets.c \
   %D%/decode.c %D%/decode.h %D%/render.c %D%/render.h \
   %D%/agreement.c %D%/agreement.h %D%/judgeable.c %D%/judgeable.h \
   %D%/target_cli.c %D%/target_mesh.c %D%/target_options.c \
-  %D%/target_part.c %D%/target_reader.c \
+  %D%/target_part.c %D%/target_plan.c %D%/target_reader.c \
   %D%/target_scene.c %D%/target_svg.c \
   tests/reading.c tests/reading.h \
   src/cli/parse.c src/cli/frames.c src/cli/lists.c src/cli/options.c src/cli/multiview.c \

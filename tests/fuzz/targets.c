@@ -6,17 +6,11 @@
 #include "cli/options.h"
 #include "tests/fuzz/fuzz.h"
 
-const struct fuzz_target *const fuzz_targets[] = {&fuzz_target_scene,
-                                                  &fuzz_target_mesh,
-                                                  &fuzz_target_cli,
-                                                  &fuzz_target_obj,
-                                                  &fuzz_target_mtl,
-                                                  &fuzz_target_ply,
-                                                  &fuzz_target_stl,
-                                                  &fuzz_target_svg,
-                                                  &fuzz_target_part,
-                                                  &fuzz_target_options,
-                                                  NULL};
+const struct fuzz_target *const fuzz_targets[] = {
+    &fuzz_target_scene, &fuzz_target_mesh,    &fuzz_target_cli,
+    &fuzz_target_obj,   &fuzz_target_mtl,     &fuzz_target_ply,
+    &fuzz_target_stl,   &fuzz_target_svg,     &fuzz_target_part,
+    &fuzz_target_plan,  &fuzz_target_options, NULL};
 
 const struct fuzz_target *fuzz_find(const char *name) {
   for (int i = 0; fuzz_targets[i] != NULL; i++)
