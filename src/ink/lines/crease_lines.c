@@ -14,8 +14,7 @@ enum { SMALL_FACE_MAX = 16 };
 
 static void find_normal(const struct scene *scene, uint32_t face,
                         struct large_face_normals *normals, double normal[3]) {
-  const uint32_t *start = &scene->face_start.item[face];
-  if (start[1] - start[0] <= SMALL_FACE_MAX) {
+  if (scene_face_corners(scene, face) <= SMALL_FACE_MAX) {
     newell_normal_of_face(scene, face, normal);
     return;
   }
