@@ -143,24 +143,26 @@ static bool pick_block(struct picked *picked, const struct scene *from) {
   struct scene *to = &picked->scene;
   uint32_t faces = scene_face_count(from);
   size_t corners = from->corner.count, before = to->corner.count;
+  bool has_starts = from->face_start.count > 0 || to->face_start.count > 0;
+  bool has_groups = from->face_group.count > 0 || to->face_group.count > 0;
   if (faces == 0)
     return true;
-  if ((from->face_start.count > 0 && !scene_list_starts(to)) ||
-      (from->face_group.count > 0 && !scene_list_groups(to)) ||
-      !scene_reserve_faces(to, faces, corners) ||
+  if ((has_starts && !scene_list_starts(to)) ||
+      (has_groups && !scene_list_groups(to)) ||
+      !ARRAY_RESERVE(&to->corner, corners) ||
+      (has_starts && !ARRAY_RESERVE(&to->face_start, faces)) ||
+      (has_groups && !ARRAY_RESERVE(&to->face_group, faces)) ||
       !ARRAY_RESERVE(&picked->face_number, faces))
     return false;
   memcpy(to->corner.item + before, from->corner.item,
          corners * sizeof *to->corner.item);
   to->corner.count += corners;
   to->face_count += faces;
-  if (to->face_start.count > 0)
-    for (uint32_t f = 0; f < faces; f++)
-      to->face_start.item[to->face_start.count++] =
-          (uint32_t)before + scene_face_start(from, f + 1);
-  if (to->face_group.count > 0)
-    for (uint32_t f = 0; f < faces; f++)
-      to->face_group.item[to->face_group.count++] = scene_face_group(from, f);
+  for (uint32_t f = 0; f < faces && has_starts; f++)
+    to->face_start.item[to->face_start.count++] =
+        (uint32_t)before + scene_face_start(from, f + 1);
+  for (uint32_t f = 0; f < faces && has_groups; f++)
+    to->face_group.item[to->face_group.count++] = scene_face_group(from, f);
   return true;
 }
 
