@@ -16,9 +16,10 @@ enum { LONG_LIST = 32, TILES_OF_TWO = 5 };
 /* Cells that a thread takes at once: a list has some ten triangles. */
 enum { CELLS_IN_RANGE = PARALLEL_RANGE(1024) };
 
-/* The shortest list that has a tree.  Where faces are solved as well, shorter
- * ones than those that have a BSP are better sorted from near to far. */
-enum { BVH_LIST_MIN = 512 };
+/* The shortest list that has a tree: the shortest of all in a fuzzer's build.
+ * Where faces are solved as well, shorter ones than those that have a BSP are
+ * better sorted from near to far. */
+enum { BVH_LIST_MIN = PARALLEL_RANGE(512) };
 
 /* If the sheet has more triangles, none is prepared as an occluder, to bound
  * the memory. */
