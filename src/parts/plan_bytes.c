@@ -21,9 +21,11 @@ uint64_t plan_bytes_sum(const struct plan_bytes *bytes) {
 
 /* The word whose least significant byte comes first. */
 static inline uint64_t load_word(const unsigned char *at) {
-  return (uint64_t)at[0] | (uint64_t)at[1] << 8 | (uint64_t)at[2] << 16 |
-         (uint64_t)at[3] << 24 | (uint64_t)at[4] << 32 | (uint64_t)at[5] << 40 |
-         (uint64_t)at[6] << 48 | (uint64_t)at[7] << 56;
+  uint64_t low = (uint64_t)at[0] | (uint64_t)at[1] << 8 |
+                 (uint64_t)at[2] << 16 | (uint64_t)at[3] << 24;
+  uint64_t high = (uint64_t)at[4] | (uint64_t)at[5] << 8 |
+                  (uint64_t)at[6] << 16 | (uint64_t)at[7] << 24;
+  return high << 32 | low;
 }
 
 /* Each step is a bijection, so that no change of a single word leaves the sum as

@@ -100,7 +100,7 @@ void render_svg(struct rendered *rendered, const recto_scene *scene,
 enum { PARTS_MAX = 4, PART_PATH = 60 };
 
 struct part_files {
-  char folder[40], path[PARTS_MAX][PART_PATH];
+  char folder[40], plan[PART_PATH], path[PARTS_MAX][PART_PATH];
   unsigned count;
 };
 
@@ -109,6 +109,7 @@ static void open_parts(struct part_files *files, unsigned count) {
   if (mkdtemp(files->folder) == NULL)
     abort();
   files->count = count;
+  snprintf(files->plan, PART_PATH, "%s/drawing.plan", files->folder);
   for (unsigned i = 0; i < count; i++)
     snprintf(files->path[i], PART_PATH, "%s/%u.recto", files->folder, i);
 }
@@ -116,24 +117,30 @@ static void open_parts(struct part_files *files, unsigned count) {
 static void remove_parts(const struct part_files *files) {
   for (unsigned i = 0; i < files->count; i++)
     (void)unlink(files->path[i]);
+  (void)unlink(files->plan);
   (void)rmdir(files->folder);
 }
 
+/* Every second part is made by a plan. */
 static recto_status join_parts(struct rendered *joined,
                                const recto_scene *scene,
                                const recto_options *options,
                                const struct part_files *files) {
   const char *path[PARTS_MAX];
   recto_drawing *drawing;
-  recto_status status = RECTO_OK;
-  for (unsigned i = 0; i < files->count && status == RECTO_OK; i++) {
+  recto_error *error = &joined->error;
+  unsigned count = files->count;
+  recto_status status =
+      recto_scene_write_plan(scene, options, count, files->plan, error);
+  for (unsigned i = 0; i < count && status == RECTO_OK; i++) {
     path[i] = files->path[i];
-    status = recto_scene_write_part(scene, options, i + 1, files->count,
-                                    path[i], &joined->error);
+    status = i % 2 == 0 ? recto_scene_write_part(scene, options, i + 1, count,
+                                                 path[i], error)
+                        : recto_plan_write_part(files->plan, options, i + 1,
+                                                count, path[i], error);
   }
   if (status == RECTO_OK)
-    status =
-        recto_join_parts(path, files->count, options, &drawing, &joined->error);
+    status = recto_join_parts(path, count, options, &drawing, error);
   if (status != RECTO_OK)
     return status;
   status = write_drawing(joined, drawing, options, writer_by_name("svg"));
