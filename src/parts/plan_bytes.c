@@ -28,8 +28,8 @@ static inline uint64_t load_word(const unsigned char *at) {
   return high << 32 | low;
 }
 
-/* Each step is a bijection, so that no change of a single word leaves the sum as
- * it was. */
+/* Each step is a bijection, so that no change of a single word leaves the sum
+ * as it was. */
 void plan_bytes_add(struct plan_bytes *bytes, const void *item, size_t blocks) {
   const unsigned char *at = item;
   uint64_t a = bytes->lane[0], b = bytes->lane[1], c = bytes->lane[2],
