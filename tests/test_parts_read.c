@@ -262,9 +262,56 @@ static void a_part_holds_less_than_a_third(void **state) {
   }
 }
 
+/* A smooth surface of 2 (side - 1)^2 triangles, few edges of which are drawn. */
+static void write_smooth_model(const char *path, int side) {
+  FILE *file = fopen(path, "w");
+  assert_non_null(file);
+  for (int i = 0; i < side * side; i++) {
+    double x = (double)(i % side) / side, y = (double)(i / side) / side;
+    fprintf(file, "v %.6f %.6f %.6f\n", x, y, x * (1 - x) * (1 + y * (1 - y)));
+  }
+  for (int i = 0; i < side * (side - 1); i++)
+    if (i % side + 1 < side)
+      fprintf(file, "f %d %d %d\nf %d %d %d\n", i + 1, i + 2, i + side + 2,
+              i + 1, i + side + 2, i + side + 1);
+  assert_int_equal(fclose(file), 0);
+}
+
+static bool draw_with_one_thread(const void *model) {
+  recto_options options;
+  recto_drawing *drawing;
+  recto_scene *scene = read_model(model, false);
+  recto_options_init(&options);
+  options.solver.threads = 1;
+  assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
+                   RECTO_OK);
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(scene);
+  return true;
+}
+
+/* What a large model takes that a small one does not, for each triangle. */
+static void a_triangle_takes_few_bytes(void **state) {
+  enum { SIDE = 700, LEAST = 20, BYTES = 90 };
+  char small[400], large[400];
+  if (is_under_valgrind() || SANITIZER_OF_ADDRESSES || SANITIZER_OF_THREADS)
+    skip();
+  snprintf(small, sizeof small, "%s", temporary_path(state, "model.obj"));
+  snprintf(large, sizeof large, "%s", temporary_path(state, "all.obj"));
+  write_smooth_model(small, LEAST);
+  write_smooth_model(large, SIDE);
+  size_t more = memory_peak_of(draw_with_one_thread, large) -
+                memory_peak_of(draw_with_one_thread, small);
+  double each = (double)more / (2.0 * (SIDE - 1) * (SIDE - 1));
+  print_message("%.1f bytes a triangle\n", each);
+  assert_true(each < BYTES);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(a_part_holds_less_than_a_third,
+                                      temporary_set_up, temporary_tear_down),
+      cmocka_unit_test_setup_teardown(a_triangle_takes_few_bytes,
                                       temporary_set_up, temporary_tear_down),
       cmocka_unit_test_setup_teardown(parts_that_read_are_the_same,
                                       temporary_set_up, temporary_tear_down),
