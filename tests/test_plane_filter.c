@@ -84,9 +84,26 @@ static void check_bounds(const struct occluder *occluder,
   assert_true(fabsl(off) <= depth_plane_error(&depth, p.x, p.y));
 }
 
+/* The sign along a part of a segment; whether it is certain. */
+static bool check_sign_between(const struct occluder *occluder,
+                               const struct plane_filter *filter,
+                               struct geom_point p, struct geom_point q) {
+  enum { PARTS = 32 }; /* of the segment: 2^5 times 2^121 fits */
+  int t[2] = {(int)(exact_random(&seed) % PARTS), PARTS};
+  t[1] = t[0] + 1 + (int)(exact_random(&seed) % (uint64_t)(PARTS - t[0]));
+  int sign = plane_filter_contact_sign_between(
+      filter, p, q, (double)t[0] / PARTS, (double)t[1] / PARTS);
+  for (int k = 0; k < 2; k++) {
+    int128 at = occluder_value(occluder, p) * (PARTS - t[k]) +
+                occluder_value(occluder, q) * t[k];
+    assert_true(sign == 0 || sign == geom_sign128(at));
+  }
+  return sign != 0;
+}
+
 /* All doubts and certainties of one triangle; counts the certain ones. */
 static void compare_with_exact(bool perspective, int bits, int depth_bits,
-                               int certain[5]) {
+                               int certain[7]) {
   struct sheet sheet;
   struct occluder occluder;
   start(&sheet, perspective, bits, depth_bits);
@@ -119,12 +136,15 @@ static void compare_with_exact(bool perspective, int bits, int depth_bits,
     bool touches = side[0] == 0 && side[1] == 0 && side[2] == 0;
     assert_true(plane_filter_may_touch(&plane, p) || !touches);
     certain[4] += !plane_filter_may_touch(&plane, p);
+    bool differ = side[0] * side[1] < 0;
+    certain[5] += check_sign_between(&occluder, &plane, p[0], p[1]) && differ;
+    certain[6] += differ;
   }
   exact_sheet_fini(&sheet);
 }
 
 static void doubles_are_right_or_undecided(void **state) {
-  int certain[5] = {0, 0, 0, 0, 0};
+  int certain[7] = {0};
   (void)state;
   for (int i = 0; i < 300; i++) {
     int bits = 4 + i % 26, depth_bits = 4 + i % 36;
@@ -136,6 +156,7 @@ static void doubles_are_right_or_undecided(void **state) {
   assert_true(certain[2] > 1000);
   assert_true(certain[3] > 150000);
   assert_true(certain[4] > 10000);
+  assert_true(certain[5] > 500 && 2 * certain[5] > certain[6]);
 }
 
 /* ---- Octagons ------------------------------------------------------------ */

@@ -16,8 +16,8 @@ struct ratio {
  * where they can. */
 int ratio_compare(struct ratio a, struct ratio b);
 
-/* The nearest double (to within two units in the last place), for output, on
- * which no predicate depends. */
+/* The nearest double (to within two units in the last place), for output and
+ * for filters with an error bound. */
 double ratio_to_double(struct ratio a);
 
 /* p0 + t (p1 - p0) rounded to the nearest integer, halves up; depends only on

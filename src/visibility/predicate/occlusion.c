@@ -71,21 +71,37 @@ int128 occluder_value(const struct occluder *occluder, struct geom_point p) {
          occluder->t1 * p.z;
 }
 
-/* The sign of occluder_value where doubles certify it, else 0. */
-static int depth_filter(const struct occluder *occluder, struct geom_point p) {
+/* The value of the plane at a point in units of 2^-16, the tolerance there, and
+ * a bound of the error of each of their sums and differences. */
+struct filtered_value {
+  double value, tolerance, bound;
+};
+
+static inline struct filtered_value
+filtered_value_at(const struct occluder *occluder, struct geom_point p) {
   double x = occluder->nx * (double)((int64_t)p.x - occluder->p[0].x),
          y = occluder->ny * (double)((int64_t)p.y - occluder->p[0].y),
          z = occluder->nz * (double)(p.z - occluder->p[0].z),
          t = occluder->t0_near + occluder->t1_near * (double)p.z;
-  double value = (x + y + z) * FIXED_ONE + t;
-  double bound = FILTER_ERROR * ((fabs(x) + fabs(y) + fabs(z)) * FIXED_ONE + t);
-  return (value > bound) - (value < -bound);
+  return (struct filtered_value){
+      (x + y + z) * FIXED_ONE, t,
+      FILTER_ERROR * ((fabs(x) + fabs(y) + fabs(z)) * FIXED_ONE + t)};
+}
+
+/* The sign of occluder_value where doubles certify it, else 0. */
+static int depth_filter(const struct occluder *occluder, struct geom_point p) {
+  struct filtered_value at = filtered_value_at(occluder, p);
+  double value = at.value + at.tolerance;
+  return (value > at.bound) - (value < -at.bound);
 }
 
 int occluder_side(const struct occluder *occluder, struct geom_point p) {
   int128 tolerance, value;
-  if (depth_filter(occluder, p) < 0)
+  struct filtered_value at = filtered_value_at(occluder, p);
+  if (at.value + at.tolerance < -at.bound)
     return -1;
+  if (at.value - at.tolerance > at.bound)
+    return 1;
   tolerance = occluder->t0 + occluder->t1 * p.z;
   value = geom_plane_value(&occluder->plane, p) * FIXED_ONE;
   return (value > tolerance) - (value < -tolerance);
@@ -252,6 +268,29 @@ bool occlude_edge(const struct occluder *occluder, struct geom_point p,
   return clip_to_depth(occluder, p, q, interval, counts);
 }
 
+/* Is one of the points a corner of the triangle? */
+static bool has_corner_at(const struct geom_triangle *corners,
+                          struct geom_point p, struct geom_point q) {
+  bool found = false;
+  for (int k = 0; k < 3; k++)
+    found |=
+        geom_same_point(corners->p[k], p) || geom_same_point(corners->p[k], q);
+  return found;
+}
+
+/* The sign of the plane along the interval of the edge, as
+ * plane_filter_contact_sign_between has it; 0 where an end of the edge is a
+ * corner of the triangle, which is_behind_at_exit is for. */
+static int sign_along(const struct plane_filter *plane,
+                      const struct geom_triangle *corners, struct geom_point p,
+                      struct geom_point q,
+                      const struct occluded_interval *interval) {
+  int sign = plane_filter_contact_sign_between(plane, p, q,
+                                               ratio_to_double(interval->from),
+                                               ratio_to_double(interval->to));
+  return sign != 0 && has_corner_at(corners, p, q) ? 0 : sign;
+}
+
 bool occlude_edge_by_triangle(const struct sheet *sheet, uint32_t triangle,
                               struct geom_point p, struct geom_point q,
                               struct occluded_interval *interval,
@@ -270,6 +309,9 @@ bool occlude_edge_by_triangle(const struct sheet *sheet, uint32_t triangle,
   at_q = plane_filter_contact_sign(&plane, q);
   if (at_p == at_q && at_p != 0)
     return at_p < 0;
+  int sign = sign_along(&plane, &corners, p, q, interval);
+  if (sign != 0)
+    return sign < 0;
   occluder_init(&occluder, sheet, triangle);
   return clip_to_depth(&occluder, p, q, interval, counts);
 }

@@ -138,6 +138,24 @@ int plane_filter_contact_sign(const struct plane_filter *plane,
   return (at.value > -at.least) - (at.value < -at.most);
 }
 
+/* value + T is linear along the segment, so bounds of it at p and q bound it
+ * anywhere.  A rounded parameter moves it by a few u times what it is at p and
+ * q. */
+int plane_filter_contact_sign_between(const struct plane_filter *plane,
+                                      struct geom_point p, struct geom_point q,
+                                      double from, double to) {
+  struct bounded_value at_p = value_at(plane, p), at_q = value_at(plane, q);
+  double low_p = at_p.value + at_p.least, low_q = at_q.value + at_q.least,
+         high_p = at_p.value + at_p.most, high_q = at_q.value + at_q.most;
+  double off =
+      ERROR_BOUND * (fabs(low_p) + fabs(low_q) + fabs(high_p) + fabs(high_q));
+  bool in_front = low_p + from * (low_q - low_p) > off &&
+                  low_p + to * (low_q - low_p) > off;
+  bool is_behind = high_p + from * (high_q - high_p) < -off &&
+                   high_p + to * (high_q - high_p) < -off;
+  return in_front - is_behind;
+}
+
 /* The coordinates given to plane_filter_compare are off by less than this. */
 #define POINT_ERROR 0.25
 

@@ -63,6 +63,12 @@ bool triangles_may_touch(const struct sheet *sheet,
 int plane_filter_contact_sign(const struct plane_filter *plane,
                               struct geom_point p);
 
+/* The same sign all along a part of the segment p-q, from parameter `from` to
+ * `to`, in [0, 1] and rounded; 0 where it changes or is not certain. */
+int plane_filter_contact_sign_between(const struct plane_filter *plane,
+                                      struct geom_point p, struct geom_point q,
+                                      double from, double to);
+
 /* Compares the depths of two planes at a point of the page known to a quarter
  * of a unit: +1 where g is strictly nearer, -1 where f is, 0 where that is not
  * certain. */
