@@ -35,6 +35,7 @@ librecto_core_la_SOURCES += \
   %D%/lines/nearest.c %D%/lines/nearest.h \
   %D%/lines/nodes.c \
   %D%/lines/nodes_near_segment.c %D%/lines/nodes_near_segment.h \
+  %D%/lines/open_paths.c %D%/lines/open_paths.h \
   %D%/lines/overlap.c %D%/lines/overlap.h \
   %D%/lines/overlap_collinear.c \
   %D%/lines/overlap_output.c \

@@ -3,7 +3,7 @@
  * Phases
  *   1 pair the ends at every node (pairing.c), which leaves simple paths and
  *          loops
- *   2 follow the path from every unpaired end to its other end
+ *   2 follow the paths between unpaired ends (open_paths.c)
  *   3 the segments not visited so far form loops
  *   4 orient every path, see paths_chain
  *   5 sort the paths by their first edges
@@ -13,13 +13,15 @@
 #include "ink/lines/paths.h"
 
 #include "base/sort.h"
+#include "ink/lines/open_paths.h"
 #include "ink/lines/pairing.h"
 
 struct chain {
   const struct segment_graph *graph;
   struct ink_paths *paths;
   uint32_t *mate;
-  uint8_t *used;       /* one a segment */
+  atomic_uchar *used; /* one a segment */
+  struct open_paths open;
   ARRAY(uint32_t) end; /* path by path, each point as one of the ends there */
   uint32_t *from;      /* one a path, sorted: the first of its ends */
   uint32_t *path_of_segment; /* the caller's, or NULL */
@@ -56,38 +58,47 @@ static void reverse_ends(uint32_t *end, size_t count) {
   }
 }
 
-/* Adds the path of the ends from `from` on; its first segment is `first`. */
-static bool add_chained_path(struct chain *c, size_t from, uint32_t first,
-                             bool closed) {
-  const struct graph_segment *s = &c->graph->segment.item[first];
-  struct ink_path path = {.point = (uint32_t)from,
-                          .count = (uint32_t)(c->end.count - from),
-                          .edge = s->edge,
-                          .hidden = graph_segment_is_hidden(s),
-                          .closed = closed};
-  return ARRAY_PUSH(&c->paths->path, path);
-}
-
 /* ---- Open paths ---------------------------------------------------------- */
 
-static bool follow_open_path(struct chain *c, uint32_t end) {
-  size_t from = c->end.count;
-  uint32_t last = end;
-  for (; end != SEGMENT_GRAPH_NONE; end = c->mate[last]) {
-    c->used[end >> 1] = 1;
-    if (!ARRAY_PUSH(&c->end, end))
+/* Stores the ends of a range of open paths, which were added in their order, so
+ * that each begins at the lower point. */
+static bool store_range_of_paths(void *user, struct parallel_range range) {
+  const struct chain *c = user;
+  for (size_t i = range.begin; i < range.end; i++) {
+    struct ink_path *path = &c->paths->path.item[i];
+    uint32_t *end = c->end.item + path->point, last = path->count - 1;
+    if (!poll_at(i))
       return false;
-    last = end ^ 1;
+    open_paths_store(&c->open, &c->open.path.item[i], end);
+    if (is_lower(point_of_end(c, end[last]), point_of_end(c, end[0])))
+      reverse_ends(end, path->count);
+    const struct graph_segment *s = &c->graph->segment.item[end[0] >> 1];
+    path->edge = s->edge;
+    path->hidden = graph_segment_is_hidden(s);
   }
-  if (!ARRAY_PUSH(&c->end, last))
+  return true;
+}
+
+static bool follow_open_paths(struct chain *c) {
+  if (!open_paths_follow(&c->open, c->mate, c->used, c->graph->segment.count))
     return false;
-  uint32_t *path = c->end.item + from, first = path[0];
-  size_t count = c->end.count - from;
-  if (is_lower(point_of_end(c, last), point_of_end(c, first))) {
-    reverse_ends(path, count);
-    first = last;
+  size_t count = c->open.path.count, ends = 0;
+  if (!ARRAY_RESERVE(&c->paths->path, count))
+    return false;
+  for (size_t i = 0; i < count; i++) {
+    struct ink_path path = {.point = (uint32_t)ends,
+                            .count = c->open.path.item[i].count};
+    ends += path.count;
+    c->paths->path.item[c->paths->path.count++] = path;
   }
-  return add_chained_path(c, from, first >> 1, false);
+  if (!ARRAY_RESERVE(&c->end, ends))
+    return false;
+  c->end.count = ends;
+  bool ok = parallel_ranges(parallel_workers(count, PATHS_IN_RANGE), count,
+                            PATHS_IN_RANGE, store_range_of_paths, c);
+  open_paths_fini(&c->open);
+  c->open = (struct open_paths){.worker = NULL};
+  return ok;
 }
 
 /* ---- Loops --------------------------------------------------------------- */
@@ -116,6 +127,17 @@ static size_t choose_path_start(const struct chain *c, const uint32_t *end,
   return start;
 }
 
+/* Adds the loop of the ends from `from` on; its first segment is `first`. */
+static bool add_loop_of_ends(struct chain *c, size_t from, uint32_t first) {
+  const struct graph_segment *s = &c->graph->segment.item[first];
+  struct ink_path path = {.point = (uint32_t)from,
+                          .count = (uint32_t)(c->end.count - from),
+                          .edge = s->edge,
+                          .hidden = graph_segment_is_hidden(s),
+                          .closed = true};
+  return ARRAY_PUSH(&c->paths->path, path);
+}
+
 static bool follow_loop(struct chain *c, uint32_t end) {
   size_t from = c->end.count;
   uint32_t start = end;
@@ -139,24 +161,15 @@ static bool follow_loop(struct chain *c, uint32_t end) {
     first = loop[count - 1] >> 1;
     reverse_ends(loop + 1, count - 1);
   }
-  return add_chained_path(c, from, first, true);
+  return add_loop_of_ends(c, from, first);
 }
 
 static bool follow_all(struct chain *c) {
   size_t count = c->graph->segment.count;
-  for (size_t i = 0; i < count; i++) {
-    if (!poll_at(i))
-      return false;
-    for (uint32_t side = 0; side < 2 && !c->used[i]; side++) {
-      uint32_t end = (uint32_t)(2 * i) + side;
-      if (c->mate[end] == SEGMENT_GRAPH_NONE && !follow_open_path(c, end))
-        return false;
-    }
-  }
-  for (size_t i = 0; i < count; i++)
-    if (!c->used[i] && !follow_loop(c, (uint32_t)(2 * i)))
-      return false;
-  return true;
+  bool ok = follow_open_paths(c);
+  for (size_t i = 0; ok && i < count; i++)
+    ok = poll_at(i) && (c->used[i] != 0 || follow_loop(c, (uint32_t)(2 * i)));
+  return ok;
 }
 
 /* ---- In order ------------------------------------------------------------ */
@@ -247,6 +260,7 @@ recto_status paths_chain(struct ink_paths *paths, uint32_t *path_of_segment,
             follow_all(&c) && sort_paths(paths) && place_points(&c);
   mem_free(c.mate);
   mem_free(c.used);
+  open_paths_fini(&c.open);
   mem_free(c.from);
   ARRAY_FREE(&c.end);
   return ok ? RECTO_OK : error_memory(error);

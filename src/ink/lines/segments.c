@@ -181,7 +181,8 @@ static struct intervals next_intervals(struct mixed_rows *rows, uint32_t edge) {
 
 /* Adds the visible or the hidden intervals of the drawable edges of a range, in
  * order. */
-static void collect_edges(struct collector *c, struct parallel_range range) {
+static void collect_from_edges(struct collector *c,
+                               struct parallel_range range) {
   const struct map *map = c->of->map;
   struct mixed_rows mixed = rows_from(map->mixed.item, map->mixed.count,
                                       map->interval.item, range.begin);
@@ -210,10 +211,10 @@ static void collect_edges_of_range(const struct segment_collection *of,
                                    struct parallel_range range, bool counting) {
   struct collected_range *own = &of->edges[range.begin / PARALLEL_ITEMS];
   struct collector c = {.of = of, .counting = counting, .range = *own};
-  collect_edges(&c, range);
+  collect_from_edges(&c, range);
   c.hidden = true;
   if (of->options->ink.hidden != RECTO_HIDDEN_NONE)
-    collect_edges(&c, range);
+    collect_from_edges(&c, range);
   *own = c.range;
 }
 
