@@ -456,7 +456,8 @@ typedef struct recto_ink_options {
   recto_order order;
   double simplify_mm; /* no point of a line moves by more */
   /* Hatch lines that are shorter are dropped, and so are creases and group
-   * borders of which an end is free; negative: half a pen, and creases 10 pens.
+   * borders of which an end is free, and lines of creases mostly of shorter
+   * pieces; negative: half a pen, and creases 10 pens.
    * Other lines are dropped if they are shorter than that and than half a pen.
    */
   double min_stroke_mm;

@@ -307,39 +307,56 @@ static void a_gap_is_closed_once(void **state) {
 
 /* ---- Zigzags ------------------------------------------------------------- */
 
-/* Whether a crease of forty edges is drawn that begins and ends free: it turns
- * at each point by one angle, and its faces meet at another one. */
-static bool is_zigzag_drawn(double turn_deg, double fold_deg) {
-  enum { POINTS = 41 };
-  const double degree = acos(-1) / 180, fold = fold_deg * degree;
+/* A scene of two faces that meet at an angle, of which all creases are. */
+static void start_fold(struct ink_fixture *k, double fold_deg) {
+  const double fold = fold_deg * acos(-1) / 180;
   const struct scene_point corner[4] = {
       {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -cos(fold), -sin(fold)}};
   static const uint32_t face[2][3] = {{0, 1, 2}, {1, 0, 3}};
-  struct ink_fixture k;
-  start(&k);
+  start(k);
   for (int i = 0; i < 4; i++)
-    assert_true(ARRAY_PUSH(&k.scene.point, corner[i]));
+    assert_true(ARRAY_PUSH(&k->scene.point, corner[i]));
   for (int i = 0; i < 2; i++)
-    assert_int_equal(scene_add_face(&k.scene, face[i], 3, 1, NULL, NULL),
+    assert_int_equal(scene_add_face(&k->scene, face[i], 3, 1, NULL, NULL),
                      RECTO_OK);
-  k.sheet.scene = &k.scene;
-  k.sheet.triangles_dropped = true;
-  k.sheet.camera.s = k.sheet.camera.d_max = 1;
-  k.sheet.camera.middle_mm[0] = k.sheet.camera.middle_mm[1] = 50;
+  k->sheet.scene = &k->scene;
+  k->sheet.triangles_dropped = true;
+  k->sheet.camera.s = k->sheet.camera.d_max = 1;
+  k->sheet.camera.middle_mm[0] = k->sheet.camera.middle_mm[1] = 50;
+}
+
+static void add_fold(struct ink_fixture *k, uint32_t p, uint32_t q) {
+  uint32_t e = ink_fixture_edge(k, p, q, CREASE);
+  k->sheet.edge.item[e].triangle[0] = 0;
+  k->sheet.edge.item[e].triangle[1] = 1;
+}
+
+/* Draws it, and returns how many strokes there are; the rest is dropped. */
+static size_t draw_folds(struct ink_fixture *k) {
+  ink_fixture_draw(k);
+  size_t strokes = k->drawing.stroke.count;
+  assert_true((k->drawing.dropped.count == 0) == (strokes > 0));
+  ink_fixture_end(k);
+  return strokes;
+}
+
+/* Whether a crease of forty edges of four millimetres is drawn that begins and
+ * ends free: it turns at each point by one angle, and its faces meet at another
+ * one. */
+static bool is_zigzag_drawn(double turn_deg, double fold_deg) {
+  enum { POINTS = 41 };
+  const double degree = acos(-1) / 180;
+  struct ink_fixture k;
+  uint32_t last = 0;
+  start_fold(&k, fold_deg);
   for (int i = 0; i < POINTS; i++) {
-    uint32_t p = ink_fixture_point(&k, 20 + i * cos(turn_deg * degree / 2),
-                                   50 + i % 2 * sin(turn_deg * degree / 2));
-    if (i == 0)
-      continue;
-    uint32_t e = ink_fixture_edge(&k, p - 1, p, CREASE);
-    k.sheet.edge.item[e].triangle[0] = 0;
-    k.sheet.edge.item[e].triangle[1] = 1;
+    uint32_t p = ink_fixture_point(&k, 5 + 4 * i * cos(turn_deg * degree / 2),
+                                   50 + i % 2 * 4 * sin(turn_deg * degree / 2));
+    if (i > 0)
+      add_fold(&k, last, p);
+    last = p;
   }
-  ink_fixture_draw(&k);
-  bool drawn = k.drawing.stroke.count == 1;
-  assert_int_equal(k.drawing.dropped.count, !drawn);
-  ink_fixture_end(&k);
-  return drawn;
+  return draw_folds(&k) == 1;
 }
 
 /* Decision 0056: 45 degrees are asked of a line, and 60 of one that turns back,
@@ -349,9 +366,80 @@ static void zigzags_must_be_sharper_than_other_lines(void **state) {
   assert_false(is_zigzag_drawn(0, 40));
   assert_true(is_zigzag_drawn(0, 50));
   assert_false(is_zigzag_drawn(110, 40));
-  assert_true(is_zigzag_drawn(110, 50));
+  assert_true(is_zigzag_drawn(110, 65));
   assert_false(is_zigzag_drawn(130, 50));
   assert_true(is_zigzag_drawn(130, 65));
+}
+
+/* ---- Lines that are noise by their shape: decision 0078 ------------------ */
+
+/* A line whose pieces have so many edges of a length, between turns by 90
+ * degrees. */
+static size_t draw_steps(int pieces, int edges, double length,
+                         double fold_deg) {
+  struct ink_fixture k;
+  double at[2] = {10, 10};
+  start_fold(&k, fold_deg);
+  uint32_t last = ink_fixture_point(&k, at[0], at[1]);
+  for (int i = 0; i < pieces * edges; i++) {
+    at[i / edges % 2] += length;
+    uint32_t p = ink_fixture_point(&k, at[0], at[1]);
+    add_fold(&k, last, p);
+    last = p;
+  }
+  return draw_folds(&k);
+}
+
+/* Pieces are short below ten pens.  A line is noise where most of it is in such
+ * pieces and it bends by at most 60 degrees in the mean. */
+static void lines_of_short_pieces_are_not_drawn(void **state) {
+  (void)state;
+  assert_int_equal(draw_steps(20, 4, 0.7, 55), 0);
+  assert_int_equal(draw_steps(20, 4, 0.8, 55), 1);
+  assert_int_equal(draw_steps(20, 4, 0.7, 65), 1);
+  assert_int_equal(draw_steps(33, 4, 0.7, 55), 1); /* of few ends */
+  assert_int_equal(draw_steps(32, 4, 0.7, 55), 0);
+}
+
+/* Nowhere above 60 degrees: 30 pens at least, and two edges a piece from four
+ * pieces on. */
+static void shallow_lines_are_long_and_smooth(void **state) {
+  (void)state;
+  assert_int_equal(draw_steps(1, 4, 2.2, 55), 0);
+  assert_int_equal(draw_steps(1, 4, 2.3, 55), 1);
+  assert_int_equal(draw_steps(1, 4, 2.2, 65), 1);
+  assert_int_equal(draw_steps(4, 1, 6, 55), 0);
+  assert_int_equal(draw_steps(4, 1, 6, 65), 1);
+  assert_int_equal(draw_steps(3, 1, 6, 55), 1);
+  assert_int_equal(draw_steps(1, 1, 20, 55), 1);
+  assert_int_equal(draw_steps(4, 2, 6, 55), 1);
+}
+
+/* A closed line of so many edges. */
+static size_t draw_ring(int sides, double radius, double fold_deg, bool exact) {
+  struct ink_fixture k;
+  uint32_t p[12];
+  start_fold(&k, fold_deg);
+  k.options.ink.exact = exact;
+  for (int i = 0; i < sides; i++) {
+    double angle = 2 * acos(-1) * i / sides;
+    p[i] = ink_fixture_point(&k, 50 + radius * cos(angle),
+                             50 + radius * sin(angle));
+  }
+  for (int i = 0; i < sides; i++)
+    add_fold(&k, p[i], p[(i + 1) % sides]);
+  return draw_folds(&k);
+}
+
+/* Rings are what solids have, however small and shallow; one about a single
+ * triangle is not. */
+static void closed_lines_stay(void **state) {
+  (void)state;
+  for (int sides = 4; sides <= 12; sides++)
+    assert_int_equal(draw_ring(sides, 0.5, 35, false), 1);
+  assert_int_equal(draw_ring(3, 0.5, 55, false), 0);
+  assert_int_equal(draw_ring(3, 0.5, 65, false), 1);
+  assert_int_equal(draw_ring(3, 0.5, 55, true), 1);
 }
 
 /* ---- Hairs --------------------------------------------------------------- */
@@ -489,6 +577,9 @@ int main(void) {
       cmocka_unit_test(only_lines_that_go_on_are_joined),
       cmocka_unit_test(a_gap_is_closed_once),
       cmocka_unit_test(zigzags_must_be_sharper_than_other_lines),
+      cmocka_unit_test(lines_of_short_pieces_are_not_drawn),
+      cmocka_unit_test(shallow_lines_are_long_and_smooth),
+      cmocka_unit_test(closed_lines_stay),
       cmocka_unit_test(hairs_within_half_a_pen_are_covered),
       cmocka_unit_test(a_hair_that_sticks_out_is_drawn),
       cmocka_unit_test(what_covers_is_of_the_same_pen_and_as_wide),

@@ -59,6 +59,12 @@ static recto_status make_graph(struct ink *ink, struct segment_graph *graph,
   return status;
 }
 
+static struct crease_angles angles_of(const recto_options *options) {
+  return (struct crease_angles){options->mesh.crease_deg,
+                                pens_crease_start_deg(options),
+                                pens_zigzag_start_deg(options)};
+}
+
 /* Joins the segments into cleaned polylines.
  * path_of_segment  see paths_chain */
 static recto_status make_paths(const struct ink *ink, struct ink_paths *paths,
@@ -68,9 +74,7 @@ static recto_status make_paths(const struct ink *ink, struct ink_paths *paths,
   double step = ink->options->output.unit_mm * SHEET_UNITS_PER_MM;
   recto_status status = paths_chain(paths, path_of_segment, graph, error);
   bool tidy = is_tidied(ink->options);
-  const struct crease_angles angles = {ink->options->mesh.crease_deg,
-                                       pens_crease_start_deg(ink->options),
-                                       pens_zigzag_start_deg(ink->options)};
+  const struct crease_angles angles = angles_of(ink->options);
   if (status == RECTO_OK && tidy &&
       !(paths_find_free_ends(paths, graph, ink->sheet, ink->dropped, step) &&
         paths_find_weak(paths, graph, ink->sheet, &angles)))
@@ -234,7 +238,7 @@ static recto_status drop_short_lines(struct ink *ink,
   return status;
 }
 
-/* Keeps a segment that was dropped with the drawing. */
+/* Keeps a segment that was dropped with the drawing, if it is visible. */
 static bool drop_segment(struct ink *ink, const struct segment_graph *graph,
                          const struct graph_segment *segment) {
   const struct ink_path path = {.edge = segment->edge};
@@ -244,21 +248,23 @@ static bool drop_segment(struct ink *ink, const struct segment_graph *graph,
       point_mm(ink, graph->node.item[segment->node[1]])};
   ++ink->drawing->counts.too_short;
   ink->dropped[segment->edge] = 1;
-  return stroke_add_dropped(ink->drawing, &stroke, end, 2, false);
+  return graph_segment_is_hidden(segment) ||
+         stroke_add_dropped(ink->drawing, &stroke, end, 2, false);
 }
 
-/* Drops the creases that close short cycles. */
-static recto_status drop_short_cycles(struct ink *ink,
-                                      struct segment_graph *graph,
-                                      recto_error *error) {
+/* Drops the segments of creases that a search finds. */
+static recto_status drop_creases(
+    struct ink *ink, struct segment_graph *graph,
+    bool (*find)(const struct segment_graph *, const struct sheet *,
+                 const struct pens *, const struct crease_angles *, uint8_t *),
+    recto_error *error) {
   size_t count = graph->segment.count, drops = 0;
+  const struct crease_angles angles = angles_of(ink->options);
   uint8_t *drop = mem_calloc(count, 1);
-  bool ok = drop != NULL && segment_graph_find_short_cycles(
-                                graph, ink->sheet, ink->pens,
-                                ink->options->mesh.crease_deg, drop);
+  bool ok = drop != NULL && find(graph, ink->sheet, ink->pens, &angles, drop);
   for (size_t i = 0; ok && i < count; i++)
     drops += drop[i];
-  if (ok && drops > 0) {
+  if (ok && drops > 0 && ink->dropped == NULL) {
     ink->dropped = mem_calloc(ink->sheet->edge.count, 1);
     ok = ink->dropped != NULL;
   }
@@ -290,7 +296,9 @@ static recto_status draw_lines(struct ink *ink, recto_error *error) {
   if (status == RECTO_OK && !keep_gap_ends(ink, &graph))
     status = error_memory(error);
   if (status == RECTO_OK && is_tidied(ink->options))
-    status = drop_short_cycles(ink, &graph, error);
+    status = drop_creases(ink, &graph, segment_graph_find_speckled, error);
+  if (status == RECTO_OK && is_tidied(ink->options))
+    status = drop_creases(ink, &graph, segment_graph_find_short_cycles, error);
   if (status == RECTO_OK && by_groups && ink->options->ink.min_stroke_mm != 0)
     status = drop_short_lines(ink, &graph, error);
   if (status == RECTO_OK && ids)

@@ -45,6 +45,7 @@ librecto_core_la_SOURCES += \
   %D%/lines/segment_order.c \
   %D%/lines/segments.c \
   %D%/lines/short_cycles.c \
+  %D%/lines/speckled_creases.c \
   %D%/lines/simplify.c \
   %D%/lines/straighten.c \
   %D%/lines/stroke.c %D%/lines/stroke.h \

@@ -63,12 +63,6 @@ USE_RESULT bool paths_find_free_ends(struct ink_paths *paths,
                                      const uint8_t *dropped,
                                      double output_step);
 
-/* Of creases: the angle; that by which one that ends free bends somewhere, 0:
- * none need; and one that is a zigzag. */
-struct crease_angles {
-  double crease_deg, start_deg, zigzag_deg;
-};
-
 /* Sets is_weak of the paths of creases that are free, where no edge that is
  * joined to them at points of the mesh by creases, drawn as such or as
  * silhouettes, bends by more than the angle; another angle where these edges

@@ -216,6 +216,25 @@ graph_segment_is_hidden(const struct graph_segment *segment) {
   return segment->pen_key & 1;
 }
 
+/* Of creases: the angle; that by which one that ends free bends somewhere, 0:
+ * none need; and one that is a zigzag. */
+struct crease_angles {
+  double crease_deg, start_deg, zigzag_deg;
+};
+
+/* Sets drop[i] of the segments i of creases whose line on the mesh is speckled:
+ * more than half of its length is in pieces shorter than the shortest crease
+ * that may end free (pens_shortest_crease_mm), where a piece ends at ends,
+ * branches and turns of more than 45 degrees; one in 16 pieces or more ends
+ * free; and the mean angle of its faces is not above that for zigzags.
+ * drop  one a segment, 0
+ * Returns false when memory ran out.  Cost: linear in the edges */
+USE_RESULT bool segment_graph_find_speckled(const struct segment_graph *graph,
+                                            const struct sheet *sheet,
+                                            const struct pens *pens,
+                                            const struct crease_angles *angles,
+                                            uint8_t *drop);
+
 /* Sets drop[i] of the visible segments i of creases that close a cycle of
  * visible segments on the page which is no longer than three of the shortest
  * creases that may end free (pens_shortest_crease_mm), and are themselves
@@ -226,6 +245,6 @@ graph_segment_is_hidden(const struct graph_segment *segment) {
  * Cost  n log n; the search for a cycle ends after 32 nodes */
 USE_RESULT bool segment_graph_find_short_cycles(
     const struct segment_graph *graph, const struct sheet *sheet,
-    const struct pens *pens, double crease_deg, uint8_t *drop);
+    const struct pens *pens, const struct crease_angles *angles, uint8_t *drop);
 
 #endif

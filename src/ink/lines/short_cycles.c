@@ -172,10 +172,11 @@ static int compare_sharpness(const void *a, const void *b, void *user) {
 
 bool segment_graph_find_short_cycles(const struct segment_graph *graph,
                                      const struct sheet *sheet,
-                                     const struct pens *pens, double crease_deg,
+                                     const struct pens *pens,
+                                     const struct crease_angles *angles,
                                      uint8_t *drop) {
   struct cycle_search c = {.graph = graph, .is_absent = drop};
-  bool ok = list_cycle_candidates(&c, sheet, pens, crease_deg) &&
+  bool ok = list_cycle_candidates(&c, sheet, pens, angles->crease_deg) &&
             sort_stable(c.candidate.item, c.candidate.count,
                         sizeof *c.candidate.item, compare_sharpness, NULL);
   for (size_t i = 0; ok && i < c.candidate.count; i++) {

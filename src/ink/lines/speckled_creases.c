@@ -1,0 +1,281 @@
+/* speckled_creases.c - finds the lines of creases that are noise by their
+ * shape.
+ *
+ * Where a scan is rough, edges that bend by more than the crease angle by
+ * chance touch each other, and form lines that branch, turn and end at every
+ * few edges.  Each of their pieces alone would be left out as a short crease
+ * that ends free.  Lines that are nowhere sharp have to be longer.
+ *
+ * Phases
+ *   1 list what meets at the vertices
+ *   2 join the edges of a line to pieces, which end where the line ends,
+ *     branches or turns sharply
+ *   3 sum up, for each line, how much of it is in short pieces
+ * A line is what creases form on the mesh, whatever is seen of it, and a length
+ * is one in space at the drawing's scale: the result hardly depends on the
+ * view. */
+#include "ink/lines/segment_graph.h"
+
+#include <math.h>
+
+#include "base/poll.h"
+#include "base/union_find.h"
+#include "ink/lines/crease_lines.h"
+#include "ink/pens.h"
+#include "scene/angle.h"
+#include "view/project.h"
+
+/* A piece ends where its line turns by more than 45 degrees. */
+#define PIECE_END_COSINE 0.70710678118654752
+
+/* A line of more pieces for each of its free ends is a network: of a solid, for
+ * instance, of which a crease fades out. */
+enum { END_PIECES = 16 };
+
+/* A line of fewer pieces may have few edges, as those of a roof have. */
+enum { SHALLOW_PIECES = 4 };
+
+/* What meets at a vertex. */
+struct speckle_corner {
+  uint32_t edge[2], creases; /* the first two, and how many there are */
+  uint32_t drawable;         /* edges, up to 2 */
+};
+
+struct speckle_line {
+  double length, in_short; /* of all edges, of those in short pieces */
+  double least;            /* the length of a line that is not sharp,
+                                        at least; mm as those */
+  double bend;             /* degrees, times mm */
+  bool is_sharp;           /* an edge bends by more than a zigzag's */
+  uint32_t edges, pieces, free_ends; /* how many there are */
+};
+
+struct speckle_search {
+  const struct sheet *sheet;
+  const struct pens *pens;
+  struct projection projection;
+  double crease, sharp; /* the cosines of the crease angle, that of zigzags */
+  struct speckle_corner *corner; /* one a vertex */
+  uint32_t *line;                /* a union-find of the sheet's points */
+  uint32_t *piece;               /* one of its edges */
+  double *piece_mm;              /* one an edge: of a piece's root */
+  struct speckle_line *lines;    /* one a point: of a line's root */
+};
+
+/* ---- Vertices ------------------------------------------------------------ */
+
+/* Whether an edge is of the line of a crease.
+ * cosine  gets that of the angle between its faces */
+static bool is_of_line(const struct speckle_search *s, size_t edge,
+                       double *cosine) {
+  const struct sheet_edge *e = &s->sheet->edge.item[edge];
+  *cosine = crease_cosine(s->sheet, e);
+  return crease_is_joined(e, *cosine, s->crease);
+}
+
+static void list_corners(const struct speckle_search *s) {
+  for (size_t e = 0; e < s->sheet->edge.count; e++) {
+    const struct sheet_edge *edge = &s->sheet->edge.item[e];
+    double cosine;
+    (void)poll_at(e);
+    if (edge->edge_class == 0)
+      continue;
+    bool joined = is_of_line(s, e, &cosine);
+    for (int k = 0; k < 2; k++) {
+      if (edge->point[k] >= s->sheet->vertex_count)
+        continue;
+      struct speckle_corner *at = &s->corner[edge->point[k]];
+      at->drawable += at->drawable < 2;
+      if (joined && at->creases < 2)
+        at->edge[at->creases] = (uint32_t)e;
+      at->creases += joined;
+    }
+  }
+}
+
+/* Whether the end of a line is free at a vertex: no other edge is drawable
+ * there. */
+static bool is_free_corner(const struct speckle_corner *corner) {
+  return corner->creases == 1 && corner->drawable == 1;
+}
+
+/* The other one of the two creases that meet at the far end of a crease;
+ * SHEET_NONE where there are not two. */
+static uint32_t next_crease(const struct speckle_search *s, uint32_t edge,
+                            uint32_t from) {
+  const uint32_t *point = s->sheet->edge.item[edge].point;
+  uint32_t to = point[0] == from ? point[1] : point[0];
+  if (to >= s->sheet->vertex_count || s->corner[to].creases != 2)
+    return SHEET_NONE;
+  return s->corner[to].edge[s->corner[to].edge[0] == edge];
+}
+
+/* Whether a vertex is on a line of three edges about a triangle. */
+static bool is_on_triangle(const struct speckle_search *s, uint32_t point) {
+  const struct speckle_corner *at = &s->corner[point];
+  if (at->creases != 2)
+    return false;
+  uint32_t next = next_crease(s, at->edge[0], point);
+  return next != SHEET_NONE && next == next_crease(s, at->edge[1], point);
+}
+
+/* Whether any line may be noise: none of a solid is. */
+static bool has_candidates(const struct speckle_search *s) {
+  for (uint32_t p = 0; p < s->sheet->vertex_count; p++)
+    if (is_free_corner(&s->corner[p]) || is_on_triangle(s, p))
+      return true;
+  return false;
+}
+
+/* ---- Pieces -------------------------------------------------------------- */
+
+/* A vector in view space from one end of an edge to the other.
+ * from  the sheet point where it starts */
+static void edge_vector(const struct speckle_search *s, uint32_t edge,
+                        uint32_t from, double vector[3]) {
+  const struct sheet *sheet = s->sheet;
+  const uint32_t *point = sheet->edge.item[edge].point;
+  uint32_t to = point[0] == from ? point[1] : point[0];
+  struct view_point p =
+      unproject_point(&s->projection, sheet->point.item[from]);
+  struct view_point q = unproject_point(&s->projection, sheet->point.item[to]);
+  vector[0] = q.x - p.x;
+  vector[1] = q.y - p.y;
+  vector[2] = q.d - p.d;
+}
+
+static double dot_product(const double a[3], const double b[3]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Whether a line goes on at a vertex where just two of its edges meet. */
+static bool goes_on(const struct speckle_search *s, uint32_t point) {
+  const struct speckle_corner *at = &s->corner[point];
+  double a[3], b[3];
+  edge_vector(s, at->edge[0], point, a);
+  edge_vector(s, at->edge[1], point, b);
+  return -dot_product(a, b) >=
+         PIECE_END_COSINE * sqrt(dot_product(a, a) * dot_product(b, b));
+}
+
+static void join_pieces(const struct speckle_search *s) {
+  for (uint32_t p = 0; p < s->sheet->vertex_count; p++)
+    if (s->corner[p].creases == 2 && goes_on(s, p))
+      union_find_join(s->piece, s->corner[p].edge[0], s->corner[p].edge[1]);
+}
+
+/* The length of an edge in space at the scale that it is drawn at. */
+static double length_mm(const struct speckle_search *s, uint32_t edge) {
+  const struct projection *projection = &s->projection;
+  uint32_t from = s->sheet->edge.item[edge].point[0];
+  double v[3], d = 1;
+  if (projection->perspective)
+    d = unproject_point(projection, s->sheet->point.item[from]).d;
+  edge_vector(s, edge, from, v);
+  return sqrt(dot_product(v, v)) * projection->units / (d * SHEET_UNITS_PER_MM);
+}
+
+/* ---- Lines --------------------------------------------------------------- */
+
+static void measure_pieces(const struct speckle_search *s) {
+  double cosine;
+  for (uint32_t e = 0; e < s->sheet->edge.count; e++)
+    if (is_of_line(s, e, &cosine))
+      s->piece_mm[union_find_root(s->piece, e)] += length_mm(s, e);
+}
+
+static void measure_lines(const struct speckle_search *s) {
+  double degree = acos(-1) / 180;
+  for (uint32_t e = 0; e < s->sheet->edge.count; e++) {
+    const struct sheet_edge *edge = &s->sheet->edge.item[e];
+    double cosine;
+    (void)poll_at(e);
+    if (!is_of_line(s, e, &cosine))
+      continue;
+    uint32_t pen = pens_of_line(s->pens, RECTO_EDGE_CREASE, edge->group);
+    uint32_t piece = union_find_root(s->piece, e);
+    struct speckle_line *of =
+        &s->lines[union_find_root(s->line, edge->point[0])];
+    double length = length_mm(s, e);
+    of->length += length;
+    of->bend += length * acos(fmax(-1, fmin(1, cosine))) / degree;
+    of->least = fmax(of->least, pens_short_cycle_mm(s->pens, pen));
+    of->is_sharp = of->is_sharp || cosine < s->sharp;
+    of->edges++;
+    of->pieces += piece == e;
+    if (s->piece_mm[piece] < pens_shortest_crease_mm(s->pens, pen))
+      of->in_short += length;
+  }
+  for (uint32_t p = 0; p < s->sheet->vertex_count; p++)
+    if (is_free_corner(&s->corner[p]))
+      s->lines[union_find_root(s->line, p)].free_ends++;
+}
+
+/* Whether a line is that of a solid rather than one that ends free, or goes
+ * around a single triangle. */
+static bool is_network(const struct speckle_line *line) {
+  return line->free_ends > 0
+             ? (uint64_t)END_PIECES * line->free_ends < line->pieces
+             : line->edges != 3;
+}
+
+static bool is_speckled(const struct speckle_line *line, double sharp_deg) {
+  bool is_ragged = 2 * line->in_short > line->length &&
+                   line->bend <= sharp_deg * line->length;
+  bool is_branched =
+      line->pieces >= SHALLOW_PIECES && 2 * line->pieces > line->edges;
+  bool is_shallow =
+      !line->is_sharp && (line->length < line->least || is_branched);
+  return !is_network(line) && (is_ragged || is_shallow);
+}
+
+static void mark_speckled(const struct speckle_search *s,
+                          const struct segment_graph *graph, double sharp_deg,
+                          uint8_t *drop) {
+  for (size_t i = 0; i < graph->segment.count; i++) {
+    const struct sheet_edge *edge =
+        &s->sheet->edge.item[graph->segment.item[i].edge];
+    if (edge->edge_class == RECTO_EDGE_CREASE)
+      drop[i] = is_speckled(&s->lines[union_find_root(s->line, edge->point[0])],
+                            sharp_deg);
+  }
+}
+
+bool segment_graph_find_speckled(const struct segment_graph *graph,
+                                 const struct sheet *sheet,
+                                 const struct pens *pens,
+                                 const struct crease_angles *angles,
+                                 uint8_t *drop) {
+  if (angles->zigzag_deg == 0 || sheet->scene == NULL)
+    return true;
+  struct speckle_search s = {
+      .sheet = sheet,
+      .pens = pens,
+      .projection = projection_of(&sheet->camera),
+      .crease = angle_of_degrees(angles->crease_deg).cosine,
+      .sharp = angle_of_degrees(angles->zigzag_deg).cosine,
+      .corner = mem_calloc(sheet->vertex_count, sizeof *s.corner)};
+  bool ok = s.corner != NULL;
+  if (ok)
+    list_corners(&s);
+  if (ok && has_candidates(&s)) {
+    s.line = crease_lines_create(sheet, angles->crease_deg);
+    s.piece = union_find_create(sheet->edge.count);
+    s.piece_mm = mem_calloc(sheet->edge.count, sizeof *s.piece_mm);
+    s.lines = mem_calloc(sheet->point.count, sizeof *s.lines);
+    ok = s.line != NULL && s.piece != NULL && s.piece_mm != NULL &&
+         s.lines != NULL;
+    if (ok) {
+      join_pieces(&s);
+      measure_pieces(&s);
+      measure_lines(&s);
+      mark_speckled(&s, graph, angles->zigzag_deg, drop);
+    }
+  }
+  mem_free(s.corner);
+  mem_free(s.line);
+  mem_free(s.piece);
+  mem_free(s.piece_mm);
+  mem_free(s.lines);
+  return ok;
+}
