@@ -371,7 +371,7 @@ static void zigzags_must_be_sharper_than_other_lines(void **state) {
   assert_true(is_zigzag_drawn(130, 65));
 }
 
-/* ---- Lines that are noise by their shape: decision 0078 ------------------ */
+/* ---- Lines that are noise by their shape: decision 0079 ------------------ */
 
 /* A line whose pieces have so many edges of a length, between turns by 90
  * degrees. */

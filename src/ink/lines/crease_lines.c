@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/poll.h"
+#include "base/parallel.h"
 #include "base/union_find.h"
 #include "scene/angle.h"
 #include "scene/newell_normal.h"
@@ -51,15 +51,40 @@ double crease_cosine(const struct sheet *sheet, const struct sheet_edge *edge,
   return lengths > 0 ? dot / lengths : -1;
 }
 
-uint32_t *crease_lines_create(const struct sheet *sheet, double crease_deg) {
-  double crease = angle_of_degrees(crease_deg).cosine;
+struct crease_marks {
+  const struct sheet *sheet;
+  double crease;
+  uint8_t *is_joined; /* one an edge */
+};
+
+static bool mark_joined_of_range(void *user, struct parallel_range range) {
+  const struct crease_marks *marks = user;
   struct large_face_normals normals = large_face_normals_start();
+  for (size_t e = range.begin; e < range.end; e++) {
+    const struct sheet_edge *edge = &marks->sheet->edge.item[e];
+    marks->is_joined[e] = crease_is_joined(
+        edge, crease_cosine(marks->sheet, edge, &normals), marks->crease);
+  }
+  return true;
+}
+
+uint32_t *crease_lines_create(const struct sheet *sheet, double crease_deg) {
+  size_t count = sheet->edge.count;
   uint32_t *line = union_find_create(sheet->point.count);
-  for (size_t e = 0; line != NULL && e < sheet->edge.count; e++) {
+  struct crease_marks marks = {sheet, angle_of_degrees(crease_deg).cosine,
+                               mem_alloc(count, 1)};
+  bool ok = line != NULL && marks.is_joined != NULL &&
+            parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
+                            PARALLEL_ITEMS, mark_joined_of_range, &marks);
+  for (size_t e = 0; ok && e < count; e++) {
     const struct sheet_edge *edge = &sheet->edge.item[e];
     (void)poll_at(e);
-    if (crease_is_joined(edge, crease_cosine(sheet, edge, &normals), crease))
+    if (marks.is_joined[e])
       union_find_join(line, edge->point[0], edge->point[1]);
   }
-  return line;
+  mem_free(marks.is_joined);
+  if (ok)
+    return line;
+  mem_free(line);
+  return NULL;
 }

@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-#include "base/poll.h"
+#include "base/parallel.h"
 #include "base/sort.h"
 #include "base/union_find.h"
 #include "ink/lines/crease_lines.h"
@@ -32,31 +32,65 @@ struct cycle_search {
 
 /* ---- Candidates ---------------------------------------------------------- */
 
+/* What is at a point of the sheet. */
+enum { AT_CREASE = 1, AT_EDGE = 2, AT_SEVERAL = 4 };
+
+struct point_marks {
+  const struct sheet *sheet;
+  atomic_uchar *at; /* one a point */
+};
+
+static bool mark_creases_of_range(void *user, struct parallel_range range) {
+  const struct point_marks *marks = user;
+  for (size_t e = range.begin; e < range.end; e++) {
+    const struct sheet_edge *edge = &marks->sheet->edge.item[e];
+    for (int k = 0; k < 2 && edge->edge_class == RECTO_EDGE_CREASE; k++)
+      atomic_store_explicit(&marks->at[edge->point[k]], AT_CREASE,
+                            memory_order_relaxed);
+  }
+  return true;
+}
+
+/* Counts the drawable edges at the ends of creases, up to two. */
+static bool count_edges_of_range(void *user, struct parallel_range range) {
+  const struct point_marks *marks = user;
+  for (size_t e = range.begin; e < range.end; e++) {
+    const struct sheet_edge *edge = &marks->sheet->edge.item[e];
+    for (int k = 0; k < 2 && edge->edge_class != 0; k++) {
+      atomic_uchar *at = &marks->at[edge->point[k]];
+      unsigned before = atomic_load_explicit(at, memory_order_relaxed);
+      if (before == 0 || (before & AT_SEVERAL))
+        continue;
+      before = atomic_fetch_or_explicit(at, AT_EDGE, memory_order_relaxed);
+      if (before & AT_EDGE)
+        atomic_fetch_or_explicit(at, AT_SEVERAL, memory_order_relaxed);
+    }
+  }
+  return true;
+}
+
 /* Sets of the roots of lines whether a crease ends free there: at a vertex
  * where no other edge is drawable. */
 static uint8_t *find_free_lines(const struct sheet *sheet, uint32_t *line) {
-  uint8_t *count = mem_calloc(sheet->point.count, 1);
-  uint8_t *is_free = mem_calloc(sheet->point.count, 1);
-  if (count == NULL || is_free == NULL) {
-    mem_free(count);
-    mem_free(is_free);
-    return NULL;
+  size_t count = sheet->edge.count, points = sheet->point.count;
+  int workers = parallel_workers(count, PARALLEL_ITEMS);
+  struct point_marks marks = {sheet, mem_calloc(points, sizeof *marks.at)};
+  uint8_t *is_free = mem_calloc(points, 1);
+  bool ok = marks.at != NULL && is_free != NULL &&
+            parallel_ranges(workers, count, PARALLEL_ITEMS,
+                            mark_creases_of_range, &marks) &&
+            parallel_ranges(workers, count, PARALLEL_ITEMS,
+                            count_edges_of_range, &marks);
+  for (uint32_t p = 0; ok && p < sheet->vertex_count; p++) {
+    (void)poll_at(p);
+    if (marks.at[p] == (AT_CREASE | AT_EDGE))
+      is_free[union_find_root(line, p)] = 1;
   }
-  for (size_t e = 0; e < sheet->edge.count; e++) {
-    const struct sheet_edge *edge = &sheet->edge.item[e];
-    for (int k = 0; k < 2 && edge->edge_class != 0; k++)
-      count[edge->point[k]] =
-          (uint8_t)(count[edge->point[k]] + (count[edge->point[k]] < 2));
-  }
-  for (size_t e = 0; e < sheet->edge.count; e++) {
-    const struct sheet_edge *edge = &sheet->edge.item[e];
-    (void)poll_at(e);
-    for (int k = 0; k < 2 && edge->edge_class == RECTO_EDGE_CREASE; k++)
-      if (edge->point[k] < sheet->vertex_count && count[edge->point[k]] == 1)
-        is_free[union_find_root(line, edge->point[k])] = 1;
-  }
-  mem_free(count);
-  return is_free;
+  mem_free(marks.at);
+  if (ok)
+    return is_free;
+  mem_free(is_free);
+  return NULL;
 }
 
 static double length_of_segment(const struct segment_graph *graph,
@@ -67,19 +101,31 @@ static double length_of_segment(const struct segment_graph *graph,
   return hypot((double)q.x - p.x, (double)q.y - p.y);
 }
 
+static bool is_visible_crease(const struct graph_segment *s) {
+  return !graph_segment_is_hidden(s) &&
+         (s->style_key & RECTO_EDGES_ALL) == RECTO_EDGE_CREASE;
+}
+
 static bool list_cycle_candidates(struct cycle_search *c,
                                   const struct sheet *sheet,
                                   const struct pens *pens, double crease_deg) {
   const struct segment_graph *graph = c->graph;
   struct large_face_normals normals = large_face_normals_start();
+  size_t first = 0;
+  while (first < graph->segment.count &&
+         !is_visible_crease(&graph->segment.item[first]))
+    first++;
+  if (first == graph->segment.count)
+    return true;
   uint32_t *line = crease_lines_create(sheet, crease_deg);
   uint8_t *is_free = line != NULL ? find_free_lines(sheet, line) : NULL;
   bool ok = is_free != NULL;
-  for (uint32_t i = 0; ok && i < graph->segment.count; i++) {
+  for (uint32_t i = (uint32_t)first; ok && i < graph->segment.count; i++) {
     const struct graph_segment *s = &graph->segment.item[i];
+    if (!is_visible_crease(s))
+      continue;
     const struct sheet_edge *edge = &sheet->edge.item[s->edge];
-    if ((s->pen_key & 1) || edge->edge_class != RECTO_EDGE_CREASE ||
-        !is_free[union_find_root(line, edge->point[0])])
+    if (!is_free[union_find_root(line, edge->point[0])])
       continue;
     uint32_t pen = pens_of_line(pens, edge->edge_class, edge->group);
     double shortest = pens_shortest_crease_mm(pens, pen) * SHEET_UNITS_PER_MM;

@@ -55,11 +55,12 @@ struct speckle_search {
   const struct pens *pens;
   struct projection projection;
   double crease, sharp; /* the cosines of the crease angle, that of zigzags */
-  struct speckle_corner *corner; /* one a vertex */
-  uint32_t *line;                /* a union-find of the sheet's points */
-  uint32_t *piece;               /* one of its edges */
-  double *piece_mm;              /* one an edge: of a piece's root */
-  struct speckle_line *lines;    /* one a point: of a line's root */
+  struct large_face_normals *normals; /* of faces that were asked for last */
+  struct speckle_corner *corner;      /* one a vertex */
+  uint32_t *line;                     /* a union-find of the sheet's points */
+  uint32_t *piece;                    /* one of its edges */
+  double *piece_mm;                   /* one an edge: of a piece's root */
+  struct speckle_line *lines;         /* one a point: of a line's root */
 };
 
 /* ---- Vertices ------------------------------------------------------------ */
@@ -69,7 +70,7 @@ struct speckle_search {
 static bool is_of_line(const struct speckle_search *s, size_t edge,
                        double *cosine) {
   const struct sheet_edge *e = &s->sheet->edge.item[edge];
-  *cosine = crease_cosine(s->sheet, e);
+  *cosine = crease_cosine(s->sheet, e, s->normals);
   return crease_is_joined(e, *cosine, s->crease);
 }
 
@@ -248,12 +249,14 @@ bool segment_graph_find_speckled(const struct segment_graph *graph,
                                  uint8_t *drop) {
   if (angles->zigzag_deg == 0 || sheet->scene == NULL)
     return true;
+  struct large_face_normals normals = large_face_normals_start();
   struct speckle_search s = {
       .sheet = sheet,
       .pens = pens,
       .projection = projection_of(&sheet->camera),
       .crease = angle_of_degrees(angles->crease_deg).cosine,
       .sharp = angle_of_degrees(angles->zigzag_deg).cosine,
+      .normals = &normals,
       .corner = mem_calloc(sheet->vertex_count, sizeof *s.corner)};
   bool ok = s.corner != NULL;
   if (ok)
