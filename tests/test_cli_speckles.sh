@@ -156,10 +156,10 @@ fewer() {
 # angles may or may not be drawn.
 started() {
   local model=$RECTO_MODELS/stanford-bunny.obj
-  run 0 "$model" -q -o plain.svg &&
+  run 0 "$model" -q --crease=30,30 -o joined.svg &&
     run 0 "$model" -q --crease=30,80 -o started.svg --verify=2000 &&
     test "$(strokes started.svg crease | wc -l)" -lt \
-      "$(strokes plain.svg crease | wc -l)" &&
+      "$(strokes joined.svg crease | wc -l)" &&
     run 0 --check started.svg --crease=30,80 "$model" &&
     run 1 --check started.svg "$model" &&
     for model in "$models"/{castle,gears}.obj "$RECTO_MODELS/fandisk.obj"; do
