@@ -242,12 +242,22 @@ static void mark_speckled(const struct speckle_search *s,
   }
 }
 
+static bool has_creases(const struct segment_graph *graph,
+                        const struct sheet *sheet) {
+  for (size_t i = 0; i < graph->segment.count; i++)
+    if (sheet->edge.item[graph->segment.item[i].edge].edge_class ==
+        RECTO_EDGE_CREASE)
+      return true;
+  return false;
+}
+
 bool segment_graph_find_speckled(const struct segment_graph *graph,
                                  const struct sheet *sheet,
                                  const struct pens *pens,
                                  const struct crease_angles *angles,
                                  uint8_t *drop) {
-  if (angles->zigzag_deg == 0 || sheet->scene == NULL)
+  if (angles->zigzag_deg == 0 || sheet->scene == NULL ||
+      !has_creases(graph, sheet))
     return true;
   struct large_face_normals normals = large_face_normals_start();
   struct speckle_search s = {
