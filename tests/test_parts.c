@@ -300,6 +300,30 @@ static void damage_with_a_right_checksum_does_no_harm(void **state) {
   recto_scene_destroy(scene);
 }
 
+/* The checksum by its definition: a bit at a time. */
+static uint64_t checksum_by_bits(const unsigned char *bytes, size_t count) {
+  uint64_t sum = 0;
+  for (size_t i = 0; i < count; i++) {
+    sum ^= (uint64_t)bytes[i] << 56;
+    for (int bit = 0; bit < 8; bit++)
+      sum = sum << 1 ^ (sum >> 63 ? UINT64_C(0x42f0e1eba9ea3693) : 0);
+  }
+  return sum;
+}
+
+static void checksums_are_those_of_the_polynomial(void **state) {
+  enum { MOST = 400 };
+  unsigned char bytes[MOST];
+  (void)state;
+  assert_true(byte_codec_checksum("123456789", 9) ==
+              UINT64_C(0x6c40df5f0b497347)); /* in lists of checksums */
+  for (size_t i = 0; i < MOST; i++)
+    bytes[i] = (unsigned char)(i * i * 37 >> 3 ^ i);
+  for (size_t count = 0; count <= MOST; count++)
+    assert_true(byte_codec_checksum(bytes, count) ==
+                checksum_by_bits(bytes, count));
+}
+
 static void a_whole_part_of_the_drawing_is_there(void **state) {
   recto_options options;
   recto_scene *scene = make_parts(state, &options);
@@ -462,6 +486,7 @@ int main(void) {
       IN_FOLDER(foreign_parts_are_named),
       IN_FOLDER(damaged_parts_are_named),
       IN_FOLDER(damage_with_a_right_checksum_does_no_harm),
+      cmocka_unit_test(checksums_are_those_of_the_polynomial),
       IN_FOLDER(a_whole_part_of_the_drawing_is_there),
       IN_FOLDER(what_parts_do_not_have_is_refused),
       IN_FOLDER(a_limit_of_hiding_faces_may_be_left_out),

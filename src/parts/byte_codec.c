@@ -130,20 +130,67 @@ static void fill_tables(uint64_t table[TABLES][256]) {
     }
 }
 
+/* Goes on with eight more bytes. */
+static inline uint64_t sum_word(uint64_t table[TABLES][256], uint64_t sum,
+                                const unsigned char *at) {
+  uint64_t word = sum ^ ((uint64_t)at[0] << 56 | (uint64_t)at[1] << 48 |
+                         (uint64_t)at[2] << 40 | (uint64_t)at[3] << 32 |
+                         (uint64_t)at[4] << 24 | (uint64_t)at[5] << 16 |
+                         (uint64_t)at[6] << 8 | (uint64_t)at[7]);
+  return table[7][word >> 56] ^ table[6][word >> 48 & 0xff] ^
+         table[5][word >> 40 & 0xff] ^ table[4][word >> 32 & 0xff] ^
+         table[3][word >> 24 & 0xff] ^ table[2][word >> 16 & 0xff] ^
+         table[1][word >> 8 & 0xff] ^ table[0][word & 0xff];
+}
+
+/* The product of two polynomials modulo the polynomial. */
+static uint64_t multiply(uint64_t a, uint64_t b) {
+  uint64_t product = 0;
+  for (int bit = 63; bit >= 0; bit--) {
+    product = product << 1 ^ (product >> 63 ? POLYNOMIAL : 0);
+    product ^= b >> bit & 1 ? a : 0;
+  }
+  return product;
+}
+
+/* What a sum is multiplied by where so many bytes follow: x^(8 count). */
+static uint64_t power_of_bytes(size_t count) {
+  uint64_t power = 1, square = 1 << 8;
+  for (; count > 0; count >>= 1) {
+    if (count & 1)
+      power = multiply(power, square);
+    square = multiply(square, square);
+  }
+  return power;
+}
+
+/* The sum of so many chunks of so many words, which follow one another.  Those
+ * of the chunks do not wait for each other. */
+enum { CHUNKS = 4 };
+
+static uint64_t sum_of_chunks(uint64_t table[TABLES][256],
+                              const unsigned char *at, size_t words) {
+  size_t size = words * TABLES;
+  uint64_t a = 0, b = 0, c = 0, d = 0, shift = power_of_bytes(size);
+  for (size_t i = 0; i < words; i++, at += TABLES) {
+    a = sum_word(table, a, at);
+    b = sum_word(table, b, at + size);
+    c = sum_word(table, c, at + 2 * size);
+    d = sum_word(table, d, at + 3 * size);
+  }
+  return multiply(multiply(multiply(a, shift) ^ b, shift) ^ c, shift) ^ d;
+}
+
 uint64_t byte_codec_checksum(const void *bytes, size_t count) {
-  uint64_t table[TABLES][256], sum = 0;
+  uint64_t table[TABLES][256];
   const unsigned char *at = bytes;
   fill_tables(table);
-  for (; count >= TABLES; count -= TABLES, at += TABLES) {
-    uint64_t word = sum ^ ((uint64_t)at[0] << 56 | (uint64_t)at[1] << 48 |
-                           (uint64_t)at[2] << 40 | (uint64_t)at[3] << 32 |
-                           (uint64_t)at[4] << 24 | (uint64_t)at[5] << 16 |
-                           (uint64_t)at[6] << 8 | (uint64_t)at[7]);
-    sum = table[7][word >> 56] ^ table[6][word >> 48 & 0xff] ^
-          table[5][word >> 40 & 0xff] ^ table[4][word >> 32 & 0xff] ^
-          table[3][word >> 24 & 0xff] ^ table[2][word >> 16 & 0xff] ^
-          table[1][word >> 8 & 0xff] ^ table[0][word & 0xff];
-  }
+  size_t words = count / (CHUNKS * TABLES);
+  uint64_t sum = sum_of_chunks(table, at, words);
+  at += words * CHUNKS * TABLES;
+  count -= words * CHUNKS * TABLES;
+  for (; count >= TABLES; count -= TABLES, at += TABLES)
+    sum = sum_word(table, sum, at);
   for (size_t i = 0; i < count; i++)
     sum = sum << 8 ^ table[0][(sum >> 56 ^ at[i]) & 0xff];
   return sum;
