@@ -163,6 +163,13 @@ static bool store_crossing(struct collection *c, uint32_t e,
          ARRAY_PUSH(&c->part->crossing, crossing);
 }
 
+/* Makes room for as many edges as there can be, so that no array is copied as
+ * it grows: what is not written to costs no memory. */
+static bool reserve_edges(struct collection *c) {
+  return ARRAY_RESERVE(&c->part->edge, c->from->topology->edge.count) &&
+         ARRAY_RESERVE(&c->part->interval, c->from->map->interval.count);
+}
+
 static bool collect_edges(struct collection *c) {
   const struct sheet *sheet = c->from->sheet;
   const struct map *map = c->from->map;
@@ -217,6 +224,13 @@ static bool collect_corner(struct collection *c, uint32_t corner) {
     c->face_needed[from->id] = 1;
   }
   return ARRAY_PUSH(&c->part->fragment_corner, own);
+}
+
+static bool reserve_fragments(struct collection *c) {
+  const struct map *map = c->from->map;
+  return ARRAY_RESERVE(&c->part->fragment, map->fragment.count) &&
+         ARRAY_RESERVE(&c->part->loop, map->loop.count) &&
+         ARRAY_RESERVE(&c->part->fragment_corner, map->corner.count);
 }
 
 static bool collect_fragments(struct collection *c) {
@@ -288,6 +302,16 @@ static uint32_t number_in_group(const uint32_t *number, uint32_t element) {
   return number != NULL ? number[element] : 0;
 }
 
+static bool reserve_elements(struct collection *c) {
+  const struct scene *scene = &c->from->scene->scene;
+  struct part *part = c->part;
+  size_t corners = scene->corner.count;
+  return ARRAY_RESERVE(&part->face, scene_face_count(scene)) &&
+         ARRAY_RESERVE(&part->corner, corners + scene->wire_corner.count) &&
+         (c->from->tone == NULL || ARRAY_RESERVE(&part->tone, corners)) &&
+         ARRAY_RESERVE(&part->point, scene->point.count);
+}
+
 static bool collect_elements(struct collection *c) {
   const struct scene *scene = &c->from->scene->scene;
   struct part *part = c->part;
@@ -353,9 +377,10 @@ recto_status part_collect(struct part *part, const struct part_sources *sources,
     number_places(&c);
     find_first_triangles(&c);
   }
-  ok = ok && collect_edges(&c) &&
+  ok = ok && reserve_edges(&c) && collect_edges(&c) &&
        (!part->common.has_ids || edge_runs_collect(part, sources)) &&
-       collect_fragments(&c) && collect_elements(&c);
+       reserve_fragments(&c) && collect_fragments(&c) && reserve_elements(&c) &&
+       collect_elements(&c);
   mem_free(c.place);
   mem_free(c.edge_needed);
   mem_free(c.face_needed);
