@@ -40,6 +40,14 @@ static void sift_down(struct merge_order *order, size_t i) {
   heap[i] = head;
 }
 
+/* Whether the first head has stayed the first, as it mostly does: what follows
+ * one another in a model lies in one window. */
+static inline bool is_still_first(const struct merge_order *order) {
+  const struct merge_head *heap = order->heap;
+  return (order->heads < 2 || is_before(&heap[0], &heap[1])) &&
+         (order->heads < 3 || is_before(&heap[0], &heap[2]));
+}
+
 void merge_order_begin(struct merge_order *order, size_t list,
                        merge_key *key_of) {
   order->key_of = key_of;
@@ -63,6 +71,8 @@ bool merge_order_next(struct merge_order *order, struct origin *at) {
   if (first->at.index + 1u < order->count[first->at.part]) {
     first->at.index++;
     first->key = order->key_of(&order->part[first->at.part], first->at.index);
+    if (is_still_first(order))
+      return true;
   } else {
     *first = order->heap[--order->heads];
   }
