@@ -8,11 +8,23 @@ static void fail_for_memory(struct byte_codec *codec) {
   codec->failed = codec->out_of_memory = true;
 }
 
-bool byte_codec_grow(struct byte_codec *codec) {
-  if (ARRAY_RESERVE(&codec->bytes, sizeof(uint64_t)))
+bool byte_codec_grow_by(struct byte_codec *codec, size_t size) {
+  if (ARRAY_RESERVE(&codec->bytes, size))
     return true;
   fail_for_memory(codec);
   return false;
+}
+
+bool byte_codec_grow(struct byte_codec *codec) {
+  return byte_codec_grow_by(codec, sizeof(uint64_t));
+}
+
+void byte_codec_numbers(struct byte_codec *codec, uint32_t *value,
+                        size_t count) {
+  for (size_t i = 0; i < count; i++) {
+    struct byte_record record = byte_codec_record(codec, sizeof *value);
+    byte_record_u32(&record, &value[i]);
+  }
 }
 
 void byte_codec_i64(struct byte_codec *codec, int64_t *value) {

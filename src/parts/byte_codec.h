@@ -13,6 +13,9 @@
 #include "base/memory.h"
 #include "geom/ratio.h"
 
+/* Bytes of the longest record. */
+enum { BYTE_RECORD_MAX = 32 };
+
 struct byte_codec {
   bool writes;
   bool failed;             /* bytes were missing, or a value was not valid */
@@ -20,6 +23,7 @@ struct byte_codec {
   struct byte_array bytes; /* written; owned */
   const unsigned char *at; /* reading: the next one, */
   size_t left;             /* and how many are left */
+  unsigned char spare[BYTE_RECORD_MAX]; /* a record after a failure: zeros */
 };
 
 /* Makes room for eight bytes; false when memory ran out. */
@@ -104,6 +108,102 @@ void byte_codec_bool(struct byte_codec *codec, bool *value);
 
 /* Doubles that are finite. */
 void byte_codec_doubles(struct byte_codec *codec, double *value, int count);
+
+/* So many numbers of 32 bits. */
+void byte_codec_numbers(struct byte_codec *codec, uint32_t *value,
+                        size_t count);
+
+/* ---- Records ------------------------------------------------------------
+ * Consecutive numbers of a known size altogether: whether there is room, or
+ * whether there are bytes, is asked once for all of them. */
+struct byte_record {
+  bool writes;
+  unsigned char *to;         /* writing: the next number */
+  const unsigned char *from; /* reading */
+};
+
+/* Makes room for `size` bytes; false when memory ran out. */
+bool byte_codec_grow_by(struct byte_codec *codec, size_t size);
+
+/* Writes or reads a record of `size` bytes, all of which the caller codes. */
+static inline struct byte_record byte_codec_record(struct byte_codec *codec,
+                                                   size_t size) {
+  struct byte_record record = {codec->writes, codec->spare, codec->spare};
+  if (codec->writes) {
+    struct byte_array *bytes = &codec->bytes;
+    if (bytes->capacity - bytes->count >= size ||
+        byte_codec_grow_by(codec, size)) {
+      record.to = (unsigned char *)bytes->item + bytes->count;
+      bytes->count += size;
+    }
+  } else if (codec->failed || codec->left < size) {
+    codec->failed = true;
+  } else {
+    record.from = codec->at;
+    codec->at += size;
+    codec->left -= size;
+  }
+  return record;
+}
+
+static inline void byte_record_u8(struct byte_record *record, uint8_t *value) {
+  if (record->writes)
+    *record->to++ = *value;
+  else
+    *value = *record->from++;
+}
+
+static inline void byte_record_u16(struct byte_record *record,
+                                   uint16_t *value) {
+  if (record->writes) {
+    *record->to++ = (unsigned char)(*value & 0xff);
+    *record->to++ = (unsigned char)(*value >> 8);
+  } else {
+    *value = (uint16_t)(record->from[0] | record->from[1] << 8);
+    record->from += 2;
+  }
+}
+
+static inline void byte_record_u32(struct byte_record *record,
+                                   uint32_t *value) {
+  if (record->writes) {
+    unsigned char *to = record->to;
+    uint32_t number = *value;
+    to[0] = (unsigned char)(number & 0xff);
+    to[1] = (unsigned char)(number >> 8 & 0xff);
+    to[2] = (unsigned char)(number >> 16 & 0xff);
+    to[3] = (unsigned char)(number >> 24);
+    record->to += 4;
+  } else {
+    const unsigned char *from = record->from;
+    *value = (uint32_t)from[0] | (uint32_t)from[1] << 8 |
+             (uint32_t)from[2] << 16 | (uint32_t)from[3] << 24;
+    record->from += 4;
+  }
+}
+
+static inline void byte_record_u64(struct byte_record *record,
+                                   uint64_t *value) {
+  uint32_t low = (uint32_t)*value, high = (uint32_t)(*value >> 32);
+  byte_record_u32(record, &low);
+  byte_record_u32(record, &high);
+  *value = (uint64_t)high << 32 | low;
+}
+
+static inline void byte_record_i64(struct byte_record *record, int64_t *value) {
+  uint64_t number;
+  memcpy(&number, value, sizeof number);
+  byte_record_u64(record, &number);
+  memcpy(value, &number, sizeof number);
+}
+
+static inline void byte_record_double(struct byte_record *record,
+                                      double *value) {
+  uint64_t bits;
+  memcpy(&bits, value, sizeof bits);
+  byte_record_u64(record, &bits);
+  memcpy(value, &bits, sizeof bits);
+}
 
 /* Fails in reading where a condition does not hold. */
 static inline void byte_codec_require(struct byte_codec *codec,

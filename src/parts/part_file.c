@@ -1,6 +1,7 @@
 /* part_file.c - writes and reads parts, by one description of the format. */
 #include "parts/part_file.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "parts/part_common.h"
@@ -15,11 +16,13 @@ enum {
   ELEMENT_SIZE = 12,
   NUMBER_SIZE = 4,
   INTERVAL_SIZE = 64,
-  EDGE_SIZE = 16,
+  EDGE_SIZE = 12,
   CROSSING_SIZE = 53,
   RUN_SIZE = 16,
   FRAGMENT_SIZE = 8,
-  CORNER_SIZE = 25
+  CORNER_SIZE = 25,
+  KEY_SIZE = 9,
+  PLACE_SIZE = 17 /* of a corner: the rest depends on its side */
 };
 
 /* ---- Lists --------------------------------------------------------------- */
@@ -28,11 +31,14 @@ static void code_points(struct byte_codec *codec, struct part *part) {
   BYTE_CODEC_LIST(codec, &part->point, POINT_SIZE);
   for (size_t p = 0; p < part->point.count && !codec->failed; p++) {
     struct part_point *point = &part->point.item[p];
-    byte_codec_u32(codec, &point->number);
-    byte_codec_doubles(codec, &point->at.x, 1);
-    byte_codec_doubles(codec, &point->at.y, 1);
-    byte_codec_doubles(codec, &point->at.z, 1);
-    byte_codec_require(codec, point->number < SCENE_LIMIT &&
+    struct byte_record record = byte_codec_record(codec, POINT_SIZE);
+    byte_record_u32(&record, &point->number);
+    byte_record_double(&record, &point->at.x);
+    byte_record_double(&record, &point->at.y);
+    byte_record_double(&record, &point->at.z);
+    byte_codec_require(codec, isfinite(point->at.x) && isfinite(point->at.y) &&
+                                  isfinite(point->at.z) &&
+                                  point->number < SCENE_LIMIT &&
                                   (p == 0 || point->number > point[-1].number));
   }
 }
@@ -42,18 +48,19 @@ static void code_points(struct byte_codec *codec, struct part *part) {
 static void code_element(struct byte_codec *codec, struct part *part,
                          struct part_element *element, bool is_first,
                          uint32_t least) {
-  byte_codec_u32(codec, &element->number);
-  byte_codec_u32(codec, &element->group);
-  if (!codec->writes) {
-    element->in_group = 0;
-    element->uniform = 0;
-  }
-  if (part->common.has_ids)
-    byte_codec_u32(codec, &element->in_group);
-  byte_codec_u32(codec, &element->count);
+  bool has_ids = part->common.has_ids;
+  if (!codec->writes)
+    *element = (struct part_element){.number = 0};
+  struct byte_record record =
+      byte_codec_record(codec, ELEMENT_SIZE + (has_ids ? NUMBER_SIZE : 0));
+  byte_record_u32(&record, &element->number);
+  byte_record_u32(&record, &element->group);
+  if (has_ids)
+    byte_record_u32(&record, &element->in_group);
+  byte_record_u32(&record, &element->count);
   if (codec->writes) {
-    for (uint32_t i = 0; i < element->count; i++)
-      byte_codec_u32(codec, &part->corner.item[element->corner + i]);
+    byte_codec_numbers(codec, part->corner.item + element->corner,
+                       element->count);
     return;
   }
   byte_codec_require(codec,
@@ -70,8 +77,9 @@ static void code_element(struct byte_codec *codec, struct part *part,
     codec->failed = codec->out_of_memory = true;
     return;
   }
-  for (uint32_t i = 0; i < element->count; i++)
-    byte_codec_u32(codec, &part->corner.item[part->corner.count++]);
+  byte_codec_numbers(codec, part->corner.item + part->corner.count,
+                     element->count);
+  part->corner.count += element->count;
 }
 
 /* The tones of a face: one where it is uniform, else one a corner.  They follow
@@ -147,11 +155,10 @@ static void code_over_limit(struct byte_codec *codec, const struct part *part,
                        ratio_compare(interval[i - 1].t1, interval[i].t0) < 0);
 }
 
-/* The intervals of edges follow one another.
+/* The intervals that go with a state.  Those of edges follow one another.
  * next  how many were used before; grows */
 static void code_visibility(struct byte_codec *codec, const struct part *part,
                             struct part_visibility *visibility, size_t *next) {
-  byte_codec_u8(codec, &visibility->state);
   if (!codec->writes)
     visibility->count = 0;
   if (visibility->state == MAP_MIXED)
@@ -170,10 +177,11 @@ static void code_visibility(struct byte_codec *codec, const struct part *part,
                        ratio_compare(interval[i - 1].t1, interval[i].t0) <= 0);
 }
 
-static void code_key(struct byte_codec *codec, struct part_edge_key *key) {
-  byte_codec_u8(codec, &key->kind);
-  byte_codec_u32(codec, &key->element);
-  byte_codec_u32(codec, &key->place);
+static void code_key(struct byte_codec *codec, struct byte_record *record,
+                     struct part_edge_key *key) {
+  byte_record_u8(record, &key->kind);
+  byte_record_u32(record, &key->element);
+  byte_record_u32(record, &key->place);
   byte_codec_require(codec, key->kind <= PART_EDGE_OF_WIRE &&
                                 key->element < SCENE_LIMIT &&
                                 key->place < SCENE_LIMIT);
@@ -186,11 +194,13 @@ static bool is_one_class(unsigned edge_class) {
 
 static void code_edges(struct byte_codec *codec, struct part *part) {
   size_t next = 0, next_over = 0;
-  BYTE_CODEC_LIST(codec, &part->edge, EDGE_SIZE - 4);
+  BYTE_CODEC_LIST(codec, &part->edge, EDGE_SIZE);
   for (size_t e = 0; e < part->edge.count && !codec->failed; e++) {
     struct part_edge *edge = &part->edge.item[e];
-    code_key(codec, &edge->key);
-    byte_codec_u16(codec, &edge->edge_class);
+    struct byte_record record = byte_codec_record(codec, EDGE_SIZE);
+    code_key(codec, &record, &edge->key);
+    byte_record_u16(&record, &edge->edge_class);
+    byte_record_u8(&record, &edge->visibility.state);
     code_visibility(codec, part, &edge->visibility, &next);
     code_over_limit(codec, part, &edge->over_limit, &next_over);
     bool is_wire = edge->key.kind == PART_EDGE_OF_WIRE;
@@ -217,6 +227,7 @@ static void code_edges(struct byte_codec *codec, struct part *part) {
       if (!codec->writes && !codec->failed)
         *end = (struct geom_point){(int32_t)xyz[0], (int32_t)xyz[1], xyz[2]};
     }
+    byte_codec_u8(codec, &crossing->visibility.state);
     code_visibility(codec, part, &crossing->visibility, &next);
     code_over_limit(codec, part, &crossing->over_limit, &next_over);
     byte_codec_require(codec, part_triangle_compare(crossing->triangle[0],
@@ -246,11 +257,13 @@ static void code_corner(struct byte_codec *codec, struct part_corner *corner) {
   const int64_t most = (int64_t)SHEET_XY_MAX * MAP_CORNER_SCALE;
   if (!codec->writes)
     *corner = (struct part_corner){.x = 0};
-  byte_codec_i64(codec, &corner->x);
-  byte_codec_i64(codec, &corner->y);
-  byte_codec_u8(codec, &corner->side);
+  struct byte_record record = byte_codec_record(codec, PLACE_SIZE);
+  byte_record_i64(&record, &corner->x);
+  byte_record_i64(&record, &corner->y);
+  byte_record_u8(&record, &corner->side);
   if (corner->side == MAP_SIDE_EDGE || corner->side == MAP_SIDE_OCCLUDER) {
-    code_key(codec, &corner->along.edge);
+    record = byte_codec_record(codec, KEY_SIZE);
+    code_key(codec, &record, &corner->along.edge);
     byte_codec_require(codec, corner->along.edge.kind <= PART_EDGE_FOLD);
   } else {
     byte_codec_u32(codec, &corner->along.of.line[0]);
