@@ -122,9 +122,20 @@ static recto_status add_fragment_corner(struct join_work *work,
              : error_memory(work->error);
 }
 
+static bool reserve_joined_fragments(struct join_work *work) {
+  struct map *map = &work->join->map;
+  const struct part *all = work->all;
+  return ARRAY_RESERVE(&map->fragment, all->fragment.count) &&
+         ARRAY_RESERVE(&map->loop, all->loop.count) &&
+         ARRAY_RESERVE(&map->corner, all->fragment_corner.count) &&
+         ARRAY_RESERVE(&map->side_line, all->fragment_corner.count);
+}
+
 static recto_status add_joined_fragments(struct join_work *work) {
   struct map *map = &work->join->map;
   const struct part *all = work->all;
+  if (!reserve_joined_fragments(work))
+    return error_memory(work->error);
   recto_status status = RECTO_OK;
   for (size_t f = 0, corner = 0; status == RECTO_OK && f < all->fragment.count;
        f++) {

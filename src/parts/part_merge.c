@@ -470,6 +470,20 @@ static bool take_fragment(struct part *all, const struct part *part,
   return true;
 }
 
+/* Makes room for all fragments, so that no list is copied as it grows. */
+static bool have_room_for_fragments(const struct merge_work *work) {
+  struct part *all = work->all;
+  size_t fragments = 0, loops = 0, corners = 0;
+  for (size_t p = 0; p < work->parts; p++) {
+    fragments += work->part[p].fragment.count;
+    loops += work->part[p].loop.count;
+    corners += work->part[p].fragment_corner.count;
+  }
+  return ARRAY_RESERVE(&all->fragment, fragments) &&
+         ARRAY_RESERVE(&all->loop, loops) &&
+         ARRAY_RESERVE(&all->fragment_corner, corners);
+}
+
 /* The fragments of a face come from one part, in its order. */
 static recto_status merge_fragments(struct merge_work *work) {
   struct part *all = work->all;
@@ -477,7 +491,7 @@ static recto_status merge_fragments(struct merge_work *work) {
   uint32_t last_part = 0;
   recto_status status = RECTO_OK;
   size_t *corner = mem_calloc(work->parts, sizeof *corner);
-  bool ok = corner != NULL;
+  bool ok = corner != NULL && have_room_for_fragments(work);
   merge_order_begin(&work->order, MERGE_LIST(fragment), merge_key_of_fragment);
   while (ok && status == RECTO_OK && merge_order_next(&work->order, &at)) {
     const struct part *part = &work->part[at.part];
