@@ -22,7 +22,8 @@ enum {
   FRAGMENT_SIZE = 8,
   CORNER_SIZE = 25,
   KEY_SIZE = 9,
-  PLACE_SIZE = 17 /* of a corner: the rest depends on its side */
+  PLACE_SIZE = 17,    /* of a corner: the rest depends on its side, */
+  ALONG_SIZE_MAX = 12 /* and is no more than this */
 };
 
 /* ---- Lists --------------------------------------------------------------- */
@@ -334,11 +335,24 @@ static void code_part(struct byte_codec *codec, struct part *part) {
 
 /* ---- Files --------------------------------------------------------------- */
 
+/* About how many bytes a part takes: most, as the longest lists are counted.
+ * With room for them from the start nothing is copied as the bytes grow. */
+static size_t estimate_size(const struct part *part) {
+  return part->point.count * POINT_SIZE +
+         (part->face.count + part->wire.count) * (ELEMENT_SIZE + NUMBER_SIZE) +
+         part->corner.count * NUMBER_SIZE + part->tone.count * sizeof(float) +
+         part->interval.count * INTERVAL_SIZE + part->edge.count * EDGE_SIZE +
+         part->crossing.count * CROSSING_SIZE + part->run.count * RUN_SIZE +
+         (part->fragment.count * 2 + part->loop.count) * NUMBER_SIZE +
+         part->fragment_corner.count * (PLACE_SIZE + ALONG_SIZE_MAX);
+}
+
 recto_status part_file_make(struct part *part, struct byte_array *bytes,
                             recto_error *error) {
   struct byte_codec codec = {.writes = true};
   uint32_t version = FORMAT_VERSION;
   uint64_t size = 0, sum = 0;
+  (void)byte_codec_grow_by(&codec, HEAD_SIZE + estimate_size(part) + SUM_SIZE);
   for (size_t i = 0; i < sizeof magic; i++) {
     uint8_t byte = magic[i];
     byte_codec_u8(&codec, &byte);
