@@ -3,7 +3,8 @@
  *
  * Phases
  *   1 move the corners of the fragments' outline onto drawn ones
- *   2 put points of these into its sides
+ *   2 put points of these into its sides, and where the nearest outline
+ *     changes within one, of the way to where the two meet
  *   3 put points of them also into the other sides of the fragments that this
  *     has turned over: they lay between such a side and the mesh's outline,
  *     beyond the drawn one
@@ -23,6 +24,10 @@
  * how many there are in one half-edge, at most. */
 #define FIT_SPACING 0x1p18
 enum { FIT_SAMPLES_MAX = 4096 };
+
+/* How many points a way along the drawn outlines between two places has, at
+ * most. */
+enum { WAY_POINTS_MAX = 32 };
 
 /* A fragment that is turned over collapses if at most this share of its area is
  * left. */
@@ -133,31 +138,79 @@ static void move_corner(struct outline_fit *f, uint32_t corner) {
 
 /* ---- 2 Sides ------------------------------------------------------------- */
 
-/* Puts places of the drawn outlines within a radius into a half-edge
- * where it is off them; or into its twin. */
-static bool bend_half(struct outline_fit *f, uint32_t h, double radius,
-                      bool into_twin) {
-  double a[2], b[2];
-  ends_of_half(f, h, a, b);
-  const double along[2] = {b[0] - a[0], b[1] - a[1]};
-  double samples = ceil(hypot(along[0], along[1]) / FIT_SPACING);
-  int n = (int)fmin(samples, FIT_SAMPLES_MAX);
-  for (int k = 1; k < n; k++) {
-    int i = into_twin ? n - k : k;
-    const double p[2] = {a[0] + along[0] * i / n, a[1] + along[1] * i / n};
-    struct drawn_place to = drawn_outlines_find(f->drawn, p, along, radius);
-    struct side_point made = {loop_changes_round(to.at[0]),
-                              loop_changes_round(to.at[1]), SHEET_NONE};
-    if (is_off(&to) && !ARRAY_PUSH(&f->changes.point, made))
+static bool add_side_point(struct outline_fit *f, const double at[2]) {
+  struct side_point made = {loop_changes_round(at[0]),
+                            loop_changes_round(at[1]), SHEET_NONE};
+  return ARRAY_PUSH(&f->changes.point, made);
+}
+
+/* Goes on from one place of the drawn outlines to another one.  Where the
+ * middle between them is off the outlines, as between two that meet at an
+ * angle, the way leads through the place that is nearest to it: so it gets
+ * nearer and nearer to where they meet. */
+static bool lead_along_drawn(struct outline_fit *f, const double from[2],
+                             const double to[2], double radius) {
+  static const double any[2] = {0, 0};
+  double ahead[WAY_POINTS_MAX + 1][2] = {{to[0], to[1]}}; /* the last is next */
+  double at[2] = {from[0], from[1]};
+  int count = 1, made = 0;
+  while (count > 0) {
+    const double *next = ahead[count - 1];
+    const double p[2] = {(at[0] + next[0]) / 2, (at[1] + next[1]) / 2};
+    if (made < WAY_POINTS_MAX &&
+        hypot(next[0] - at[0], next[1] - at[1]) > TOLERANCE_FILL_UNITS) {
+      struct drawn_place place = drawn_outlines_find(f->drawn, p, any, radius);
+      if (is_off(&place)) {
+        memcpy(ahead[count++], place.at, sizeof place.at);
+        made++;
+        continue;
+      }
+    }
+    memcpy(at, next, sizeof at);
+    if (--count > 0 && !add_side_point(f, at))
       return false;
   }
   return true;
 }
 
+/* Puts places of the drawn outlines within a radius into a half-edge where it
+ * is off them. */
+static bool bend_half(struct outline_fit *f, uint32_t h, double radius) {
+  double a[2], b[2];
+  ends_of_half(f, h, a, b);
+  const double from[2] = {a[0], a[1]};
+  const double along[2] = {b[0] - a[0], b[1] - a[1]};
+  double samples = ceil(hypot(along[0], along[1]) / FIT_SPACING);
+  int n = (int)fmin(samples, FIT_SAMPLES_MAX);
+  for (int k = 1; k < n; k++) {
+    const double p[2] = {from[0] + along[0] * k / n,
+                         from[1] + along[1] * k / n};
+    struct drawn_place to = drawn_outlines_find(f->drawn, p, along, radius);
+    if (!is_off(&to))
+      continue;
+    if (!lead_along_drawn(f, a, to.at, radius) || !add_side_point(f, to.at))
+      return false;
+    memcpy(a, to.at, sizeof a);
+  }
+  return lead_along_drawn(f, a, b, radius);
+}
+
+/* Puts the same places, in the opposite order, into its twin. */
+static bool bend_twin(struct outline_fit *f, uint32_t h, double radius) {
+  size_t first = f->changes.point.count;
+  bool ok = bend_half(f, h, radius);
+  for (size_t i = first, k = f->changes.point.count; ok && i + 1 < k; i++) {
+    struct side_point point = f->changes.point.item[i];
+    f->changes.point.item[i] = f->changes.point.item[--k];
+    f->changes.point.item[k] = point;
+  }
+  return ok;
+}
+
 static bool bend_sides(struct outline_fit *f) {
   for (uint32_t h = 0; h < f->map->half_edge.count; h++) {
     if (!poll_at(h) ||
-        (is_on_outline(f, h) && !bend_half(f, h, radius_about(f, h), false)))
+        (is_on_outline(f, h) && !bend_half(f, h, radius_about(f, h))))
       return false;
     f->changes.start[h + 1] = (uint32_t)f->changes.point.count;
   }
@@ -209,10 +262,11 @@ static bool bend_shared_sides(struct outline_fit *f, const uint32_t *start,
     uint32_t inner = beside_turned_over(f, h);
     for (uint32_t i = start[h]; ok && i < start[h + 1]; i++)
       ok = ARRAY_PUSH(&c->point, point[i]);
-    if (ok && inner != SHEET_NONE)
-      ok = poll_at(h) &&
-           bend_half(f, inner, fmin(radius_about(f, inner), SHARED_RADIUS),
-                     h != inner);
+    if (ok && inner != SHEET_NONE) {
+      double radius = fmin(radius_about(f, inner), SHARED_RADIUS);
+      ok = poll_at(h) && (h == inner ? bend_half(f, inner, radius)
+                                     : bend_twin(f, inner, radius));
+    }
     c->start[h + 1] = (uint32_t)c->point.count;
   }
   return ok;

@@ -7,7 +7,8 @@
 
 /* Moves what is farther from the drawn outlines than TOLERANCE_FILL_UNITS to
  * the nearest point of one: corners, together with all that are at the same
- * place, and points of the sides beyond which no face is seen.
+ * place, and points of the sides beyond which no face is seen.  Where two
+ * outlines meet it goes on from one to the other there.
  * Bound  nothing moves farther than its face is wide on the page
  * Cost   near linear in the sides
  * Returns false when memory ran out or the caller cancelled. */
