@@ -13,7 +13,7 @@ EXTRA_DIST += NEWS.md CONTRIBUTING.md BIBLIOGRAPHY.md \
 	%D%/contact_sheet.sh %D%/glossary.md \
 	%D%/python.md %D%/testing.md %D%/gallery.md \
 	%D%/plotting.md %D%/figures.md %D%/testing-with-recto.md \
-	%D%/part-format.md %D%/large.md
+	%D%/part-format.md %D%/large.md %D%/speed.md
 
 # What completes command lines in bash and zsh, by the program's own table of
 # options; a program that was built for another machine is not run.
