@@ -279,6 +279,10 @@ unit_tests += %D%/test_parts_read
 unit_tests += %D%/test_plan
 %C%_test_plan_SOURCES = %D%/test_plan.c %D%/temporary.c %D%/temporary.h
 %C%_test_plan_LDADD = %D%/scenes/libscenes.la $(LDADD)
+unit_tests += %D%/test_unread_edges
+%C%_test_unread_edges_SOURCES = %D%/test_unread_edges.c %D%/temporary.c \
+  %D%/temporary.h
+%C%_test_unread_edges_LDADD = %D%/scenes/libscenes.la $(LDADD)
 unit_tests += %D%/test_parts
 %C%_test_parts_SOURCES = %D%/test_parts.c %D%/temporary.c %D%/temporary.h
 %C%_test_parts_LDADD = %D%/scenes/libscenes.la $(LDADD)

@@ -124,13 +124,14 @@ static bool compare_parts(void *const *state, const recto_scene *scene,
 }
 
 /* Lines, hidden lines dashed, fills, hatching, lines behind one face, ids,
- * creases with a second angle and all edges, tone hatching. */
-enum { MODES = 8 };
+ * creases with a second angle and all edges, tone hatching, all edges. */
+enum { MODES = 9 };
 
 static void set_mode(recto_options *options, int mode) {
   static const recto_fill fill[MODES] = {
-      RECTO_FILL_NONE, RECTO_FILL_NONE,  RECTO_FILL_SHADE, RECTO_FILL_HATCH,
-      RECTO_FILL_NONE, RECTO_FILL_SHADE, RECTO_FILL_NONE,  RECTO_FILL_HATCH};
+      RECTO_FILL_NONE,  RECTO_FILL_NONE,  RECTO_FILL_SHADE,
+      RECTO_FILL_HATCH, RECTO_FILL_NONE,  RECTO_FILL_SHADE,
+      RECTO_FILL_NONE,  RECTO_FILL_HATCH, RECTO_FILL_NONE};
   options->ink.fill = fill[mode];
   options->ink.hidden = mode == 1   ? RECTO_HIDDEN_DASHED
                         : mode == 4 ? RECTO_HIDDEN_LAYER
@@ -139,7 +140,8 @@ static void set_mode(recto_options *options, int mode) {
   options->ink.ids = mode == 5;
   options->mesh.crease_deg = mode == 6 ? 10 : 30;
   options->mesh.crease_start_deg = mode == 6 ? 50 : 0;
-  options->ink.edges = mode == 6 ? RECTO_EDGES_ALL : RECTO_EDGES_DEFAULT;
+  options->ink.edges =
+      mode == 6 || mode == 8 ? RECTO_EDGES_ALL : RECTO_EDGES_DEFAULT;
   options->ink.light[0] = mode == 7 ? -1 : 0;
   options->ink.light[1] = mode == 7 ? 2 : 0;
   options->ink.light[2] = mode == 7 ? 1 : 0;
@@ -360,6 +362,8 @@ static void what_parts_do_not_have_is_refused(void **state) {
   other.ink.fill = RECTO_FILL_SHADE;
   assert_int_equal(join_all(state, &other, 2, &drawing, &error),
                    RECTO_ERROR_UNSUPPORTED);
+  assert_string_equal(error.text, "the parts were made without visible faces: "
+                                  "make them with --fill");
   other = options;
   other.ink.hidden = RECTO_HIDDEN_LAYER;
   assert_int_equal(join_all(state, &other, 2, &drawing, &error),

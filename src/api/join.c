@@ -175,8 +175,8 @@ static recto_status join_and_ink(struct join *join, size_t count,
   double cpu = clock_cpu();
   recto_status status = read_part_files(join, count, error);
   if (status == RECTO_OK)
-    status = part_check_ink(&join->options, &join->part[0].common, "parts were",
-                            error);
+    status =
+        part_check_ink(&join->options, &join->part[0].common, false, error);
   stats_add_seconds(join->made->report, "read_cpu_s", clock_cpu() - cpu);
   cpu = clock_cpu();
   if (status == RECTO_OK)

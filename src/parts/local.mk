@@ -28,4 +28,5 @@ librecto_core_la_SOURCES += \
   %D%/plan_section_check.c \
   %D%/plan_section_make.c \
   %D%/ring_corners.c %D%/ring_corners.h \
+  %D%/unread_edges.c %D%/unread_edges.h \
   %D%/window_grid.c %D%/window_grid.h

@@ -3,7 +3,8 @@
  * Phases
  *   keys       of the sheet's edges: which is which fold of its face, and which
  *              segment of its polyline
- *   edges      with a class that meet the window, and intersections
+ *   edges      with a class that meet the window, but for what ink does not
+ *              look at, and intersections
  *   runs       of the edges of the faces that the window owns
  *   fragments  of these faces
  *   elements   the faces of all edges so stored or referred to, and the points
@@ -12,6 +13,7 @@
 
 #include "base/poll.h"
 #include "parts/edge_runs.h"
+#include "parts/unread_edges.h"
 
 struct collection {
   struct part *part;
@@ -23,6 +25,8 @@ struct collection {
   uint8_t *wire_needed;
   uint8_t *point_needed;    /* one a point of the part's scene */
   uint32_t *first_triangle; /* of each face: on the sheet */
+  struct unread_edges unread;
+  bool lists_unread; /* one of these was listed */
 };
 
 static bool is_intersection(const struct sheet_edge *edge) {
@@ -170,6 +174,18 @@ static bool reserve_edges(struct collection *c) {
          ARRAY_RESERVE(&c->part->interval, c->from->map->interval.count);
 }
 
+/* Whether an edge with a class is listed.  Of those that ink does not look at
+ * one is, which tells that there are such: pens may be for them. */
+static bool lists_edge(struct collection *c, uint32_t e) {
+  if (!meets_window(c, e))
+    return false;
+  if (!unread_edges_have(&c->unread, e))
+    return true;
+  bool is_first = !c->lists_unread;
+  c->lists_unread = true;
+  return is_first;
+}
+
 static bool collect_edges(struct collection *c) {
   const struct sheet *sheet = c->from->sheet;
   const struct map *map = c->from->map;
@@ -183,7 +199,7 @@ static bool collect_edges(struct collection *c) {
                                    row_of_edge(&over, over_end, e)};
     if (!poll_at(e))
       return false;
-    if (edge->edge_class == 0 || !meets_window(c, e))
+    if (edge->edge_class == 0 || !lists_edge(c, e))
       continue;
     if (is_intersection(edge)) {
       if (!store_crossing(c, e, &rows))
@@ -377,7 +393,8 @@ recto_status part_collect(struct part *part, const struct part_sources *sources,
     number_places(&c);
     find_first_triangles(&c);
   }
-  ok = ok && reserve_edges(&c) && collect_edges(&c) &&
+  ok = ok && unread_edges_find(&c.unread, part, sources) && reserve_edges(&c) &&
+       collect_edges(&c) &&
        (!part->common.has_ids || edge_runs_collect(part, sources)) &&
        reserve_fragments(&c) && collect_fragments(&c) && reserve_elements(&c) &&
        collect_elements(&c);
@@ -387,5 +404,6 @@ recto_status part_collect(struct part *part, const struct part_sources *sources,
   mem_free(c.wire_needed);
   mem_free(c.point_needed);
   mem_free(c.first_triangle);
+  unread_edges_fini(&c.unread);
   return ok && !poll_is_cancelled() ? RECTO_OK : error_memory(error);
 }
