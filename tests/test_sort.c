@@ -67,6 +67,8 @@ static void keys_are_sorted_stably_at_every_size(void **state) {
   for (size_t count = 0; count < 140; count++)
     sort_random_keys(&random, count, masks[count % 10]);
   for (size_t i = 0; i < 10; i++) {
+    sort_random_keys(&random, 1023, masks[i]);
+    sort_random_keys(&random, 1024, masks[i]);
     sort_random_keys(&random, 3000, masks[i]);
     sort_random_keys(&random, 20001, masks[i]);
   }

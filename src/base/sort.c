@@ -12,7 +12,8 @@ enum {
   DIGIT_BITS = 11,
   DIGIT_COUNT = 1 << DIGIT_BITS,
   PASS_COUNT = (64 + DIGIT_BITS - 1) / DIGIT_BITS,
-  FEW = 64, /* below, insertion beats clearing the histograms */
+  RUN = 32,   /* items that insertion sorts as fast as merging */
+  FEW = 1024, /* below, merging beats clearing the histograms */
   DISTRIBUTED_ITEMS = 16 * POLL_ITEMS, /* between two polls */
   PART_COUNT = 4,          /* of the items of a pass, and threads, at most */
   PART_ITEMS_MIN = 1 << 14 /* for a thread to be worth while */
@@ -26,6 +27,35 @@ static void insert_keys(struct sort_key *item, size_t count) {
       item[hole] = item[hole - 1];
     item[hole] = moving;
   }
+}
+
+/* Merges sorted items [0, left) and [left, count) of `from` into `to`. */
+static void merge_keys(const struct sort_key *from, struct sort_key *to,
+                       size_t left, size_t count) {
+  size_t a = 0, b = left;
+  for (size_t i = 0; i < count; i++)
+    to[i] = b == count || (a < left && from[a].key <= from[b].key) ? from[a++]
+                                                                   : from[b++];
+}
+
+/* Sorts few items: short runs by insertion, which are then merged. */
+static void sort_few_keys(struct sort_key *item, struct sort_key *scratch,
+                          size_t count) {
+  struct sort_key *from = item, *to = scratch;
+  for (size_t i = 0; i < count; i += RUN)
+    insert_keys(item + i, count - i < RUN ? count - i : RUN);
+  for (size_t width = RUN; width < count; width *= 2) {
+    for (size_t i = 0; i < count; i += 2 * width) {
+      size_t rest = count - i;
+      merge_keys(from + i, to + i, width < rest ? width : rest,
+                 2 * width < rest ? 2 * width : rest);
+    }
+    struct sort_key *swap = from;
+    from = to;
+    to = swap;
+  }
+  if (from != item)
+    memcpy(item, from, count * sizeof *item);
 }
 
 static size_t digit(uint64_t key, int pass) {
@@ -105,7 +135,7 @@ static void distribute(const struct sort_key *from, struct sort_key *to,
 
 void sort_keys(struct sort_key *item, struct sort_key *scratch, size_t count) {
   if (count < FEW) {
-    insert_keys(item, count);
+    sort_few_keys(item, scratch, count);
     return;
   }
   /* One pass finds the bits in which any two keys differ; digits in which none

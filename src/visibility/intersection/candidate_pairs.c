@@ -7,6 +7,8 @@
  */
 #include "visibility/intersection/candidate_pairs.h"
 
+#include <string.h>
+
 #include "base/sort.h"
 #include "visibility/index/bsp.h"
 #include "visibility/predicate/plane_filter.h"
@@ -21,12 +23,15 @@ enum { FACE_LIST_MIN = 64 };
 /* What the tests use of a triangle, computed once per list. */
 struct swept_triangle {
   struct box2 box;
-  int64_t low, high; /* depths of the farthest and the nearest corner */
-  int x0, y0;        /* the cell of the box's lower left corner */
+  int64_t high; /* depth of the nearest corner */
+  int x0, y0;   /* the cell of the box's lower left corner */
   uint32_t triangle;
-  uint64_t right_copy; /* bsp.h */
-  bool in_group;       /* it is not tested with others that are, too */
-  bool has_plane;      /* `plane` has been computed */
+  uint32_t point[3];
+  struct geom_triangle corners;
+  uint64_t right_copy;  /* bsp.h */
+  bool in_group;        /* it is not tested with others that are, too */
+  bool has_inner_sides; /* some side is no edge of the mesh */
+  bool has_plane;       /* `plane` has been computed */
   struct plane_filter plane;
 };
 
@@ -35,21 +40,18 @@ static void make_swept_triangle(const struct pair_sweep *sweep,
                                 struct swept_triangle *s) {
   const struct sheet *sheet = sweep->sheet;
   const struct triangle_grid *grid = sweep->grid;
-  const uint32_t *p = sheet->triangle.item[triangle].point;
-  s->box = box2_of_triangle(sheet, triangle);
-  s->low = s->high = sheet->point.item[p[0]].z;
-  for (int k = 1; k < 3; k++) {
-    int64_t z = sheet->point.item[p[k]].z;
-    if (z < s->low)
-      s->low = z;
-    if (z > s->high)
-      s->high = z;
-  }
+  int64_t low;
+  memcpy(s->point, sheet->triangle.item[triangle].point, sizeof s->point);
+  s->corners = sheet_corners(sheet, triangle);
+  s->box =
+      box2_of_corners(&s->corners.p[0], &s->corners.p[1], &s->corners.p[2]);
+  geom_depth_range(s->corners.p, &low, &s->high);
   s->x0 = triangle_grid_cell(s->box.x0, grid->x0, grid->shift, grid->columns);
   s->y0 = triangle_grid_cell(s->box.y0, grid->y0, grid->shift, grid->rows);
   s->triangle = triangle;
   s->right_copy = right_copy;
   s->in_group = false;
+  s->has_inner_sides = (sheet->triangle_flags[triangle] & 7 * SHEET_INNER) != 0;
   s->has_plane = false;
 }
 
@@ -85,54 +87,53 @@ static bool is_cell_of_pair(const struct pair_sweep *sweep,
   return true;
 }
 
-/* How many corners two triangles share, and the index of the last of these in
- * each. */
-struct shared_corners {
-  int count, in_f, in_g;
-};
-
-static struct shared_corners list_shared_corners(const uint32_t f[3],
-                                                 const uint32_t g[3]) {
-  struct shared_corners shared = {0, 0, 0};
+/* The corners that two triangles share: bit 3 i + j stands for corner i of f,
+ * which is corner j of g. */
+static inline unsigned shared_corners(const uint32_t f[3],
+                                      const uint32_t g[3]) {
+  unsigned shared = 0;
   for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++)
-      if (f[i] == g[j])
-        shared = (struct shared_corners){shared.count + 1, i, j};
+    shared |= ((unsigned)(f[i] == g[0]) | (unsigned)(f[i] == g[1]) << 1 |
+               (unsigned)(f[i] == g[2]) << 2)
+              << 3 * i;
   return shared;
 }
 
-/* The sector of a triangle at a corner: the vectors from there to the next
- * corner and to the one before. */
-struct sector {
-  int64_t x[2], y[2];
+/* A vector on the page. */
+struct page_vector {
+  int64_t x, y;
 };
 
-static struct sector sector_of(const struct sheet *sheet, const uint32_t p[3],
-                               int corner) {
-  struct geom_point v = sheet->point.item[p[corner]],
-                    a = sheet->point.item[p[geom_next_corner(corner)]],
-                    b = sheet->point.item[p[corner == 0 ? 2 : corner - 1]];
-  return (struct sector){{(int64_t)a.x - v.x, (int64_t)b.x - v.x},
-                         {(int64_t)a.y - v.y, (int64_t)b.y - v.y}};
+static inline struct page_vector vector_between(struct geom_point a,
+                                                struct geom_point b) {
+  return (struct page_vector){(int64_t)b.x - a.x, (int64_t)b.y - a.y};
 }
 
-/* Does a side of sector f separate it from g: is all of g strictly to the right
- * of its first side, or to the left of its last? */
-static bool is_separated_by(const struct sector *f, const struct sector *g) {
-  return (f->x[0] * g->y[0] < f->y[0] * g->x[0] &&
-          f->x[0] * g->y[1] < f->y[0] * g->x[1]) ||
-         (f->x[1] * g->y[0] > f->y[1] * g->x[0] &&
-          f->x[1] * g->y[1] > f->y[1] * g->x[1]);
+/* The sign of the cross product of two vectors. */
+static inline int cross_sign(struct page_vector a, struct page_vector b) {
+  int64_t left = a.x * b.y, right = a.y * b.x;
+  return (left > right) - (left < right);
 }
 
-/* Do two counter-clockwise triangles that share a corner have no other point of
- * the page in common?  On a dense mesh nearly all such pairs have none. */
-static bool are_disjoint_at_corner(const struct sheet *sheet,
-                                   const uint32_t f[3], const uint32_t g[3],
-                                   struct shared_corners shared) {
-  struct sector a = sector_of(sheet, f, shared.in_f),
-                b = sector_of(sheet, g, shared.in_g);
-  return is_separated_by(&a, &b) || is_separated_by(&b, &a);
+/* Do two counter-clockwise triangles that share a corner, i of p and j of q,
+ * have no other point of the page in common?  On a dense mesh nearly all such
+ * pairs have none.  So it is where a side that ends in that corner separates
+ * them: all of the other triangle is strictly to the right of the side that
+ * begins there, or to the left of the one that ends there. */
+static bool are_disjoint_at_corner(const struct geom_point p[3], int i,
+                                   const struct geom_point q[3], int j) {
+  struct page_vector f_next = vector_between(p[i], p[geom_next_corner(i)]),
+                     f_last = vector_between(p[i], p[i == 0 ? 2 : i - 1]),
+                     g_next = vector_between(q[j], q[geom_next_corner(j)]),
+                     g_last = vector_between(q[j], q[j == 0 ? 2 : j - 1]);
+  int next_next = cross_sign(f_next, g_next),
+      next_last = cross_sign(f_next, g_last),
+      last_next = cross_sign(f_last, g_next),
+      last_last = cross_sign(f_last, g_last);
+  return ((next_next < 0) & (next_last < 0)) |
+         ((last_next > 0) & (last_last > 0)) |
+         ((next_next > 0) & (last_next > 0)) |
+         ((next_last < 0) & (last_last < 0));
 }
 
 /* Is the side that triangle f shares with a triangle of corners q an edge of
@@ -146,24 +147,35 @@ static bool is_mesh_edge(const struct sheet *sheet, uint32_t f,
   return !sheet_is_inner_side(sheet, f, geom_next_corner(other));
 }
 
-/* Do two triangles share an edge of the mesh, a diagonal of one face, or a
- * corner and nothing more?  Then they do not pierce each other.  Where a side
- * that they share is a diagonal of one of two faces, these may cross in it. */
-static bool are_neighbours(const struct sheet *sheet, uint32_t f, uint32_t g) {
-  const uint32_t *p = sheet->triangle.item[f].point,
-                 *q = sheet->triangle.item[g].point;
-  struct shared_corners shared = list_shared_corners(p, q);
-  switch (shared.count) {
-  case 0:
-    return false;
-  case 1:
-    return are_disjoint_at_corner(sheet, p, q, shared);
-  case 2:
-    return sheet->triangle.item[f].face == sheet->triangle.item[g].face ||
-           (is_mesh_edge(sheet, f, q) && is_mesh_edge(sheet, g, p));
-  default:
+/* Are triangles that share a side parts of one face, or is the side an edge of
+ * the mesh?  Where it is a diagonal of one of two faces, these may cross in
+ * it. */
+static bool are_neighbours_at_side(const struct sheet *sheet,
+                                   const struct swept_triangle *f,
+                                   const struct swept_triangle *g) {
+  if (!f->has_inner_sides && !g->has_inner_sides)
     return true;
+  return sheet->triangle.item[f->triangle].face ==
+             sheet->triangle.item[g->triangle].face ||
+         (is_mesh_edge(sheet, f->triangle, g->point) &&
+          is_mesh_edge(sheet, g->triangle, f->point));
+}
+
+/* Do two triangles share an edge of the mesh, a diagonal of one face, or a
+ * corner and nothing more?  Then they do not pierce each other. */
+static bool are_neighbours(const struct sheet *sheet,
+                           const struct swept_triangle *f,
+                           const struct swept_triangle *g) {
+  unsigned shared = shared_corners(f->point, g->point),
+           others = shared & (shared - 1);
+  if (shared == 0)
+    return false;
+  if (others == 0) {
+    int first = __builtin_ctz(shared);
+    return are_disjoint_at_corner(f->corners.p, first / 3, g->corners.p,
+                                  first % 3);
   }
+  return (others & (others - 1)) != 0 || are_neighbours_at_side(sheet, f, g);
 }
 
 /* May f straddle the plane of g or end on it? */
@@ -173,55 +185,70 @@ static bool may_pierce(const struct sheet *sheet,
   if (!g->has_plane)
     g->plane = plane_filter_of(sheet, g->triangle);
   g->has_plane = true;
-  return plane_filter_may_intersect(&g->plane,
-                                    sheet_corners(sheet, f->triangle).p);
+  return plane_filter_may_intersect(&g->plane, f->corners.p);
 }
 
 /* Is all of g to the right of a side of f on the page, by more than the
  * distance of lines that count as coincident? */
-static bool is_outside_triangle(const struct sheet *sheet, uint32_t f,
-                                uint32_t g) {
-  struct geom_triangle p = sheet_corners(sheet, f), q = sheet_corners(sheet, g);
+static bool is_outside_triangle(const struct geom_point p[3],
+                                const struct geom_point q[3]) {
   for (int k = 0; k < 3; k++) {
-    struct geom_point a = p.p[k], b = p.p[geom_next_corner(k)];
+    struct geom_point a = p[k], b = p[geom_next_corner(k)];
     int64_t dx = (int64_t)b.x - a.x, dy = (int64_t)b.y - a.y;
     int64_t near =
         BSP_PLANE_MARGIN * ((dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy));
-    if (geom_orient2d(a, b, q.p[0]) < -near &&
-        geom_orient2d(a, b, q.p[1]) < -near &&
-        geom_orient2d(a, b, q.p[2]) < -near)
+    if (geom_orient2d(a, b, q[0]) < -near &&
+        geom_orient2d(a, b, q[1]) < -near && geom_orient2d(a, b, q[2]) < -near)
       return true;
   }
   return false;
 }
 
 /* Visits a pair whose depths overlap, unless a test rejects it. */
-static bool visit_pair(const struct pair_sweep *sweep, struct swept_triangle *f,
-                       struct swept_triangle *g) {
+static inline bool visit_pair(const struct pair_sweep *sweep,
+                              struct swept_triangle *f,
+                              struct swept_triangle *g) {
   if (box2_disjoint(f->box, g->box) || (f->right_copy & g->right_copy) != 0 ||
-      !is_cell_of_pair(sweep, f, g) ||
-      are_neighbours(sweep->sheet, f->triangle, g->triangle) ||
+      !is_cell_of_pair(sweep, f, g) || are_neighbours(sweep->sheet, f, g) ||
       !may_pierce(sweep->sheet, f, g) || !may_pierce(sweep->sheet, g, f) ||
-      is_outside_triangle(sweep->sheet, f->triangle, g->triangle) ||
-      is_outside_triangle(sweep->sheet, g->triangle, f->triangle))
+      is_outside_triangle(f->corners.p, g->corners.p) ||
+      is_outside_triangle(g->corners.p, f->corners.p))
     return true;
   return f->triangle < g->triangle
              ? sweep->visit(sweep->user, f->triangle, g->triangle)
              : sweep->visit(sweep->user, g->triangle, f->triangle);
 }
 
+/* ---- Lists --------------------------------------------------------------- */
+
 /* Starts a list, with room for n triangles. */
 static bool start_list(struct pair_sweep *sweep, size_t n) {
-  sweep->swept.count = 0;
-  return ARRAY_RESERVE(&sweep->swept, n) && ARRAY_RESERVE(&sweep->key, 2 * n);
+  sweep->listed.count = 0;
+  return ARRAY_RESERVE(&sweep->listed, n) && ARRAY_RESERVE(&sweep->swept, n) &&
+         ARRAY_RESERVE(&sweep->key, 2 * n);
 }
 
-static void add_to_list(struct pair_sweep *sweep, uint32_t triangle,
-                        uint64_t right_copy) {
-  size_t i = sweep->swept.count++;
-  make_swept_triangle(sweep, triangle, right_copy, &sweep->swept.item[i]);
-  sweep->key.item[i] =
-      (struct sort_key){(uint64_t)sweep->swept.item[i].low, (uint32_t)i};
+/* Adds a triangle, with its key: the depth of its farthest corner. */
+static inline void add_to_list(struct pair_sweep *sweep, uint32_t triangle,
+                               uint64_t right_copy) {
+  size_t i = sweep->listed.count++;
+  int64_t low, high;
+  geom_depth_range(sheet_corners(sweep->sheet, triangle).p, &low, &high);
+  sweep->listed.item[i] =
+      (struct listed_triangle){.right_copy = right_copy, .triangle = triangle};
+  sweep->key.item[i] = (struct sort_key){(uint64_t)low, (uint32_t)i};
+}
+
+/* Sorts the list by depth: swept triangle i then is that of key i. */
+static void sort_swept(struct pair_sweep *sweep) {
+  size_t n = sweep->swept.count = sweep->listed.count;
+  struct sort_key *key = sweep->key.item;
+  sort_keys(key, key + n, n);
+  for (size_t i = 0; i < n; i++) {
+    struct listed_triangle t = sweep->listed.item[key[i].value];
+    make_swept_triangle(sweep, t.triangle, t.right_copy, &sweep->swept.item[i]);
+    key[i].value = (uint32_t)i;
+  }
 }
 
 /* ---- Groups -------------------------------------------------------------- */
@@ -302,7 +329,7 @@ static bool list_others(struct pair_sweep *sweep,
                         const struct pair_group *group) {
   sweep->other.count = 0;
   for (size_t i = 0; i < sweep->swept.count; i++) {
-    struct swept_triangle *f = &sweep->swept.item[sweep->key.item[i].value];
+    struct swept_triangle *f = &sweep->swept.item[i];
     f->in_group = is_in_group(sweep, group, f->triangle);
     if (!f->in_group && !ARRAY_PUSH(&sweep->other, sweep->key.item[i]))
       return false;
@@ -314,15 +341,15 @@ static bool list_others(struct pair_sweep *sweep,
 
 /* Tests the pairs of the list, but not those of its group. */
 static bool sweep_list(struct pair_sweep *sweep) {
+  sort_swept(sweep);
   struct swept_triangle *swept = sweep->swept.item;
   struct sort_key *key = sweep->key.item;
   size_t n = sweep->swept.count, others = 0;
   struct pair_group group = choose_group(sweep);
-  sort_keys(key, key + n, n);
   if (n >= FACE_LIST_MIN && !list_others(sweep, &group))
     return false;
   for (size_t i = 0; i < n; i++) {
-    struct swept_triangle *f = &swept[key[i].value];
+    struct swept_triangle *f = &swept[i];
     const struct sort_key *g = f->in_group ? sweep->other.item : key;
     size_t end = f->in_group ? sweep->other.count : n;
     size_t first = f->in_group ? others : i + 1, j = first;
@@ -355,21 +382,39 @@ static bool sweep_bsp(struct pair_sweep *sweep) {
   return true;
 }
 
-static bool sweep_cell(struct pair_sweep *sweep, const uint32_t *item,
-                       size_t n) {
+/* Fetches the triangle that an entry of a list stands for and, of an entry that
+ * comes sooner, the corners.
+ * entry  in the lists of all cells */
+MEM_PREFETCH_INLINE void prefetch_entry(const struct pair_sweep *sweep,
+                                        size_t entry) {
+  const struct number_lists *lists = &sweep->grid->lists;
+  size_t cells = triangle_grid_cell_count(sweep->grid);
+  if (entry + MEM_PREFETCH_AHEAD >= lists->start[cells])
+    return;
+  MEM_PREFETCH(
+      &sweep->sheet->triangle.item[lists->item[entry + MEM_PREFETCH_AHEAD]]);
+  sheet_prefetch_corners(sweep->sheet, lists->item[entry]);
+}
+
+/* Sweeps the list of a cell, and fetches what that of the next cell has.  It is
+ * read from its end, as lists of tiles are ordered from near to far, and
+ * insertion is fast where few entries are out of order. */
+static bool sweep_cell(struct pair_sweep *sweep, size_t cell) {
+  const struct number_lists *lists = &sweep->grid->lists;
+  size_t from = lists->start[cell], end = lists->start[cell + 1];
   uint32_t root = SHEET_NONE;
   bsp_clear(&sweep->bsp);
-  if (n >= BSP_LIST_MIN &&
-      !bsp_add(&sweep->bsp, sweep->sheet, item, n, true, &root))
+  if (end - from >= BSP_LIST_MIN &&
+      !bsp_add(&sweep->bsp, sweep->sheet, lists->item + from, end - from, true,
+               &root))
     return false;
   if (root != SHEET_NONE)
     return sweep_bsp(sweep);
-  if (!start_list(sweep, n))
+  if (!start_list(sweep, end - from))
     return false;
-  for (size_t i = 0; i < n; i++) {
-    if (i + MEM_PREFETCH_AHEAD < n)
-      sheet_prefetch_corners(sweep->sheet, item[i + MEM_PREFETCH_AHEAD]);
-    add_to_list(sweep, item[i], 0);
+  for (size_t i = end; i > from; i--) {
+    prefetch_entry(sweep, end + (end - i));
+    add_to_list(sweep, lists->item[i - 1], 0);
   }
   return sweep_list(sweep);
 }
@@ -378,16 +423,17 @@ bool pair_sweep_cells(struct pair_sweep *sweep, size_t begin, size_t end) {
   const struct triangle_grid *grid = sweep->grid;
   bool ok = true;
   for (size_t cell = begin; ok && cell < end; cell++) {
-    size_t n = grid->lists.start[cell + 1] - grid->lists.start[cell];
     sweep->x = (int)(cell % (size_t)grid->columns);
     sweep->y = (int)(cell / (size_t)grid->columns);
-    if (n > 1 && (sweep->cells == NULL || sweep->cells[cell]))
-      ok = sweep_cell(sweep, grid->lists.item + grid->lists.start[cell], n);
+    if (grid->lists.start[cell + 1] - grid->lists.start[cell] > 1 &&
+        (sweep->cells == NULL || sweep->cells[cell]))
+      ok = sweep_cell(sweep, cell);
   }
   return ok;
 }
 
 void pair_sweep_fini(struct pair_sweep *sweep) {
+  ARRAY_FREE(&sweep->listed);
   ARRAY_FREE(&sweep->swept);
   ARRAY_FREE(&sweep->key);
   ARRAY_FREE(&sweep->other);

@@ -7,6 +7,13 @@
 #include "visibility/index/triangle_grid.h"
 #include "visibility/progress.h"
 
+/* An entry of a list.
+ * right_copy  of bsp.h; 0 where the list is that of a cell */
+struct listed_triangle {
+  uint64_t right_copy;
+  uint32_t triangle;
+};
+
 /* The search for pairs in the cells of a grid, by one thread or by several,
  * each of which has its own. */
 struct pair_sweep {
@@ -18,8 +25,9 @@ struct pair_sweep {
   struct progress *progress; /* counts the work */
   uint64_t met; /* the number of pairs of one list whose depths overlap */
   int x, y;     /* the current cell */
-  ARRAY(struct swept_triangle) swept;
-  ARRAY(struct sort_key) key; /* twice as many: sorted by depth, and scratch */
+  ARRAY(struct listed_triangle) listed; /* those of the current list */
+  ARRAY(struct swept_triangle) swept;   /* the same, sorted by depth */
+  ARRAY(struct sort_key) key;   /* twice as many: by depth, and scratch */
   ARRAY(struct sort_key) other; /* those that are not of the face, or about the
                                    edge, that most of the list's triangles are
                                    of */
