@@ -8,7 +8,6 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <string.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -22,21 +21,6 @@ size_t input_size_max(void) {
   if (pages <= 0 || size <= 0 || (size_t)pages / 2 > most / (size_t)size)
     return most;
   return (size_t)pages / 2 * (size_t)size;
-}
-
-/* Asks for large pages for what a file is about to be read into: the system
- * then has fewer of them to clear and to find. */
-static void advise_large_pages(char *block, size_t size) {
-#ifdef MADV_HUGEPAGE
-  static const uintptr_t large = (uintptr_t)1 << 21;
-  uintptr_t start = ((uintptr_t)block + large - 1) & ~(large - 1);
-  uintptr_t end = ((uintptr_t)block + size) & ~(large - 1);
-  if (start < end)
-    (void)madvise((void *)start, end - start, MADV_HUGEPAGE);
-#else
-  (void)block;
-  (void)size;
-#endif
 }
 
 /* Where bytes come from. */
@@ -115,7 +99,6 @@ static recto_status read_all(const struct source *source, struct input *input,
   size_t capacity = source->size > 0 ? source->size + 2 : CHUNK;
   if (!ARRAY_RESERVE(&input->buffer, capacity))
     return error_memory(error);
-  advise_large_pages(input->buffer.item, capacity);
   read_parts(source, &input->buffer);
   while (poll_now()) {
     if (input->buffer.capacity - input->buffer.count < 2 &&
