@@ -386,9 +386,13 @@ bool tile_classification_init(struct tile_classification *tiles,
   return true;
 }
 
-void tile_classification_fini(struct tile_classification *tiles) {
-  mem_free(tiles->tile);
+void tile_classification_drop_footprints(struct tile_classification *tiles) {
   mem_free(tiles->footprint);
-  tiles->tile = NULL;
   tiles->footprint = NULL;
+}
+
+void tile_classification_fini(struct tile_classification *tiles) {
+  tile_classification_drop_footprints(tiles);
+  mem_free(tiles->tile);
+  tiles->tile = NULL;
 }

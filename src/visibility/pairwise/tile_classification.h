@@ -48,7 +48,7 @@ struct tile {
 struct tile_classification {
   struct triangle_grid grid; /* the tiles; it has no lists */
   struct tile *tile;
-  struct footprint *footprint;   /* one per triangle */
+  struct footprint *footprint;   /* one per triangle; NULL: dropped */
   uint64_t z_buckets;            /* the union of all tiles' */
   uint64_t simple, mixed, empty; /* numbers of tiles */
 };
@@ -63,6 +63,9 @@ USE_RESULT bool tile_classification_init(struct tile_classification *tiles,
                                          const struct sheet *sheet, bool edges,
                                          bool fragments);
 void tile_classification_fini(struct tile_classification *tiles);
+
+/* Frees the footprints, once all lists are made and faces are not solved. */
+void tile_classification_drop_footprints(struct tile_classification *tiles);
 
 /* The bucket of a depth; farther depths have lower numbers. */
 static inline int tile_bucket(int64_t z) {

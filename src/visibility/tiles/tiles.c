@@ -250,6 +250,8 @@ static bool solve_all(struct tiles_work *work, struct map *map,
   end_phase(work, "lists_cpu_s");
   if (intersections && !find_intersections(work, map, status, error))
     return false;
+  if (!request->fragments)
+    tile_classification_drop_footprints(&work->tiles);
   if (request->edges && !solve_edges_tiles(work, map))
     return false;
   end_phase(work, "edges_cpu_s");
