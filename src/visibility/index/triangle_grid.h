@@ -167,10 +167,11 @@ footprint_cells(const struct triangle_grid *grid, const struct sheet *sheet,
 }
 
 /* The result of a query, and the set of triangles that are in it; one per
- * thread. */
+ * thread.  Queries are numbered in 16 bits, to save memory: after 65,535 of
+ * them the stamps are cleared. */
 struct triangle_grid_query {
-  uint32_t *stamp; /* per triangle; == now: it was found */
-  uint32_t now;    /* the number of the query */
+  uint16_t *stamp; /* per triangle; == now: it was found */
+  uint16_t now;    /* the number of the query */
   ARRAY(uint32_t) found;
 };
 
