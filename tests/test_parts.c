@@ -410,6 +410,45 @@ static void what_parts_do_not_have_is_refused(void **state) {
   recto_scene_destroy(scene);
 }
 
+/* Whether a part of two triangles is refused, the corners of which lie so far
+ * apart along an axis, wherever in the cells by which they are sought. */
+static bool is_welding_refused(void *const *state, int axis, double at,
+                               double gap) {
+  recto_scene *scene;
+  recto_options options;
+  recto_error error = {0};
+  double near[3] = {at, at, at}, far[3] = {at, at, at};
+  far[axis] += gap;
+  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+  recto_options_init(&options);
+  options.mesh.weld = 0.001;
+  for (int k = 0; k < 2; k++) {
+    const double *corner = k == 0 ? near : far, side = k == 0 ? -1 : 1;
+    build_triangle(&scene->scene,
+                   build_point(&scene->scene, corner[0], corner[1], corner[2]),
+                   build_point(&scene->scene, at + side, at - 1, at),
+                   build_point(&scene->scene, at + side, at + 1, at + side));
+  }
+  recto_status status = write_parts(state, scene, &options, 2, &error);
+  recto_scene_destroy(scene);
+  if (status == RECTO_ERROR_UNSUPPORTED)
+    assert_non_null(strstr(error.text, "which parts cannot weld"));
+  else
+    assert_int_equal(status, RECTO_OK);
+  return status != RECTO_OK;
+}
+
+static void corners_that_may_be_welded_are_refused(void **state) {
+  for (int axis = 0; axis < 3; axis++)
+    for (int i = -8; i <= 8; i++) {
+      double at = i * 0.0005;
+      assert_true(is_welding_refused(state, axis, at, 0.00099));
+      assert_true(is_welding_refused(state, axis, at, -0.00099));
+      assert_false(is_welding_refused(state, axis, at, 0.00101));
+      assert_false(is_welding_refused(state, axis, at, -0.00101));
+    }
+}
+
 static void a_limit_of_hiding_faces_may_be_left_out(void **state) {
   recto_options options;
   recto_scene *scene = make_parts(state, &options);
@@ -493,6 +532,7 @@ int main(void) {
       cmocka_unit_test(checksums_are_those_of_the_polynomial),
       IN_FOLDER(a_whole_part_of_the_drawing_is_there),
       IN_FOLDER(what_parts_do_not_have_is_refused),
+      IN_FOLDER(corners_that_may_be_welded_are_refused),
       IN_FOLDER(a_limit_of_hiding_faces_may_be_left_out),
       IN_FOLDER(what_runs_out_of_memory_says_so)};
   return cmocka_run_group_tests(tests, NULL, NULL);

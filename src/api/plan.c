@@ -244,6 +244,8 @@ static recto_status take_section(struct planned_part *planned, uint32_t index,
   struct scene *scene = &solve->scene.scene;
   scene->group.item = solve->part.common.group.item;
   scene->group.count = solve->part.common.group.count;
+  if (!part_scene_needs_places(&solve->part.common))
+    return RECTO_OK;
   solve->scene.place = page_places(&solve->part.common.camera, scene);
   return solve->scene.place != NULL ? RECTO_OK : error_memory(error);
 }

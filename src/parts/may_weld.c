@@ -1,24 +1,33 @@
 /* may_weld.c - whether welding might join points of borders in a part.
  *
- * Points are listed by cells of a grid as wide as the length, so that two that
- * are close enough lie in neighbouring cells. */
+ * Points are listed by cells of a grid some lengths wide, so that those that
+ * are close to a point lie in few of them.  Hardly any is close to another:
+ * only where one is, it is asked of which faces it is a corner. */
 #include <math.h>
 
 #include "base/hash.h"
 #include "base/poll.h"
 #include "parts/part_scene.h"
 
+/* The width of a cell, in lengths. */
+enum { CELL_LENGTHS = 4 };
+
+struct weld_list {
+  uint32_t *item;
+  size_t count, capacity;
+};
+
 /* Border points by cell, by linear probing. */
 struct border_points {
   const struct scene_point *point;
-  double length;
-  ARRAY(uint32_t) list;
+  double length, cell;
+  struct weld_list list;
   uint32_t *slot; /* numbers in the list + 1 */
   size_t mask;
 };
 
 static double weld_cell(const struct border_points *points, double at) {
-  return floor(at / points->length);
+  return floor(at / points->cell);
 }
 
 static size_t slot_of_cell(const struct border_points *points, double x,
@@ -74,36 +83,72 @@ static bool is_close_in_cell(const struct border_points *points,
   return false;
 }
 
+/* Whether another place is close to p: in its cell or in the next one, along
+ * each axis. */
 static bool is_close_to_any(const struct border_points *points,
                             const struct scene_point *p) {
-  double at[3] = {weld_cell(points, p->x), weld_cell(points, p->y),
-                  weld_cell(points, p->z)};
-  for (int i = 0; i < 27; i++)
-    if (is_close_in_cell(points, p, at[0] + i % 3 - 1, at[1] + i / 3 % 3 - 1,
-                         at[2] + (double)(i / 9) - 1))
+  const double at[3] = {p->x, p->y, p->z}, reach = 1.001 * points->length;
+  double cell[2][3];
+  for (int k = 0; k < 3; k++) {
+    cell[0][k] = weld_cell(points, at[k] - reach);
+    cell[1][k] = weld_cell(points, at[k] + reach);
+  }
+  for (int i = 0; i < 8; i++) {
+    int x = i & 1, y = i >> 1 & 1, z = i >> 2;
+    bool is_again = (x && cell[0][0] == cell[1][0]) ||
+                    (y && cell[0][1] == cell[1][1]) ||
+                    (z && cell[0][2] == cell[1][2]);
+    if (!is_again &&
+        is_close_in_cell(points, p, cell[x][0], cell[y][1], cell[z][2]))
       return true;
+  }
   return false;
+}
+
+/* Lists the points that are close to another one. */
+static bool list_close_points(const struct border_points *points,
+                              struct weld_list *close) {
+  for (size_t i = 0; i < points->list.count && poll_at(i); i++) {
+    uint32_t p = points->list.item[i];
+    if (is_close_to_any(points, &points->point[p]) && !ARRAY_PUSH(close, p))
+      return false;
+  }
+  return true;
+}
+
+/* Finds whether a kept face has a corner at one of these points. */
+static bool find_kept_corner(const struct part_scene *part,
+                             const struct topology *topology,
+                             const struct weld_list *point, bool *found) {
+  const struct scene *scene = &part->scene;
+  uint8_t *is_sought = mem_calloc(scene->point.count, 1);
+  for (size_t i = 0; is_sought != NULL && i < point->count; i++)
+    is_sought[point->item[i]] = 1;
+  for (uint32_t f = 0; is_sought != NULL && f < scene_face_count(scene); f++)
+    for (uint32_t c = scene_face_start(scene, f);
+         c < scene_face_start(scene, f + 1) && part->is_kept[f]; c++)
+      *found |= is_sought[topology->weld != NULL
+                              ? topology->weld[scene->corner.item[c]]
+                              : scene->corner.item[c]];
+  mem_free(is_sought);
+  return is_sought != NULL;
 }
 
 bool part_scene_may_weld(const struct part_scene *part,
                          const struct topology *topology, double length,
                          bool *may_weld) {
-  const struct scene *scene = &part->scene;
-  struct border_points points = {.point = scene->point.item, .length = length};
+  struct border_points points = {.point = part->scene.point.item,
+                                 .length = length,
+                                 .cell = CELL_LENGTHS * length};
+  struct weld_list close = {.item = NULL};
   *may_weld = false;
   if (!(length > 0))
     return true;
-  uint8_t *is_corner = mem_calloc(scene->point.count, 1);
-  bool ok = is_corner != NULL && list_border_points(&points, part, topology);
-  for (uint32_t f = 0; ok && f < scene_face_count(scene); f++)
-    for (uint32_t c = scene_face_start(scene, f);
-         c < scene_face_start(scene, f + 1) && part->is_kept[f]; c++)
-      is_corner[topology->weld != NULL ? topology->weld[scene->corner.item[c]]
-                                       : scene->corner.item[c]] = 1;
-  for (size_t i = 0; ok && i < points.list.count && !*may_weld; i++)
-    *may_weld = poll_at(i) && is_corner[points.list.item[i]] &&
-                is_close_to_any(&points, &points.point[points.list.item[i]]);
-  mem_free(is_corner);
+  bool ok = list_border_points(&points, part, topology) &&
+            list_close_points(&points, &close);
+  if (ok && close.count > 0)
+    ok = find_kept_corner(part, topology, &close, may_weld);
+  ARRAY_FREE(&close);
   ARRAY_FREE(&points.list);
   mem_free(points.slot);
   return ok;

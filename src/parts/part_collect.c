@@ -12,6 +12,7 @@
 #include "parts/part_collect.h"
 
 #include "base/poll.h"
+#include "base/sort.h"
 #include "parts/edge_runs.h"
 #include "parts/unread_edges.h"
 
@@ -23,8 +24,7 @@ struct collection {
   uint8_t *edge_needed; /* one a topology edge */
   uint8_t *face_needed; /* one a face of the part's scene */
   uint8_t *wire_needed;
-  uint8_t *point_needed;    /* one a point of the part's scene */
-  uint32_t *first_triangle; /* of each face: on the sheet */
+  uint8_t *point_needed; /* one a point of the part's scene */
   struct unread_edges unread;
   bool lists_unread; /* one of these was listed */
 };
@@ -50,7 +50,6 @@ static void number_places(struct collection *c) {
   bool fold = false;
   for (size_t e = 0; e < sheet->edge.count; e++) {
     const struct sheet_edge *edge = &sheet->edge.item[e];
-    c->place[e] = 0;
     if (is_intersection(edge) || !(is_fold(edge) || is_wire(edge)))
       continue;
     uint32_t own = is_fold(edge) ? sheet_edge_face(sheet, edge) : edge->source;
@@ -147,9 +146,12 @@ static bool store_over_limit(struct collection *c, const struct edge_rows *rows,
 
 static struct part_triangle part_triangle_of(const struct collection *c,
                                              uint32_t triangle) {
-  uint32_t face = c->from->sheet->triangle.item[triangle].face;
+  const struct sheet_triangle *of = c->from->sheet->triangle.item;
+  uint32_t face = of[triangle].face;
+  size_t first = 0;
+  LOWER_BOUND(first, 0, triangle, of[first].face < face);
   return (struct part_triangle){c->from->scene->face_number[face],
-                                triangle - c->first_triangle[face]};
+                                triangle - (uint32_t)first};
 }
 
 static bool store_crossing(struct collection *c, uint32_t e,
@@ -277,13 +279,31 @@ static bool collect_fragments(struct collection *c) {
 
 /* ---- Faces, polylines and points ----------------------------------------- */
 
-static void need_faces_of_edges(struct collection *c) {
+/* Marks the faces of an edge of more than two: no list has them. */
+static void need_faces_of_crowded_edges(struct collection *c) {
   const struct scene *scene = &c->from->scene->scene;
+  const struct topology *topology = c->from->topology;
   for (uint32_t f = 0; f < scene_face_count(scene); f++)
     for (uint32_t i = scene_face_start(scene, f);
          i < scene_face_start(scene, f + 1); i++)
-      if (c->edge_needed[c->from->topology->corner_edge[i]])
+      if (c->edge_needed[topology->corner_edge[i]])
         c->face_needed[f] = 1;
+}
+
+static void need_faces_of_edges(struct collection *c) {
+  const struct topology *topology = c->from->topology;
+  bool is_crowded = false;
+  for (size_t e = 0; e < topology->edge.count; e++) {
+    const struct topology_edge *edge = &topology->edge.item[e];
+    if (!c->edge_needed[e])
+      continue;
+    c->face_needed[edge->first] = 1;
+    if (edge->uses > 1)
+      c->face_needed[edge->second] = 1;
+    is_crowded = is_crowded || edge->uses > 2;
+  }
+  if (is_crowded)
+    need_faces_of_crowded_edges(c);
 }
 
 /* Stores a face or a polyline; of its points those that they are welded to. */
@@ -333,14 +353,15 @@ static bool collect_elements(struct collection *c) {
   struct part *part = c->part;
   need_faces_of_edges(c);
   for (uint32_t f = 0; f < scene_face_count(scene); f++) {
+    if (!c->face_needed[f])
+      continue;
     uint32_t start = scene_face_start(scene, f);
     struct part_element face = {
         .number = c->from->scene->face_number[f],
         .group = scene_face_group(scene, f),
         .in_group = number_in_group(c->from->scene->face_in_group, f),
         .count = scene_face_start(scene, f + 1) - start};
-    if (c->face_needed[f] &&
-        !(store_element(c, scene->corner.item + start, &face, true) &&
+    if (!(store_element(c, scene->corner.item + start, &face, true) &&
           store_tones(c, f, &face) && ARRAY_PUSH(&part->face, face)))
       return false;
   }
@@ -357,9 +378,10 @@ static bool collect_elements(struct collection *c) {
       return false;
   }
   for (size_t p = 0; p < scene->point.count; p++) {
-    struct part_point point = {c->from->scene->point_number[p],
-                               scene->point.item[p]};
-    if (c->point_needed[p] && !ARRAY_PUSH(&part->point, point))
+    if (c->point_needed[p] &&
+        !ARRAY_PUSH(&part->point,
+                    ((struct part_point){c->from->scene->point_number[p],
+                                         scene->point.item[p]})))
       return false;
   }
   return true;
@@ -367,32 +389,21 @@ static bool collect_elements(struct collection *c) {
 
 /* -------------------------------------------------------------------------- */
 
-static void find_first_triangles(struct collection *c) {
-  const struct sheet *sheet = c->from->sheet;
-  for (size_t t = sheet->triangle.count; t > 0; t--)
-    c->first_triangle[sheet->triangle.item[t - 1].face] = (uint32_t)(t - 1);
-}
-
 recto_status part_collect(struct part *part, const struct part_sources *sources,
                           recto_error *error) {
   const struct scene *scene = &sources->scene->scene;
   struct collection c = {
       .part = part,
       .from = sources,
-      .place = mem_alloc(sources->sheet->edge.count, sizeof *c.place),
+      .place = mem_calloc(sources->sheet->edge.count, sizeof *c.place),
       .edge_needed = mem_calloc(sources->topology->edge.count, 1),
       .face_needed = mem_calloc(scene_face_count(scene), 1),
       .wire_needed = mem_calloc(scene_wire_count(scene), 1),
-      .point_needed = mem_calloc(scene->point.count, 1),
-      .first_triangle =
-          mem_calloc(scene_face_count(scene), sizeof *c.first_triangle)};
+      .point_needed = mem_calloc(scene->point.count, 1)};
   bool ok = c.place != NULL && c.edge_needed != NULL && c.face_needed != NULL &&
-            c.wire_needed != NULL && c.point_needed != NULL &&
-            c.first_triangle != NULL;
-  if (ok) {
+            c.wire_needed != NULL && c.point_needed != NULL;
+  if (ok)
     number_places(&c);
-    find_first_triangles(&c);
-  }
   ok = ok && unread_edges_find(&c.unread, part, sources) && reserve_edges(&c) &&
        collect_edges(&c) &&
        (!part->common.has_ids || edge_runs_collect(part, sources)) &&
@@ -403,7 +414,6 @@ recto_status part_collect(struct part *part, const struct part_sources *sources,
   mem_free(c.face_needed);
   mem_free(c.wire_needed);
   mem_free(c.point_needed);
-  mem_free(c.first_triangle);
   unread_edges_fini(&c.unread);
   return ok && !poll_is_cancelled() ? RECTO_OK : error_memory(error);
 }

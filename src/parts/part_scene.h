@@ -19,8 +19,9 @@ struct part_scene {
   struct scene scene; /* the groups are borrowed, not owned */
   uint32_t *point_number, *face_number, *wire_number; /* in the model */
   uint32_t *face_in_group, *wire_in_group; /* and in their groups, or NULL */
-  struct page_place *place;                /* of each point */
-  uint8_t *is_kept; /* one a face: 0: it is only of the ring */
+  struct page_place *place; /* of each point; by a plan NULL where they are not
+                               needed */
+  uint8_t *is_kept;         /* one a face: 0: it is only of the ring */
 };
 
 struct part_scene_request {
@@ -46,6 +47,12 @@ USE_RESULT recto_status
 part_scene_make(struct part_scene *part, struct face_pick *pick,
                 const struct part_scene_request *request, recto_error *error);
 void part_scene_fini(struct part_scene *part);
+
+/* Whether it is asked which faces belong to a window, which places tell: for
+ * their fragments and the runs of their edges. */
+static inline bool part_scene_needs_places(const struct part_common *common) {
+  return common->has_fragments || common->has_ids;
+}
 
 /* Whether a face belongs to the window, of all windows. */
 bool part_scene_owns(const struct part_scene *part,

@@ -170,7 +170,6 @@ static bool make_room_for_section(struct section_work *work) {
          (n->are_triangles ||
           MAKE_ROOM(&scene->face_start, 4, starts_of(n->faces))) &&
          MAKE_ROOM(&scene->corner, 4, n->corners) &&
-         MAKE_ROOM(&scene->face_group, 4, n->faces) &&
          make_room_for_wires(work) && make_room_for_tones(work);
 }
 
@@ -200,20 +199,37 @@ static bool list_runs(struct section_work *work) {
   return true;
 }
 
-/* Gives the faces their groups; false where the runs are in no order. */
+/* The face after those of a run. */
+static uint64_t past_run(const struct section_work *work, uint64_t run) {
+  const struct section_counts *n = &work->counts;
+  return run + 1 < n->runs ? work->runs.first[run + 1] : n->faces;
+}
+
+/* Whether the runs go through all faces, and name groups that there are. */
+static bool runs_are_valid(const struct section_work *work) {
+  const struct section_counts *n = &work->counts;
+  bool ok = (n->faces > 0) == (n->runs > 0) &&
+            (n->runs == 0 || work->runs.first[0] == 0);
+  for (uint64_t r = 0; r < n->runs && ok; r++)
+    ok = work->runs.first[r] < past_run(work, r) &&
+         past_run(work, r) <= n->faces &&
+         work->runs.group[r] < work->form->groups;
+  return ok;
+}
+
+/* Gives the faces their groups, which a scene does not store where all are of
+ * the first; false when memory ran out. */
 static bool spread_runs(struct section_work *work) {
   const struct section_counts *n = &work->counts;
-  uint32_t *group = work->section->part.scene.face_group.item;
-  if ((n->faces > 0) != (n->runs > 0) ||
-      (n->runs > 0 && work->runs.first[0] != 0))
+  struct scene *scene = &work->section->part.scene;
+  if (n->runs == 0 || (n->runs == 1 && work->runs.group[0] == 0))
+    return true;
+  if (!ARRAY_RESERVE(&scene->face_group, (size_t)n->faces))
     return false;
-  for (uint64_t r = 0; r < n->runs; r++) {
-    uint64_t past = r + 1 < n->runs ? work->runs.first[r + 1] : n->faces;
-    if (work->runs.first[r] >= past || past > n->faces)
-      return false;
-    for (uint64_t f = work->runs.first[r]; f < past; f++)
-      group[f] = work->runs.group[r];
-  }
+  scene->face_group.count = (size_t)n->faces;
+  for (uint64_t r = 0; r < n->runs; r++)
+    for (uint64_t f = work->runs.first[r]; f < past_run(work, r); f++)
+      scene->face_group.item[f] = work->runs.group[r];
   return true;
 }
 
@@ -325,9 +341,9 @@ static recto_status read_section(struct section_work *work, uint64_t size,
     return error_set(error, RECTO_ERROR_FORMAT, path, 0,
                      "the plan is damaged: the checksum of part %lu is wrong",
                      (unsigned long)work->section->index + 1);
-  if (!spread_runs(work))
+  if (!runs_are_valid(work))
     return refuse_section(path, error);
-  if (!add_section_precisions(work))
+  if (!spread_runs(work) || !add_section_precisions(work))
     return error_memory(error);
   recto_status status = plan_section_check(work->section, work->form);
   return status == RECTO_ERROR_MEMORY ? error_memory(error)

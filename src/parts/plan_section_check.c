@@ -145,7 +145,6 @@ static bool lists_are_valid(const struct plan_section *section,
                    scene->point.count) &&
          are_below(scene->wire_corner.item, scene->wire_corner.count,
                    scene->point.count) &&
-         are_below(scene->face_group.item, faces, form->groups) &&
          are_below(scene->wire_group.item, wires, form->groups) &&
          (!form->has_tones || tones_are_valid(section));
 }
