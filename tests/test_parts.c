@@ -124,24 +124,28 @@ static bool compare_parts(void *const *state, const recto_scene *scene,
 }
 
 /* Lines, hidden lines dashed, fills, hatching, lines behind one face, ids,
- * creases with a second angle and all edges, tone hatching, all edges. */
-enum { MODES = 9 };
+ * creases with a second angle and all edges, tone hatching, all edges; and with a
+ * second angle smooth edges alone, and with creases. */
+enum { MODES = 11 };
 
 static void set_mode(recto_options *options, int mode) {
   static const recto_fill fill[MODES] = {
-      RECTO_FILL_NONE,  RECTO_FILL_NONE,  RECTO_FILL_SHADE,
-      RECTO_FILL_HATCH, RECTO_FILL_NONE,  RECTO_FILL_SHADE,
-      RECTO_FILL_NONE,  RECTO_FILL_HATCH, RECTO_FILL_NONE};
+      RECTO_FILL_NONE, RECTO_FILL_NONE,  RECTO_FILL_SHADE, RECTO_FILL_HATCH,
+      RECTO_FILL_NONE, RECTO_FILL_SHADE, RECTO_FILL_NONE,  RECTO_FILL_HATCH,
+      RECTO_FILL_NONE, RECTO_FILL_NONE,  RECTO_FILL_SHADE};
   options->ink.fill = fill[mode];
   options->ink.hidden = mode == 1   ? RECTO_HIDDEN_DASHED
                         : mode == 4 ? RECTO_HIDDEN_LAYER
                                     : RECTO_HIDDEN_NONE;
   options->ink.hidden_by_max = mode == 4;
   options->ink.ids = mode == 5;
-  options->mesh.crease_deg = mode == 6 ? 10 : 30;
-  options->mesh.crease_start_deg = mode == 6 ? 50 : 0;
-  options->ink.edges =
-      mode == 6 || mode == 8 ? RECTO_EDGES_ALL : RECTO_EDGES_DEFAULT;
+  bool has_two_angles = mode == 6 || mode == 9 || mode == 10;
+  options->mesh.crease_deg = has_two_angles ? 10 : 30;
+  options->mesh.crease_start_deg = has_two_angles ? 50 : 0;
+  options->ink.edges = mode == 6 || mode == 8 ? RECTO_EDGES_ALL
+                       : mode == 9            ? RECTO_EDGE_SMOOTH
+                       : mode == 10 ? RECTO_EDGE_SMOOTH | RECTO_EDGE_CREASE
+                                    : RECTO_EDGES_DEFAULT;
   options->ink.light[0] = mode == 7 ? -1 : 0;
   options->ink.light[1] = mode == 7 ? 2 : 0;
   options->ink.light[2] = mode == 7 ? 1 : 0;

@@ -11,6 +11,7 @@
 #include "base/parallel.h"
 #include "base/stream.h"
 #include "parts/part_collect.h"
+#include "parts/part_common.h"
 #include "parts/part_file.h"
 #include "view/layout.h"
 #include "visibility/quantitative_invisibility.h"
@@ -36,10 +37,11 @@ static recto_status find_part_edges(struct part_solve *work,
 static recto_status solve_part_scene(struct part_solve *work,
                                      recto_error *error) {
   const recto_options *o = work->options;
-  recto_options lower = *o; /* of two angles of creases: part_join.c */
-  struct solver_request request = solver_request_of(o);
-  const char *why;
+  recto_options lower = *o; /* of two angles of creases: part_join_edges.c */
   lower.mesh.crease_start_deg = 0;
+  lower.ink.edges = part_common_classes(&work->part.common);
+  struct solver_request request = solver_request_of(&lower);
+  const char *why;
   recto_status status =
       layout_sheet(&work->sheet, &work->scene.scene, &work->topology,
                    &work->part.common.camera, &lower,

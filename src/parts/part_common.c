@@ -115,6 +115,14 @@ void part_common_code(struct byte_codec *codec, struct part_common *common) {
                          common->fov_deg >= 0 && common->fov_deg <= 179);
 }
 
+unsigned part_common_classes(const struct part_common *common) {
+  bool has_two_angles = common->crease_start_deg > common->crease_deg;
+  return has_two_angles &&
+                 (common->edges & (RECTO_EDGE_CREASE | RECTO_EDGE_SMOOTH))
+             ? common->edges | RECTO_EDGE_CREASE | RECTO_EDGE_SILHOUETTE
+             : common->edges;
+}
+
 recto_status part_common_checksum(struct part_common *common, uint64_t *sum,
                                   recto_error *error) {
   struct byte_codec codec = {.writes = true};

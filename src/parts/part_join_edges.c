@@ -42,6 +42,19 @@ static void find_listed_masks(const struct join_work *work, uint8_t *masks) {
   }
 }
 
+/* Sets the class of a listed edge among the requested ones.
+ * masks  the classes of edges of themselves, one a topology edge */
+static void set_requested_class(struct sheet_edge *edge, const uint8_t *masks,
+                                const struct part_common *common) {
+  if (edge->edge_class == 0 || edge->edge_class == RECTO_EDGE_WIRE)
+    return;
+  bool is_fold = edge->source == SHEET_NONE;
+  unsigned mask = is_fold ? 0 : masks[edge->source];
+  if (edge->edge_class == RECTO_EDGE_SILHOUETTE)
+    mask = (mask & ~(unsigned)RECTO_EDGE_SMOOTH) | RECTO_EDGE_SILHOUETTE;
+  edge->edge_class = (uint16_t)topology_class_of_mask(mask & common->edges);
+}
+
 /* The parts list creases at the lower angle, as only all of them tell which
  * go on from one beyond the higher angle: the others are no creases. */
 static bool drop_weak_creases(struct join_work *work) {
@@ -56,12 +69,8 @@ static bool drop_weak_creases(struct join_work *work) {
     ok = topology_drop_weak_creases(&join->topology, &join->scene,
                                     common->crease_start_deg, masks);
   }
-  for (size_t e = 0; ok && e < join->sheet.edge.count; e++) {
-    struct sheet_edge *edge = &join->sheet.edge.item[e];
-    if (edge->edge_class == RECTO_EDGE_CREASE && edge->source != SHEET_NONE)
-      edge->edge_class =
-          (uint16_t)topology_class_of_mask(masks[edge->source] & common->edges);
-  }
+  for (size_t e = 0; ok && e < join->sheet.edge.count; e++)
+    set_requested_class(&join->sheet.edge.item[e], masks, common);
   mem_free(masks);
   return ok;
 }
