@@ -97,9 +97,8 @@ recto_status part_check_ink(const recto_options *o,
   uint32_t limit = part_hidden_by_max(o);
   if (limit != 0 && limit != common->hidden_by_max)
     return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
-                     "the %s not know what more than %lu faces hide: make %s "
-                     "with --hidden=%lu",
-                     of_plan ? "plan does" : "parts do", (unsigned long)limit,
-                     of_plan ? "it" : "them", (unsigned long)limit);
+                     "the %s made without --hidden=%lu: make %s with it",
+                     of_plan ? "plan was" : "parts were", (unsigned long)limit,
+                     of_plan ? "it" : "them");
   return RECTO_OK;
 }

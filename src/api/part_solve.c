@@ -29,7 +29,8 @@ static recto_status find_part_edges(struct part_solve *work,
   if (status == RECTO_OK && may_weld)
     return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
                      "corners of borders lie within %.3g of each other, which "
-                     "parts cannot weld; --weld 0 leaves them apart",
+                     "parts cannot weld: make the parts, or their plan, with "
+                     "--weld 0, which leaves them apart",
                      work->weld);
   return status;
 }
@@ -110,8 +111,11 @@ recto_status part_solve_save(struct part_solve *work, const char *path,
 bool part_solve_find(const char *path, uint32_t index, uint64_t *id) {
   struct input input = {.bytes = NULL};
   struct part part;
+  struct file_identity file;
   bool is_there = false;
-  if (input_load(&input, path, NULL) == RECTO_OK &&
+  /* Reading a pipe would wait for its other end. */
+  if (path_identity(path, &file) &&
+      input_load(&input, path, NULL) == RECTO_OK &&
       part_file_parse(&part, input.bytes, input.count, path, NULL) ==
           RECTO_OK) {
     is_there = part.index == index;

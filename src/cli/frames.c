@@ -78,9 +78,15 @@ static struct conversion read_conversion(const char *text) {
   return c;
 }
 
+/* Whether the path of a drawing is made of a pattern: that of the only drawing
+ * may be one. */
+static bool is_pattern(const struct arguments *a) {
+  return frames_count(a) > 1 || a->turntable > 0;
+}
+
 const char *frame_path(const struct arguments *a, const char *pattern,
                        int frame, char path[FRAME_PATH_SIZE]) {
-  if (frames_count(a) == 1)
+  if (!is_pattern(a))
     return pattern;
   size_t at = 0;
   while (*pattern != '\0') {
@@ -114,7 +120,7 @@ static bool has_view_twice(const struct arguments *a) {
 
 const char *frame_fault(const struct arguments *a, const char *pattern) {
   bool has_number = false, has_name = false;
-  if (frames_count(a) == 1)
+  if (!is_pattern(a))
     return NULL;
   for (const char *at = strchr(pattern, '%'); at != NULL;) {
     struct conversion c = read_conversion(at);
@@ -126,7 +132,7 @@ const char *frame_fault(const struct arguments *a, const char *pattern) {
   }
   if (has_name && a->turntable > 0)
     return "has %s, the name of a view, but --turntable takes %d";
-  if (!has_number && (!has_name || has_view_twice(a)))
+  if (frames_count(a) > 1 && !has_number && (!has_name || has_view_twice(a)))
     return a->turntable > 0 || has_name
                ? "needs %d or %03d, the number of the drawing"
                : "needs %d, the number of the drawing, or %s, its view's name";

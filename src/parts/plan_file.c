@@ -65,9 +65,9 @@ recto_status plan_writer_add(struct plan_writer *writer,
   plan_section_write(&writer->bytes, section, &writer->form);
   own.size = writer->bytes.place - own.place;
   own.sum = plan_bytes_sum(&writer->bytes);
-  if (writer->bytes.status != RECTO_OK || !ARRAY_PUSH(&writer->section, own))
-    return error_memory(error);
-  return stream_status(writer->bytes.stream);
+  return writer->bytes.status == RECTO_OK && ARRAY_PUSH(&writer->section, own)
+             ? RECTO_OK
+             : error_memory(error);
 }
 
 recto_status plan_writer_end(struct plan_writer *writer,
@@ -87,8 +87,7 @@ recto_status plan_writer_end(struct plan_writer *writer,
   if (!codec.failed)
     stream_write(writer->bytes.stream, codec.bytes.item, codec.bytes.count);
   ARRAY_FREE(&codec.bytes);
-  return codec.failed ? error_memory(error)
-                      : stream_status(writer->bytes.stream);
+  return codec.failed ? error_memory(error) : RECTO_OK;
 }
 
 void plan_writer_fini(struct plan_writer *writer) {

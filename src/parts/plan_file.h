@@ -25,7 +25,7 @@ void plan_writer_begin(struct plan_writer *writer, struct stream *stream,
                        const struct part_common *common, recto_error *error);
 
 /* Appends the section of the next window.
- * Errors  RECTO_ERROR_MEMORY, those of the stream */
+ * Errors  RECTO_ERROR_MEMORY; those of the stream are its own */
 USE_RESULT recto_status plan_writer_add(struct plan_writer *writer,
                                         struct plan_section *section,
                                         recto_error *error);
