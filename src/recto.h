@@ -829,8 +829,10 @@ RECTO_USE_RESULT recto_status recto_plan_has_part(
  *         drawing; RECTO_ERROR_FORMAT: a file is no part, cut short or damaged;
  *         the error names it; RECTO_ERROR_UNSUPPORTED: the options want what
  *         the parts do not have: fills, hidden lines, a number of hiding faces,
- *         ids or tones that these were made without; results or verification;
- *         RECTO_ERROR_IO; RECTO_ERROR_LIMIT; RECTO_ERROR_CANCELLED */
+ *         ids or tones that these were made without, or a plotter that needs a
+ *         wider margin than theirs, unless they set one; results or
+ *         verification; RECTO_ERROR_IO; RECTO_ERROR_LIMIT;
+ *         RECTO_ERROR_CANCELLED */
 RECTO_USE_RESULT recto_status recto_join_parts(const char *const *paths,
                                                size_t count,
                                                const recto_options *options,

@@ -1,6 +1,6 @@
 #!/bin/bash
-# test_cli_parts.sh - drawings in parts on the command line, and the engines that
-# distribute them: GNU parallel and make; test_slurm.sh has Slurm.
+# test_cli_parts.sh - drawings in parts on the command line; test_part_engines.sh
+# has what distributes them.
 . "$(dirname "$0")/tap.sh"
 cd "$scratch" || exit 1
 models=$srcdir/examples/models
@@ -144,6 +144,22 @@ warns_of_view() {
 }
 claim "the view is that of the parts" warns_of_view
 
+plots() { # OPTION...
+  local i
+  "$recto" "$models/gears.obj" --device hp7475a -o plot.hpgl "$@" 2>err &&
+    "$recto" "$models/gears.obj" --plan 3 --device hp7475a -o plot.plan "$@" \
+      2>>err || return 1
+  for i in 1 2 3; do
+    "$recto" --parts-plan plot.plan --part $i/3 -o plot-$i.recto || return 1
+  done
+  "$recto" --join plot-?.recto --device hp7475a -o joined.hpgl "$@" -q 2>>err &&
+    cmp plot.hpgl joined.hpgl && test ! -s err
+}
+claim "parts for a plotter have the margin that it needs" plots
+claim "parts with narrower margins are refused by a plotter" \
+  says "p-1.recto: the plotter needs a margin of 16 mm" --join p-?.recto \
+  --device hp7475a --format hpgl
+
 # ---- Parts that are there ---------------------------------------------------
 
 keeps_whole_parts() {
@@ -164,6 +180,13 @@ makes_others_again() {
 }
 claim "and makes damaged ones, and those of other options, again" \
   makes_others_again
+
+writes_to_pipe() {
+  mkfifo pipe && { cat pipe >piped.recto & } &&
+    timeout 30 "$recto" "$models/gears.obj" --part 1/3 --hidden dashed --resume \
+      -o pipe && wait && make_parts p --hidden dashed && cmp p-1.recto piped.recto
+}
+claim "--resume does not wait for what comes from a pipe" writes_to_pipe
 
 # ---- Plans ------------------------------------------------------------------
 
@@ -227,6 +250,11 @@ replaces_no_model() {
   cmp "$models/star.obj" star.obj && grep -q 'replace' err
 }
 claim "a plan does not replace its model" replaces_no_model
+finds_no_room() { (
+  ulimit -f 4
+  says "cannot write: File too large" "$models/gears.obj" --plan 3
+); }
+claim "a plan for which there is no room says so" finds_no_room
 far_plan() {
   "$recto" "$models/gears.obj" --plan 3 --azimuth 46 --hidden dashed -o far.plan &&
     "$recto" --parts-plan far.plan --part 2/3 -o far-2.recto &&
@@ -262,43 +290,12 @@ makes_frames() {
     for i in 0 1 4; do cmp all$i.svg some$i.svg || return 1; done
 }
 claim "--frames draws some of a turntable's drawings, as they are" makes_frames
+draws_one() {
+  "$recto" "$models/star.obj" --turntable 1 -o one%02d.svg &&
+    "$recto" "$models/star.obj" --turntable 1 -o only.svg &&
+    cmp one00.svg only.svg
+}
+claim "the only drawing of a turntable may have a number" draws_one
 claim "--frames ends with the turntable" says "--frames goes beyond" \
   "$models/star.obj" --turntable 3 --frames 1-3
-
-# ---- Engines ----------------------------------------------------------------
-
-# Part 2 is killed once; GNU parallel runs it again.
-cat >killed-once <<SCRIPT
-#!/bin/bash
-if [[ "\$*" == *"--part 2/4"* ]] && ! test -e "$PWD/was-killed"; then
-  : >"$PWD/was-killed"
-  kill -KILL \$\$
-fi
-exec "$recto" "\$@"
-SCRIPT
-chmod +x killed-once
-
-draws_by_parallel() {
-  RECTO=$PWD/killed-once JOBS=4 HOME=$PWD bash "$srcdir/examples/parallel.sh" \
-    "$models/gears.obj" 4 parallel.svg --hidden dashed 2>err &&
-    test -e was-killed && cmp whole.svg parallel.svg &&
-    test "$(grep -c -- '--part' parallel.svg.parts/jobs.log)" -eq 4 && return 0
-  say "$(cat err)" && false
-}
-text="GNU parallel draws 4 parts at once, one of which is killed and retried"
-if parallel --version 2>/dev/null | grep -q '^GNU parallel'; then
-  claim "$text" draws_by_parallel
-else
-  skip "$text" "GNU parallel is not installed"
-fi
-
-draws_by_make() {
-  unset MAKEFLAGS MFLAGS MAKELEVEL
-  make -s -j4 -f "$srcdir/examples/make/Makefile" RECTO="$recto" N=5 \
-    MODEL="$models/gears.obj" OUTPUT=made.svg OPTIONS='--hidden dashed' &&
-    cmp whole.svg made.svg &&
-    make -q -f "$srcdir/examples/make/Makefile" RECTO="$recto" N=5 \
-      MODEL="$models/gears.obj" OUTPUT=made.svg
-}
-claim "make draws 5 parts, and has nothing to do then" draws_by_make
 finish

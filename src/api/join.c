@@ -29,6 +29,7 @@ struct join {
   size_t parts;
   size_t bytes; /* of all their files */
   recto_options options;
+  bool sets_margin; /* of itself, not for the format */
   struct part_join join;
   recto_drawing *made;
 };
@@ -83,6 +84,24 @@ static void take_options(recto_options *o, const struct part_common *common) {
   o->page.width_mm = common->camera.page_mm[0];
   o->page.height_mm = common->camera.page_mm[1];
   o->page.margin_mm = common->camera.margin_mm;
+}
+
+/* Refuses parts that a plotter would cut: their drawing fills the page up to
+ * margins that are narrower than it needs.  Where the caller sets a margin, the
+ * parts were to have that, as in a drawing that is made at once. */
+static recto_status check_margin(const struct join *join, recto_error *error) {
+  recto_options o = join->options;
+  const struct camera *camera = &join->part[0].common.camera;
+  o.page.width_mm = camera->page_mm[0];
+  o.page.height_mm = camera->page_mm[1];
+  double needed_mm = output_needed_margin_mm(&o);
+  if (join->sets_margin || needed_mm <= camera->margin_mm)
+    return RECTO_OK;
+  return error_set(error, RECTO_ERROR_UNSUPPORTED, join->path[0], 0,
+                   "the plotter needs a margin of %.0f mm, and the parts were "
+                   "made with one of %.4g mm: make them with --format %s and "
+                   "the same --device, or join them with their --margin",
+                   needed_mm, camera->margin_mm, o.output.format);
 }
 
 static recto_status ink_join(struct join *join, recto_error *error) {
@@ -177,6 +196,8 @@ static recto_status join_and_ink(struct join *join, size_t count,
   if (status == RECTO_OK)
     status =
         part_check_ink(&join->options, &join->part[0].common, false, error);
+  if (status == RECTO_OK)
+    status = check_margin(join, error);
   stats_add_seconds(join->made->report, "read_cpu_s", clock_cpu() - cpu);
   cpu = clock_cpu();
   if (status == RECTO_OK)
@@ -217,9 +238,13 @@ recto_status recto_join_parts(const char *const *paths, size_t count,
   for (size_t i = 0; i < count; i++)
     if (paths[i] == NULL)
       return error_null(error, "the path of a part");
-  recto_status status = options_copy_valid(&join.options, options, error);
+  recto_options asked;
+  recto_status status = options_copy(&asked, options, error);
+  if (status == RECTO_OK)
+    status = options_copy_valid(&join.options, &asked, error);
   if (status != RECTO_OK)
     return status;
+  join.sets_margin = asked.page.margin_mm >= 0;
   join.made = mem_calloc(1, sizeof *join.made);
   if (join.made == NULL)
     return error_memory(error);

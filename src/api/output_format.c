@@ -63,15 +63,17 @@ recto_status output_no_writer(const char *path, const char *format,
                    formats.text);
 }
 
-/* Sets the margin that the writer's device needs.  The default margin is kept
- * where it is wide enough, and where the page is so small that the needed
- * margins would leave no room. */
-static void fit_margin(recto_options *o, const struct writer *writer) {
+double output_needed_margin_mm(const recto_options *o) {
+  const struct writer *writer = output_writer(NULL, o->output.format);
   struct writer_options how = output_writer_options(o);
-  double needed = writer->margin_mm(&how, o->page.width_mm, o->page.height_mm);
-  if (needed > RECTO_USUAL_MARGIN_MM &&
-      2 * needed < fmin(o->page.width_mm, o->page.height_mm))
-    o->page.margin_mm = needed;
+  const recto_page_options *page = &o->page;
+  if (writer == NULL || writer->margin_mm == NULL)
+    return 0;
+  double needed = writer->margin_mm(&how, page->width_mm, page->height_mm);
+  return needed > RECTO_USUAL_MARGIN_MM &&
+                 2 * needed < fmin(page->width_mm, page->height_mm)
+             ? needed
+             : 0;
 }
 
 /* Whether a drawing looks as if it were for a plotter: it has hatching, or
@@ -103,8 +105,9 @@ recto_status options_adapt(recto_options *options, recto_error *error) {
   struct writer_options how = output_writer_options(options);
   if (options->output.unit_mm == 0)
     options->output.unit_mm = writer->unit_mm(&how);
-  if (options->page.margin_mm < 0 && writer->margin_mm != NULL)
-    fit_margin(options, writer);
+  double margin_mm = output_needed_margin_mm(options);
+  if (options->page.margin_mm < 0 && margin_mm > 0)
+    options->page.margin_mm = margin_mm;
   if (options->ink.seam_mm < 0)
     options->ink.seam_mm = writer->seam_mm != NULL ? writer->seam_mm(&how) : 0;
   if (writer->by_pens)

@@ -27,6 +27,11 @@ USE_RESULT recto_status output_check_format(const char *path,
                                             const char *format,
                                             recto_error *error);
 
+/* The margin in mm that the plotter of the options' format needs on their page,
+ * where it is wider than the usual one; 0: it needs no other, or the page is so
+ * small that it would leave no room. */
+double output_needed_margin_mm(const recto_options *options);
+
 /* Adapts options to their output's format, if any: sets the unit, the width of
  * seams and the order, where they are the defaults, and for plotters the margin
  * that they need and no weights.

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "cli/options.h"
+#include "cli/parse.h"
 
 /* ---- What a command line requests, as bits ------------------------------- */
 
@@ -57,9 +58,7 @@ static const struct {
 
 /* All formats where none is known, which is an error of its own. */
 static uint64_t find_format(const struct arguments *a) {
-  const char *name = (a->parts > 0 || a->planned_parts > 0) && a->format == NULL
-                         ? "svg"
-                         : recto_output_format(a->output, a->format);
+  const char *name = arguments_format(a);
   if (name == NULL)
     return FORMATS;
   for (size_t i = 0; i < sizeof format / sizeof *format; i++)
@@ -194,7 +193,7 @@ static const char *name_instead(const struct arguments *a, uint64_t bits) {
   if (bits & METHODS)
     return recto_method_name(a->options.solver.method);
   if (bits & FORMATS)
-    return recto_output_format(a->output, a->format);
+    return arguments_format(a);
   if (bits & LINES)
     return a->options.ink.edges == RECTO_EDGES_NONE ? "--edges none"
                                                     : "this --edges";

@@ -281,6 +281,12 @@ static const char *judge_files(const struct arguments *a) {
   return NULL;
 }
 
+const char *arguments_format(const struct arguments *a) {
+  if ((a->parts > 0 || a->planned_parts > 0) && a->format == NULL)
+    return a->options.output.device != NULL ? "hpgl" : "svg";
+  return recto_output_format(a->output, a->format);
+}
+
 /* Says that there is no such output format, and which there are. */
 static void explain_format(const struct arguments *a,
                            char message[MESSAGE_SIZE]) {
@@ -316,9 +322,7 @@ static bool settle_files(struct arguments *a, char message[MESSAGE_SIZE]) {
       return false;
     }
   }
-  if ((a->parts > 0 || a->planned_parts > 0) && a->format == NULL)
-    return true;
-  if (recto_output_format(a->output, a->format) == NULL) {
+  if (arguments_format(a) == NULL) {
     explain_format(a, message);
     return false;
   }

@@ -12,4 +12,9 @@ bool arguments_parse(struct arguments *arguments, int argc, char **argv,
                      char message[MESSAGE_SIZE]);
 void arguments_fini(struct arguments *arguments);
 
+/* The format of the drawing; NULL: there is none of that name, or extension.
+ * Parts and their plan do not tell by their own: they are of an HPGL drawing
+ * where --device names a plotter, else of SVG. */
+const char *arguments_format(const struct arguments *arguments);
+
 #endif

@@ -19,6 +19,7 @@
 #include "cli/progress_bar.h"
 #include "cli/signals.h"
 #include "cli/option_scope.h"
+#include "cli/parse.h"
 
 /* ---- Callbacks ----------------------------------------------------------- */
 
@@ -239,8 +240,7 @@ static recto_status draw_frame(const struct arguments *arguments,
   recto_drawing *drawing = NULL;
   recto_options options;
   frame_options(arguments, frame, &options);
-  options.output.format =
-      recto_output_format(arguments->output, arguments->format);
+  options.output.format = arguments_format(arguments);
   options.user = &current;
   if (frame > first)
     options.warning = NULL;
@@ -286,8 +286,7 @@ static recto_status read_for_parts(const struct arguments *arguments,
                                    recto_scene **scene, recto_options *options,
                                    recto_error *error) {
   *options = arguments->options;
-  options->output.format =
-      arguments->format != NULL ? arguments->format : "svg";
+  options->output.format = arguments_format(arguments);
   recto_status status = recto_scene_create(scene, error);
   if (status == RECTO_OK && arguments->model_count == 1)
     status = recto_scene_read_for_parts(*scene, arguments->model[0],
@@ -357,8 +356,7 @@ static recto_status join_parts(const struct arguments *arguments,
   recto_options options = arguments->options;
   struct written_file file[2];
   struct written written = {file, 0};
-  options.output.format =
-      recto_output_format(arguments->output, arguments->format);
+  options.output.format = arguments_format(arguments);
   signals_catch();
   recto_status status = recto_join_parts((const char *const *)arguments->model,
                                          (size_t)arguments->model_count,
