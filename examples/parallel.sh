@@ -25,13 +25,18 @@ mkdir -p "$parts"
 parts=$(realpath "$parts")
 
 # The plan gets all options, and so does the join, which says what it has no use
-# for; --quiet keeps that to itself.
+# for; --quiet keeps that to itself.  The format is that of the output: a plotter
+# needs wider margins.
+case ${output##*/} in
+  *.*) set -- --format "${output##*.}" "$@" ;;
+esac
 "$recto" "$model" --plan "$count" -o "$parts/drawing.plan" "$@"
 
+# NUMBER is replaced by 1 to N.
 seq "$count" |
   parallel --will-cite --jobs "${JOBS:-100%}" ${SSH:+--sshlogin "$SSH"} \
-    --retries 3 --joblog "$parts/jobs.log" --quote \
-    "$recto" --parts-plan "$parts/drawing.plan" --part "{}/$count" \
-    -o "$parts/part-{}.recto" --resume --threads 1
+    --retries 3 --joblog "$parts/jobs.log" --quote -I @NUMBER@ \
+    "$recto" --parts-plan "$parts/drawing.plan" --part "@NUMBER@/$count" \
+    -o "$parts/part-@NUMBER@-of-$count.recto" --resume --threads 1
 
-"$recto" --join "$parts"/part-*.recto --quiet -o "$output" "$@"
+"$recto" --join "$parts"/part-*-of-"$count".recto --quiet -o "$output" "$@"

@@ -113,11 +113,11 @@ draw_by_slurm() {
 }
 make_one_again() {
   local ids
-  ids=$(stat -c %i joined.svg.parts/part-[134].recto)
-  rm joined.svg joined.svg.parts/part-2.recto
+  ids=$(stat -c %i joined.svg.parts/*-part-[134].recto)
+  rm joined.svg joined.svg.parts/*-part-2.recto
   submit --array=2 >one.id && runs_to_its_end &&
-    test "$(stat -c %i joined.svg.parts/part-[134].recto)" = "$ids" &&
-    test -s joined.svg.parts/part-2.recto
+    test "$(stat -c %i joined.svg.parts/*-part-[134].recto)" = "$ids" &&
+    test -s joined.svg.parts/*-part-2.recto
 }
 has_all_jobs() {
   test "$(grep -c "_job_complete: .* WEXITSTATUS 0" log/slurmctld)" -eq 7
