@@ -32,13 +32,13 @@ static recto_status set_classes(struct join_work *work) {
  * known. */
 static void find_listed_masks(const struct join_work *work, uint8_t *masks) {
   const struct part_join *join = work->join;
+  double crease = topology_crease_cosine(join->all.common.crease_deg);
   for (size_t e = 0; e < join->sheet.edge.count; e++) {
     const struct sheet_edge *edge = &join->sheet.edge.item[e];
     if (edge->edge_class != 0 && edge->edge_class != RECTO_EDGE_WIRE &&
         edge->source != SHEET_NONE)
-      masks[edge->source] = (uint8_t)topology_class_mask(
-          &join->topology, &join->scene, edge->source,
-          join->all.common.crease_deg);
+      masks[edge->source] = (uint8_t)topology_class_mask_by_cosine(
+          &join->topology, &join->scene, edge->source, crease);
   }
 }
 

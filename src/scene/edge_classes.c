@@ -116,7 +116,7 @@ static inline struct face_normal normal_of_face(const struct scene *scene,
 
 /* Two normals bend by more than the crease angle where their cosine is below
  * this; an angle of 180 degrees or more is never passed. */
-static double crease_cosine_of(double crease_deg) {
+double topology_crease_cosine(double crease_deg) {
   if (crease_deg >= 180)
     return -2;
   return angle_of_degrees(crease_deg).cosine - TOLERANCE_CREASE_COSINE;
@@ -196,18 +196,25 @@ static unsigned class_mask_after_cut(const struct topology_edge *edge,
   return class_mask ? class_mask : RECTO_EDGE_SMOOTH;
 }
 
-unsigned topology_class_mask(const struct topology *topology,
-                             const struct scene *scene, uint32_t edge,
-                             double crease_deg) {
+unsigned topology_class_mask_by_cosine(const struct topology *topology,
+                                       const struct scene *scene, uint32_t edge,
+                                       double crease_cosine) {
   const struct topology_edge *e = &topology->edge.item[edge];
   unsigned class_mask = plain_class_mask(e, scene);
-  if (e->uses == 2 && is_crease(normal_of_face(scene, e->first),
-                                normal_of_face(scene, e->second), e->same_way,
-                                crease_cosine_of(crease_deg)))
+  if (e->uses == 2 &&
+      is_crease(normal_of_face(scene, e->first),
+                normal_of_face(scene, e->second), e->same_way, crease_cosine))
     class_mask |= RECTO_EDGE_CREASE;
   if (scene->cut != NULL)
     return class_mask_after_cut(e, scene, class_mask);
   return class_mask ? class_mask : RECTO_EDGE_SMOOTH;
+}
+
+unsigned topology_class_mask(const struct topology *topology,
+                             const struct scene *scene, uint32_t edge,
+                             double crease_deg) {
+  return topology_class_mask_by_cosine(topology, scene, edge,
+                                       topology_crease_cosine(crease_deg));
 }
 
 /* Unit normals in 16 bits a coordinate: a filter that takes a quarter of the
@@ -307,7 +314,7 @@ bool topology_class_masks(const struct topology *topology,
       .scene = scene,
       .topology = topology,
       .direction = mem_alloc(faces, sizeof *work.direction),
-      .crease_cosine = crease_cosine_of(crease_deg),
+      .crease_cosine = topology_crease_cosine(crease_deg),
       .class_masks = class_masks,
   };
   int workers = parallel_workers(faces, PARALLEL_ITEMS);

@@ -25,7 +25,14 @@ unsigned topology_class_mask(const struct topology *topology,
                              const struct scene *scene, uint32_t edge,
                              double crease_deg);
 
-/* The same for every edge at once.
+/* The same for several edges: two normals bend by more than the crease angle
+ * where their cosine is below this one. */
+double topology_crease_cosine(double crease_deg);
+unsigned topology_class_mask_by_cosine(const struct topology *topology,
+                                       const struct scene *scene, uint32_t edge,
+                                       double crease_cosine);
+
+/* topology_class_mask for every edge at once.
  * class_masks  one an edge
  * Returns false when memory ran out. */
 USE_RESULT bool topology_class_masks(const struct topology *topology,

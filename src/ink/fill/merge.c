@@ -27,7 +27,7 @@ struct merge {
   const struct scene *scene;
   const struct map *map;
   const struct drawing_fill *prototype; /* one a fragment, without loops */
-  double crease_deg;
+  double crease_cosine;
   uint32_t *root;   /* of each fragment: its parent in the union-find forest */
   uint8_t *merged;  /* of each fragment: it has removed half-edges */
   uint8_t *removed; /* of each half-edge */
@@ -45,8 +45,8 @@ static bool is_edge_smooth(const struct merge *merge, uint32_t id) {
     return edge->edge_class == RECTO_EDGE_SMOOTH;
   const struct topology *topology = merge->sheet->topology;
   return topology != NULL && edge->source < topology->edge.count &&
-         (topology_class_mask(topology, merge->scene, edge->source,
-                              merge->crease_deg) &
+         (topology_class_mask_by_cosine(topology, merge->scene, edge->source,
+                                        merge->crease_cosine) &
           ~(unsigned)RECTO_EDGE_SMOOTH) == 0;
 }
 
@@ -207,7 +207,7 @@ bool merge_fills(struct drawing *drawing, const struct sheet *sheet,
       .scene = scene,
       .map = map,
       .prototype = prototype,
-      .crease_deg = options->mesh.crease_deg,
+      .crease_cosine = topology_crease_cosine(options->mesh.crease_deg),
       .root = union_find_create(map->fragment.count),
       .merged = mem_calloc(map->fragment.count, sizeof *merge.merged),
       .removed = mem_calloc(map->half_edge.count, sizeof *merge.removed)};

@@ -23,6 +23,7 @@ struct side_stretch {
   uint32_t corner[2];    /* at its low and at its high end */
   uint32_t half_edge[2]; /* of the two sides, when they are stored */
   bool upright;          /* places are y */
+  bool whole;            /* both sides are that, from end to end */
 };
 
 struct subdivision_work {
@@ -72,7 +73,8 @@ static bool pair_edges(struct subdivision_work *work, uint8_t *paired) {
       *other = s;
     } else if (!paired[*other] && same_place(map, *other, work->end[s]) &&
                same_place(map, s, work->end[*other])) {
-      struct side_stretch whole = {.side = {*other, s}, .corner = {*other, s}};
+      struct side_stretch whole = {
+          .side = {*other, s}, .corner = {*other, s}, .whole = true};
       paired[s] = paired[*other] = 1;
       ok = ARRAY_PUSH(&work->stretch, whole);
     }
@@ -242,8 +244,8 @@ static void divide_side(const struct subdivision_work *work, uint32_t fragment,
     struct side_stretch *stretch = &work->stretch.item[work->along.item[i]];
     bool upright = stretch->upright, reversed = stretch->side[1] == side;
     uint32_t from = stretch->corner[reversed], to = stretch->corner[!reversed];
-    if (coordinate_along(map, from, upright) !=
-        coordinate_along(map, half.origin, upright)) {
+    if (!stretch->whole && coordinate_along(map, from, upright) !=
+                               coordinate_along(map, half.origin, upright)) {
       push_half_edge(end, half);
       half.origin = from;
     }
@@ -251,8 +253,9 @@ static void divide_side(const struct subdivision_work *work, uint32_t fragment,
       stretch->half_edge[reversed] = end->count;
     push_half_edge(end, half);
     half.origin = to;
-    ends = coordinate_along(map, to, upright) ==
-           coordinate_along(map, work->end[side], upright);
+    ends =
+        stretch->whole || coordinate_along(map, to, upright) ==
+                              coordinate_along(map, work->end[side], upright);
   }
   if (!ends)
     push_half_edge(end, half);
