@@ -8,6 +8,7 @@
 #include "scene/edge_classes.h"
 
 #include <float.h>
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -100,17 +101,20 @@ static inline struct face_normal area_of_triangle(const struct scene_point *p,
   return n;
 }
 
-static inline struct face_normal normal_of_face(const struct scene *scene,
-                                                uint32_t face) {
+static inline struct face_normal area_of_corners(const struct scene *scene,
+                                                 const uint32_t *corner) {
   const struct scene_point *point = scene->point.item;
+  return area_of_triangle(&point[corner[0]], &point[corner[1]],
+                          &point[corner[2]]);
+}
+
+static struct face_normal normal_of_face(const struct scene *scene,
+                                         uint32_t face) {
   uint32_t start = scene_face_start(scene, face);
-  const uint32_t *corner = scene->corner.item + start;
-  struct face_normal n;
-  if (scene_face_start(scene, face + 1) - start == 3)
-    n = area_of_triangle(&point[corner[0]], &point[corner[1]],
-                         &point[corner[2]]);
-  else
-    n = sum_area(scene, face, 1);
+  struct face_normal n =
+      scene_face_start(scene, face + 1) - start == 3
+          ? area_of_corners(scene, scene->corner.item + start)
+          : sum_area(scene, face, 1);
   return is_in_range(n.square) ? n : normal_of_odd_face(scene, face);
 }
 
@@ -236,6 +240,7 @@ struct crease_work {
   const struct topology *topology;
   struct crease_direction *direction; /* one a face */
   double crease_cosine;
+  int smooth_from;      /* smooth_from() */
   uint8_t *class_masks; /* one an edge */
 };
 
@@ -247,16 +252,28 @@ MEM_PREFETCH_INLINE void prefetch_corners(const struct scene *scene,
     MEM_PREFETCH(&scene->point.item[corner[k]]);
 }
 
+static inline struct crease_direction direction_of(struct face_normal n) {
+  double scale = n.square > 0 ? DIRECTION_ONE / sqrt(n.square) : 0;
+  return (struct crease_direction){round_direction(n.x * scale),
+                                   round_direction(n.y * scale),
+                                   round_direction(n.z * scale)};
+}
+
+/* Where all faces are triangles these are looked at without the tests that only
+ * others need. */
 static bool find_normal_directions(void *user, struct parallel_range range) {
   const struct crease_work *work = user;
+  const struct scene *scene = work->scene;
+  bool triangles = scene->face_start.count == 0;
   for (size_t f = range.begin; f < range.end; f++) {
     if (f + MEM_PREFETCH_AHEAD < range.end)
-      prefetch_corners(work->scene, (uint32_t)f + MEM_PREFETCH_AHEAD);
-    struct face_normal n = normal_of_face(work->scene, (uint32_t)f);
-    double scale = n.square > 0 ? DIRECTION_ONE / sqrt(n.square) : 0;
-    work->direction[f] = (struct crease_direction){
-        round_direction(n.x * scale), round_direction(n.y * scale),
-        round_direction(n.z * scale)};
+      prefetch_corners(scene, (uint32_t)f + MEM_PREFETCH_AHEAD);
+    struct face_normal n = {0, 0, 0, 0};
+    if (triangles)
+      n = area_of_corners(scene, scene->corner.item + 3 * f);
+    if (!is_in_range(n.square))
+      n = normal_of_face(scene, (uint32_t)f);
+    work->direction[f] = direction_of(n);
   }
   return true;
 }
@@ -266,12 +283,33 @@ static bool find_normal_directions(void *user, struct parallel_range range) {
  * them, and their product. */
 static const double filter_error = 0x1p-14;
 
+/* The cosine at an edge of two faces by the filter, times the square of
+ * DIRECTION_ONE. */
+static inline int cosine_of_filter(const struct crease_work *work,
+                                   const struct topology_edge *edge) {
+  struct crease_direction a = work->direction[edge->first];
+  struct crease_direction b = work->direction[edge->second];
+  int dot = a.x * b.x + a.y * b.y + a.z * b.z;
+  return edge->same_way ? -dot : dot;
+}
+
+/* What cosine_of_filter is of at least, at an edge that is smooth and no more;
+ * INT_MAX where edges have other classes too, or none is certain to be. */
+static int smooth_from(const struct scene *scene, double crease_cosine) {
+  double from = ceil((crease_cosine + filter_error) *
+                     ((double)DIRECTION_ONE * DIRECTION_ONE)) +
+                1;
+  bool plain = scene->face_group.count == 0 && scene->cut == NULL;
+  return !plain || from > INT_MAX - 1 ? INT_MAX
+         : from < -(double)INT_MAX    ? -INT_MAX
+                                      : (int)from;
+}
+
 static inline bool exceeds_crease_angle(const struct crease_work *work,
                                         const struct topology_edge *edge) {
   struct crease_direction a = work->direction[edge->first];
   struct crease_direction b = work->direction[edge->second];
-  int dot = a.x * b.x + a.y * b.y + a.z * b.z;
-  double cosine = (edge->same_way ? -dot : dot) *
+  double cosine = cosine_of_filter(work, edge) *
                   (1.0 / ((double)DIRECTION_ONE * DIRECTION_ONE));
   if (cosine > work->crease_cosine + filter_error)
     return false;
@@ -284,12 +322,22 @@ static inline bool exceeds_crease_angle(const struct crease_work *work,
                    work->crease_cosine);
 }
 
+/* Most edges are smooth, and most scenes have one group and no cut. */
+static inline bool is_plainly_smooth(const struct crease_work *work,
+                                     const struct topology_edge *edge) {
+  return edge->uses == 2 && cosine_of_filter(work, edge) >= work->smooth_from;
+}
+
 static bool find_masks(void *user, struct parallel_range range) {
   const struct crease_work *work = user;
   for (size_t e = range.begin; e < range.end; e++) {
     const struct topology_edge *edge = &work->topology->edge.item[e];
     if (e + MEM_PREFETCH_AHEAD < range.end)
       MEM_PREFETCH(&work->direction[edge[MEM_PREFETCH_AHEAD].second]);
+    if (is_plainly_smooth(work, edge)) {
+      work->class_masks[e] = RECTO_EDGE_SMOOTH;
+      continue;
+    }
     unsigned mask = plain_class_mask(edge, work->scene);
     if (edge->uses == 2 && exceeds_crease_angle(work, edge))
       mask |= RECTO_EDGE_CREASE;
@@ -315,6 +363,7 @@ bool topology_class_masks(const struct topology *topology,
       .topology = topology,
       .direction = mem_alloc(faces, sizeof *work.direction),
       .crease_cosine = topology_crease_cosine(crease_deg),
+      .smooth_from = smooth_from(scene, topology_crease_cosine(crease_deg)),
       .class_masks = class_masks,
   };
   int workers = parallel_workers(faces, PARALLEL_ITEMS);

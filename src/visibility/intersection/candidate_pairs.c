@@ -17,8 +17,9 @@
 enum { BSP_LIST_MIN = 256 };
 
 /* The shortest list of which the most frequent face or edge is looked for; the
- * latter in a sample of so many triangles. */
-enum { FACE_LIST_MIN = 64 };
+ * latter in a sample of so many triangles, from all over the list, unless none
+ * of the first few has it. */
+enum { FACE_LIST_MIN = 64, FIRST_SAMPLES = 12, SAMPLE_STEP = 37 };
 
 /* What the tests use of a triangle, computed once per list. */
 struct swept_triangle {
@@ -91,12 +92,11 @@ static bool is_cell_of_pair(const struct pair_sweep *sweep,
  * which is corner j of g. */
 static inline unsigned shared_corners(const uint32_t f[3],
                                       const uint32_t g[3]) {
-  unsigned shared = 0;
-  for (int i = 0; i < 3; i++)
-    shared |= ((unsigned)(f[i] == g[0]) | (unsigned)(f[i] == g[1]) << 1 |
-               (unsigned)(f[i] == g[2]) << 2)
-              << 3 * i;
-  return shared;
+  return (unsigned)(f[0] == g[0]) | (unsigned)(f[0] == g[1]) << 1 |
+         (unsigned)(f[0] == g[2]) << 2 | (unsigned)(f[1] == g[0]) << 3 |
+         (unsigned)(f[1] == g[1]) << 4 | (unsigned)(f[1] == g[2]) << 5 |
+         (unsigned)(f[2] == g[0]) << 6 | (unsigned)(f[2] == g[1]) << 7 |
+         (unsigned)(f[2] == g[2]) << 8;
 }
 
 /* A vector on the page. */
@@ -109,10 +109,10 @@ static inline struct page_vector vector_between(struct geom_point a,
   return (struct page_vector){(int64_t)b.x - a.x, (int64_t)b.y - a.y};
 }
 
-/* The sign of the cross product of two vectors. */
-static inline int cross_sign(struct page_vector a, struct page_vector b) {
-  int64_t left = a.x * b.y, right = a.y * b.x;
-  return (left > right) - (left < right);
+/* The cross product of two vectors, in 63 bits. */
+static inline int64_t cross_product(struct page_vector a,
+                                    struct page_vector b) {
+  return a.x * b.y - a.y * b.x;
 }
 
 /* Do two counter-clockwise triangles that share a corner, i of p and j of q,
@@ -126,14 +126,12 @@ static bool are_disjoint_at_corner(const struct geom_point p[3], int i,
                      f_last = vector_between(p[i], p[i == 0 ? 2 : i - 1]),
                      g_next = vector_between(q[j], q[geom_next_corner(j)]),
                      g_last = vector_between(q[j], q[j == 0 ? 2 : j - 1]);
-  int next_next = cross_sign(f_next, g_next),
-      next_last = cross_sign(f_next, g_last),
-      last_next = cross_sign(f_last, g_next),
-      last_last = cross_sign(f_last, g_last);
-  return ((next_next < 0) & (next_last < 0)) |
-         ((last_next > 0) & (last_last > 0)) |
-         ((next_next > 0) & (last_next > 0)) |
-         ((next_last < 0) & (last_last < 0));
+  int64_t next_next = cross_product(f_next, g_next),
+          next_last = cross_product(f_next, g_last),
+          last_next = cross_product(f_last, g_next),
+          last_last = cross_product(f_last, g_last);
+  return (next_next & next_last) < 0 || ((last_next > 0) & (last_last > 0)) ||
+         ((next_next > 0) & (last_next > 0)) || (next_last & last_last) < 0;
 }
 
 /* Is the side that triangle f shares with a triangle of corners q an edge of
@@ -307,9 +305,12 @@ static bool find_common_edge(const struct pair_sweep *sweep,
     size_t having = 0;
     point[0] = p[k];
     point[1] = p[geom_next_corner(k)];
-    for (size_t i = 0; i < FACE_LIST_MIN; i++)
-      having += has_mesh_edge(sweep->sheet,
-                              swept[i * n / FACE_LIST_MIN].triangle, point);
+    for (size_t i = 0; i < FACE_LIST_MIN && (having > 0 || i < FIRST_SAMPLES);
+         i++)
+      having += has_mesh_edge(
+          sweep->sheet,
+          swept[i * SAMPLE_STEP % FACE_LIST_MIN * n / FACE_LIST_MIN].triangle,
+          point);
     if (having > FACE_LIST_MIN / 2)
       return true;
   }
