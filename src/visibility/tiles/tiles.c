@@ -115,9 +115,9 @@ static bool append_batch(struct map *map, const struct map *batch) {
   return true;
 }
 
-/* Sorts the deferred edges of a deep scene by the tile of their first end:
- * those that follow one another have occluders in common, which are still in
- * the cache then.  Returns false when memory ran out. */
+/* Sorts the deferred edges by the tile of their first end: those that follow one
+ * another have occluders in common, which are still in the cache then.  Returns
+ * false when memory ran out. */
 static bool sort_by_tile(struct tiles_work *work) {
   const struct triangle_grid *grid = &work->tiles.grid;
   const struct sheet *sheet = work->sheet;
@@ -142,8 +142,7 @@ static bool sort_by_tile(struct tiles_work *work) {
 }
 
 static bool solve_edges_tiles(struct tiles_work *work, struct map *map) {
-  bool deep = work->culling->count > 0;
-  if (deep && !sort_by_tile(work))
+  if (!sort_by_tile(work))
     return false;
   size_t count = parallel_range_count(work->states.edge.count, BATCH_SIZE);
   int workers = count > 1 ? work->request->threads : 1;
@@ -168,7 +167,7 @@ static bool solve_edges_tiles(struct tiles_work *work, struct map *map) {
   }
   mem_free(batches.query);
   mem_free(batches.map);
-  return ok && (!deep || map_sort_mixed(map));
+  return ok && map_sort_mixed(map);
 }
 
 static bool solve_faces(struct tiles_work *work, struct map *map) {
