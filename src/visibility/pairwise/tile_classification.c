@@ -122,6 +122,8 @@ static inline void add_to_samples(const struct tile_collection *g,
   find_samples(box.x0, box.x1, g->sample_x, grid->shift, grid->columns, &x0,
                &x1);
   find_samples(box.y0, box.y1, g->sample_y, grid->shift, grid->rows, &y0, &y1);
+  if ((x0 >= x1) | (y0 >= y1)) /* four in five; no jump for each of them */
+    return;
   for (int y = y0; y < y1; y++)
     for (int x = x0; x < x1; x++) {
       struct geom_point sample = {
@@ -131,9 +133,17 @@ static inline void add_to_samples(const struct tile_collection *g,
     }
 }
 
-/* Adds a triangle's depth buckets to all its tiles. */
+/* Adds a triangle's depth buckets to all its tiles.  Most have two by two at
+ * most: those in the corners of the range, whichever are the same. */
 static inline void add_buckets(const struct tile_collection *g,
                                struct cell_range r, uint64_t mask) {
+  if ((r.x1 - r.x0 <= 1) & (r.y1 - r.y0 <= 1)) {
+    collection_tile(g, r.x0, r.y0)->z_buckets |= mask;
+    collection_tile(g, r.x1, r.y0)->z_buckets |= mask;
+    collection_tile(g, r.x0, r.y1)->z_buckets |= mask;
+    collection_tile(g, r.x1, r.y1)->z_buckets |= mask;
+    return;
+  }
   for (int y = r.y0; y <= r.y1; y++) {
     struct tile *tile = collection_tile(g, r.x0, y), *end = tile + r.x1 - r.x0;
     for (; tile <= end; tile++)
@@ -176,7 +186,8 @@ struct collected {
   int low, high; /* its depth buckets */
 };
 
-/* Reads a triangle, and has the first of its tiles fetched. */
+/* Reads a triangle, and has the first of its tiles, and of those in the last
+ * row, fetched. */
 static inline struct collected collected_of(const struct collection_work *work,
                                             const struct tile_collection *g,
                                             size_t t) {
@@ -190,6 +201,7 @@ static inline struct collected collected_of(const struct collection_work *work,
   c.low = tile_bucket(z2 < least ? z2 : least);
   c.high = tile_bucket(z2 > most ? z2 : most);
   MEM_PREFETCH(collection_tile(g, c.cells.x0, c.cells.y0));
+  MEM_PREFETCH(collection_tile(g, c.cells.x0, c.cells.y1));
   return c;
 }
 
