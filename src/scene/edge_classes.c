@@ -101,9 +101,8 @@ static inline struct face_normal area_of_triangle(const struct scene_point *p,
   return n;
 }
 
-static inline struct face_normal area_of_corners(const struct scene *scene,
-                                                 const uint32_t *corner) {
-  const struct scene_point *point = scene->point.item;
+static inline struct face_normal
+area_of_corners(const struct scene_point *point, const uint32_t *corner) {
   return area_of_triangle(&point[corner[0]], &point[corner[1]],
                           &point[corner[2]]);
 }
@@ -113,7 +112,7 @@ static struct face_normal normal_of_face(const struct scene *scene,
   uint32_t start = scene_face_start(scene, face);
   struct face_normal n =
       scene_face_start(scene, face + 1) - start == 3
-          ? area_of_corners(scene, scene->corner.item + start)
+          ? area_of_corners(scene->point.item, scene->corner.item + start)
           : sum_area(scene, face, 1);
   return is_in_range(n.square) ? n : normal_of_odd_face(scene, face);
 }
@@ -264,13 +263,14 @@ static inline struct crease_direction direction_of(struct face_normal n) {
 static bool find_normal_directions(void *user, struct parallel_range range) {
   const struct crease_work *work = user;
   const struct scene *scene = work->scene;
+  const struct scene_point *point = scene->point.item;
   bool triangles = scene->face_start.count == 0;
   for (size_t f = range.begin; f < range.end; f++) {
     if (f + MEM_PREFETCH_AHEAD < range.end)
       prefetch_corners(scene, (uint32_t)f + MEM_PREFETCH_AHEAD);
     struct face_normal n = {0, 0, 0, 0};
     if (triangles)
-      n = area_of_corners(scene, scene->corner.item + 3 * f);
+      n = area_of_corners(point, scene->corner.item + 3 * f);
     if (!is_in_range(n.square))
       n = normal_of_face(scene, (uint32_t)f);
     work->direction[f] = direction_of(n);
@@ -328,24 +328,26 @@ static inline bool is_plainly_smooth(const struct crease_work *work,
   return edge->uses == 2 && cosine_of_filter(work, edge) >= work->smooth_from;
 }
 
+/* What the loop reads is copied, so that the compiler knows that writing bytes
+ * does not change it. */
 static bool find_masks(void *user, struct parallel_range range) {
-  const struct crease_work *work = user;
-  for (size_t e = range.begin; e < range.end; e++) {
-    const struct topology_edge *edge = &work->topology->edge.item[e];
+  const struct crease_work work = *(const struct crease_work *)user;
+  const struct topology_edge *edge = work.topology->edge.item + range.begin;
+  for (size_t e = range.begin; e < range.end; e++, edge++) {
     if (e + MEM_PREFETCH_AHEAD < range.end)
-      MEM_PREFETCH(&work->direction[edge[MEM_PREFETCH_AHEAD].second]);
-    if (is_plainly_smooth(work, edge)) {
-      work->class_masks[e] = RECTO_EDGE_SMOOTH;
+      MEM_PREFETCH(&work.direction[edge[MEM_PREFETCH_AHEAD].second]);
+    if (is_plainly_smooth(&work, edge)) {
+      work.class_masks[e] = RECTO_EDGE_SMOOTH;
       continue;
     }
-    unsigned mask = plain_class_mask(edge, work->scene);
-    if (edge->uses == 2 && exceeds_crease_angle(work, edge))
+    unsigned mask = plain_class_mask(edge, work.scene);
+    if (edge->uses == 2 && exceeds_crease_angle(&work, edge))
       mask |= RECTO_EDGE_CREASE;
-    mask = work->scene->cut != NULL
-               ? class_mask_after_cut(edge, work->scene, mask)
+    mask = work.scene->cut != NULL
+               ? class_mask_after_cut(edge, work.scene, mask)
            : mask ? mask
                   : RECTO_EDGE_SMOOTH;
-    work->class_masks[e] = (uint8_t)mask;
+    work.class_masks[e] = (uint8_t)mask;
   }
   return true;
 }

@@ -88,13 +88,26 @@ static bool is_contour(const struct layout *layout, uint32_t edge) {
          layout->sides[edge] != LAYOUT_TWO_SIDED;
 }
 
+/* Is the edge nothing but smooth, with a face on each side of it?  Most are. */
+static inline bool is_smooth_alone(const struct layout *layout, uint32_t edge) {
+  return layout->class_masks[edge] == RECTO_EDGE_SMOOTH &&
+         layout->sides[edge] == LAYOUT_TWO_SIDED &&
+         layout->topology->edge.item[edge].uses == 2;
+}
+
 /* Chooses the requested edges of a range, and contours. */
 static bool choose_edges(void *user, struct parallel_range range) {
   struct edge_layout *work = user;
   const struct layout *layout = work->layout;
   unsigned wanted = layout->options->ink.edges & LAYOUT_FACE_CLASSES;
   unsigned silhouette = RECTO_EDGE_SILHOUETTE;
+  bool skips_smooth = layout->class_masks != NULL && !layout->all_edges &&
+                      !(wanted & RECTO_EDGE_SMOOTH);
   for (uint32_t e = (uint32_t)range.begin; e < range.end; e++) {
+    if (skips_smooth && is_smooth_alone(layout, e)) {
+      layout->class_masks[e] = 0;
+      continue;
+    }
     const struct topology_edge *edge = &layout->topology->edge.item[e];
     uint64_t bit = UINT64_C(1) << e % 64;
     bool made = layout->all_edges;

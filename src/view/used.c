@@ -3,8 +3,12 @@
 
 static void mark(const uint32_t *corner, size_t count, const uint32_t *weld,
                  uint8_t *used) {
-  for (size_t c = 0; c < count; c++)
-    used[weld != NULL ? weld[corner[c]] : corner[c]] = 1;
+  if (weld != NULL)
+    for (size_t c = 0; c < count; c++)
+      used[weld[corner[c]]] = 1;
+  else
+    for (size_t c = 0; c < count; c++)
+      used[corner[c]] = 1;
 }
 
 uint8_t *used_points(const struct scene *scene, const uint32_t *weld) {

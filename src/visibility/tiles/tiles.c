@@ -115,9 +115,9 @@ static bool append_batch(struct map *map, const struct map *batch) {
   return true;
 }
 
-/* Sorts the deferred edges by the tile of their first end: those that follow one
- * another have occluders in common, which are still in the cache then.  Returns
- * false when memory ran out. */
+/* Sorts the deferred edges by the tile of their first end: those that follow
+ * one another have occluders in common, which are still in the cache then.
+ * Returns false when memory ran out. */
 static bool sort_by_tile(struct tiles_work *work) {
   const struct triangle_grid *grid = &work->tiles.grid;
   const struct sheet *sheet = work->sheet;
