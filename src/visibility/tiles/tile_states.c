@@ -11,11 +11,22 @@ bool tile_states_init(struct tile_states *states, const struct sheet *sheet,
                       const struct occlusion_culling *culling) {
   *states =
       (struct tile_states){.sheet = sheet, .tiles = tiles, .culling = culling};
-  states->wanted = mem_calloc(triangle_grid_cell_count(&tiles->grid), 1);
-  return states->wanted != NULL;
+  size_t n = triangle_grid_cell_count(&tiles->grid);
+  states->wanted = mem_calloc(n, 1);
+  states->visible_from = mem_alloc(n, 1);
+  if (states->wanted == NULL || states->visible_from == NULL)
+    return false;
+  for (size_t i = 0; i < n; i++) {
+    const struct tile *tile = &tiles->tile[i];
+    states->visible_from[i] = tile->state == TILE_MIXED   ? TILE_UNDECIDED
+                              : tile->state == TILE_EMPTY ? 0
+                                                          : tile->front;
+  }
+  return true;
 }
 
 void tile_states_fini(struct tile_states *states) {
+  mem_free(states->visible_from);
   mem_free(states->wanted);
   mem_free(states->face_state);
   ARRAY_FREE(&states->edge);
@@ -85,20 +96,42 @@ static enum map_state state_in_range(const struct tile_classification *tiles,
   return (enum map_state)state;
 }
 
+/* The state on which the tiles at the corners of a range agree, whichever are
+ * the same, for what lies in a layer of faces; or MAP_MIXED.
+ * low  its farthest depth bucket */
+static inline enum map_state state_in_corners(const struct tile_states *states,
+                                              struct cell_range r, int low) {
+  size_t columns = (size_t)states->tiles->grid.columns;
+  const uint8_t *first = states->visible_from + (size_t)r.y0 * columns,
+                *last = states->visible_from + (size_t)r.y1 * columns;
+  uint8_t from[4] = {first[r.x0], first[r.x1], last[r.x0], last[r.x1]};
+  uint8_t least = from[0], most = from[0];
+  for (int k = 1; k < 4; k++) {
+    least = from[k] < least ? from[k] : least;
+    most = from[k] > most ? from[k] : most;
+  }
+  if (low >= most)
+    return MAP_VISIBLE;
+  return low < least && most != TILE_UNDECIDED ? MAP_HIDDEN : MAP_MIXED;
+}
+
 /* ---- Edges --------------------------------------------------------------- */
 
 /* The state of an edge.  Usually all tiles of its bounding box agree, so that
  * it need not be traced through them. */
-static enum map_state state_of_edge(struct tile_states *states,
-                                    struct geom_point p, struct geom_point q,
-                                    bool wire) {
+static inline enum map_state state_of_edge(struct tile_states *states,
+                                           struct geom_point p,
+                                           struct geom_point q, bool wire) {
   struct cell_range r =
       triangle_grid_cells(&states->tiles->grid, box2_of_segment(p, q));
+  int low = tile_bucket(p.z < q.z ? p.z : q.z);
   if (r.x1 - r.x0 + r.y1 - r.y0 > 2)
     return state_along(states, p, q, wire, false);
+  bool corners = !wire && r.x1 - r.x0 <= 1 && r.y1 - r.y0 <= 1;
   enum map_state state =
-      state_in_range(states->tiles, r, tile_bucket(p.z < q.z ? p.z : q.z),
-                     tile_bucket(p.z > q.z ? p.z : q.z), wire);
+      corners ? state_in_corners(states, r, low)
+              : state_in_range(states->tiles, r, low,
+                               tile_bucket(p.z > q.z ? p.z : q.z), wire);
   return state == MAP_MIXED && r.x0 < r.x1 && r.y0 < r.y1
              ? state_along(states, p, q, wire, false)
              : state;
@@ -125,7 +158,7 @@ static bool classify_edge_range(void *user, struct parallel_range range) {
                 edge->edge_class == RECTO_EDGE_INTERSECTION;
     if (!poll_at(e))
       return false;
-    if (sheet_edge_is_drawn(sheet, e))
+    if (edge->edge_class != 0 && (s.p.x != s.q.x || s.p.y != s.q.y))
       work->map->edge_state[e] =
           work->from > 0 &&
                   occlusion_culling_hides(work->states->culling, s.p, s.q)
@@ -162,10 +195,11 @@ bool tile_states_add_edges(struct tile_states *states, size_t from,
 static enum map_state state_of_face(const struct tile_states *states,
                                     size_t t) {
   struct footprint print = states->tiles->footprint[t];
-  return state_in_range(
-      states->tiles,
-      footprint_cells(&states->tiles->grid, states->sheet, t, print), print.low,
-      print.high, false);
+  struct cell_range r =
+      footprint_cells(&states->tiles->grid, states->sheet, t, print);
+  if (print.width <= 1 && print.height <= 1)
+    return state_in_corners(states, r, print.low);
+  return state_in_range(states->tiles, r, print.low, print.high, false);
 }
 
 /* Marks the tiles of a triangle's bounding box as wanted, but for those in

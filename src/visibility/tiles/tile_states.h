@@ -6,12 +6,17 @@
 #include "visibility/map.h"
 #include "visibility/pairwise/tile_classification.h"
 
+enum { TILE_UNDECIDED = UINT8_MAX };
+
 /* An edge or a face is visible or hidden if all tiles that it overlaps agree,
  * otherwise deferred: as a comparison of all pairs would decide. */
 struct tile_states {
   const struct sheet *sheet;
   const struct tile_classification *tiles;
   const struct occlusion_culling *culling;
+  /* One per tile: the depth bucket from which on a layer of faces is visible
+   * there, and hidden below; TILE_UNDECIDED where the tile does not decide. */
+  uint8_t *visible_from;
   uint8_t *wanted;  /* one per tile: deferred edges or faces overlap it, or the
                        caller's own reason */
   bool more_wanted; /* a tile became wanted by an edge; the caller clears it */
