@@ -142,8 +142,10 @@ static inline uint32_t layout_edge_id(const struct layout_edge_ids *ids,
   uint64_t bits = ids->bits[edge / 64], bit = UINT64_C(1) << edge % 64;
   if (!(bits & bit))
     return SHEET_NONE;
+  /* Where all are made, as all edges are, bits need not be counted. */
+  uint64_t below = bits & (bit - 1);
   return ids->before[edge / 64] +
-         (uint32_t)__builtin_popcountll(bits & (bit - 1));
+         (below == bit - 1 ? edge % 64 : (uint32_t)__builtin_popcountll(below));
 }
 
 /* Notes that a triangle has an edge; triangles do in their order. */
