@@ -36,21 +36,12 @@ static uint128 magnitude(int128 a) { return a < 0 ? -(uint128)a : (uint128)a; }
 
 static int sign_of(int128 a) { return (a > 0) - (a < 0); }
 
-static bool fits_63_bits(int128 a) {
-  return a == (int128)(int64_t)a && a != (int128)INT64_MIN;
-}
-
-int ratio_compare(struct ratio a, struct ratio b) {
+int ratio_compare_wide(struct ratio a, struct ratio b) {
   int sa = sign_of(a.num), sb = sign_of(b.num), order;
   if (sa != sb)
     return sa < sb ? -1 : 1;
   if (sa == 0)
     return 0;
-  if (fits_63_bits(a.num) && fits_63_bits(a.den) && fits_63_bits(b.num) &&
-      fits_63_bits(b.den)) {
-    int128 left = a.num * b.den, right = b.num * a.den;
-    return (left > right) - (left < right);
-  }
   order = compare_products(multiply_128(magnitude(a.num), (uint128)b.den),
                            multiply_128(magnitude(b.num), (uint128)a.den));
   return sa > 0 ? order : -order;

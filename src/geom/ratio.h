@@ -12,9 +12,22 @@ struct ratio {
   int128 num, den;
 };
 
-/* The sign of a - b.  Exact: products are formed in 256 bits; doubles decide
- * where they can. */
-int ratio_compare(struct ratio a, struct ratio b);
+/* ratio_compare where some number has more than 64 bits. */
+int ratio_compare_wide(struct ratio a, struct ratio b);
+
+static inline bool ratio_is_narrow(struct ratio a) {
+  return a.num == (int64_t)a.num && a.den == (int64_t)a.den;
+}
+
+/* The sign of a - b.  Exact: products are formed in 256 bits where 128 are too
+ * few. */
+static inline int ratio_compare(struct ratio a, struct ratio b) {
+  if (!ratio_is_narrow(a) || !ratio_is_narrow(b))
+    return ratio_compare_wide(a, b);
+  int128 left = (int128)(int64_t)a.num * (int64_t)b.den,
+         right = (int128)(int64_t)b.num * (int64_t)a.den;
+  return (left > right) - (left < right);
+}
 
 /* The nearest double (to within two units in the last place), for output and
  * for filters with an error bound. */
