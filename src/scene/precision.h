@@ -23,7 +23,8 @@ struct precision {
 #define PRECISION_DOUBLE 0x1p-53
 
 static inline double precision_error(struct precision precision, double x) {
-  return fmax(precision.absolute, precision.relative * fabs(x));
+  double share = precision.relative * fabs(x);
+  return share > precision.absolute ? share : precision.absolute;
 }
 
 /* The precision of numbers with so many significant bits, 1 to 53; 0: 24.

@@ -18,15 +18,46 @@ static double contact_along_axis(struct precision precision,
 /* Faces of more corners are measured once, not for each of their triangles. */
 enum { CORNERS_MAX = 64 };
 
+/* Whether all points have one precision, which is then stored. */
+static bool has_one_precision(const struct scene *scene,
+                              struct precision unstated,
+                              struct precision *precision) {
+  const struct precision_range *range = scene->precision.item;
+  size_t count = scene->precision.count;
+  *precision = count > 0 && range->stated ? range->precision : unstated;
+  return count == 0 || (count == 1 && range->first_point == 0);
+}
+
+/* The errors of a face whose corners have one precision: no error of a
+ * coordinate is larger than that of one of larger magnitude. */
+static void measure_with(const struct scene *scene, uint32_t face,
+                         struct precision precision, double error[3]) {
+  double x = 0, y = 0, z = 0;
+  for (uint32_t c = scene_face_start(scene, face);
+       c < scene_face_start(scene, face + 1); c++) {
+    const struct scene_point *p = &scene->point.item[scene->corner.item[c]];
+    x = max_number(x, fabs(p->x));
+    y = max_number(y, fabs(p->y));
+    z = max_number(z, fabs(p->z));
+  }
+  error[0] = contact_along_axis(precision, x);
+  error[1] = contact_along_axis(precision, y);
+  error[2] = contact_along_axis(precision, z);
+}
+
 static void measure(const struct sheet *sheet, uint32_t face, double error[3]) {
   const struct scene *scene = sheet->scene;
+  struct precision precision;
   error[0] = error[1] = error[2] = 0;
+  if (has_one_precision(scene, sheet->camera.unstated, &precision)) {
+    measure_with(scene, face, precision, error);
+    return;
+  }
   for (uint32_t c = scene_face_start(scene, face);
        c < scene_face_start(scene, face + 1); c++) {
     uint32_t point = scene->corner.item[c];
     const struct scene_point *p = &scene->point.item[point];
-    struct precision precision =
-        scene_point_precision(scene, point, sheet->camera.unstated);
+    precision = scene_point_precision(scene, point, sheet->camera.unstated);
     error[0] = max_number(error[0], contact_along_axis(precision, p->x));
     error[1] = max_number(error[1], contact_along_axis(precision, p->y));
     error[2] = max_number(error[2], contact_along_axis(precision, p->z));
