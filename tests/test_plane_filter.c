@@ -1,6 +1,6 @@
 /* test_plane_filter.c - planes in doubles, and 8-DOP keys, only decide what the
  * exact answers say, and their error bounds hold. */
-#include "visibility/predicate/plane_filter.h"
+#include "visibility/predicate/plane_cache.h"
 #include "visibility/predicate/depth_plane.h"
 #include "exact_fixture/sheet.h"
 #include "visibility/predicate/occlusion.h"
@@ -10,6 +10,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -198,10 +199,34 @@ static void keys_exclude_only_disjoint_triangles(void **state) {
   assert_true(met > 1000);
 }
 
+/* Also where two triangles have one slot. */
+static void a_cached_plane_is_that_of_its_triangle(void **state) {
+  enum { TRIANGLES = 5000, SLOTS = 4096 };
+  struct sheet sheet;
+  struct plane_cache cache;
+  (void)state;
+  start(&sheet, true, 20, 30);
+  for (int t = 1; t < TRIANGLES; t++) {
+    struct geom_point p[3] = {place(20, 30), place(20, 30), place(20, 30)};
+    exact_add_triangle(&sheet, p, 0);
+  }
+  assert_true(plane_cache_init(&cache, &sheet));
+  for (uint32_t t = 0; t < TRIANGLES - SLOTS; t++)
+    for (uint32_t k = 0; k < 3; k++) {
+      uint32_t triangle = t + k % 2 * SLOTS;
+      struct plane_filter plane = plane_filter_of(&sheet, triangle);
+      assert_memory_equal(plane_cache_get(&cache, triangle), &plane,
+                          sizeof plane);
+    }
+  plane_cache_fini(&cache);
+  exact_sheet_fini(&sheet);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(doubles_are_right_or_undecided),
       cmocka_unit_test(keys_exclude_only_disjoint_triangles),
+      cmocka_unit_test(a_cached_plane_is_that_of_its_triangle),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

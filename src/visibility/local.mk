@@ -66,6 +66,7 @@ librecto_core_la_SOURCES += \
   %D%/predicate/depth_plane.h \
   %D%/predicate/edge_intervals.c %D%/predicate/edge_intervals.h \
   %D%/predicate/occlusion.c %D%/predicate/occlusion.h \
+  %D%/predicate/plane_cache.c %D%/predicate/plane_cache.h \
   %D%/predicate/plane_filter.c %D%/predicate/plane_filter.h \
   %D%/predicate/surrounder.c %D%/predicate/surrounder.h \
   %D%/predicate/triangle_pair.c %D%/predicate/triangle_pair.h \

@@ -9,10 +9,12 @@ bool edge_query_init(struct edge_query *query, const struct sheet *sheet,
   memset(query, 0, sizeof *query);
   query->sheet = sheet;
   query->lists = lists;
-  return triangle_grid_query_init(&query->found, &lists->grid);
+  return triangle_grid_query_init(&query->found, &lists->grid) &&
+         (lists->occluder != NULL || plane_cache_init(&query->planes, sheet));
 }
 
 void edge_query_fini(struct edge_query *query) {
+  plane_cache_fini(&query->planes);
   edge_intervals_fini(&query->intervals);
   triangle_grid_query_fini(&query->found);
 }
@@ -57,8 +59,8 @@ static bool occlude_by_triangle(struct edge_query *query, uint32_t t,
                                 struct occluded_interval *part) {
   const struct occluder *occluder = query->lists->occluder;
   if (occluder == NULL)
-    return occlude_edge_by_triangle(query->sheet, t, query->p, query->q, part,
-                                    &query->counts);
+    return occlude_edge_by_cached(&query->planes, t, query->p, query->q, part,
+                                  &query->counts);
   return !sheet_is_edge_on(query->sheet, t) &&
          occlude_edge(&occluder[t], query->p, query->q, part, &query->counts);
 }

@@ -24,6 +24,7 @@ struct edge_query {
   const struct sheet *sheet;           /* borrowed, not owned */
   const struct tile_candidates *lists; /* borrowed, not owned */
   struct triangle_grid_query found;
+  struct plane_cache planes; /* where the lists have no prepared occluders */
   struct edge_intervals intervals; /* the occluded ones: the result */
   struct occlusion_counts counts;
   /* Triangles that hid much of the edges before, the latest first; 0 of them to

@@ -128,7 +128,28 @@ static int occluded_side(struct geom_point a, struct geom_point b,
   return along > 0 ? OCCLUDED_LEFT : OCCLUDED_RIGHT;
 }
 
-/* Clips the interval to the triangle's projection.
+/* Sets the interval from 0 to 1 clipped to where all three values, s at 0 and t
+ * at 1, are not negative.  Returns false where nothing is left. */
+static bool clip_to_sides(const int64_t s[3], const int64_t t[3],
+                          struct occluded_interval *interval) {
+  int64_t from = 0, from_den = 1, to = 1, to_den = 1;
+  for (int k = 0; k < 3; k++) {
+    int64_t den = s[k] < 0 ? t[k] - s[k] : s[k] - t[k];
+    if (s[k] < 0 && (int128)from * den < (int128)-s[k] * from_den) {
+      from = -s[k];
+      from_den = den;
+    } else if (s[k] >= 0 && t[k] < 0 &&
+               (int128)s[k] * to_den < (int128)to * den) {
+      to = s[k];
+      to_den = den;
+    }
+  }
+  interval->from = ratio_of(from, from_den);
+  interval->to = ratio_of(to, to_den);
+  return (int128)from * to_den < (int128)to * from_den;
+}
+
+/* Clips the interval, from 0 to 1, to the triangle's projection.
  * With the corners c relative to p, and d = q - p, the twofold areas are
  *     line[k] = d x c[k]                        of p, q and corner k;
  *     s[k]    = c[k] x c[k + 1]                 of side k and p;
@@ -162,13 +183,7 @@ static bool clip_to_outline(const struct geom_point corner[3],
       interval->sides = occluded_side(corner[k], corner[next], p, q);
     }
   }
-  for (int k = 0; k < 3; k++) {
-    if (s[k] < 0)
-      clip_before(interval, ratio_of(-s[k], t[k] - s[k]));
-    else if (t[k] < 0)
-      clip_after(interval, ratio_of(s[k], s[k] - t[k]));
-  }
-  return ratio_compare(interval->from, interval->to) < 0;
+  return clip_to_sides(s, t, interval);
 }
 
 /* Is an edge hidden of which one end is a corner of the triangle?  All of the
@@ -291,29 +306,62 @@ static int sign_along(const struct plane_filter *plane,
   return sign != 0 && has_corner_at(corners, p, q) ? 0 : sign;
 }
 
+/* Decides by the triangle's plane what is left of the interval, which the
+ * outline has clipped. */
+static bool decide_depth(const struct sheet *sheet, uint32_t triangle,
+                         const struct geom_triangle *corners,
+                         const struct plane_filter *plane, struct geom_point p,
+                         struct geom_point q,
+                         struct occluded_interval *interval,
+                         struct occlusion_counts *counts) {
+  struct occluder occluder;
+  int at_p = plane_filter_contact_sign(plane, p),
+      at_q = plane_filter_contact_sign(plane, q);
+  if (at_p == at_q && at_p != 0)
+    return at_p < 0;
+  int sign = sign_along(plane, corners, p, q, interval);
+  if (sign != 0)
+    return sign < 0;
+  occluder_init(&occluder, sheet, triangle);
+  return clip_to_depth(&occluder, p, q, interval, counts);
+}
+
+/* Clips the interval to the projection of a triangle with an area. */
+static bool occlude_by_outline(const struct sheet *sheet, uint32_t triangle,
+                               const struct geom_triangle *corners,
+                               struct geom_point p, struct geom_point q,
+                               struct occluded_interval *interval,
+                               struct occlusion_counts *counts) {
+  counts->pairs++;
+  if (!occlude_by_projection(corners->p, p, q, interval) ||
+      sheet_is_edge_on(sheet, triangle))
+    return false;
+  counts->depth_tests++;
+  return true;
+}
+
 bool occlude_edge_by_triangle(const struct sheet *sheet, uint32_t triangle,
                               struct geom_point p, struct geom_point q,
                               struct occluded_interval *interval,
                               struct occlusion_counts *counts) {
   const struct geom_triangle corners = sheet_corners(sheet, triangle);
-  struct occluder occluder;
-  struct plane_filter plane;
-  int at_p, at_q;
-  counts->pairs++;
-  if (!occlude_by_projection(corners.p, p, q, interval) ||
-      sheet_is_edge_on(sheet, triangle))
+  if (!occlude_by_outline(sheet, triangle, &corners, p, q, interval, counts))
     return false;
-  counts->depth_tests++;
-  plane = plane_filter_of(sheet, triangle);
-  at_p = plane_filter_contact_sign(&plane, p);
-  at_q = plane_filter_contact_sign(&plane, q);
-  if (at_p == at_q && at_p != 0)
-    return at_p < 0;
-  int sign = sign_along(&plane, &corners, p, q, interval);
-  if (sign != 0)
-    return sign < 0;
-  occluder_init(&occluder, sheet, triangle);
-  return clip_to_depth(&occluder, p, q, interval, counts);
+  struct plane_filter plane = plane_filter_of(sheet, triangle);
+  return decide_depth(sheet, triangle, &corners, &plane, p, q, interval,
+                      counts);
+}
+
+bool occlude_edge_by_cached(struct plane_cache *cache, uint32_t triangle,
+                            struct geom_point p, struct geom_point q,
+                            struct occluded_interval *interval,
+                            struct occlusion_counts *counts) {
+  const struct sheet *sheet = cache->sheet;
+  const struct geom_triangle corners = sheet_corners(sheet, triangle);
+  return occlude_by_outline(sheet, triangle, &corners, p, q, interval,
+                            counts) &&
+         decide_depth(sheet, triangle, &corners,
+                      plane_cache_get(cache, triangle), p, q, interval, counts);
 }
 
 void occlusion_counts_add(struct occlusion_counts *sum,

@@ -59,6 +59,7 @@
 #include "base/report.h"
 #include "view/sheet.h"
 #include "visibility/predicate/box2.h"
+#include "visibility/predicate/plane_cache.h"
 
 /* A triangle prepared for the test. */
 struct occluder {
@@ -141,6 +142,13 @@ bool occlude_edge_by_triangle(const struct sheet *sheet, uint32_t triangle,
                               struct geom_point p, struct geom_point q,
                               struct occluded_interval *interval,
                               struct occlusion_counts *counts);
+
+/* The same with the plane of the cache, for many edges that are near each
+ * other. */
+bool occlude_edge_by_cached(struct plane_cache *cache, uint32_t triangle,
+                            struct geom_point p, struct geom_point q,
+                            struct occluded_interval *interval,
+                            struct occlusion_counts *counts);
 
 /* Computes the interval of the edge that lies within the triangle's projection,
  * whatever the depths. */
