@@ -73,6 +73,41 @@ static void init_two_triangles(struct sheet *sheet, const int one[][3],
 
 static const int table[][3] = {{0, 0, 8}, {16, 0, 8}, {0, 16, 8}};
 
+/* Whether a segment begins or ends at the place that `user` points to. */
+static bool is_at(const void *user, struct geom_point p, struct geom_point q) {
+  const struct geom_point *place = user;
+  return geom_same_point(*place, p) || geom_same_point(*place, q);
+}
+
+/* A table that two sheets cross. */
+static void what_is_hidden_is_no_edge(void **state) {
+  static const int first[][3] = {{2, 4, 4}, {8, 4, 4}, {6, 8, 12}};
+  static const int second[][3] = {{2, 5, 4}, {8, 5, 4}, {6, 9, 12}};
+  const struct geom_point place = {4 * SCALE, 6 * SCALE, 8 * SCALE};
+  const struct hidden_segments hidden = {is_at, &place};
+  const struct solver_request request = {.intersections = true};
+  recto_error error;
+  (void)state;
+  for (int some = 0; some <= 1; some++) {
+    struct sheet sheet;
+    struct triangle_grid grid;
+    init_two_triangles(&sheet, table, first);
+    exact_add_face(&sheet, second, 3, SCALE);
+    assert_true(triangle_grid_init(&grid, &sheet));
+    assert_int_equal(intersection_find_visible(&sheet, &grid, NULL,
+                                               some ? &hidden : NULL, &request,
+                                               NULL, &error),
+                     RECTO_OK);
+    assert_int_equal(has_line(&sheet, (struct geom_point){4, 6, 8},
+                              (struct geom_point){7, 6, 8}),
+                     !some);
+    assert_true(has_line(&sheet, (struct geom_point){4, 7, 8},
+                         (struct geom_point){7, 7, 8}));
+    triangle_grid_fini(&grid);
+    exact_sheet_fini(&sheet);
+  }
+}
+
 static void crossed_sheets_have_a_line(void **state) {
   static const int across[][3] = {{2, 2, 4}, {2, 2, 12}, {6, 6, 8}};
   static const int steep[][3] = {{2, 4, 4}, {8, 4, 4}, {6, 8, 12}};
@@ -606,6 +641,7 @@ static void edges_that_lean_apart_by_a_unit_are_joined(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(crossed_sheets_have_a_line),
+      cmocka_unit_test(what_is_hidden_is_no_edge),
       cmocka_unit_test(two_faces_seen_edge_on_have_no_line),
       cmocka_unit_test(a_box_on_a_table_makes_no_line),
       cmocka_unit_test(a_box_that_sinks_in_makes_a_line_all_round),

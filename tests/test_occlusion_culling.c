@@ -88,6 +88,39 @@ static void what_is_in_front_is_not_culled(void **state) {
   sheet_fixture_fini(&fixture);
 }
 
+/* Strips under plates of the same slope, along which they rise above the lowest
+ * place of the plates: only their depths in each cell tell that they and their
+ * sides are hidden.  Those above the plates are not. */
+static void what_is_under_a_slope_is_culled(void **state) {
+  struct sheet_fixture fixture;
+  struct occlusion_culling culling;
+  (void)state;
+  start(&fixture);
+  for (int plate = 0; plate < 8; plate++)
+    build_parallelogram(&fixture.scene,
+                        vector_of(-0.1, -0.1, -0.1 - 0.001 * plate),
+                        vector_of(1.2, 0, 1.2), vector_of(0, 1.2, 0));
+  for (int strip = 0; strip < 128; strip++)
+    build_parallelogram(
+        &fixture.scene,
+        vector_of(0, strip / 128.0, strip % 2 == 0 ? -0.1 : 0.1),
+        vector_of(1, 0, 1), vector_of(0, 0.005, 0));
+  sheet_fixture_out(&fixture, true);
+  assert_true(occlusion_culling_init(&culling, &fixture.sheet, true));
+  for (uint32_t t = 0; t < fixture.sheet.triangle.count; t++) {
+    struct geom_triangle c = sheet_corners(&fixture.sheet, t);
+    uint32_t face = fixture.sheet.triangle.item[t].face;
+    for (int k = 0; face >= 8 && k < 3; k++)
+      assert_int_equal(
+          occlusion_culling_hides(&culling, c.p[k], c.p[(k + 1) % 3]),
+          face % 2 == 0);
+    if (face >= 8)
+      assert_int_equal(occlusion_culling_is_culled(&culling, t), face % 2 == 0);
+  }
+  occlusion_culling_fini(&culling);
+  sheet_fixture_fini(&fixture);
+}
+
 /* A plate a thousandth in front hides the squares; if so much is in contact, it
  * does not. */
 static void contact_is_not_culled(void **state) {
@@ -185,8 +218,8 @@ static void check_segments(const struct sheet *sheet,
   for (uint32_t t = 0; t < sheet->triangle.count; t++) {
     struct geom_triangle c = sheet_corners(sheet, t);
     struct geom_point p = c.p[0], q = c.p[1];
-    p.z -= p.z / 8;
-    q.z -= q.z / 8;
+    p.z -= p.z / 32;
+    q.z -= q.z / 32;
     if (!occlusion_culling_hides(culling, p, q)) {
       other++;
       continue;
@@ -405,6 +438,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(what_is_in_a_box_is_culled),
       cmocka_unit_test(what_is_in_front_is_not_culled),
+      cmocka_unit_test(what_is_under_a_slope_is_culled),
       cmocka_unit_test(contact_is_not_culled),
       cmocka_unit_test(shallow_scenes_are_left_alone),
       cmocka_unit_test(what_is_culled_is_hidden),

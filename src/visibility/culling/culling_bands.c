@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "base/parallel.h"
+#include "visibility/predicate/depth_plane.h"
 
 enum {
   TYPICAL_SLOPE = 8,      /* in the scene; few triangles are steeper */
@@ -124,6 +125,80 @@ static bool columns_in_row(const struct culling_work *work,
   return true;
 }
 
+/* A triangle to be tested, and its plane once that is needed. */
+struct tested_triangle {
+  const struct culling_candidate *candidate;
+  struct geom_triangle corners;
+  int32_t farthest; /* its farthest depth, with the margin, in steps */
+  bool has_plane;
+  struct depth_plane plane;
+};
+
+/* How far what touches the triangle may be in front of it. */
+static double margin_of(const struct culling_work *work,
+                        const struct tested_triangle *tested) {
+  double margin = work->margin;
+  if (work->fragments)
+    margin += culling_thickness(&work->contact, &tested->corners);
+  return margin;
+}
+
+static struct tested_triangle
+begin_test(const struct culling_work *work,
+           const struct culling_candidate *candidate) {
+  struct tested_triangle tested = {
+      .candidate = candidate,
+      .corners = sheet_corners(work->sheet, candidate->triangle)};
+  int64_t low, high;
+  geom_depth_range(tested.corners.p, &low, &high);
+  tested.farthest =
+      sheet_is_edge_on(work->sheet, candidate->triangle)
+          ? candidate->nearest
+          : occlusion_steps_up((double)low + margin_of(work, &tested));
+  return tested;
+}
+
+/* The nearest depth of the triangle's plane over a cell, with the margins on
+ * the page and in depth, in steps. */
+static int32_t nearest_in_cell(const struct culling_work *work,
+                               struct tested_triangle *tested, int x, int y) {
+  const struct triangle_grid *cells = &work->buffer->cells;
+  const struct geom_point *p = tested->corners.p;
+  double side = (double)(INT64_C(1) << cells->shift),
+         margin = (double)work->xy_margin;
+  if (!tested->has_plane) {
+    struct geom_plane plane = geom_plane_of(p[0], p[1], p[2]);
+    tested->plane = depth_plane_of(&plane);
+    tested->has_plane = true;
+  }
+  const struct depth_plane *plane = &tested->plane;
+  double at_x = cells->x0 + x * side +
+                (plane->per_x > 0 ? side + margin : -margin),
+         at_y = cells->y0 + y * side +
+                (plane->per_y > 0 ? side + margin : -margin);
+  return occlusion_steps_up(depth_plane_at(plane, at_x, at_y) +
+                            depth_plane_error(plane, at_x, at_y) +
+                            margin_of(work, tested));
+}
+
+/* Is the triangle hidden in a range of cells of a row: by its nearest corner,
+ * or by its plane over each cell? */
+static bool is_hidden_in_row(struct band_work *work,
+                             struct tested_triangle *tested, int y, int x0,
+                             int x1) {
+  const struct occlusion_buffer *buffer = work->buffer;
+  const int32_t *bound =
+      buffer->bound + (size_t)y * (size_t)buffer->cells.columns;
+  for (int x = x0; x <= x1; x++) {
+    if (bound[x] > tested->candidate->nearest)
+      continue;
+    if (bound[x] <= tested->farthest || work->tests-- < 0 ||
+        bound[x] <= nearest_in_cell(work->work, tested, x, y))
+      return false;
+  }
+  return true;
+}
+
 /* Is the triangle hidden in all cells of the band that it meets?  False also
  * where too much has been tested.  First by blocks; then by the rows of cells,
  * but only those of a block row that is not hidden. */
@@ -136,8 +211,7 @@ static bool is_triangle_hidden(struct band_work *work,
   if (work->tests < 0 ||
       occlusion_buffer_hides_in_blocks(buffer, r, candidate->nearest))
     return work->tests >= 0;
-  struct geom_triangle corners =
-      sheet_corners(work->work->sheet, candidate->triangle);
+  struct tested_triangle tested = begin_test(work->work, candidate);
   for (; part.y0 <= r.y1; part.y0 = part.y1 + 1) {
     part.y1 = part.y0 | ((1 << OCCLUSION_BLOCK_SHIFT) - 1);
     part.y1 = part.y1 < r.y1 ? part.y1 : r.y1;
@@ -145,11 +219,10 @@ static bool is_triangle_hidden(struct band_work *work,
     if (occlusion_buffer_hides_in_blocks(buffer, part, candidate->nearest))
       continue;
     for (int y = part.y0, x0, x1; y <= part.y1; y++) {
-      if (!columns_in_row(work->work, &corners, y, &x0, &x1))
+      if (!columns_in_row(work->work, &tested.corners, y, &x0, &x1))
         continue;
       work->tests -= 1 + ((x1 - x0) >> OCCLUSION_BLOCK_SHIFT);
-      if (work->tests < 0 ||
-          !occlusion_buffer_hides_in_row(buffer, y, x0, x1, candidate->nearest))
+      if (work->tests < 0 || !is_hidden_in_row(work, &tested, y, x0, x1))
         return false;
     }
   }

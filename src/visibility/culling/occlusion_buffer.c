@@ -8,9 +8,9 @@
 #include "visibility/predicate/surrounder.h"
 
 enum {
-  CELLS_PER_TRIANGLE = 2,
+  CELLS_PER_TRIANGLE = 4,
   CELLS_MIN = 1 << 12,
-  CELLS_MAX = 1 << 21,
+  CELLS_MAX = 1 << 22,
   VISITS = 64,         /* to a block to raise its cells, on average, at most */
   VISITS_MIN = 1 << 15 /* to all blocks, this many are no cost */
 };
@@ -55,16 +55,6 @@ occlusion_buffer_band(const struct occlusion_buffer *buffer, int k) {
       first << OCCLUSION_BLOCK_SHIFT, last < rows ? last : rows - 1,
       VISITS_MIN / OCCLUSION_BANDS +
           VISITS * (int64_t)buffer->blocks * (end - first)};
-}
-
-bool occlusion_buffer_hides_in_row(const struct occlusion_buffer *buffer, int y,
-                                   int x0, int x1, int32_t nearest) {
-  const int32_t *bound =
-      buffer->bound + (size_t)y * (size_t)buffer->cells.columns;
-  for (int x = x0; x <= x1; x++)
-    if (bound[x] <= nearest)
-      return false;
-  return true;
 }
 
 bool occlusion_buffer_hides_in_blocks(const struct occlusion_buffer *buffer,

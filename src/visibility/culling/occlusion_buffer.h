@@ -67,11 +67,8 @@ void occlusion_buffer_lower(struct occlusion_buffer *buffer,
                             const struct occlusion_band *band,
                             const int32_t *steps);
 
-/* Is everything behind `nearest` hidden in all cells of a range of a row? */
-bool occlusion_buffer_hides_in_row(const struct occlusion_buffer *buffer, int y,
-                                   int x0, int x1, int32_t nearest);
-
-/* The same in all blocks that meet a range of cells. */
+/* Is everything behind `nearest` hidden in all blocks that meet a range of
+ * cells? */
 bool occlusion_buffer_hides_in_blocks(const struct occlusion_buffer *buffer,
                                       struct cell_range range, int32_t nearest);
 

@@ -188,21 +188,58 @@ void occlusion_culling_fini(struct occlusion_culling *culling) {
   *culling = (struct occlusion_culling){.culled = NULL};
 }
 
+/* A segment to be tested, from its farther to its nearer end. */
+struct tested_segment {
+  double x, y, z, dx, dy, dz;
+};
+
+/* The parameter at which a segment that starts at `from` and runs by `delta`
+ * leaves a cell from `low` to `high`; 1 where it does not. */
+static double leaves_at(double from, double delta, double low, double high) {
+  double t = delta == 0 ? 1 : ((delta > 0 ? high : low) - from) / delta;
+  return t < 1 ? t : 1;
+}
+
+/* The nearest depth of a segment in a cell, rounded up, with the margin. */
+static int32_t nearest_of_segment(const struct occlusion_culling *culling,
+                                  const struct tested_segment *s, int x,
+                                  int y) {
+  const struct triangle_grid *cells = &culling->buffer.cells;
+  double side = (double)(INT64_C(1) << cells->shift),
+         left = cells->x0 + x * side, low = cells->y0 + y * side,
+         at_x = leaves_at(s->x, s->dx, left, left + side),
+         at_y = leaves_at(s->y, s->dy, low, low + side),
+         t = at_x < at_y ? at_x : at_y, z = t > 0 ? s->z + t * s->dz : s->z;
+  return occlusion_steps_up(z + 1 + culling->margin);
+}
+
 bool occlusion_culling_hides(const struct occlusion_culling *culling,
                              struct geom_point p, struct geom_point q) {
   const struct triangle_grid *cells = &culling->buffer.cells;
   if (culling->culled == NULL)
     return false;
-  int32_t nearest =
-      occlusion_steps_up((double)(p.z > q.z ? p.z : q.z) + culling->margin);
+  struct geom_point far = p.z < q.z ? p : q, near = p.z < q.z ? q : p;
+  int32_t nearest = occlusion_steps_up((double)near.z + culling->margin),
+          farthest = occlusion_steps_up((double)far.z + culling->margin);
+  struct tested_segment s = {far.x,
+                             far.y,
+                             (double)far.z,
+                             (double)near.x - far.x,
+                             (double)near.y - far.y,
+                             (double)(near.z - far.z)};
   struct cell_range r = triangle_grid_cells(cells, box2_of_segment(p, q));
   if (occlusion_buffer_hides_in_blocks(&culling->buffer, r, nearest))
     return true;
   for (int y = r.y0; y <= r.y1; y++) {
+    const int32_t *bound =
+        culling->buffer.bound + (size_t)y * (size_t)cells->columns;
     int x0, x1;
     triangle_grid_row(cells, p, q, r, y, &x0, &x1);
-    if (!occlusion_buffer_hides_in_row(&culling->buffer, y, x0, x1, nearest))
-      return false;
+    for (int x = x0; x <= x1; x++)
+      if (bound[x] <= nearest &&
+          (bound[x] <= farthest ||
+           bound[x] <= nearest_of_segment(culling, &s, x, y)))
+        return false;
   }
   return true;
 }

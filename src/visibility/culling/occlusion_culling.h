@@ -3,8 +3,9 @@
  *
  * A buffer (occlusion_buffer.h) has for each page cell a depth behind which all
  * is hidden.  Triangles come from near to far.  Each is tested first: it is
- * hidden if its nearest corner is behind the bounds of all cells that it meets.
- * Otherwise it raises the bounds of the cells that it surrounds.
+ * hidden if in all cells that it meets its nearest corner is behind the bound,
+ * or its plane is all over the cell.  Otherwise it raises the bounds of the
+ * cells that it surrounds.
  *
  * Claim.  The visible lines and fragments of all triangles are those of the
  * triangles that are not culled, to the last bit.
@@ -18,7 +19,8 @@
  *   - T's edges are hidden there, and so are its intersections with other
  *     triangles.  These lie on T but for its contact length, a level of T's
  *     tolerance in depth, and for rounding: `margin` and `xy_margin` exceed
- *     their sum.
+ *     their sum.  So where T's plane is compared, it is over a cell that is
+ *     larger by xy_margin on all sides.
  *   - For fragments, let V be a triangle that is visible there and touches T,
  *     so that V's fragments may be T's.  Where O does not hide V, V is no
  *     farther behind O than O's tolerance.  T's tolerance as a depth is in the

@@ -17,6 +17,7 @@ enum {
 /* The search of one worker. */
 struct intersection_search {
   const struct sheet *sheet;
+  const struct hidden_segments *hidden; /* NULL: nothing is */
   struct progress progress;
   struct pair_sweep sweep;
   struct intersection_segments segment;
@@ -36,6 +37,12 @@ prepare_triangle(struct intersection_search *search, uint32_t f) {
     occluder_init(&search->occluder, search->sheet, f);
   search->prepared = f;
   return &search->occluder;
+}
+
+static bool is_segment_hidden(const struct hidden_segments *hidden,
+                              const struct intersection_segment *segment) {
+  return hidden != NULL &&
+         hidden->hides(hidden->user, segment->end[0], segment->end[1]);
 }
 
 /* Decides a candidate pair exactly; either triangle may be SHEET_EDGE_ON. */
@@ -67,6 +74,7 @@ static bool decide_pair(void *user, uint32_t f, uint32_t g) {
   if (ends_on_plane(cg))
     return edge_crossings_add(&search->crossings, sheet, g, cg, f, cf);
   if (intersection_segment_find(sheet, f, g, hf, &hg, &segment) &&
+      !is_segment_hidden(search->hidden, &segment) &&
       !ARRAY_PUSH(&search->segment.list, segment))
     return false;
   return edge_crossings_add_slanted(&search->crossings, sheet, f, g, &hg) &&
@@ -227,9 +235,11 @@ bool intersection_add_edges(struct sheet *sheet,
 static void search_init(struct intersection_search *search,
                         const struct sheet *sheet,
                         const struct triangle_grid *grid, const uint8_t *cells,
+                        const struct hidden_segments *hidden,
                         const struct solver_request *request) {
   *search = (struct intersection_search){
       .sheet = sheet,
+      .hidden = hidden,
       .progress = progress_of(request, "intersections"),
       .prepared = SHEET_NONE};
   search->sweep = (struct pair_sweep){.sheet = sheet,
@@ -276,11 +286,10 @@ static void report_search(const struct intersection_search *search,
   report_count(report, "intersections", "segments", segments);
 }
 
-recto_status intersection_find_all(struct sheet *sheet,
-                                   const struct triangle_grid *grid,
-                                   const uint8_t *cells,
-                                   const struct solver_request *request,
-                                   struct report *report, recto_error *error) {
+recto_status intersection_find_visible(
+    struct sheet *sheet, const struct triangle_grid *grid, const uint8_t *cells,
+    const struct hidden_segments *hidden, const struct solver_request *request,
+    struct report *report, recto_error *error) {
   size_t count = triangle_grid_cell_count(grid);
   int workers = parallel_workers(count, SEARCH_CELLS);
   struct intersection_search *search =
@@ -290,7 +299,7 @@ recto_status intersection_find_all(struct sheet *sheet,
   if (search == NULL)
     return error_memory(error);
   for (int w = 0; w < workers; w++)
-    search_init(&search[w], sheet, grid, cells, request);
+    search_init(&search[w], sheet, grid, cells, hidden, request);
   bool ok = parallel_ranges(workers, count, SEARCH_CELLS, search_cells, search);
   for (int w = 1; w < workers; w++) {
     ok = ok && unite_searches(&search[0], &search[w]);
@@ -304,6 +313,15 @@ recto_status intersection_find_all(struct sheet *sheet,
   search_fini(search);
   mem_free(search);
   return ok ? RECTO_OK : error_memory(error);
+}
+
+recto_status intersection_find_all(struct sheet *sheet,
+                                   const struct triangle_grid *grid,
+                                   const uint8_t *cells,
+                                   const struct solver_request *request,
+                                   struct report *report, recto_error *error) {
+  return intersection_find_visible(sheet, grid, cells, NULL, request, report,
+                                   error);
 }
 
 recto_status intersection_find_everywhere(struct sheet *sheet,

@@ -23,6 +23,13 @@
 #include "visibility/index/triangle_grid.h"
 #include "visibility/solver.h"
 
+/* Says whether a segment is certainly hidden, so that it need not be an edge of
+ * the sheet. */
+struct hidden_segments {
+  bool (*hides)(const void *user, struct geom_point p, struct geom_point q);
+  const void *user;
+};
+
 /* Finds the piercing pairs that share a cell of the grid with a list, and
  * appends their edges to the sheet's.
  * cells    per cell, not 0: pairs are sought there; NULL: everywhere
@@ -33,8 +40,14 @@ USE_RESULT recto_status intersection_find_all(
     const struct solver_request *request, struct report *report,
     recto_error *error);
 
-/* The same with a grid of its own, everywhere, where intersections are
- * requested. */
+/* The same, and leaves out most segments that are hidden. */
+USE_RESULT recto_status intersection_find_visible(
+    struct sheet *sheet, const struct triangle_grid *grid, const uint8_t *cells,
+    const struct hidden_segments *hidden, const struct solver_request *request,
+    struct report *report, recto_error *error);
+
+/* The same as the first with a grid of its own, everywhere, where intersections
+ * are requested. */
 USE_RESULT recto_status intersection_find_everywhere(
     struct sheet *sheet, const struct solver_request *request,
     struct report *report, recto_error *error);

@@ -213,13 +213,20 @@ static void end_phase(struct tiles_work *work, const char *name) {
   work->phase_start = now;
 }
 
+static bool hides_segment(const void *user, struct geom_point p,
+                          struct geom_point q) {
+  return occlusion_culling_hides(user, p, q);
+}
+
 /* Phase 4.  Adds the intersections to the edges of the sheet. */
 static bool find_intersections(struct tiles_work *work, struct map *map,
                                recto_status *status, recto_error *error) {
   size_t mesh_edges = work->sheet->edge.count;
-  *status = intersection_find_all(
+  const struct hidden_segments hidden = {hides_segment, work->culling};
+  *status = intersection_find_visible(
       work->sheet, &work->lists.grid,
-      work->lists.cells_are_tiles ? work->intersected : NULL, work->request,
+      work->lists.cells_are_tiles ? work->intersected : NULL,
+      work->culling->culled != NULL ? &hidden : NULL, work->request,
       work->report, error);
   if (*status != RECTO_OK ||
       (work->request->edges &&
