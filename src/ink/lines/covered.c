@@ -148,10 +148,15 @@ static int64_t cell_of_place(const struct covering *c, double x, double y) {
   return cell_along(c, 1, y) * c->count[0] + cell_along(c, 0, x);
 }
 
+/* The side that covered the piece of a hair before this one; NULL: none did. */
+struct last_cover {
+  const struct cover_side *side;
+};
+
 /* What a piece of a hair, from at[0], at[1] to at[2], at[3], gives. */
 typedef enum verdict piece_fn(const struct covering *c,
                               const struct measured_path *hair,
-                              const double at[4]);
+                              const double at[4], struct last_cover *last);
 
 /* Calls do_piece for the pieces of a path, until one is NOT_COVERED; returns
  * that, or UNDECIDED where one is, or COVERED. */
@@ -160,6 +165,7 @@ static enum verdict for_all_pieces(const struct covering *c, uint32_t number,
   const struct ink_path *path = &c->paths->path.item[number];
   const struct measured_path *hair = &c->measured[number];
   enum verdict all = COVERED;
+  struct last_cover last = {NULL};
   for (uint32_t i = 0; i + 1 < path->count; i++) {
     const struct ink_point *p = &c->paths->point.item[path->point + i];
     double pieces = ceil(distance(p[0], p[1]) / hair->near * 2);
@@ -168,7 +174,7 @@ static enum verdict for_all_pieces(const struct covering *c, uint32_t number,
     for (double k = 0; k < pieces; k++) {
       const double at[4] = {p->x + k * dx, p->y + k * dy, p->x + (k + 1) * dx,
                             p->y + (k + 1) * dy};
-      enum verdict verdict = do_piece(c, hair, at);
+      enum verdict verdict = do_piece(c, hair, at, &last);
       if (verdict == NOT_COVERED)
         return verdict;
       if (verdict == UNDECIDED)
@@ -182,8 +188,9 @@ static enum verdict for_all_pieces(const struct covering *c, uint32_t number,
 
 static enum verdict mark_piece(const struct covering *c,
                                const struct measured_path *hair,
-                               const double at[4]) {
+                               const double at[4], struct last_cover *last) {
   (void)hair;
+  (void)last;
   c->marked[cell_of_place(c, (at[0] + at[2]) / 2, (at[1] + at[3]) / 2)] = 1;
   return COVERED;
 }
@@ -312,17 +319,31 @@ static const struct cover_side *next_cover(const struct covering *c,
   return NULL;
 }
 
+/* Does the side that covered the last piece cover this one?  It would be found
+ * in this cell, too, as it is listed in all that it is near; only where so many
+ * are that not all are tried it might not. */
+static bool covers_again(const struct last_cover *last,
+                         const struct cover_trial *trial,
+                         const struct measured_path *hair, const double at[4]) {
+  return last->side != NULL && trial->end - trial->side <= SIDES_TRIED_MAX &&
+         is_near_piece(last->side, at, hair->near);
+}
+
 /* Of a piece, as if all hairs were drawn.  A path that is none is drawn in any
  * case, and would be tried at this place or before. */
 static enum verdict judge_piece(const struct covering *c,
                                 const struct measured_path *hair,
-                                const double at[4]) {
+                                const double at[4], struct last_cover *last) {
   struct cover_trial trial = trial_at(c, at);
   const struct cover_side *side;
   bool found = false;
+  if (covers_again(last, &trial, hair, at))
+    return COVERED;
   while ((side = next_cover(c, &trial, hair, at, false)) != NULL) {
-    if (!side->is_hair)
+    if (!side->is_hair) {
+      last->side = side;
       return COVERED;
+    }
     found = true;
   }
   return found || trial.tried == SIDES_TRIED_MAX ? UNDECIDED : NOT_COVERED;
@@ -330,9 +351,12 @@ static enum verdict judge_piece(const struct covering *c,
 
 static enum verdict decide_piece(const struct covering *c,
                                  const struct measured_path *hair,
-                                 const double at[4]) {
+                                 const double at[4], struct last_cover *last) {
   struct cover_trial trial = trial_at(c, at);
-  return next_cover(c, &trial, hair, at, true) != NULL ? COVERED : NOT_COVERED;
+  if (covers_again(last, &trial, hair, at))
+    return COVERED;
+  last->side = next_cover(c, &trial, hair, at, true);
+  return last->side != NULL ? COVERED : NOT_COVERED;
 }
 
 static bool judge_range(void *user, struct parallel_range range) {
