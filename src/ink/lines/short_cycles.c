@@ -69,28 +69,43 @@ static bool count_edges_of_range(void *user, struct parallel_range range) {
   return true;
 }
 
-/* Sets of the roots of lines whether a crease ends free there: at a vertex
- * where no other edge is drawable. */
-static uint8_t *find_free_lines(const struct sheet *sheet, uint32_t *line) {
-  size_t count = sheet->edge.count, points = sheet->point.count;
-  int workers = parallel_workers(count, PARALLEL_ITEMS);
-  struct point_marks marks = {sheet, mem_calloc(points, sizeof *marks.at)};
-  uint8_t *is_free = mem_calloc(points, 1);
-  bool ok = marks.at != NULL && is_free != NULL &&
-            parallel_ranges(workers, count, PARALLEL_ITEMS,
+/* Marks the points where a crease ends free: vertices where no other edge is
+ * drawable.  Clears the others.
+ * count  gets how many there are
+ * Returns NULL when memory ran out. */
+static atomic_uchar *find_free_ends(const struct sheet *sheet, size_t *count) {
+  size_t edges = sheet->edge.count;
+  int workers = parallel_workers(edges, PARALLEL_ITEMS);
+  struct point_marks marks = {sheet,
+                              mem_calloc(sheet->point.count, sizeof *marks.at)};
+  bool ok = marks.at != NULL &&
+            parallel_ranges(workers, edges, PARALLEL_ITEMS,
                             mark_creases_of_range, &marks) &&
-            parallel_ranges(workers, count, PARALLEL_ITEMS,
+            parallel_ranges(workers, edges, PARALLEL_ITEMS,
                             count_edges_of_range, &marks);
+  *count = 0;
   for (uint32_t p = 0; ok && p < sheet->vertex_count; p++) {
     (void)poll_at(p);
-    if (marks.at[p] == (AT_CREASE | AT_EDGE))
+    marks.at[p] = marks.at[p] == (AT_CREASE | AT_EDGE);
+    *count += marks.at[p];
+  }
+  if (ok)
+    return marks.at;
+  mem_free(marks.at);
+  return NULL;
+}
+
+/* Sets of the roots of lines whether a crease ends free there.  Returns NULL
+ * when memory ran out. */
+static uint8_t *find_free_lines(const struct sheet *sheet,
+                                const atomic_uchar *is_end, uint32_t *line) {
+  uint8_t *is_free = mem_calloc(sheet->point.count, 1);
+  for (uint32_t p = 0; is_free != NULL && p < sheet->vertex_count; p++) {
+    (void)poll_at(p);
+    if (is_end[p])
       is_free[union_find_root(line, p)] = 1;
   }
-  mem_free(marks.at);
-  if (ok)
-    return is_free;
-  mem_free(is_free);
-  return NULL;
+  return is_free;
 }
 
 static double length_of_segment(const struct segment_graph *graph,
@@ -101,44 +116,68 @@ static double length_of_segment(const struct segment_graph *graph,
   return hypot((double)q.x - p.x, (double)q.y - p.y);
 }
 
-static bool is_visible_crease(const struct graph_segment *s) {
-  return !graph_segment_is_hidden(s) &&
-         (s->style_key & RECTO_EDGES_ALL) == RECTO_EDGE_CREASE;
+/* Whether a segment is a visible crease, and so short that it may be left
+ * out. */
+static bool is_short_crease(const struct segment_graph *graph,
+                            const struct sheet *sheet, const struct pens *pens,
+                            uint32_t segment) {
+  const struct graph_segment *s = &graph->segment.item[segment];
+  if (graph_segment_is_hidden(s) ||
+      (s->style_key & RECTO_EDGES_ALL) != RECTO_EDGE_CREASE)
+    return false;
+  const struct sheet_edge *edge = &sheet->edge.item[s->edge];
+  uint32_t pen = pens_of_line(pens, edge->edge_class, edge->group);
+  return length_of_segment(graph, segment) <
+         pens_shortest_crease_mm(pens, pen) * SHEET_UNITS_PER_MM;
 }
 
-static bool list_cycle_candidates(struct cycle_search *c,
+/* Lists the short creases of lines of which some end is free, as is_absent. */
+static bool list_creases_of_lines(struct cycle_search *c,
                                   const struct sheet *sheet,
-                                  const struct pens *pens, double crease_deg) {
+                                  const struct pens *pens, uint32_t *line,
+                                  const uint8_t *is_free) {
   const struct segment_graph *graph = c->graph;
   struct large_face_normals normals = large_face_normals_start();
-  size_t first = 0;
-  while (first < graph->segment.count &&
-         !is_visible_crease(&graph->segment.item[first]))
-    first++;
-  if (first == graph->segment.count)
-    return true;
-  uint32_t *line = crease_lines_create(sheet, crease_deg);
-  uint8_t *is_free = line != NULL ? find_free_lines(sheet, line) : NULL;
-  bool ok = is_free != NULL;
-  for (uint32_t i = (uint32_t)first; ok && i < graph->segment.count; i++) {
-    const struct graph_segment *s = &graph->segment.item[i];
-    if (!is_visible_crease(s))
-      continue;
-    const struct sheet_edge *edge = &sheet->edge.item[s->edge];
-    if (!is_free[union_find_root(line, edge->point[0])])
+  for (uint32_t i = 0; i < graph->segment.count; i++) {
+    const struct sheet_edge *edge =
+        &sheet->edge.item[graph->segment.item[i].edge];
+    if (!is_short_crease(graph, sheet, pens, i) ||
+        !is_free[union_find_root(line, edge->point[0])])
       continue;
     uint32_t pen = pens_of_line(pens, edge->edge_class, edge->group);
-    double shortest = pens_shortest_crease_mm(pens, pen) * SHEET_UNITS_PER_MM;
     struct cycle_candidate made = {
         i, crease_cosine(sheet, edge, &normals), length_of_segment(graph, i),
         pens_short_cycle_mm(pens, pen) * SHEET_UNITS_PER_MM};
-    if (made.length >= shortest)
-      continue;
     c->is_absent[i] = 1;
-    ok = ARRAY_PUSH(&c->candidate, made);
+    if (!ARRAY_PUSH(&c->candidate, made))
+      return false;
   }
-  mem_free(line);
-  mem_free(is_free);
+  return true;
+}
+
+/* Lists none, and saves finding the lines, where no crease is short or none
+ * ends free. */
+static bool list_cycle_candidates(struct cycle_search *c,
+                                  const struct sheet *sheet,
+                                  const struct pens *pens, double crease_deg) {
+  uint32_t first = 0, count = (uint32_t)c->graph->segment.count;
+  while (first < count && !is_short_crease(c->graph, sheet, pens, first))
+    first++;
+  if (first == count)
+    return true;
+  size_t ends;
+  atomic_uchar *is_end = find_free_ends(sheet, &ends);
+  bool ok = is_end != NULL;
+  if (ok && ends > 0) {
+    uint32_t *line = crease_lines_create(sheet, crease_deg);
+    uint8_t *is_free =
+        line != NULL ? find_free_lines(sheet, is_end, line) : NULL;
+    ok =
+        is_free != NULL && list_creases_of_lines(c, sheet, pens, line, is_free);
+    mem_free(line);
+    mem_free(is_free);
+  }
+  mem_free((void *)is_end);
   return ok;
 }
 
