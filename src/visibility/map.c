@@ -32,6 +32,20 @@ static int compare_mixed(const void *a, const void *b, void *user) {
 }
 
 bool map_sort_mixed(struct map *map) {
-  return sort_stable(map->mixed.item, map->mixed.count, sizeof *map->mixed.item,
-                     compare_mixed, NULL);
+  struct map_interval *sorted = mem_alloc(map->interval.count, sizeof *sorted);
+  size_t count = 0;
+  bool ok = sorted != NULL &&
+            sort_stable(map->mixed.item, map->mixed.count,
+                        sizeof *map->mixed.item, compare_mixed, NULL);
+  for (size_t m = 0; ok && m < map->mixed.count; m++) {
+    struct map_mixed *mixed = &map->mixed.item[m];
+    memcpy(sorted + count, map->interval.item + mixed->interval,
+           mixed->count * sizeof *sorted);
+    mixed->interval = (uint32_t)count;
+    count += mixed->count;
+  }
+  if (ok && count > 0)
+    memcpy(map->interval.item, sorted, count * sizeof *sorted);
+  mem_free(sorted);
+  return ok;
 }

@@ -123,7 +123,9 @@ struct map {
 void map_init(struct map *map);
 void map_fini(struct map *map);
 
-/* Sorts `mixed` by edge.  Returns false when memory ran out. */
+/* Sorts `mixed` by edge, and `interval` in the same order: what a map has then
+ * does not depend on the order in which edges were solved.  Returns false when
+ * memory ran out. */
 USE_RESULT bool map_sort_mixed(struct map *map);
 
 #endif
