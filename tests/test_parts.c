@@ -406,6 +406,12 @@ static void what_parts_do_not_have_is_refused(void **state) {
   other.camera.fit = RECTO_FIT_SCALE;
   assert_int_equal(write_parts(state, scene, &other, 2, &error),
                    RECTO_ERROR_UNSUPPORTED);
+  double before = scene->scene.point.item[0].x;
+  scene->scene.point.item[0].x = 1.3e30; /* more than 2^100 */
+  assert_int_equal(write_parts(state, scene, &options, 2, &error),
+                   RECTO_ERROR_UNSUPPORTED);
+  assert_non_null(strstr(error.text, "of extreme size"));
+  scene->scene.point.item[0].x = before;
   assert_int_equal(recto_scene_write_part(scene, &options, 3, 2, "x", &error),
                    RECTO_ERROR_ARGUMENT);
   assert_int_equal(recto_scene_write_part(scene, &options, 1,
