@@ -28,7 +28,7 @@ enum {
   PENS_IN_CELL = 4
 };
 
-enum verdict { NOT_COVERED, COVERED, UNDECIDED };
+enum verdict { NOT_COVERED, COVERED, UNDECIDED }; /* the first of no hair */
 
 struct measured_path {
   double length, near; /* grid units; near: half of its pen */
@@ -57,8 +57,10 @@ struct covering {
   const struct pens *pens;
   struct measured_path *measured; /* one a path */
   uint32_t *by_rank;
-  uint8_t *verdict; /* one a path */
-  uint8_t *marked;  /* one a cell */
+  uint8_t *verdict;      /* one a path */
+  struct sort_key *hair; /* the cells in which hairs begin, and their paths */
+  size_t hairs;
+  uint8_t *marked; /* one a cell */
   double cell, low[2], widest;
   int64_t count[2];              /* of cells, in x and in y */
   ARRAY(struct cover_side) side; /* the shortest path's first */
@@ -96,21 +98,20 @@ static struct measured_path measure_path(const struct covering *c,
 }
 
 /* Returns false when memory ran out. */
-static bool measure_paths(struct covering *c, size_t *hairs) {
+static bool measure_paths(struct covering *c) {
   size_t count = c->paths->path.count;
   struct sort_key *key = mem_alloc(count, sizeof *key);
   struct sort_key *scratch = mem_alloc(count, sizeof *scratch);
   bool ok = key != NULL && scratch != NULL;
-  *hairs = 0;
   for (size_t i = 0; ok && i < count; i++) {
     struct measured_path *m = &c->measured[i];
     (void)poll_at(i);
     *m = measure_path(c, &c->paths->path.item[i]);
-    *hairs += m->is_hair;
+    c->hairs += m->is_hair;
     c->widest = fmax(c->widest, m->near);
     key[i] = (struct sort_key){UINT64_MAX - (uint64_t)m->length, (uint32_t)i};
   }
-  if (ok && *hairs > 0) {
+  if (ok && c->hairs > 0) {
     sort_keys(key, scratch, count);
     for (uint32_t r = 0; r < count; r++) {
       c->by_rank[r] = key[r].value;
@@ -152,6 +153,22 @@ static int64_t cell_of_place(const struct covering *c, double x, double y) {
 struct last_cover {
   const struct cover_side *side;
 };
+
+/* Lists the hairs by the cells in which they begin: those of one cell are
+ * tested with the same sides, which are in the cache then.  Returns false when
+ * memory ran out. */
+static bool list_hairs(struct covering *c) {
+  size_t n = 0;
+  c->hair = mem_alloc(c->hairs, sizeof *c->hair);
+  for (uint32_t i = 0; c->hair != NULL && i < c->paths->path.count; i++) {
+    const struct ink_point *p =
+        c->paths->point.item + c->paths->path.item[i].point;
+    if (c->measured[i].is_hair)
+      c->hair[n++] =
+          (struct sort_key){(uint64_t)cell_of_place(c, p->x, p->y), i};
+  }
+  return c->hair != NULL && sort_keys_alone(c->hair, n);
+}
 
 /* What a piece of a hair, from at[0], at[1] to at[2], at[3], gives. */
 typedef enum verdict piece_fn(const struct covering *c,
@@ -361,17 +378,17 @@ static enum verdict decide_piece(const struct covering *c,
 
 static bool judge_range(void *user, struct parallel_range range) {
   const struct covering *c = user;
-  for (size_t i = range.begin; i < range.end; i++)
-    c->verdict[i] = c->measured[i].is_hair
-                        ? (uint8_t)for_all_pieces(c, (uint32_t)i, judge_piece)
-                        : NOT_COVERED;
+  for (size_t i = range.begin; i < range.end; i++) {
+    uint32_t path = c->hair[i].value;
+    c->verdict[path] = (uint8_t)for_all_pieces(c, path, judge_piece);
+  }
   return true;
 }
 
 /* Returns false when the caller cancelled. */
 static bool decide(struct covering *c) {
   size_t count = c->paths->path.count;
-  if (!parallel_ranges(parallel_workers(count, PATHS_IN_RANGE), count,
+  if (!parallel_ranges(parallel_workers(c->hairs, PATHS_IN_RANGE), c->hairs,
                        PATHS_IN_RANGE, judge_range, c))
     return false;
   for (size_t r = 0; r < count; r++) {
@@ -389,22 +406,22 @@ static bool decide(struct covering *c) {
 bool paths_find_covered(struct ink_paths *paths, const struct sheet *sheet,
                         const struct pens *pens) {
   struct covering c = {.paths = paths, .sheet = sheet, .pens = pens};
-  size_t count = paths->path.count, hairs;
+  size_t count = paths->path.count;
   c.measured = mem_alloc(count, sizeof *c.measured);
   c.by_rank = mem_alloc(count, sizeof *c.by_rank);
-  c.verdict = mem_alloc(count, sizeof *c.verdict);
+  c.verdict = mem_calloc(count, sizeof *c.verdict);
   bool ok = c.measured != NULL && c.by_rank != NULL && c.verdict != NULL &&
-            measure_paths(&c, &hairs);
-  if (ok && hairs > 0) {
-    ok = make_cells(&c);
-    for (uint32_t i = 0; ok && i < count; i++)
-      if (c.measured[i].is_hair)
-        (void)for_all_pieces(&c, i, mark_piece);
+            measure_paths(&c);
+  if (ok && c.hairs > 0) {
+    ok = make_cells(&c) && list_hairs(&c);
+    for (size_t i = 0; ok && i < c.hairs; i++)
+      (void)for_all_pieces(&c, c.hair[i].value, mark_piece);
     ok = ok && list_sides(&c) && decide(&c);
   }
   mem_free(c.measured);
   mem_free(c.by_rank);
   mem_free(c.verdict);
+  mem_free(c.hair);
   mem_free(c.marked);
   ARRAY_FREE(&c.side);
   ARRAY_FREE(&c.listed);
