@@ -371,7 +371,9 @@ static void fragments_that_are_turned_over_collapse(void **state) {
     sum += area_turned_over(drawing);
     recto_drawing_destroy(drawing);
   }
-  if (!(sum <= 975)) /* 954; 1006 where they keep their sides */
+  /* 748; 868 where they keep their sides, 954 where corners within the picture
+   * are moved to any contour, however far. */
+  if (!(sum <= 770))
     fail_msg("%g mm^2 are turned over", sum);
   recto_scene_destroy(scene);
 }

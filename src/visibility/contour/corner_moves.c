@@ -12,6 +12,12 @@
 #include "base/hash.h"
 #include "base/poll.h"
 #include "base/tolerance.h"
+#include "visibility/contour/zero_segments.h"
+
+/* How far a corner within the picture is moved, as a share of the width of the
+ * faces there: those on a mesh's outline lie in the strip between it and the
+ * contour. */
+#define INNER_SHARE 0.5
 
 /* ---- 1 Contour edges about points ---------------------------------------- */
 
@@ -127,6 +133,20 @@ bool corner_moves_is_along(const struct corner_moves *moves,
           sheet_edge_is_outline(moves->sheet, edge));
 }
 
+/* How far a corner is moved on an edge within the picture, at most: by half of
+ * the width of the narrower face beside it, squared.  A corner of the outline
+ * goes to the contour wherever that is. */
+static double farthest_within(const struct corner_moves *moves,
+                              const struct sheet_edge *edge) {
+  double least = INFINITY;
+  for (int k = 0; k < 2; k++) {
+    const struct sheet *sheet = moves->sheet;
+    uint32_t face = sheet->triangle.item[edge->triangle[k]].face;
+    least = fmin(least, INNER_SHARE * extent_of_face(sheet, face));
+  }
+  return least * least;
+}
+
 /* Tries the contours about the edge along a side that starts or ends at a
  * corner. */
 static void try_side(const struct corner_moves *moves,
@@ -150,8 +170,14 @@ static void try_side(const struct corner_moves *moves,
     move->distance = INFINITY;
   }
   bool beyond = !occluder && !sheet_edge_is_outline(sheet, edge);
+  struct corner_move moved = *move;
+  if (beyond)
+    moved.distance = fmin(moved.distance, farthest_within(moves, edge));
+  double least = moved.distance;
   for (int k = 0; k < 2; k++)
-    try_point(moves, point[k], beyond, move);
+    try_point(moves, point[k], beyond, &moved);
+  if (moved.distance < least)
+    *move = moved;
 }
 
 /* Where an outline passes behind a nearer one, moves a corner to the end of its
