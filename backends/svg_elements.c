@@ -64,11 +64,16 @@ static size_t format_point(const struct svg *svg, char *text,
   return count + number_format_scaled(text + count, p.y, decimals);
 }
 
-/* Writes a step from one point to another, after another number unless it is
- * the first one of its command; without a 0 before the decimal point. */
+/* The number that was written last. */
+enum last_number { NO_NUMBER, WHOLE_NUMBER, DECIMAL_NUMBER };
+
+/* Writes a step from one point to another, without a 0 before the decimal
+ * point.  A number that begins with its sign, or after a decimal one with its
+ * point, needs no space before it.
+ * last  what was written before it in its command */
 static size_t format_step(const struct svg *svg, char *text,
                           struct svg_point from, struct svg_point to,
-                          bool first) {
+                          enum last_number *last) {
   const int64_t step[2] = {to.x - from.x, to.y - from.y};
   char *end = text;
   for (int k = 0; k < 2; k++) {
@@ -76,28 +81,30 @@ static size_t format_step(const struct svg *svg, char *text,
     size_t count =
         number_format_scaled(number, step[k], svg->options->precision);
     size_t sign = number[0] == '-';
+    size_t skip = sign + (count > sign + 1 && number[sign] == '0');
+    bool apart = number[skip] == '.' && *last == DECIMAL_NUMBER;
     if (sign != 0)
       *end++ = '-';
-    else if (!(first && k == 0))
+    else if (*last != NO_NUMBER && !apart)
       *end++ = ' ';
-    if (count > sign + 1 && number[sign] == '0')
-      sign++;
-    memcpy(end, number + sign, count - sign);
-    end += count - sign;
+    memcpy(end, number + skip, count - skip);
+    end += count - skip;
+    *last = memchr(number, '.', count) != NULL ? DECIMAL_NUMBER : WHOLE_NUMBER;
   }
   return (size_t)(end - text);
 }
 
 static void write_step(const struct svg *svg, struct svg_point from,
-                       struct svg_point to, bool first) {
+                       struct svg_point to, enum last_number *last) {
   char text[POINT_TEXT_SIZE];
-  stream_write(svg->out, text, format_step(svg, text, from, to, first));
+  stream_write(svg->out, text, format_step(svg, text, from, to, last));
 }
 
 /* Writes svg->point as path data; relative where others are curves, for a
  * smaller file. */
 static void write_path_data(const struct svg *svg, bool closed) {
   bool relative = svg->drawing->control.count > 0;
+  enum last_number last = NO_NUMBER;
   char text[POINTS_AT_ONCE * POINT_TEXT_SIZE];
   size_t count = 0;
   for (size_t i = 0; i < svg->point.count; i++) {
@@ -109,7 +116,7 @@ static void write_path_data(const struct svg *svg, bool closed) {
     if (i < 2 || !relative)
       text[count++] = i == 0 ? 'M' : relative ? 'l' : 'L';
     count += i > 0 && relative
-                 ? format_step(svg, text + count, p[-1], *p, i == 1)
+                 ? format_step(svg, text + count, p[-1], *p, &last)
                  : format_point(svg, text + count, *p, ' ');
   }
   stream_write(svg->out, text, count);
@@ -127,6 +134,7 @@ static void write_curve_data(const struct svg *svg,
       svg->drawing->control.item + curve->control;
   struct svg_point last = round_point(svg, control[0]);
   const char *command = "M";
+  enum last_number number = NO_NUMBER;
   char start[POINT_TEXT_SIZE];
   stream_text(svg->out, command);
   stream_write(svg->out, start, format_point(svg, start, last, ' '));
@@ -135,12 +143,13 @@ static void write_curve_data(const struct svg *svg,
     bool straight = drawing_piece_is_straight(control + i);
     if (straight && end.x == last.x && end.y == last.y)
       continue;
-    bool first = *command != (straight ? 'l' : 'c');
-    command = straight ? "l" : "c";
-    if (first)
+    if (*command != (straight ? 'l' : 'c')) {
+      command = straight ? "l" : "c";
+      number = NO_NUMBER;
       stream_text(svg->out, command);
-    for (uint32_t k = straight ? 3 : 1; k <= 3; k++, first = false)
-      write_step(svg, last, round_point(svg, control[i + k]), first);
+    }
+    for (uint32_t k = straight ? 3 : 1; k <= 3; k++)
+      write_step(svg, last, round_point(svg, control[i + k]), &number);
     last = end;
   }
   if (closed)

@@ -163,6 +163,27 @@ static void ellipse_becomes_a_few_curves(void **state) {
   }
 }
 
+/* As the contour of a mesh zigzags about that of the surface. */
+static void zigzag_becomes_a_few_curves(void **state) {
+  (void)state;
+  enum { POINTS = 150 };
+  double xy[2 * POINTS];
+  struct drawing drawing;
+  start(&drawing);
+  for (int i = 0; i < POINTS; i++) {
+    double t = M_PI * i / (POINTS - 1.0);
+    double r = 80 + (i % 3 - 1) * 0.6 * TOLERANCE_MM;
+    xy[2 * i] = PAGE_MM / 2 + r * cos(t);
+    xy[2 * i + 1] = 40 + r * sin(t);
+  }
+  drawing_fixture_stroke(&drawing, 0, xy, POINTS, false);
+  fit(&drawing);
+  assert_int_equal(count_pieces(&drawing, 0, true), 0);
+  assert_in_range(count_pieces(&drawing, 0, false), 2, 4);
+  assert_true(largest_deviation(&drawing, 0) < TOLERANCE_MM);
+  drawing_fini(&drawing);
+}
+
 /* By how much a ring of few points is left by its curve. */
 static double deviation_of_ring(bool has_fill) {
   struct drawing drawing;
@@ -484,6 +505,7 @@ static void running_out_of_memory_is_reported(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(ellipse_becomes_a_few_curves),
+      cmocka_unit_test(zigzag_becomes_a_few_curves),
       cmocka_unit_test(curve_covers_the_border_of_a_fill),
       cmocka_unit_test(ring_has_no_corner_where_it_begins),
       cmocka_unit_test(open_arc_keeps_its_ends),

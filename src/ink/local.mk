@@ -12,6 +12,7 @@ librecto_core_la_SOURCES += \
   %D%/curve/cubic_fit.c %D%/curve/cubic_fit.h \
   %D%/curve/curve_samples.c %D%/curve/curve_samples.h \
   %D%/curve/curves.c %D%/curve/curves.h \
+  %D%/curve/fit_targets.c %D%/curve/fit_targets.h \
   %D%/curve/stroke_shape.c %D%/curve/stroke_shape.h \
   %D%/fill/fill.c %D%/fill/fill.h \
   %D%/fill/light.c %D%/fill/light.h \

@@ -61,7 +61,7 @@ static point second_derivative(const point p[4], double t) {
 /* ---- Least squares ------------------------------------------------------- */
 
 /* Sets the handles to the lengths that minimise the weighted squares of the
- * distances between the samples and the curve at their parameters. */
+ * distances between the targets and the curve at their parameters. */
 static void set_handles(const struct fit_sample *sample, size_t samples,
                         const double *t, point start, point end, point c[4]) {
   double a00 = 0, a01 = 0, a11 = 0, b0 = 0, b1 = 0;
@@ -74,8 +74,8 @@ static void set_handles(const struct fit_sample *sample, size_t samples,
     point one = point_scaled(start, 3 * s * s * u),
           two = point_scaled(end, -3 * s * u * u);
     point rest =
-        point_difference(sample[i].at, point_sum(point_scaled(c[0], near),
-                                                 point_scaled(c[3], far)));
+        point_difference(sample[i].target, point_sum(point_scaled(c[0], near),
+                                                     point_scaled(c[3], far)));
     a00 += weight * point_dot(one, one);
     a01 += weight * point_dot(one, two);
     a11 += weight * point_dot(two, two);
@@ -96,11 +96,11 @@ static void set_handles(const struct fit_sample *sample, size_t samples,
 }
 
 /* Moves each parameter towards that of the point of the curve that is nearest
- * to the sample, by a step of Newton's method. */
+ * to the target, by a step of Newton's method. */
 static void improve_parameters(const struct fit_sample *sample, size_t samples,
                                const point c[4], double *t) {
   for (size_t i = 1; i + 1 < samples; i++) {
-    point off = point_difference(cubic_position(c, t[i]), sample[i].at);
+    point off = point_difference(cubic_position(c, t[i]), sample[i].target);
     point d1 = first_derivative(c, t[i]), d2 = second_derivative(c, t[i]);
     double slope = point_dot(d1, d1) + point_dot(off, d2);
     if (slope > 0)
@@ -128,17 +128,20 @@ static double distance_to_line(point p, point a, point b) {
   return sqrt(point_dot(rest, rest));
 }
 
-/* Whether the curve keeps within the distances, and in the samples' order.  The
+/* Whether the curve keeps within the distances, in the samples' order, and
+ * within the tolerance of each sample.  The
  * distance from a line is convex.  So the curve between two parameters is as
  * near to it as the control points of that part are. */
 static bool keeps_within(const struct fit_sample *sample, size_t samples,
-                         const double *t, const point c[4]) {
+                         double tolerance, const double *t, const point c[4]) {
   for (size_t i = 0; i + 1 < samples; i++) {
     double p = t[i], q = t[i + 1];
     if (q <= p)
       return false;
     const point part[4] = {blossom(c, p, p, p), blossom(c, p, p, q),
                            blossom(c, p, q, q), blossom(c, q, q, q)};
+    if (drawing_distance(part[0], sample[i].at) > tolerance)
+      return false;
     for (int k = 0; k < 4; k++) {
       double allowed =
           sample[i].from + k / 3.0 * (sample[i].to - sample[i].from);
@@ -150,16 +153,17 @@ static bool keeps_within(const struct fit_sample *sample, size_t samples,
   return true;
 }
 
-bool cubic_fit(const struct fit_sample *sample, size_t samples, point start,
-               point end, double *t, point curve[4]) {
+bool cubic_fit(const struct fit_sample *sample, size_t samples,
+               double tolerance, point start, point end, double *t,
+               point curve[4]) {
   double from = sample[0].along, to = sample[samples - 1].along;
   for (size_t i = 0; i < samples; i++)
     t[i] = (sample[i].along - from) / (to - from);
-  curve[0] = sample[0].at;
-  curve[3] = sample[samples - 1].at;
+  curve[0] = sample[0].target;
+  curve[3] = sample[samples - 1].target;
   for (int round = 0; round < ROUNDS; round++) {
     set_handles(sample, samples, t, start, end, curve);
-    if (keeps_within(sample, samples, t, curve))
+    if (keeps_within(sample, samples, tolerance, t, curve))
       return true;
     improve_parameters(sample, samples, curve, t);
   }

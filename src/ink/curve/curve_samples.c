@@ -118,10 +118,13 @@ bool curve_samples_take(struct curve_samples *samples,
   for (size_t i = 0; ok && i + 1 < samples->sample.count; i++)
     if ((ok = poll_at(i * SIDE_ITEMS)))
       allow_distance(&c, i);
-  return ok;
+  return ok &&
+         fit_targets_set(&samples->targets, samples->sample.item,
+                         samples->sample.count, samples->flags.item, tolerance);
 }
 
 void curve_samples_fini(struct curve_samples *samples) {
   ARRAY_FREE(&samples->sample);
   ARRAY_FREE(&samples->flags);
+  fit_targets_fini(&samples->targets);
 }

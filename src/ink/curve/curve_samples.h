@@ -5,6 +5,7 @@
 
 #include "ink/curve/clearance.h"
 #include "ink/curve/cubic_fit.h"
+#include "ink/curve/fit_targets.h"
 #include "ink/curve/stroke_shape.h"
 
 /* A curve that is everywhere nearer to its stroke than this share of the
@@ -19,6 +20,7 @@ enum { CURVE_VERTEX = 1, CURVE_MEETING = 2 };
 struct curve_samples {
   ARRAY(struct fit_sample) sample;
   ARRAY(uint8_t) flags;         /* one a sample */
+  struct fit_targets targets;   /* memory */
   struct clearance_place place; /* its stroke is to be set; else of the last
                                    sample */
 };

@@ -114,7 +114,8 @@ static struct drawing_point find_direction(const struct curves *c, size_t at,
     high++;
   for (size_t i = low; i <= high; i++) {
     double s = sample[i].along - here->along;
-    double x = sample[i].at.x - here->at.x, y = sample[i].at.y - here->at.y;
+    double x = sample[i].target.x - here->target.x;
+    double y = sample[i].target.y - here->target.y;
     s2 += s * s;
     s3 += s * s * s;
     s4 += s * s * s * s;
@@ -152,8 +153,8 @@ static bool fit(struct curves *c, const struct part_ends *ends, size_t from,
     piece->end = ends->end;
   else
     piece->end = find_direction(c, to, length / 2, 0);
-  return cubic_fit(&c->of.sample.item[from], to - from + 1, start, piece->end,
-                   c->parameter.item, piece->control);
+  return cubic_fit(&c->of.sample.item[from], to - from + 1, c->tolerance, start,
+                   piece->end, c->parameter.item, piece->control);
 }
 
 /* Finds the most knots after `from` that one curve passes.  Returns the last of
@@ -204,9 +205,9 @@ static size_t count_part_sides(const struct curves *c, size_t from, size_t to) {
  * line before it. */
 static bool add_line_on(struct curves *c, size_t from, size_t to,
                         bool after_line) {
-  struct drawing_point end = c->of.sample.item[to].at;
+  struct drawing_point end = c->of.sample.item[to].target;
   if (!after_line || (c->of.flags.item[from] & CURVE_VERTEX))
-    return add_line(c, c->of.sample.item[from].at, end);
+    return add_line(c, c->of.sample.item[from].target, end);
   struct drawing_point *past =
       ARRAY_AT(&c->drawing->control, c->drawing->control.count);
   past[-1] = past[-2] = end;
@@ -229,6 +230,7 @@ static bool fit_part(struct curves *c, const struct part_ends *ends) {
     } else {
       double reach = LINE_DIRECTION * c->tolerance;
       to = find_knot(c, at, 1);
+      c->of.sample.item[to].target = c->of.sample.item[to].at;
       ok = add_line_on(c, at, to, after_line);
       piece.end = find_direction(c, to, reach, reach);
     }
