@@ -456,17 +456,19 @@ typedef struct recto_ink_options {
   recto_order order;
   double simplify_mm; /* no point of a line moves by more */
   /* Hatch lines that are shorter are dropped, and so are creases and group
-   * borders of which an end is free, and lines of creases mostly of shorter
-   * pieces; negative: half a pen, and creases 10 pens.
+   * borders of which an end is free, lines of creases mostly of shorter pieces,
+   * and silhouettes of the mesh within the picture that lead nowhere, twice as
+   * long ones if they touch nothing; negative: half a pen, and creases and
+   * silhouettes 10 pens.
    * Other lines are dropped if they are shorter than that and than half a pen.
    */
   double min_stroke_mm;
   bool ids;   /* one source for each stroke, written with it */
-  bool exact; /* visible lines as they are: no crease is dropped because an
-                     end is free, nor a line within half a pen of longer ones,
-                     and no gap of less is closed, nor thin loops of smooth
-                     contours left out; nor are they where min_stroke_mm is
-                     0 */
+  bool exact; /* visible lines as they are: no crease or silhouette is dropped
+                     because an end is free, nor a line within half a pen of
+                     longer ones, and no gap of less is closed, nor thin
+                     loops of smooth contours left out; nor are they where
+                     min_stroke_mm is 0 */
   /* Whether `ambient` and `fill_light` below are given; 0.3 and 0.5 else. */
   bool has_ambient, has_fill_light;
   char unused[4];          /* 0 */

@@ -66,6 +66,9 @@ unit_tests += %D%/test_result_models
 %C%_test_result_models_SOURCES = %D%/test_result_models.c
 unit_tests += %D%/test_speckles
 %C%_test_speckles_SOURCES = %D%/test_speckles.c %D%/ink_fixture.c %D%/ink_fixture.h
+unit_tests += %D%/test_short_spurs
+%C%_test_short_spurs_SOURCES = %D%/test_short_spurs.c %D%/ink_fixture.c \
+  %D%/ink_fixture.h
 unit_tests += %D%/test_smooth_contours %D%/test_smooth_tubes
 %C%_test_smooth_contours_SOURCES = %D%/test_smooth_contours.c \
   %D%/smooth_surfaces.c %D%/smooth_surfaces.h

@@ -62,6 +62,10 @@ static recto_status find_shortest(struct judge_options *options,
     options->shortest_mm = fmax(options->shortest_mm, line);
     options->shortest_crease_mm =
         fmax(options->shortest_crease_mm, fmax(line, crease));
+    if ((o->ink.edges & RECTO_EDGES_DEFAULT) == RECTO_EDGES_DEFAULT)
+      options->shortest_silhouette_mm =
+          fmax(options->shortest_silhouette_mm,
+               pens_shortest_isolated_mm(&pens, pen));
   }
   pens_fini(&pens);
   return status;

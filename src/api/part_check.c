@@ -5,27 +5,11 @@
 
 #include "api/part_tones.h"
 #include "ink/tone.h"
+#include "visibility/solver.h"
 
 static recto_status refuse_parts(const char *what, recto_error *error) {
   return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
                    "drawings in parts have no %s", what);
-}
-
-/* Whether the method is exact as the options are. */
-static bool is_method_exact(const recto_options *o) {
-  switch (o->solver.method) {
-  case RECTO_METHOD_AUTO:
-  case RECTO_METHOD_TILES:
-  case RECTO_METHOD_BRUTE:
-  case RECTO_METHOD_NEWELL:
-    return true;
-  case RECTO_METHOD_WATKINS:
-    return o->solver.pitch_mm == 0;
-  case RECTO_METHOD_WARNOCK:
-    return o->solver.resolution == 0;
-  default:
-    return false;
-  }
 }
 
 /* What neither parts nor their join can do. */
@@ -49,7 +33,7 @@ uint32_t part_hidden_by_max(const recto_options *o) {
 
 recto_status part_check_solve(const recto_options *o, recto_error *error) {
   const char *what = name_unsupported(o);
-  if (what == NULL && !is_method_exact(o))
+  if (what == NULL && !solver_is_exact(o))
     what = "approximate methods";
   if (what == NULL && (o->mesh.cut_count > 0 || o->camera.has_section))
     what = "cuts";

@@ -21,6 +21,7 @@
  * Users       ink/lines/free_ends.c, ink/lines/isolated.c, ink/lines/nodes.c,
  *             ink/lines/overlap_collinear.c,
  *             ink/lines/overlap.c, ink/lines/overlap_output.c,
+ *             ink/lines/short_spurs.c,
  *             ink/hatch/hatch_lines.c, ink/hatch/inset.c,
  *             visibility/contour/outline_gaps.c,
  *             visibility/index/bsp_plane.h,

@@ -13,7 +13,9 @@
 #include "ink/layers.h"
 #include "ink/order/stroke_order.h"
 #include "ink/lines/paths.h"
+#include "ink/lines/short_spurs.h"
 #include "ink/lines/stroke.h"
+#include "visibility/solver.h"
 
 struct ink {
   struct drawing *drawing;
@@ -34,26 +36,24 @@ static bool is_tidied(const recto_options *options) {
 
 /* Builds the segment graph without overlaps, its ends indexed. */
 static recto_status make_graph(struct ink *ink, struct segment_graph *graph,
-                               recto_error *error) {
+                               struct node_rows *rows, recto_error *error) {
   struct drawing_counts *counts = &ink->drawing->counts;
-  struct node_rows rows = {0};
   double step = ink->options->output.unit_mm * SHEET_UNITS_PER_MM;
   recto_status status = segment_graph_collect(graph, ink->sheet, ink->map,
                                               ink->pens, ink->options, error);
   counts->segments = graph->segment.count - graph->dots;
   if (status == RECTO_OK)
-    status = segment_graph_unite(graph, &rows, error);
+    status = segment_graph_unite(graph, rows, error);
   if (status == RECTO_OK)
-    status = segment_graph_separate_isolated(graph, &rows, step, error);
+    status = segment_graph_separate_isolated(graph, rows, step, error);
   if (status == RECTO_OK)
-    status = segment_graph_drop_collinear(graph, &rows, error);
+    status = segment_graph_drop_collinear(graph, rows, error);
   if (status == RECTO_OK)
-    status = segment_graph_drop_output_overlaps(graph, &rows, step, error);
+    status = segment_graph_drop_output_overlaps(graph, rows, step, error);
   if (status == RECTO_OK)
     status = segment_graph_merge_isolated(graph, error);
   if (status == RECTO_OK && is_tidied(ink->options))
     status = segment_graph_close_gaps(graph, ink->pens, error);
-  node_rows_fini(&rows);
   counts->without_length = graph->dots;
   counts->drawn_twice = graph->doubled;
   return status;
@@ -247,9 +247,27 @@ static bool drop_segment(struct ink *ink, const struct segment_graph *graph,
       point_mm(ink, graph->node.item[segment->node[0]]),
       point_mm(ink, graph->node.item[segment->node[1]])};
   ++ink->drawing->counts.too_short;
-  ink->dropped[segment->edge] = 1;
+  if (stroke.edge_class == RECTO_EDGE_CREASE)
+    ink->dropped[segment->edge] = 1;
   return graph_segment_is_hidden(segment) ||
          stroke_add_dropped(ink->drawing, &stroke, end, 2, false);
+}
+
+/* Drops the segments i with drop[i] != 0. */
+static recto_status drop_marked(struct ink *ink, struct segment_graph *graph,
+                                const uint8_t *drop, recto_error *error) {
+  size_t count = graph->segment.count, drops = 0;
+  for (size_t i = 0; i < count; i++)
+    drops += drop[i];
+  if (drops == 0)
+    return RECTO_OK;
+  if (ink->dropped == NULL)
+    ink->dropped = mem_calloc(ink->sheet->edge.count, 1);
+  bool ok = ink->dropped != NULL;
+  for (size_t i = 0; ok && i < count; i++)
+    ok = !drop[i] || drop_segment(ink, graph, &graph->segment.item[i]);
+  return ok ? segment_graph_drop_segments(graph, drop, error)
+            : error_memory(error);
 }
 
 /* Drops the segments of creases that a search finds. */
@@ -258,21 +276,30 @@ static recto_status drop_creases(
     bool (*find)(const struct segment_graph *, const struct sheet *,
                  const struct pens *, const struct crease_angles *, uint8_t *),
     recto_error *error) {
-  size_t count = graph->segment.count, drops = 0;
   const struct crease_angles angles = angles_of(ink->options);
-  uint8_t *drop = mem_calloc(count, 1);
+  uint8_t *drop = mem_calloc(graph->segment.count, 1);
   bool ok = drop != NULL && find(graph, ink->sheet, ink->pens, &angles, drop);
-  for (size_t i = 0; ok && i < count; i++)
-    drops += drop[i];
-  if (ok && drops > 0 && ink->dropped == NULL) {
-    ink->dropped = mem_calloc(ink->sheet->edge.count, 1);
-    ok = ink->dropped != NULL;
-  }
-  for (size_t i = 0; ok && drops > 0 && i < count; i++)
-    ok = !drop[i] || drop_segment(ink, graph, &graph->segment.item[i]);
-  recto_status status = ok ? RECTO_OK : error_memory(error);
-  if (ok && drops > 0)
-    status = segment_graph_drop_segments(graph, drop, error);
+  recto_status status =
+      ok ? drop_marked(ink, graph, drop, error) : error_memory(error);
+  mem_free(drop);
+  return status;
+}
+
+/* Drops short silhouettes that lead nowhere, if lines that they may lead to are
+ * drawn, and are whole. */
+static recto_status drop_short_spurs(struct ink *ink,
+                                     struct segment_graph *graph,
+                                     const struct node_rows *rows,
+                                     recto_error *error) {
+  double step = ink->options->output.unit_mm * SHEET_UNITS_PER_MM;
+  if ((ink->options->ink.edges & RECTO_EDGES_DEFAULT) != RECTO_EDGES_DEFAULT ||
+      !solver_is_exact(ink->options))
+    return RECTO_OK;
+  uint8_t *drop = mem_calloc(graph->segment.count, 1);
+  bool ok = drop != NULL && segment_graph_find_short_spurs(
+                                graph, rows, ink->sheet, ink->pens, step, drop);
+  recto_status status =
+      ok ? drop_marked(ink, graph, drop, error) : error_memory(error);
   mem_free(drop);
   return status;
 }
@@ -290,15 +317,19 @@ static recto_status draw_lines(struct ink *ink, recto_error *error) {
   bool by_groups =
       ids || (ink->drawing->by_groups && ink->scene->group.count > 1);
   struct segment_graph graph;
+  struct node_rows rows = {0};
   struct ink_paths paths = {0};
   segment_graph_init(&graph);
-  recto_status status = make_graph(ink, &graph, error);
+  recto_status status = make_graph(ink, &graph, &rows, error);
   if (status == RECTO_OK && !keep_gap_ends(ink, &graph))
     status = error_memory(error);
   if (status == RECTO_OK && is_tidied(ink->options))
     status = drop_creases(ink, &graph, segment_graph_find_speckled, error);
   if (status == RECTO_OK && is_tidied(ink->options))
     status = drop_creases(ink, &graph, segment_graph_find_short_cycles, error);
+  if (status == RECTO_OK && is_tidied(ink->options))
+    status = drop_short_spurs(ink, &graph, &rows, error);
+  node_rows_fini(&rows);
   if (status == RECTO_OK && by_groups && ink->options->ink.min_stroke_mm != 0)
     status = drop_short_lines(ink, &graph, error);
   if (status == RECTO_OK && ids)

@@ -25,6 +25,9 @@
 /* In shortest creases: a triangle of these. */
 #define CYCLE_CREASES 3
 
+/* So many are as long as the shortest isolated silhouette. */
+#define ISOLATED_CREASES 2
+
 /* The index of the bit of a class. */
 static unsigned class_index(unsigned edge_class) {
   unsigned index = 0;
@@ -179,6 +182,10 @@ double pens_zigzag_start_deg(const recto_options *options) {
 
 double pens_short_cycle_mm(const struct pens *pens, uint32_t pen) {
   return CYCLE_CREASES * pens_shortest_crease_mm(pens, pen);
+}
+
+double pens_shortest_isolated_mm(const struct pens *pens, uint32_t pen) {
+  return ISOLATED_CREASES * pens_shortest_crease_mm(pens, pen);
 }
 
 double pens_shortest_crease_mm(const struct pens *pens, uint32_t pen) {

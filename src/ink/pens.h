@@ -84,6 +84,10 @@ double pens_zigzag_start_deg(const recto_options *options);
 /* A cycle of creases is short if it is no longer. */
 double pens_short_cycle_mm(const struct pens *pens, uint32_t pen);
 
+/* Silhouettes within the picture that touch nothing are drawn if they are as
+ * long. */
+double pens_shortest_isolated_mm(const struct pens *pens, uint32_t pen);
+
 /* The width of visible lines of a class, in pen widths. */
 double pens_weight(const struct pens *pens, unsigned edge_class);
 

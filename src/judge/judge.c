@@ -282,14 +282,16 @@ static bool is_too_short_to_draw(struct judge_context *context, uint32_t edge,
       context->edges.edge.item[edge].source.class_mask & options->edges;
   bool inner = mask != 0 &&
                (mask & ~(unsigned)(RECTO_EDGE_CREASE | RECTO_EDGE_GROUP)) == 0;
-  const struct judge_missing_run run = {
-      .sampler = &context->sampler,
-      .edges = &context->edges,
-      .by_image = &context->by_image,
-      .shortest_mm = inner ? options->shortest_crease_mm : options->shortest_mm,
-      .is_requested = is_requested,
-      .has_ink = has_ink,
-      .user = context};
+  double shortest = inner ? options->shortest_crease_mm : options->shortest_mm;
+  if (mask & RECTO_EDGE_SILHOUETTE)
+    shortest = fmax(shortest, options->shortest_silhouette_mm);
+  const struct judge_missing_run run = {.sampler = &context->sampler,
+                                        .edges = &context->edges,
+                                        .by_image = &context->by_image,
+                                        .shortest_mm = shortest,
+                                        .is_requested = is_requested,
+                                        .has_ink = has_ink,
+                                        .user = context};
   if (run.shortest_mm == 0)
     return false;
   if (context->long_edge != edge && judge_is_long_run(&run, edge, t))

@@ -31,6 +31,7 @@ struct judge_options {
                          0: every stroke must be drawn */
   double shortest_crease_mm; /* the same of creases and group borders; at least
                                 shortest_mm */
+  double shortest_silhouette_mm; /* the same of silhouettes */
 };
 
 /* 0.02 mm steps and reach, 30 degrees, the default classes. */

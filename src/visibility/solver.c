@@ -32,3 +32,19 @@ const struct solver *solver_by_method(recto_method method) {
       return table[i];
   return NULL;
 }
+
+bool solver_is_exact(const recto_options *o) {
+  switch (o->solver.method) {
+  case RECTO_METHOD_AUTO:
+  case RECTO_METHOD_TILES:
+  case RECTO_METHOD_BRUTE:
+  case RECTO_METHOD_NEWELL:
+    return true;
+  case RECTO_METHOD_WATKINS:
+    return o->solver.pitch_mm == 0;
+  case RECTO_METHOD_WARNOCK:
+    return o->solver.resolution == 0;
+  default:
+    return false;
+  }
+}

@@ -61,6 +61,9 @@ const struct solver *solver_choose(const struct sheet *sheet,
                                    const struct solver_request *request,
                                    const char **why);
 
+/* Whether the method is exact as the options are. */
+bool solver_is_exact(const recto_options *options);
+
 /* The solver of a method; NULL where there is none. */
 const struct solver *solver_by_method(recto_method method);
 /* All solvers in the order in which they are offered, ended by NULL. */
