@@ -223,9 +223,7 @@ static void check_tube(const struct tube *tube, const recto_scene *scene, int n,
     fail_msg("%d x %d, view %g: %d strokes, %d to %d visible pieces", n, m,
              view, strokes, least, most);
   compare(drawing, &contour, &wrong, &missing);
-  /* Cusps are found to a few segments, which run towards the viewer. */
-  if (wrong > 3 * sagitta + 0.05 ||
-      missing > fmax(1.6 * sagitta + 0.05, side / 2))
+  if (wrong > sagitta + 0.05 || missing > fmax(sagitta + 0.05, side / 2))
     fail_msg("%d x %d, view %g: ink %g mm from the contour, the contour %g mm "
              "from ink, %g are the mesh's",
              n, m, view, wrong, missing, sagitta);

@@ -47,7 +47,7 @@
  *             differences of coordinates that are themselves rounded: some
  *             hundred units of 2^-53, and ten times as much for a model far
  *             from its origin.
- * Users       visibility/contour/facing.c
+ * Users       visibility/contour/facing.h
  * Ten times   contours move by 1e-11 of the surface's radius. */
 #define TOLERANCE_FACING 0x1p-40
 

@@ -34,6 +34,7 @@ librecto_core_la_SOURCES += \
   %D%/culling/occlusion_culling.c %D%/culling/occlusion_culling.h \
   %D%/culling/potentially_visible.c %D%/culling/potentially_visible.h \
   %D%/contour/contour_curves.c %D%/contour/contour_curves.h \
+  %D%/contour/curved_triangle.c %D%/contour/curved_triangle.h \
   %D%/contour/corner_moves.c %D%/contour/corner_moves.h \
   %D%/contour/curve_pieces.c %D%/contour/curve_pieces.h \
   %D%/contour/doubled_contours.c %D%/contour/doubled_contours.h \
@@ -51,6 +52,7 @@ librecto_core_la_SOURCES += \
   %D%/contour/zero_creases.c %D%/contour/zero_finder.h \
   %D%/contour/zero_segments.h \
   %D%/contour/zero_set.c %D%/contour/zero_set.h \
+  %D%/contour/zero_triangles.c \
   %D%/newell/newell.c \
   %D%/newell/newell_order.c %D%/newell/newell_order.h \
   %D%/newell/newell_piece.c %D%/newell/newell_piece.h \

@@ -30,7 +30,7 @@
 
 /* The samples of a piece, at most, and segments whose heights give the offset,
  * to either side of one. */
-enum { SAMPLES_MAX = 31, HEIGHT_REACH = 5 };
+enum { SAMPLES_MAX = 31, HEIGHT_REACH = 10 };
 
 struct contour_pieces {
   struct sheet *sheet;
@@ -43,8 +43,9 @@ struct contour_pieces {
   struct triangle_grid_query query;
   struct smooth_contours_options options;
   ARRAY(struct contour_piece) piece; /* of the current curve */
-  ARRAY(float) height; /* one an edge made: that of its triangle on
-                                        the page, grid units */
+  ARRAY(float) height; /* one an edge made: that of its triangle on the page,
+                          grid units */
+  ARRAY(float) bulge;  /* the same: how far it is from the mesh there */
   uint64_t piece_count;
 };
 
@@ -113,13 +114,13 @@ static int count_occluders_at(struct contour_pieces *c,
   const struct contour_node *b = contour_curves_node(c->curves, step + 1);
   const double *normal = contour_curves_segment(c->curves, step)->normal;
   double height = height_about(c, curve, step), at[3], view[3];
-  facing_view(&c->sheet->camera, a->at, view);
+  facing_view(&c->sheet->camera, a->flat, view);
   (void)vector_normalise(view);
   double off = height * (side > 0 ? OFFSET_OUT : -OFFSET_IN);
   double near = side > 0 ? height * OFFSET_NEARER : 0;
   for (int k = 0; k < 3; k++)
-    at[k] =
-        a->at[k] + t * (b->at[k] - a->at[k]) + off * normal[k] - near * view[k];
+    at[k] = a->flat[k] + t * (b->flat[k] - a->flat[k]) + off * normal[k] -
+            near * view[k];
   return count_occluders(c, project_place(c, at));
 }
 
@@ -202,6 +203,18 @@ static bool has_surface_left(const struct contour_pieces *c, uint32_t step,
                        outside) <= 0;
 }
 
+/* How far the curve is from the mesh about a step on the page, grid units. */
+static double bulge_at(const struct contour_pieces *c, uint32_t step) {
+  double most = 0;
+  for (uint32_t i = step; i <= step + 1; i++) {
+    const struct contour_node *node = contour_curves_node(c->curves, i);
+    struct geom_point flat = project_place(c, node->flat);
+    most = fmax(most, hypot((double)node->page.x - flat.x,
+                            (double)node->page.y - flat.y));
+  }
+  return most;
+}
+
 /* Makes edges of a piece; *point is the sheet's point where it starts, and gets
  * that where it ends. */
 static bool add_edges(struct contour_pieces *c,
@@ -224,7 +237,8 @@ static bool add_edges(struct contour_pieces *c,
         &sheet->camera, contour_curves_node(c->curves, at.step),
         contour_curves_segment(c->curves, at.step));
     if (!point_at(c, next, &edge.point[1]) || !ARRAY_PUSH(&sheet->edge, edge) ||
-        !ARRAY_PUSH(&c->height, height))
+        !ARRAY_PUSH(&c->height, height) ||
+        !ARRAY_PUSH(&c->bulge, (float)bulge_at(c, at.step)))
       return false;
     if (!has_surface_left(c, at.step, piece->side)) {
       struct sheet_edge *made = &sheet->edge.item[sheet->edge.count - 1];
@@ -340,12 +354,14 @@ static bool add_pieces(struct contour_pieces *c) {
                              c->options.exact
                                  ? RECTO_FINEST_MM * SHEET_UNITS_PER_MM
                                  : TOLERANCE_OUTLINE_UNITS) &&
-       outline_gaps_close(c->sheet, c->map, c->set, first, first_point,
-                          &c->grid, &c->query);
+       outline_gaps_close(&(struct outline_gaps_input){
+           c->sheet, c->map, c->set, first, first_point, c->bulge.item,
+           (uint32_t)c->bulge.count, &c->grid, &c->query});
   triangle_grid_query_fini(&c->query);
   triangle_grid_fini(&c->grid);
   ARRAY_FREE(&c->piece);
   ARRAY_FREE(&c->height);
+  ARRAY_FREE(&c->bulge);
   return ok;
 }
 

@@ -3,7 +3,7 @@
 #include "visibility/contour/curve_pieces.h"
 
 /* A piece that is not longer, between two that are alike, is like them. */
-enum { SHORT_SEGMENTS = 3 };
+enum { SHORT_SEGMENTS = 6 };
 
 /* The length of a short run, as a multiple of its triangles' heights. */
 #define SHORT_HEIGHTS 2

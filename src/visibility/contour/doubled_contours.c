@@ -282,23 +282,42 @@ static bool count_degrees(struct doubled_contours *d) {
   return true;
 }
 
+static double distance_to(const struct doubled_contours *d, uint32_t point,
+                          struct geom_point at) {
+  struct geom_point p = d->sheet->point.item[point];
+  return hypot((double)p.x - at.x, (double)p.y - at.y);
+}
+
+/* The point near a place at which the contour of an edge ends; SHEET_NONE. */
+static uint32_t loose_end_near(const struct doubled_contours *d, uint32_t edge,
+                               struct geom_point at) {
+  double most = CELL_LENGTH + d->beyond;
+  for (int step = -1; step <= 1; step += 2)
+    for (uint32_t e = edge, near = 1; near; e += (uint32_t)step) {
+      near = 0;
+      for (int k = 0; k < 2; k++) {
+        uint32_t end = d->sheet->edge.item[e].point[k];
+        bool is_near = distance_to(d, end, at) < most;
+        if (is_near && d->degree[end] == 1)
+          return end;
+        near = near || is_near;
+      }
+      near = near && (step > 0 ? e + 1 < d->end && continues(d, e + 1)
+                               : continues(d, e));
+    }
+  return SHEET_NONE;
+}
+
 /* The sheet's point where an edge is divided at t: the end of the contour that
  * covers it up to there, if that ends. */
 static bool point_of_division(struct doubled_contours *d, struct geom_segment s,
                               double t, uint32_t covering, uint32_t *point) {
-  const uint32_t *end = d->sheet->edge.item[covering].point;
   struct geom_point at = {(int32_t)lrint(s.p.x + t * ((double)s.q.x - s.p.x)),
                           (int32_t)lrint(s.p.y + t * ((double)s.q.y - s.p.y)),
                           s.p.z + (int64_t)(t * (double)(s.q.z - s.p.z))};
-  for (int k = 0; k < 2; k++) {
-    struct geom_point p = d->sheet->point.item[end[k]];
-    if (d->degree[end[k]] == 1 &&
-        hypot((double)p.x - at.x, (double)p.y - at.y) <
-            CELL_LENGTH + d->beyond) {
-      *point = end[k];
-      return true;
-    }
-  }
+  *point = loose_end_near(d, covering, at);
+  if (*point != SHEET_NONE)
+    return true;
   *point = (uint32_t)d->sheet->point.count;
   return ARRAY_PUSH(&d->sheet->point, at);
 }
@@ -338,6 +357,26 @@ static bool divide_edge(struct doubled_contours *d,
   return true;
 }
 
+/* Where a run begins or ends between two edges, the one that stays goes on from
+ * the end of the contour that covers the other one, if that ends. */
+static void join_beside_runs(struct doubled_contours *d) {
+  for (size_t i = 1; i < d->cell.count; i++) {
+    const struct doubled_cell *a = &d->cell.item[i - 1], *b = a + 1;
+    if (a->edge == b->edge || a->is_hidden == b->is_hidden ||
+        starts_chain(d, i))
+      continue;
+    const struct doubled_cell *hidden = a->is_hidden ? a : b;
+    uint32_t *stays =
+        d->sheet->edge.item[a->is_hidden ? b->edge : a->edge].point;
+    const uint32_t *other = d->sheet->edge.item[hidden->edge].point;
+    int k = stays[1] == other[0] || stays[1] == other[1];
+    uint32_t end =
+        loose_end_near(d, hidden->covering, d->sheet->point.item[stays[k]]);
+    if (end != SHEET_NONE && end != stays[1 - k])
+      stays[k] = end;
+  }
+}
+
 static bool hide_runs(struct doubled_contours *d) {
   /* An edge is divided at most once between two of its cells. */
   uint8_t *state =
@@ -345,6 +384,7 @@ static bool hide_runs(struct doubled_contours *d) {
   if (state == NULL)
     return false;
   d->map->edge_state = state;
+  join_beside_runs(d);
   for (size_t i = 0; i < d->cell.count;) {
     const struct doubled_cell *cell = &d->cell.item[i];
     uint32_t cells = cells_of(d, cell->edge);

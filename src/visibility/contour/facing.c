@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/poll.h"
-#include "base/tolerance.h"
 #include "scene/angle.h"
 #include "scene/edge_classes.h"
 
@@ -180,9 +179,7 @@ static void set_values(struct facing *f, uint32_t face) {
     double at[3], v[3];
     facing_position(f, facing_point(f, c), at);
     facing_view(f->camera, at, v);
-    double g = vector_dot(f->normal[place], v);
-    if (fabs(g) <= TOLERANCE_FACING * sqrt(vector_dot(v, v)))
-      g = 0;
+    double g = facing_of_normal(f->normal[place], v);
     /* Rounding does not change a sign on which all faces agree. */
     if (f->signs[slot] == FACING_BACK)
       g = fmax(g, 0);

@@ -14,6 +14,7 @@
 #ifndef VISIBILITY_CONTOUR_FACING_H
 #define VISIBILITY_CONTOUR_FACING_H
 
+#include "base/tolerance.h"
 #include "base/union_find.h"
 #include "scene/newell_normal.h"
 #include "view/sheet.h"
@@ -84,6 +85,13 @@ static inline void facing_view(const struct camera *camera, const double at[3],
                                double v[3]) {
   for (int k = 0; k < 3; k++)
     v[k] = camera->perspective ? at[k] - camera->eye[k] : -camera->back[k];
+}
+
+/* The facing of a normal, of unit length, seen along v; nearly 0 is 0. */
+static inline double facing_of_normal(const double normal[3],
+                                      const double v[3]) {
+  double g = vector_dot(normal, v);
+  return fabs(g) <= TOLERANCE_FACING * sqrt(vector_dot(v, v)) ? 0 : g;
 }
 
 static inline void facing_position(const struct facing *f, uint32_t point,

@@ -104,6 +104,13 @@ static bool find_crossings(struct line_ends *l) {
 
 /* ---- Intervals ----------------------------------------------------------- */
 
+/* The crossing of a nearer contour that is the last one before an interval's
+ * end, so far. */
+static bool is_later(const struct line_crossing *c,
+                     const struct line_crossing *last, bool up) {
+  return last == NULL || (up ? c->t > last->t : c->t < last->t);
+}
+
 /* The place to which the end of an interval is moved, of an edge's crossings; t
  * where it stays.
  * other  the interval's other end
@@ -113,6 +120,7 @@ static double moved_end(const struct line_crossing *crossing, size_t count,
   bool up = t > other;
   double best = t;
   bool is_cut = false;
+  const struct line_crossing *last = NULL;
   for (size_t i = 0; i < count; i++) {
     const struct line_crossing *c = &crossing[i];
     double beyond = up ? c->t - t : t - c->t;
@@ -124,13 +132,15 @@ static double moved_end(const struct line_crossing *crossing, size_t count,
       if (!is_cut || (up ? c->t < best : c->t > best))
         best = c->t;
       is_cut = true;
+    } else if (!c->own && inside && is_later(c, last, up)) {
+      last = c;
     } else if (!c->own && !is_cut && !leaves && beyond > 0 &&
                (up ? c->t < limit : c->t > limit) &&
                (best == t || (up ? c->t < best : c->t > best))) {
       best = c->t;
     }
   }
-  return best;
+  return !is_cut && last != NULL && last->leaves != up ? last->t : best;
 }
 
 static struct ratio ratio_near(double t) {

@@ -7,8 +7,8 @@
 
 /* Moves ends of visible intervals along their edge to where it crosses a
  * visible contour.
- *   A line that passes behind a contour is extended to it: the mesh's outline,
- *   which hides it, lies beyond.
+ *   A line that passes behind a contour ends at it: the mesh's outline, which
+ *   hides it, lies a little before or beyond.
  *   A line of the contour's own surface is cut off at it.
  * Bound  no end moves farther on the page than the image of the contour's
  *        triangle there is wide

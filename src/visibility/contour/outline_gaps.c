@@ -23,6 +23,11 @@
  * another surface beside it. */
 #define TURNED_COSINE (-0.5)
 
+/* The mesh's outline passes between the flat contour and the curved one: so far
+ * from where a contour ends, as a share of how far these are from each other,
+ * it may be where the contour is. */
+#define BULGE_SHARE 0.5
+
 /* A sample of an outline. */
 struct outline_sample {
   struct geom_point at; /* where the outline is drawn, if it is */
@@ -37,31 +42,28 @@ struct outline_part {
 };
 
 struct outline_gaps {
-  struct sheet *sheet;
-  const struct map *map;
-  uint32_t first, first_point;
+  const struct outline_gaps_input *in;
   struct segment_grid grid;
   uint8_t *ends; /* one a point of contours: of visible ones, at most 2 */
-  const struct triangle_grid *triangles;
-  struct triangle_grid_query *query;
   ARRAY(struct outline_part) part;
 };
 
 /* ---- What is drawn ------------------------------------------------------- */
 
 static bool list_drawn(struct outline_gaps *g) {
-  const struct sheet *sheet = g->sheet;
+  const struct sheet *sheet = g->in->sheet;
   for (uint32_t i = 0; i < 2; i++)
-    for (uint32_t e = i == 0 ? g->first : 0;
-         e < (i == 0 ? sheet->edge.count : g->first); e++) {
+    for (uint32_t e = i == 0 ? g->in->first : 0;
+         e < (i == 0 ? sheet->edge.count : g->in->first); e++) {
       const uint32_t *point = sheet->edge.item[e].point;
-      if (g->map->edge_state[e] == MAP_HIDDEN || !sheet_edge_is_drawn(sheet, e))
+      if (g->in->map->edge_state[e] == MAP_HIDDEN ||
+          !sheet_edge_is_drawn(sheet, e))
         continue;
       if (!segment_grid_add(&g->grid, sheet_ends(sheet, point), e, false))
         return false;
       g->grid.contours = g->grid.segment.count;
       for (int k = 0; i == 0 && k < 2; k++) {
-        uint8_t *ends = &g->ends[point[k] - g->first_point];
+        uint8_t *ends = &g->ends[point[k] - g->in->first_point];
         *ends = (uint8_t)(*ends + (*ends < 2));
       }
     }
@@ -77,8 +79,14 @@ struct nearest_contour {
   struct geom_point at; /* of any */
   struct geom_point loose_at;
   uint32_t loose_point;
-  bool on_edge; /* a line other than a contour runs there */
+  double loose_bulge; /* of the contour that ends there */
+  bool on_edge;       /* a line other than a contour runs there */
 };
+
+static double bulge_of(const struct outline_gaps *g, uint32_t edge) {
+  uint32_t i = edge - g->in->first;
+  return i < g->in->bulges ? (double)g->in->bulge[i] : 0;
+}
 
 /* Tries a segment, unless the surface lies on its other side.
  * along  the outline's direction, of unit length */
@@ -91,8 +99,8 @@ static void try_segment(const struct outline_gaps *g,
   double t = min_number(max_number((px * x + py * y) / square, 0), 1);
   double away_x = px - t * x, away_y = py - t * y;
   double distance = sqrt(away_x * away_x + away_y * away_y);
-  if (s->owner < g->first) {
-    unsigned edge_class = g->sheet->edge.item[s->owner].edge_class;
+  if (s->owner < g->in->first) {
+    unsigned edge_class = g->in->sheet->edge.item[s->owner].edge_class;
     best->on_edge =
         best->on_edge ||
         ((edge_class & (RECTO_EDGE_CREASE | RECTO_EDGE_GROUP)) == 0 &&
@@ -101,18 +109,19 @@ static void try_segment(const struct outline_gaps *g,
   }
   if (x * along[0] + y * along[1] < TURNED_COSINE * sqrt(square))
     return;
-  const uint32_t *ends = g->sheet->edge.item[s->owner].point;
-  if (g->ends[ends[0] - g->first_point] < 2)
+  const uint32_t *ends = g->in->sheet->edge.item[s->owner].point;
+  if (g->ends[ends[0] - g->in->first_point] < 2)
     best->end = min_number(best->end, px * px + py * py);
-  if (g->ends[ends[1] - g->first_point] < 2)
+  if (g->ends[ends[1] - g->in->first_point] < 2)
     best->end =
         min_number(best->end, (px - x) * (px - x) + (py - y) * (py - y));
   uint32_t point = ends[t > 0];
-  if ((t == 0 || t == 1) && g->ends[point - g->first_point] < 2) {
+  if ((t == 0 || t == 1) && g->ends[point - g->in->first_point] < 2) {
     if (distance < best->loose) {
       best->loose = distance;
       best->loose_at = t == 0 ? s->p : s->q;
       best->loose_point = point;
+      best->loose_bulge = bulge_of(g, s->owner);
     }
   } else if (distance < best->any) {
     best->any = distance;
@@ -149,12 +158,13 @@ static void find_nearest(const struct outline_gaps *g, struct geom_point p,
 /* Whether a triangle lies over a point of the page; *ok is false when memory
  * ran out. */
 static bool is_covered(struct outline_gaps *g, struct geom_point p, bool *ok) {
-  *ok = *ok && triangle_grid_find(g->triangles,
-                                  (struct box2){p.x, p.y, p.x, p.y}, g->query);
-  for (size_t i = 0; *ok && i < g->query->found.count; i++) {
-    uint32_t t = g->query->found.item[i];
-    struct geom_triangle of = sheet_corners(g->sheet, t);
-    bool inside = (g->sheet->triangle_flags[t] & SHEET_EDGE_ON) == 0;
+  *ok =
+      *ok && triangle_grid_find(g->in->grid, (struct box2){p.x, p.y, p.x, p.y},
+                                g->in->query);
+  for (size_t i = 0; *ok && i < g->in->query->found.count; i++) {
+    uint32_t t = g->in->query->found.item[i];
+    struct geom_triangle of = sheet_corners(g->in->sheet, t);
+    bool inside = (g->in->sheet->triangle_flags[t] & SHEET_EDGE_ON) == 0;
     for (int k = 0; inside && k < 3; k++)
       inside = geom_orient2d(of.p[k], of.p[geom_next_corner(k)], p) >= 0;
     if (inside)
@@ -192,7 +202,9 @@ static struct outline_sample look(struct outline_gaps *g,
   const double along[2] = {x / hypot(x, y), y / hypot(x, y)};
   struct nearest_contour near;
   find_nearest(g, p, along, radius, &near);
-  bool at_end = near.loose < near.any && near.loose <= TOLERANCE_OUTLINE_UNITS;
+  bool at_end =
+      near.loose < near.any &&
+      near.loose <= TOLERANCE_OUTLINE_UNITS + BULGE_SHARE * near.loose_bulge;
   if (near.on_edge || at_end ||
       (near.any <= radius &&
        near.any <= near.loose + TOLERANCE_COINCIDENT_UNITS) ||
@@ -220,7 +232,8 @@ static bool add_open_parts(struct outline_gaps *g,
                            const struct contour_outline *outline) {
   struct geom_segment s = outline->image;
   double length = hypot((double)s.q.x - s.p.x, (double)s.q.y - s.p.y);
-  double radius = fmin(extent_of_face(g->sheet, outline->face), SHEET_XY_MAX);
+  double radius =
+      fmin(extent_of_face(g->in->sheet, outline->face), SHEET_XY_MAX);
   bool ok = true;
   if (length == 0 || radius == 0)
     return true;
@@ -254,7 +267,7 @@ static bool point_of(struct sheet *sheet, const struct outline_sample *sample,
 }
 
 static bool add_part_edges(struct outline_gaps *g, struct map *map) {
-  struct sheet *sheet = g->sheet;
+  struct sheet *sheet = g->in->sheet;
   uint8_t *state =
       mem_resize(map->edge_state, sheet->edge.count + g->part.count, 1);
   if (state == NULL)
@@ -284,20 +297,12 @@ static bool find_open_parts(struct outline_gaps *g,
   return true;
 }
 
-bool outline_gaps_close(struct sheet *sheet, struct map *map,
-                        const struct zero_set *set, uint32_t first,
-                        uint32_t first_point, const struct triangle_grid *grid,
-                        struct triangle_grid_query *query) {
-  struct outline_gaps g = {.sheet = sheet,
-                           .map = map,
-                           .first = first,
-                           .first_point = first_point,
-                           .triangles = grid,
-                           .query = query};
-  g.ends = mem_calloc(sheet->point.count - first_point, 1);
+bool outline_gaps_close(const struct outline_gaps_input *input) {
+  struct outline_gaps g = {.in = input};
+  g.ends = mem_calloc(input->sheet->point.count - input->first_point, 1);
   bool ok = g.ends != NULL && list_drawn(&g) &&
             (g.grid.contours == 0 || segment_grid_make(&g.grid)) &&
-            find_open_parts(&g, set) && add_part_edges(&g, map);
+            find_open_parts(&g, input->set) && add_part_edges(&g, input->map);
   segment_grid_fini(&g.grid);
   mem_free(g.ends);
   ARRAY_FREE(&g.part);

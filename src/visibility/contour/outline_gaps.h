@@ -7,23 +7,29 @@
 #include "visibility/index/triangle_grid.h"
 #include "visibility/map.h"
 
+/* What is completed. */
+struct outline_gaps_input {
+  struct sheet *sheet;
+  struct map *map;
+  const struct zero_set *set; /* its outlines */
+  uint32_t first;             /* of the sheet's edges: of contours */
+  uint32_t first_point;       /* of the sheet's points: the same */
+  const float *bulge; /* one a contour's edge: how far it is from the mesh on
+                         the page, grid units */
+  uint32_t bulges;    /* so many are known; of further ones it is 0 */
+  const struct triangle_grid *grid; /* of the sheet's triangles */
+  struct triangle_grid_query *query;
+};
+
 /* Adds visible edges of the class silhouette along those parts of the mesh's
  * outlines beside which nothing is seen and no visible contour is drawn.
  *
  * A point of an outline is drawn if the nearest point of the visible contours,
  * not farther than the outline's faces are wide, is not one at which a contour
- * ends.  Parts that are not are added; they start and end at the contours
- * beside them.
- * set          its outlines
- * first        of the sheet's edges: the first one of a contour
- * first_point  of the sheet's points: the same
- * grid         of the sheet's triangles
+ * ends, but for so far as the mesh may be from that end.  Parts that are not
+ * are added; they start and end at the contours beside them.
  * Cost   near linear in the outlines
  * Returns false when memory ran out or the caller cancelled. */
-USE_RESULT bool outline_gaps_close(struct sheet *sheet, struct map *map,
-                                   const struct zero_set *set, uint32_t first,
-                                   uint32_t first_point,
-                                   const struct triangle_grid *grid,
-                                   struct triangle_grid_query *query);
+USE_RESULT bool outline_gaps_close(const struct outline_gaps_input *input);
 
 #endif

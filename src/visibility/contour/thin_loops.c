@@ -14,11 +14,11 @@
 #include "visibility/contour/segment_grid.h"
 
 /* The segments of a loop, at most. */
-enum { LOOP_SEGMENTS_MAX = 80 };
+enum { LOOP_SEGMENTS_MAX = 160 };
 
 /* A fold has at most so many segments, and as much is drawn back and forth, as
  * a multiple of the triangles' mean height. */
-enum { FOLD_SEGMENTS_MAX = 16 };
+enum { FOLD_SEGMENTS_MAX = 32 };
 #define FOLD_HEIGHTS 2
 
 /* A loop is thin if its mean width is less than this share of the mean height
@@ -28,7 +28,7 @@ enum { FOLD_SEGMENTS_MAX = 16 };
 
 /* The faces of a body for each segment of a loop that is none of its
  * contours. */
-enum { BODY_FACES = 8 };
+enum { BODY_FACES = 4 };
 
 struct thin_loops {
   struct zero_set *set;
@@ -91,8 +91,10 @@ static bool add_node_on(struct thin_loops *l, size_t i, double t,
                         uint32_t *node) {
   struct contour_node made = *stack_node(l, i);
   const struct contour_node *next = stack_node(l, i + 1);
-  for (int k = 0; k < 3; k++)
+  for (int k = 0; k < 3; k++) {
     made.at[k] += t * (next->at[k] - made.at[k]);
+    made.flat[k] += t * (next->flat[k] - made.flat[k]);
+  }
   made.page.x += (int32_t)lrint(t * ((double)next->page.x - made.page.x));
   made.page.y += (int32_t)lrint(t * ((double)next->page.y - made.page.y));
   made.page.z += (int64_t)(t * (double)(next->page.z - made.page.z));

@@ -23,7 +23,7 @@ static bool node_of_vertex(struct zero_finder *z, uint32_t point,
   if (*node != SHEET_NONE)
     return true;
   facing_position(z->facing, point, at);
-  if (!zero_finder_add_node(z, at, SHEET_NONE, SHEET_NONE, node))
+  if (!zero_finder_add_node(z, at, at, SHEET_NONE, SHEET_NONE, node))
     return false;
   z->point_node[point] = *node;
   return true;

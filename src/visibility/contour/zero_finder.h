@@ -21,10 +21,19 @@ struct zero_finder {
 /* All return false when memory ran out. */
 
 /* Adds a node between two slots; SHEET_NONE: at a vertex, or where clipping
- * cut. */
+ * cut.
+ * at, flat  as of a contour_node */
 USE_RESULT bool zero_finder_add_node(struct zero_finder *finder,
-                                     const double at[3], uint32_t front,
-                                     uint32_t back, uint32_t *node);
+                                     const double at[3], const double flat[3],
+                                     uint32_t front, uint32_t back,
+                                     uint32_t *node);
+
+/* The segments across a triangle of a face, if there are any.
+ * corner  its corners; side[k] runs from corner[k] to the next */
+USE_RESULT bool zero_finder_cross_triangle(struct zero_finder *finder,
+                                           uint32_t face,
+                                           const uint32_t corner[3],
+                                           const uint32_t side[3]);
 
 /* Adds a segment, clipped to the page.  A node that is outside gives way to a
  * new one on the border. */

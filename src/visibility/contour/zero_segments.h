@@ -10,8 +10,10 @@
 
 /* Where the contour crosses an edge or a diagonal, or meets a vertex. */
 struct contour_node {
-  double at[3];           /* scene units */
-  struct geom_point page; /* its image */
+  double at[3];           /* on the curved surface, scene units */
+  double flat[3];         /* on the mesh */
+  struct geom_point page; /* the image of `at` */
+  double normal[3];       /* of the surface, where it is smooth */
   uint32_t front, back;   /* the slots between which the sign changes;
                                SHEET_NONE: a vertex, or where clipping cut */
   uint32_t segment[2];    /* the first two that end here; SHEET_NONE */

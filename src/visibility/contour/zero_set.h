@@ -1,11 +1,12 @@
 /* zero_set.h - the contour of the smooth surface that a mesh samples: where its
  * facing g changes sign.
  *
- * Within a triangle g is linear, and its zero set is a segment between two
- * sides.  At a crease, where g jumps, the contour runs along the edge as far as
- * its two faces have different signs there.  So the segments join to closed
- * curves [HertzmannZorin2000], but for borders, the page's margins and the near
- * plane, where they end. */
+ * A triangle that it crosses is curved, and divided into four, over each of
+ * which g is linear: its zero set is one segment between two sides, or three.
+ * At a crease, where g jumps, the contour runs along the edge as far as its two
+ * faces have different signs there.  So the segments join to closed curves
+ * [HertzmannZorin2000], but for borders, the page's margins and the near plane,
+ * where they end. */
 #ifndef VISIBILITY_CONTOUR_ZERO_SET_H
 #define VISIBILITY_CONTOUR_ZERO_SET_H
 
