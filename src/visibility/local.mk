@@ -42,8 +42,10 @@ librecto_core_la_SOURCES += \
   %D%/contour/facing.c %D%/contour/facing.h \
   %D%/contour/fit_fragments.c %D%/contour/fit_fragments.h \
   %D%/contour/fit_outline.c %D%/contour/fit_outline.h \
+  %D%/contour/fold_bridges.c %D%/contour/fold_bridges.h \
   %D%/contour/line_ends.c %D%/contour/line_ends.h \
   %D%/contour/loop_changes.c %D%/contour/loop_changes.h \
+  %D%/contour/occluders.c %D%/contour/occluders.h \
   %D%/contour/outline_gaps.c %D%/contour/outline_gaps.h \
   %D%/contour/page_crossings.c %D%/contour/page_crossings.h \
   %D%/contour/part_size.c %D%/contour/part_size.h \

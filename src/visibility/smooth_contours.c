@@ -15,7 +15,9 @@
 #include "visibility/contour/doubled_contours.h"
 #include "visibility/contour/fit_fragments.h"
 #include "visibility/contour/fit_outline.h"
+#include "visibility/contour/fold_bridges.h"
 #include "visibility/contour/line_ends.h"
+#include "visibility/contour/occluders.h"
 #include "visibility/contour/outline_gaps.h"
 #include "visibility/contour/page_crossings.h"
 #include "visibility/contour/thin_loops.h"
@@ -56,27 +58,6 @@ static struct geom_point project_place(const struct contour_pieces *c,
   return project_point(&c->projection,
                        camera_view(&c->sheet->camera,
                                    &(struct scene_point){at[0], at[1], at[2]}));
-}
-
-/* How many triangles hide a point of the page; negative when memory ran out. */
-static int count_occluders(struct contour_pieces *c, struct geom_point p) {
-  const struct sheet *sheet = c->sheet;
-  int count = 0;
-  if (!triangle_grid_find(&c->grid, (struct box2){p.x, p.y, p.x, p.y},
-                          &c->query))
-    return -1;
-  for (size_t i = 0; i < c->query.found.count; i++) {
-    uint32_t t = c->query.found.item[i];
-    struct geom_triangle of = sheet_corners(sheet, t);
-    bool inside = !sheet_is_edge_on(sheet, t);
-    for (int k = 0; inside && k < 3; k++)
-      inside = geom_orient2d(of.p[k], of.p[geom_next_corner(k)], p) > 0;
-    if (!inside)
-      continue;
-    struct geom_plane plane = geom_plane_of(of.p[0], of.p[1], of.p[2]);
-    count += geom_plane_value(&plane, p) < 0;
-  }
-  return count;
 }
 
 static int compare_doubles(const void *a, const void *b) {
@@ -121,7 +102,7 @@ static int count_occluders_at(struct contour_pieces *c,
   for (int k = 0; k < 3; k++)
     at[k] = a->flat[k] + t * (b->flat[k] - a->flat[k]) + off * normal[k] -
             near * view[k];
-  return count_occluders(c, project_place(c, at));
+  return occluders_count(c->sheet, &c->grid, &c->query, project_place(c, at));
 }
 
 /* ---- Pieces -------------------------------------------------------------- */
@@ -335,6 +316,22 @@ static bool add_all_curves(struct contour_pieces *c) {
 
 /* ---- The whole ----------------------------------------------------------- */
 
+/* Adds what curves lack.
+ * first, first_point  of the sheet's edges and points: those of the curves */
+static bool close_gaps(struct contour_pieces *c, uint32_t first,
+                       uint32_t first_point) {
+  const struct outline_gaps_input input = {.sheet = c->sheet,
+                                           .map = c->map,
+                                           .set = c->set,
+                                           .first = first,
+                                           .first_point = first_point,
+                                           .bulge = c->bulge.item,
+                                           .bulges = (uint32_t)c->bulge.count,
+                                           .grid = &c->grid,
+                                           .query = &c->query};
+  return fold_bridges_add(&input, c->height.item) && outline_gaps_close(&input);
+}
+
 static bool add_pieces(struct contour_pieces *c) {
   uint32_t first = (uint32_t)c->sheet->edge.count;
   uint32_t first_point = (uint32_t)c->sheet->point.count;
@@ -354,9 +351,7 @@ static bool add_pieces(struct contour_pieces *c) {
                              c->options.exact
                                  ? RECTO_FINEST_MM * SHEET_UNITS_PER_MM
                                  : TOLERANCE_OUTLINE_UNITS) &&
-       outline_gaps_close(&(struct outline_gaps_input){
-           c->sheet, c->map, c->set, first, first_point, c->bulge.item,
-           (uint32_t)c->bulge.count, &c->grid, &c->query});
+       close_gaps(c, first, first_point);
   triangle_grid_query_fini(&c->query);
   triangle_grid_fini(&c->grid);
   ARRAY_FREE(&c->piece);

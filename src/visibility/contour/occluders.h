@@ -1,0 +1,14 @@
+/* occluders.h - which triangles hide a point of the page. */
+#ifndef VISIBILITY_CONTOUR_OCCLUDERS_H
+#define VISIBILITY_CONTOUR_OCCLUDERS_H
+
+#include "view/sheet.h"
+#include "visibility/index/triangle_grid.h"
+
+/* How many triangles hide a point; negative when memory ran out.  One that has
+ * the point on a side does not.
+ * grid  of the sheet's triangles */
+int occluders_count(const struct sheet *sheet, const struct triangle_grid *grid,
+                    struct triangle_grid_query *query, struct geom_point p);
+
+#endif
