@@ -317,6 +317,8 @@ bool segment_graph_find_short_spurs(const struct segment_graph *graph,
       .graph = graph, .sheet = sheet, .pens = pens, .step = output_step};
   for (uint32_t pen = 0; pen < pens->count; pen++)
     s.near = fmax(s.near, pens_width_mm(pens, pen) / 2 * SHEET_UNITS_PER_MM);
+  if (output_step > s.near) /* outlines may have gaps of a step */
+    return true;
   bool ok = find_spurs(&s);
   if (ok && s.spur.count > 0) {
     ok = mark_spurs(&s) && find_passing(&s);

@@ -11,6 +11,7 @@
  * that may end free (pens_shortest_crease_mm); or of which that is so of both
  * ends, and which are shorter than pens_shortest_isolated_mm.  So none is part
  * of the picture's outline.
+ * None where the output's step is wider than half a pen.
  * rows  of the graph's nodes
  * drop  one a segment, 0
  * Returns false when memory ran out or the caller cancelled.
