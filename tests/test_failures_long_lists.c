@@ -81,6 +81,7 @@ static void a_polygon_is_not_tested_with_itself(void **state) {
     build_parallelogram(&scene, vector_of(0.1 * i, 0.1, -0.5),
                         vector_of(0.01, 0.8, 0), vector_of(0, 0, 1));
   options.ink.edges = RECTO_EDGE_INTERSECTION;
+  options.ink.hidden = RECTO_HIDDEN_LAYER; /* hidden ones count, too */
   options.solver.threads = 1;
   int64_t segments[2];
   for (int k = 0; k < 2; k++) {
@@ -116,6 +117,7 @@ static void pages_are_not_tested_with_each_other(void **state) {
   build_parallelogram(&scene, vector_of(-2, 0.3, -0.5), vector_of(4, 0, 0),
                       vector_of(0, 0, 1));
   options.ink.edges = RECTO_EDGE_INTERSECTION;
+  options.ink.hidden = RECTO_HIDDEN_LAYER; /* hidden ones count, too */
   options.solver.threads = 1;
   int64_t segments[2];
   for (int k = 0; k < 2; k++) {

@@ -380,13 +380,13 @@ static void half_the_strokes_own_pen_is_the_shortest(void **state) {
     ink_fixture_start(&k);
     k.options.ink.min_stroke_mm = -1;
     const recto_pen_use use = CLASS_ON(RECTO_EDGE_BORDER, 2);
-    const recto_pen pen[] = {{.width_mm = wide ? 0 : 3},
-                             {.width_mm = wide ? 3 : 0}};
+    const recto_pen pen[] = {{.width_mm = wide ? 0 : 20},
+                             {.width_mm = wide ? 20 : 0}};
     ink_fixture_use(&k, &use, 1);
     k.options.ink.pen = pen;
     k.options.ink.pen_count = 2;
-    ink_fixture_line(&k, 10, 10, 11, 10, SILHOUETTE);
-    ink_fixture_line(&k, 10, 20, 11, 20, RECTO_EDGE_BORDER);
+    ink_fixture_line(&k, 10, 10, 17, 10, SILHOUETTE);
+    ink_fixture_line(&k, 10, 20, 17, 20, RECTO_EDGE_BORDER);
     ink_fixture_draw(&k);
     assert_int_equal(k.drawing.stroke.count, 1);
     assert_int_equal(k.drawing.stroke.item[0].edge_class,
