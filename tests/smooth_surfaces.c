@@ -155,8 +155,9 @@ double smooth_distance_to_segment(const double at[2], const double p[2],
                                   const double q[2]) {
   double x = q[0] - p[0], y = q[1] - p[1], square = x * x + y * y;
   double t = ((at[0] - p[0]) * x + (at[1] - p[1]) * y) / square;
-  t = square > 0 ? fmin(fmax(t, 0), 1) : 0;
-  return hypot(p[0] + t * x - at[0], p[1] + t * y - at[1]);
+  t = !(square > 0) || t < 0 ? 0 : t > 1 ? 1 : t;
+  double dx = p[0] + t * x - at[0], dy = p[1] + t * y - at[1];
+  return sqrt(dx * dx + dy * dy); /* most of the time of these tests */
 }
 
 double smooth_distance_to_ink(const recto_drawing *drawing, unsigned classes,
