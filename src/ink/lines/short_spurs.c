@@ -139,11 +139,12 @@ static bool add_spur(struct spur_search *s, uint32_t end) {
 static bool find_spurs(struct spur_search *s) {
   const struct segment_graph *graph = s->graph;
   for (size_t n = 0; n < graph->node.count; n++) {
-    uint32_t end = graph->ends.item[graph->ends.start[n]];
     if (!poll_at(n))
       return false;
-    if (ends_at(s, (uint32_t)n) == 1 &&
-        is_silhouette_segment(&graph->segment.item[end >> 1]) &&
+    if (ends_at(s, (uint32_t)n) != 1) /* there are nodes without any */
+      continue;
+    uint32_t end = graph->ends.item[graph->ends.start[n]];
+    if (is_silhouette_segment(&graph->segment.item[end >> 1]) &&
         !add_spur(s, end))
       return false;
   }
