@@ -74,7 +74,8 @@ void smooth_ellipsoid(double u, double v, double p[3]) {
 
 /* ---- Drawing ------------------------------------------------------------- */
 
-recto_scene *smooth_scene(smooth_surface *at, bool poles, int n, int m) {
+void smooth_add(recto_scene *scene, smooth_surface *at, bool poles, int n,
+                int m) {
   size_t points = (size_t)n * (size_t)(m + 1), corners = 0;
   double *point = malloc(points * 3 * sizeof *point);
   uint32_t *corner = malloc(points * 6 * sizeof *corner);
@@ -108,11 +109,15 @@ recto_scene *smooth_scene(smooth_surface *at, bool poles, int n, int m) {
                            .corners = corner,
                            .corner_count = corners,
                            .face_size = 3};
-  recto_scene *scene;
-  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
   assert_int_equal(recto_scene_add_mesh(scene, &mesh, NULL), RECTO_OK);
   free(point);
   free(corner);
+}
+
+recto_scene *smooth_scene(smooth_surface *at, bool poles, int n, int m) {
+  recto_scene *scene;
+  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+  smooth_add(scene, at, poles, n, m);
   return scene;
 }
 

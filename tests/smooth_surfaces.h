@@ -28,8 +28,12 @@ void smooth_trefoil(double u, double p[3]);
 void smooth_frame(smooth_curve *at, double u, double normal[3],
                   double binormal[3]);
 
-/* A mesh of n x m quads, cut in two.
+/* Adds a mesh of n x m quads, cut in two.
  * poles  v runs from pole to pole; else it is closed as u is */
+void smooth_add(recto_scene *scene, smooth_surface *at, bool poles, int n,
+                int m);
+
+/* A scene of such a mesh. */
 recto_scene *smooth_scene(smooth_surface *at, bool poles, int n, int m);
 
 /* A view of every direction but those along the axes and almost so. */

@@ -228,12 +228,12 @@ static recto_status find_invisibility(struct render *render,
 static recto_status add_smooth_contours(struct render *render,
                                         recto_error *error) {
   const recto_options *options = render->options;
+  bool draws_hidden = options->ink.hidden != RECTO_HIDDEN_NONE;
   const struct smooth_contours_options how = {
       .crease_deg = options->mesh.crease_deg,
-      .hidden_max = options->ink.hidden == RECTO_HIDDEN_NONE
-                        ? 0
-                        : options->ink.hidden_by_max,
-      .exact = options->ink.exact || options->ink.min_stroke_mm == 0};
+      .hidden_max = draws_hidden ? options->ink.hidden_by_max : 0,
+      .exact = options->ink.exact || options->ink.min_stroke_mm == 0,
+      .intersections = (options->ink.edges & RECTO_EDGE_INTERSECTION) != 0};
   struct smooth_contours_counts counts;
   if (!draws_smooth_contours(render))
     return RECTO_OK;

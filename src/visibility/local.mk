@@ -43,6 +43,7 @@ librecto_core_la_SOURCES += \
   %D%/contour/fit_fragments.c %D%/contour/fit_fragments.h \
   %D%/contour/fit_outline.c %D%/contour/fit_outline.h \
   %D%/contour/fold_bridges.c %D%/contour/fold_bridges.h \
+  %D%/contour/intersection_cuts.c %D%/contour/intersection_cuts.h \
   %D%/contour/line_ends.c %D%/contour/line_ends.h \
   %D%/contour/loop_changes.c %D%/contour/loop_changes.h \
   %D%/contour/occluders.c %D%/contour/occluders.h \

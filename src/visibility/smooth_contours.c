@@ -16,6 +16,7 @@
 #include "visibility/contour/fit_fragments.h"
 #include "visibility/contour/fit_outline.h"
 #include "visibility/contour/fold_bridges.h"
+#include "visibility/contour/intersection_cuts.h"
 #include "visibility/contour/line_ends.h"
 #include "visibility/contour/occluders.h"
 #include "visibility/contour/outline_gaps.h"
@@ -203,7 +204,7 @@ static bool add_edges(struct contour_pieces *c,
   struct sheet *sheet = c->sheet;
   struct contour_cut at = piece->from;
   while (contour_position(at) < contour_position(piece->to)) {
-    struct contour_cut next = {.step = at.step + 1};
+    struct contour_cut next = contour_cut_at(at.step + 1);
     if (at.step == piece->to.step)
       next = piece->to;
     uint32_t face =
@@ -249,11 +250,11 @@ static bool divide(struct contour_pieces *c, const struct contour_curve *curve,
                    size_t *cut) {
   const struct contour_cut *all = c->curves->cut.item;
   uint32_t end = curve->step + curve->count;
-  struct contour_cut from = {.step = curve->step};
+  struct contour_cut from = contour_cut_at(curve->step);
   bool begins_with_cut = false;
   c->piece.count = 0;
   while (contour_position(from) < end) {
-    struct contour_piece made = {.from = from, .to = {.step = end}};
+    struct contour_piece made = {.from = from, .to = contour_cut_at(end)};
     if (*cut < c->curves->cut.count && all[*cut].step < end)
       made.to = all[(*cut)++];
     from = made.to;
@@ -283,6 +284,7 @@ static bool add_curve(struct contour_pieces *c,
     return false;
   struct curve_pieces pieces = {c->curves, curve, c->piece.item,
                                 c->piece.count};
+  curve_pieces_hide_pierced(&pieces, c->sheet);
   curve_pieces_absorb_short(&pieces);
   if (!c->options.exact)
     curve_pieces_absorb_runs(&pieces, &c->sheet->camera);
@@ -341,8 +343,9 @@ static bool add_pieces(struct contour_pieces *c) {
             (c->options.exact ||
              thin_loops_remove(c->curves, c->set, c->sheet, c->topology)) &&
             contour_curves_cut_at_cusps(c->curves) &&
-            page_crossings_cut(c->curves, c->sheet, c->map) &&
-            contour_curves_sort_cuts(c->curves) &&
+            page_crossings_cut(c->curves) &&
+            intersection_cuts_add(c->curves, c->sheet, c->map) &&
+            contour_cuts_sort(&c->curves->cut) &&
             triangle_grid_init(&c->grid, c->sheet);
   if (!ok)
     return false;
@@ -381,6 +384,14 @@ static bool end_at_contours(const struct sheet *sheet, struct map *map,
            fit_to_contours(sheet, map, topology, first)));
 }
 
+/* Intersections that are known only since contours end at them are not
+ * drawn. */
+static void forget_intersections(struct sheet *sheet) {
+  for (size_t e = 0; e < sheet->edge.count; e++)
+    if (sheet->edge.item[e].edge_class == RECTO_EDGE_INTERSECTION)
+      sheet->edge.item[e].edge_class = 0;
+}
+
 recto_status smooth_contours_add(struct sheet *sheet, struct map *map,
                                  const struct topology *topology,
                                  struct smooth_contours_options options,
@@ -405,6 +416,8 @@ recto_status smooth_contours_add(struct sheet *sheet, struct map *map,
   if (status == RECTO_OK &&
       !(add_pieces(&pieces) && end_at_contours(sheet, map, topology, first)))
     status = error_memory(error);
+  if (!options.intersections)
+    forget_intersections(sheet);
   *counts = (struct smooth_contours_counts){
       set.segment.count, curves.curve.count, pieces.piece_count};
   contour_curves_fini(&curves);

@@ -11,17 +11,19 @@ struct smooth_contours_counts {
 };
 
 struct smooth_contours_options {
-  double crease_deg; /* where normals are split */
-  int hidden_max;    /* hidden pieces that more triangles hide are left out; 0:
+  double crease_deg;  /* where normals are split */
+  int hidden_max;     /* hidden pieces that more triangles hide are left out; 0:
                         none are */
-  bool exact;        /* thin loops stay */
+  bool exact;         /* thin loops stay */
+  bool intersections; /* they are drawn; else their class becomes 0 */
 };
 
 /* Adds the smooth contours to a solved sheet as edges of the class silhouette,
  * each visible or hidden from end to end.
  *
- * A curve is divided where its visibility may change: at its cusps and where
- * lines pass in front of it (contour_curves.h, page_crossings.h).  Each piece
+ * A curve is divided where its visibility may change: at its cusps, where lines
+ * pass in front of it, and where it passes through faces (contour_curves.h,
+ * page_crossings.h, intersection_cuts.h).  Each piece
  * is visible or hidden as a whole, as most of its samples are.  These lie a
  * little off the surface, so that the triangles about them do not decide.
  * Visible fragments are made to end at the visible pieces (fit_fragments.h).

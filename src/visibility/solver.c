@@ -8,12 +8,20 @@ static const struct solver *const table[] = {
     &solver_painter, &solver_painter_given,
     &solver_brute,   NULL};
 
+/* Whether the lines are needed in which faces pierce each other: to be drawn,
+ * or since smooth contours end at them. */
+static bool needs_intersections(const recto_options *options) {
+  return (options->ink.edges & RECTO_EDGE_INTERSECTION) ||
+         ((options->ink.edges & RECTO_EDGE_SILHOUETTE) &&
+          options->ink.contours == RECTO_CONTOURS_SMOOTH);
+}
+
 struct solver_request solver_request_of(const recto_options *options) {
   return (struct solver_request){
       .edges = options->ink.edges != RECTO_EDGES_NONE,
       .fragments = options->ink.fill != RECTO_FILL_NONE,
       .hidden = options->ink.hidden != RECTO_HIDDEN_NONE,
-      .intersections = (options->ink.edges & RECTO_EDGE_INTERSECTION) != 0,
+      .intersections = needs_intersections(options),
       .threads = 1,
       .pitch_mm = options->solver.pitch_mm,
       .resolution = options->solver.resolution,

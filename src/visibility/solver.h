@@ -10,7 +10,7 @@ struct solver_request {
   bool edges;         /* visible intervals of the sheet's drawable edges */
   bool fragments;     /* visible fragments of its faces */
   bool hidden;        /* hidden parts of intersections will be drawn too */
-  bool intersections; /* edges where faces pierce each other are drawable */
+  bool intersections; /* edges where faces pierce each other are found */
   int threads;        /* at least 1 */
   double pitch_mm;    /* watkins: distance of the scan lines */
   int resolution;     /* raster methods: lines of the page; 0: their default */

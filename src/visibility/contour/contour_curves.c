@@ -191,7 +191,7 @@ bool contour_curves_cut_at_cusps(struct contour_curves *curves) {
       bool left_out = contour_curves_node(curves, step)->is_cut;
       if (!crease && !crease_before && concave != before)
         step = turning_step(curves, curve, i);
-      struct contour_cut cut = {.step = step};
+      struct contour_cut cut = contour_cut_at(step);
       if ((crease || crease_before || left_out || concave != before) &&
           !ARRAY_PUSH(&curves->cut, cut))
         return false;
@@ -210,14 +210,14 @@ static int compare_cuts(const void *a, const void *b, void *user) {
   return (p->t > q->t) - (p->t < q->t);
 }
 
-bool contour_curves_sort_cuts(struct contour_curves *curves) {
-  struct contour_cut *cut = curves->cut.item;
+bool contour_cuts_sort(struct contour_cuts *cuts) {
+  struct contour_cut *cut = cuts->item;
   size_t kept = 0;
-  if (!sort_stable(cut, curves->cut.count, sizeof *cut, compare_cuts, NULL))
+  if (!sort_stable(cut, cuts->count, sizeof *cut, compare_cuts, NULL))
     return false;
-  for (size_t i = 0; i < curves->cut.count; i++)
+  for (size_t i = 0; i < cuts->count; i++)
     if (kept == 0 || compare_cuts(&cut[kept - 1], &cut[i], NULL) != 0)
       cut[kept++] = cut[i];
-  curves->cut.count = kept;
+  cuts->count = kept;
   return true;
 }

@@ -21,16 +21,26 @@ struct contour_curve {
 /* A place at which a curve is divided. */
 struct contour_cut {
   uint32_t step;
-  double t;      /* along the step's segment, 0 to before 1 */
-  bool crossing; /* something passes in front, or through, there */
+  double t;              /* along the step's segment, 0 to before 1 */
+  bool crossing;         /* something passes in front, or through, there */
+  uint32_t intersection; /* the sheet edge that passes through; SHEET_NONE */
 };
+
+struct contour_cuts {
+  struct contour_cut *item;
+  size_t count, capacity;
+};
+
+/* The place of a step's node. */
+static inline struct contour_cut contour_cut_at(uint32_t step) {
+  return (struct contour_cut){.step = step, .intersection = SHEET_NONE};
+}
 
 struct contour_curves {
   const struct zero_set *set; /* borrowed, not owned */
   ARRAY(struct contour_step) step;
   ARRAY(struct contour_curve) curve;
-  ARRAY(struct contour_cut)
-  cut; /* ascending once contour_curves_sort_cuts ran */
+  struct contour_cuts cut; /* ascending once contour_cuts_sort ran */
 };
 
 /* Joins the segments to curves, end to end.  Where other than two segments
@@ -50,7 +60,7 @@ USE_RESULT bool contour_curves_cut_at_cusps(struct contour_curves *curves);
 
 /* Sorts the cuts, and drops repeated ones.  Returns false when memory ran
  * out. */
-USE_RESULT bool contour_curves_sort_cuts(struct contour_curves *curves);
+USE_RESULT bool contour_cuts_sort(struct contour_cuts *cuts);
 
 static inline const struct contour_node *
 contour_curves_node(const struct contour_curves *curves, size_t step) {

@@ -8,8 +8,7 @@
 #include "visibility/contour/segment_grid.h"
 
 static bool add_segments(struct segment_grid *grid,
-                         const struct contour_curves *curves,
-                         const struct sheet *sheet, const struct map *map) {
+                         const struct contour_curves *curves) {
   for (uint32_t i = 0; i < curves->step.count; i++)
     if (curves->step.item[i].segment != SHEET_NONE &&
         !segment_grid_add(
@@ -22,14 +21,6 @@ static bool add_segments(struct segment_grid *grid,
   for (size_t i = 0; i < curves->set->border.count; i++)
     if (!segment_grid_add(grid, curves->set->border.item[i], SHEET_NONE, false))
       return false;
-  for (size_t i = sheet->edge.count;
-       i > 0 && sheet->edge.item[i - 1].edge_class == RECTO_EDGE_INTERSECTION;
-       i--)
-    if (map->edge_state[i - 1] != MAP_HIDDEN &&
-        !segment_grid_add(grid,
-                          sheet_ends(sheet, sheet->edge.item[i - 1].point),
-                          SHEET_NONE, true))
-      return false;
   return true;
 }
 
@@ -41,9 +32,9 @@ static bool cut_at_crossing(struct contour_curves *curves,
   if (!page_segments_cross(a, b, &s, &t))
     return true;
   double depth = page_segment_depth(b, t) - page_segment_depth(a, s);
-  struct contour_cut of_a = {a->owner, fmin(s, 1 - 0x1p-30), true};
-  struct contour_cut of_b = {b->owner, fmin(t, 1 - 0x1p-30), true};
-  return (!(b->touches || depth > 0) || ARRAY_PUSH(&curves->cut, of_a)) &&
+  struct contour_cut of_a = {a->owner, fmin(s, 1 - 0x1p-30), true, SHEET_NONE};
+  struct contour_cut of_b = {b->owner, fmin(t, 1 - 0x1p-30), true, SHEET_NONE};
+  return (depth <= 0 || ARRAY_PUSH(&curves->cut, of_a)) &&
          (b->owner == SHEET_NONE || depth >= 0 ||
           ARRAY_PUSH(&curves->cut, of_b));
 }
@@ -64,10 +55,9 @@ static bool cut_at_crossings(struct contour_curves *curves,
   return true;
 }
 
-bool page_crossings_cut(struct contour_curves *curves,
-                        const struct sheet *sheet, const struct map *map) {
+bool page_crossings_cut(struct contour_curves *curves) {
   struct segment_grid grid = {.contours = 0};
-  bool ok = add_segments(&grid, curves, sheet, map) &&
+  bool ok = add_segments(&grid, curves) &&
             (grid.contours == 0 ||
              (segment_grid_make(&grid) && cut_at_crossings(curves, &grid)));
   segment_grid_fini(&grid);

@@ -1,0 +1,255 @@
+/* intersection_cuts.c - finds the places of curves that are nearest to where
+ * visible intersections end.
+ *
+ * Where a contour passes through a face, the intersection with it passes from
+ * what is seen of the contour's surface to what is not: it ends there, and its
+ * image is tangent to that of the contour.  So their crossing on the page is
+ * ill-conditioned, and of a mesh, about whose outline the contour winds, there
+ * may be none.  The place of the curve's image on the flat mesh that is nearest
+ * to the end is found instead. */
+#include "visibility/contour/intersection_cuts.h"
+
+#include <math.h>
+
+#include "base/poll.h"
+#include "base/sort.h"
+#include "geom/nearest.h"
+#include "view/project.h"
+#include "visibility/contour/segment_grid.h"
+
+/* An end of what is visible of an intersection. */
+struct intersection_end {
+  struct geom_point at;
+  uint32_t edge;
+};
+
+/* The place of a curve that is nearest to an end. */
+struct nearest_place {
+  uint32_t curve;
+  struct contour_cut cut;
+  double away; /* on the page, grid units */
+};
+
+struct intersection_cuts {
+  const struct sheet *sheet;
+  const struct map *map;
+  struct contour_curves *curves;
+  struct projection projection;
+  ARRAY(struct intersection_end) end; /* that no other intersection continues */
+  struct segment_grid grid;           /* of the curves' images on the mesh */
+  ARRAY(struct nearest_place) near;   /* of the current end: one a curve */
+};
+
+/* ---- Ends ---------------------------------------------------------------- */
+
+static bool is_intersection_edge(const struct sheet *sheet, uint32_t edge) {
+  return sheet->edge.item[edge].edge_class == RECTO_EDGE_INTERSECTION;
+}
+
+static bool add_ends(struct intersection_cuts *c, uint32_t edge, double t0,
+                     double t1) {
+  struct geom_segment s = sheet_ends(c->sheet, c->sheet->edge.item[edge].point);
+  const double t[2] = {t0, t1};
+  for (int k = 0; k < 2; k++) {
+    struct intersection_end end = {
+        {(int32_t)snap(s.p.x + t[k] * ((double)s.q.x - s.p.x)),
+         (int32_t)snap(s.p.y + t[k] * ((double)s.q.y - s.p.y)),
+         s.p.z + (int64_t)(t[k] * (double)(s.q.z - s.p.z))},
+        edge};
+    if (t[k] == 0 || t[k] == 1)
+      end.at = t[k] == 0 ? s.p : s.q;
+    if (!ARRAY_PUSH(&c->end, end))
+      return false;
+  }
+  return true;
+}
+
+/* Lists the ends of all visible parts of intersections, which are the last
+ * edges of the sheet. */
+static bool list_visible_ends(struct intersection_cuts *c) {
+  const struct map *map = c->map;
+  for (size_t i = c->sheet->edge.count;
+       i > 0 && is_intersection_edge(c->sheet, (uint32_t)(i - 1)); i--)
+    if (!poll_at(i) || (map->edge_state[i - 1] == MAP_VISIBLE &&
+                        !add_ends(c, (uint32_t)(i - 1), 0, 1)))
+      return false;
+  for (size_t m = 0; m < map->mixed.count; m++) {
+    const struct map_mixed *mixed = &map->mixed.item[m];
+    for (uint32_t i = 0;
+         i < mixed->count && is_intersection_edge(c->sheet, mixed->edge); i++) {
+      const struct map_interval *t = &map->interval.item[mixed->interval + i];
+      if (!add_ends(c, mixed->edge, ratio_to_double(t->t0),
+                    ratio_to_double(t->t1)))
+        return false;
+    }
+  }
+  return true;
+}
+
+static int compare_intersection_ends(const void *a, const void *b, void *user) {
+  const struct intersection_end *p = a, *q = b;
+  (void)user;
+  if (p->at.x != q->at.x)
+    return p->at.x < q->at.x ? -1 : 1;
+  if (p->at.y != q->at.y)
+    return p->at.y < q->at.y ? -1 : 1;
+  return (p->at.z > q->at.z) - (p->at.z < q->at.z);
+}
+
+/* Removes the ends that are those of several parts. */
+static bool keep_loose_ends(struct intersection_cuts *c) {
+  struct intersection_end *end = c->end.item;
+  size_t count = c->end.count, kept = 0;
+  if (!sort_stable(end, count, sizeof *end, compare_intersection_ends, NULL))
+    return false;
+  for (size_t i = 0, j; i < count; i = j) {
+    for (j = i + 1;
+         j < count && compare_intersection_ends(&end[i], &end[j], NULL) == 0;)
+      j++;
+    if (j == i + 1)
+      end[kept++] = end[i];
+  }
+  c->end.count = kept;
+  return true;
+}
+
+/* ---- The nearest place --------------------------------------------------- */
+
+static struct geom_point image_on_mesh(const struct intersection_cuts *c,
+                                       uint32_t step) {
+  const double *at = contour_curves_node(c->curves, step)->flat;
+  return project_point(&c->projection,
+                       camera_view(&c->sheet->camera,
+                                   &(struct scene_point){at[0], at[1], at[2]}));
+}
+
+static bool add_curves(struct intersection_cuts *c) {
+  for (uint32_t i = 0; i < c->curves->step.count; i++)
+    if (c->curves->step.item[i].segment != SHEET_NONE &&
+        !segment_grid_add(
+            &c->grid,
+            (struct geom_segment){image_on_mesh(c, i), image_on_mesh(c, i + 1)},
+            i, false))
+      return false;
+  c->grid.contours = c->grid.segment.count;
+  return c->grid.contours == 0 || segment_grid_make(&c->grid);
+}
+
+static double distance_in_view(struct view_point a, struct view_point b) {
+  return hypot(hypot(a.x - b.x, a.y - b.y), a.d - b.d);
+}
+
+/* How far a curve may be from an end where it passes through a face: the length
+ * of the longest side of the two triangles that intersect there, in view
+ * coordinates. */
+static double reach_of(const struct intersection_cuts *c, uint32_t edge) {
+  double most = 0;
+  for (int k = 0; k < 2; k++) {
+    struct geom_triangle t =
+        sheet_corners(c->sheet, c->sheet->edge.item[edge].triangle[k]);
+    for (int i = 0; i < 3; i++)
+      most = fmax(most,
+                  distance_in_view(unproject_point(&c->projection, t.p[i]),
+                                   unproject_point(&c->projection,
+                                                   t.p[geom_next_corner(i)])));
+  }
+  return most;
+}
+
+/* The curve of a step: the last one that starts at it or before. */
+static uint32_t curve_of_step(const struct intersection_cuts *c,
+                              uint32_t step) {
+  const struct contour_curve *curve = c->curves->curve.item;
+  size_t low = 0, high = c->curves->curve.count;
+  while (high - low > 1) {
+    size_t middle = low + (high - low) / 2;
+    if (curve[middle].step <= step)
+      low = middle;
+    else
+      high = middle;
+  }
+  return (uint32_t)low;
+}
+
+/* Keeps a place if it is the nearest one of its curve. */
+static bool keep_nearest(struct intersection_cuts *c,
+                         struct nearest_place place) {
+  for (size_t i = 0; i < c->near.count; i++)
+    if (c->near.item[i].curve == place.curve) {
+      if (place.away < c->near.item[i].away)
+        c->near.item[i] = place;
+      return true;
+    }
+  return ARRAY_PUSH(&c->near, place);
+}
+
+/* Looks for the nearest place on a segment; it must not be farther away in
+ * space than `reach`. */
+static bool look_at(struct intersection_cuts *c, const struct page_segment *s,
+                    const struct intersection_end *end, double reach) {
+  double dx = (double)s->q.x - s->p.x, dy = (double)s->q.y - s->p.y;
+  double px = (double)end->at.x - s->p.x, py = (double)end->at.y - s->p.y;
+  double t = geom_nearest_parameter(dx, dy, px, py);
+  const struct geom_point at = {(int32_t)snap(s->p.x + t * dx),
+                                (int32_t)snap(s->p.y + t * dy),
+                                (int64_t)page_segment_depth(s, t)};
+  if (distance_in_view(unproject_point(&c->projection, at),
+                       unproject_point(&c->projection, end->at)) > reach)
+    return true;
+  return keep_nearest(c, (struct nearest_place){
+                             curve_of_step(c, s->owner),
+                             {s->owner, fmin(t, 1 - 0x1p-30), true, end->edge},
+                             hypot(px - t * dx, py - t * dy)});
+}
+
+/* The square about an end that its reach covers on the page. */
+static struct box2 box_about(const struct intersection_cuts *c,
+                             const struct intersection_end *end, double reach) {
+  const struct projection *projection = &c->projection;
+  double d = unproject_point(projection, end->at).d;
+  double units = reach * projection->units;
+  if (projection->perspective)
+    units /= d;
+  double x = end->at.x, y = end->at.y, most = SHEET_XY_MAX;
+  return (struct box2){(int32_t)clamp(x - units, -most, most),
+                       (int32_t)clamp(y - units, -most, most),
+                       (int32_t)clamp(x + units, -most, most),
+                       (int32_t)clamp(y + units, -most, most)};
+}
+
+/* Cuts the curves that are near an end. */
+static bool cut_curves_near(struct intersection_cuts *c,
+                            const struct intersection_end *end) {
+  const struct triangle_grid *cell = &c->grid.cell;
+  const uint32_t *start = cell->lists.start;
+  double reach = reach_of(c, end->edge);
+  struct cell_range range = triangle_grid_cells(cell, box_about(c, end, reach));
+  c->near.count = 0;
+  for (int y = range.y0; y <= range.y1; y++)
+    for (int x = range.x0; x <= range.x1; x++) {
+      size_t at = triangle_grid_index(cell, x, y);
+      for (uint32_t i = start[at]; i < start[at + 1]; i++)
+        if (!look_at(c, &c->grid.segment.item[cell->lists.item[i]], end, reach))
+          return false;
+    }
+  for (size_t i = 0; i < c->near.count; i++)
+    if (!ARRAY_PUSH(&c->curves->cut, c->near.item[i].cut))
+      return false;
+  return true;
+}
+
+bool intersection_cuts_add(struct contour_curves *curves,
+                           const struct sheet *sheet, const struct map *map) {
+  struct intersection_cuts c = {.sheet = sheet,
+                                .map = map,
+                                .curves = curves,
+                                .projection = projection_of(&sheet->camera)};
+  bool ok = list_visible_ends(&c) && keep_loose_ends(&c) &&
+            (c.end.count == 0 || add_curves(&c));
+  for (size_t i = 0; ok && i < c.end.count && c.grid.contours > 0; i++)
+    ok = poll_at(i) && cut_curves_near(&c, &c.end.item[i]);
+  ARRAY_FREE(&c.end);
+  ARRAY_FREE(&c.near);
+  segment_grid_fini(&c.grid);
+  return ok;
+}

@@ -1,0 +1,123 @@
+/* test_smooth_intersections.c - smooth contours end where their surface enters
+ * another one. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "tests/smooth_surfaces.h"
+
+enum { CONTOUR_SAMPLES = 2000 };
+
+/* Two spheres of radius 1 that intersect. */
+static const double centre[2][3] = {{-0.4, 0.1, 0.2}, {0.4, -0.2, -0.1}};
+
+static void first_sphere(double u, double v, double p[3]) {
+  smooth_sphere(u, v, p);
+  for (int k = 0; k < 3; k++)
+    p[k] += centre[0][k];
+}
+
+static void second_sphere(double u, double v, double p[3]) {
+  smooth_sphere(u, v, p);
+  for (int k = 0; k < 3; k++)
+    p[k] += centre[1][k];
+}
+
+static void on_page(const struct smooth_axes *axes, const double p[3],
+                    double mm[2]) {
+  mm[0] = SMOOTH_PAGE_MM / 2 + SMOOTH_SCALE_MM * smooth_dot(p, axes->right);
+  mm[1] = SMOOTH_PAGE_MM / 2 + SMOOTH_SCALE_MM * smooth_dot(p, axes->up);
+}
+
+/* A place on the contour of a sphere. */
+struct contour_place {
+  double mm[2];
+  double depth; /* within the other sphere, mm; negative outside of it */
+  bool beside;  /* it is not near the outline of the other sphere */
+  bool hidden;  /* the other sphere is in front of it */
+};
+
+static struct contour_place place_at(const struct smooth_axes *axes, int sphere,
+                                     double angle, double arc) {
+  const double *own = centre[sphere], *other = centre[1 - sphere];
+  double p[3], from[3], middle[2];
+  for (int k = 0; k < 3; k++) {
+    p[k] = own[k] + cos(angle) * axes->right[k] + sin(angle) * axes->up[k];
+    from[k] = p[k] - other[k];
+  }
+  struct contour_place place;
+  on_page(axes, p, place.mm);
+  on_page(axes, other, middle);
+  double away = hypot(place.mm[0] - middle[0], place.mm[1] - middle[1]);
+  double behind = -smooth_dot(from, axes->back);
+  place.depth = SMOOTH_SCALE_MM * (1 - sqrt(smooth_dot(from, from)));
+  place.beside = fabs(away - SMOOTH_SCALE_MM) > 3 * arc;
+  place.hidden = away < SMOOTH_SCALE_MM && (behind > 0 || place.depth > 0);
+  return place;
+}
+
+/* The height of a mesh's arcs over its chords, mm. */
+static double arc_of(int n) {
+  return 2 * SMOOTH_SCALE_MM * (1 - cos(M_PI / n));
+}
+
+/* Compares the contour of a sphere with the drawing: what is drawn of it within
+ * the other sphere, and what is not drawn outside of it, is not farther from
+ * there than less than half the side of a quad. */
+static void check_contour(const recto_drawing *drawing,
+                          const struct smooth_axes *axes, int sphere, int n) {
+  double arc = arc_of(n), most = 0.4 * 2 * M_PI * SMOOTH_SCALE_MM / n;
+  for (int i = 0; i < CONTOUR_SAMPLES; i++) {
+    struct contour_place place =
+        place_at(axes, sphere, 2 * M_PI * i / CONTOUR_SAMPLES, arc);
+    if (!place.beside || fabs(place.depth) < most)
+      continue;
+    double away =
+        smooth_distance_to_ink(drawing, RECTO_EDGE_SILHOUETTE, place.mm);
+    if (place.hidden)
+      assert_true(away > arc);
+    else
+      assert_true(away < 1.2 * arc);
+  }
+}
+
+static void check_views(unsigned classes) {
+  for (int n = 16; n <= 64; n *= 2) {
+    recto_scene *scene = smooth_scene(first_sphere, true, n, n / 2);
+    smooth_add(scene, second_sphere, true, n, n / 2);
+    for (int view = 0; view < SMOOTH_VIEWS; view++) {
+      recto_options options;
+      smooth_view(&options, view);
+      options.ink.edges = classes;
+      struct smooth_axes axes = smooth_axes_of(&options);
+      recto_drawing *drawing = smooth_draw(scene, &options);
+      for (int sphere = 0; sphere < 2; sphere++)
+        check_contour(drawing, &axes, sphere, n);
+      recto_drawing_destroy(drawing);
+    }
+    recto_scene_destroy(scene);
+  }
+}
+
+static void contours_end_where_surfaces_intersect(void **state) {
+  (void)state;
+  check_views(RECTO_EDGE_SILHOUETTE | RECTO_EDGE_INTERSECTION);
+}
+
+static void they_end_where_intersections_are_not_drawn(void **state) {
+  (void)state;
+  check_views(RECTO_EDGE_SILHOUETTE);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(contours_end_where_surfaces_intersect),
+      cmocka_unit_test(they_end_where_intersections_are_not_drawn)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
