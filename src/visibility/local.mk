@@ -48,6 +48,7 @@ librecto_core_la_SOURCES += \
   %D%/contour/loop_changes.c %D%/contour/loop_changes.h \
   %D%/contour/occluders.c %D%/contour/occluders.h \
   %D%/contour/outline_gaps.c %D%/contour/outline_gaps.h \
+  %D%/contour/page_cover.c %D%/contour/page_cover.h \
   %D%/contour/page_crossings.c %D%/contour/page_crossings.h \
   %D%/contour/part_size.c %D%/contour/part_size.h \
   %D%/contour/segment_grid.c %D%/contour/segment_grid.h \

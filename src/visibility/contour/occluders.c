@@ -4,10 +4,11 @@
 int occluders_count(const struct sheet *sheet, const struct triangle_grid *grid,
                     struct triangle_grid_query *query, struct geom_point p) {
   int count = 0;
-  if (!triangle_grid_find(grid, (struct box2){p.x, p.y, p.x, p.y}, query))
+  struct triangle_span found;
+  if (!triangle_grid_find_at(grid, p, query, &found))
     return -1;
-  for (size_t i = 0; i < query->found.count; i++) {
-    uint32_t t = query->found.item[i];
+  for (size_t i = 0; i < found.count; i++) {
+    uint32_t t = found.item[i];
     struct geom_triangle of = sheet_corners(sheet, t);
     bool inside = !sheet_is_edge_on(sheet, t);
     for (int k = 0; inside && k < 3; k++)

@@ -9,6 +9,7 @@
 
 #include "base/poll.h"
 #include "base/tolerance.h"
+#include "visibility/contour/page_cover.h"
 #include "visibility/contour/segment_grid.h"
 
 /* A place between an outline's samples and its ends, as a share of the distance
@@ -44,6 +45,7 @@ struct outline_part {
 struct outline_gaps {
   const struct outline_gaps_input *in;
   struct segment_grid grid;
+  struct page_cover cover;
   uint8_t *ends; /* one a point of contours: of visible ones, at most 2 */
   ARRAY(struct outline_part) part;
 };
@@ -155,34 +157,6 @@ static void find_nearest(const struct outline_gaps *g, struct geom_point p,
   }
 }
 
-/* Whether a triangle lies over a point of the page; *ok is false when memory
- * ran out. */
-static bool is_covered(struct outline_gaps *g, struct geom_point p, bool *ok) {
-  *ok =
-      *ok && triangle_grid_find(g->in->grid, (struct box2){p.x, p.y, p.x, p.y},
-                                g->in->query);
-  for (size_t i = 0; *ok && i < g->in->query->found.count; i++) {
-    uint32_t t = g->in->query->found.item[i];
-    struct geom_triangle of = sheet_corners(g->in->sheet, t);
-    bool inside = (g->in->sheet->triangle_flags[t] & SHEET_EDGE_ON) == 0;
-    for (int k = 0; inside && k < 3; k++)
-      inside = geom_orient2d(of.p[k], of.p[geom_next_corner(k)], p) >= 0;
-    if (inside)
-      return true;
-  }
-  return false;
-}
-
-/* Whether nothing is seen to the right of an outline at a point of it. */
-static bool is_at_background(struct outline_gaps *g, struct geom_segment s,
-                             struct geom_point p, bool *ok) {
-  double x = (double)s.q.x - s.p.x, y = (double)s.q.y - s.p.y;
-  double by = BESIDE / hypot(x, y);
-  struct geom_point right = {p.x + (int32_t)lrint(by * y),
-                             p.y - (int32_t)lrint(by * x), p.z};
-  return !is_covered(g, right, ok) && *ok;
-}
-
 static struct geom_point point_of_outline(struct geom_segment s, double t) {
   return (struct geom_point){
       (int32_t)lrint(s.p.x + t * ((double)s.q.x - s.p.x)),
@@ -190,25 +164,88 @@ static struct geom_point point_of_outline(struct geom_segment s, double t) {
       s.p.z + (int64_t)(t * (double)(s.q.z - s.p.z))};
 }
 
-/* Looks at sample k of n of an outline. */
-static struct outline_sample look(struct outline_gaps *g,
-                                  const struct contour_outline *outline,
-                                  double radius, uint32_t k, uint32_t n,
-                                  bool *ok) {
-  double inset = k == 0 ? INSET : k == n ? -INSET : 0;
-  struct geom_point p = point_of_outline(outline->image, (k + inset) / n);
+/* An outline and its samples. */
+struct sampled_outline {
+  struct geom_segment image;
+  double along[2];         /* its direction, of unit length */
+  struct geom_point aside; /* from a sample to a place on its right */
+  double radius;           /* how far contours are looked for */
+  uint32_t n;              /* the last sample; the first is 0 */
+};
+
+/* Returns false for an outline that is a point. */
+static bool sample_outline(const struct sheet *sheet,
+                           const struct contour_outline *outline,
+                           struct sampled_outline *of) {
   struct geom_segment s = outline->image;
   double x = (double)s.q.x - s.p.x, y = (double)s.q.y - s.p.y;
-  const double along[2] = {x / hypot(x, y), y / hypot(x, y)};
+  double length = hypot(x, y);
+  of->image = s;
+  of->radius = fmin(extent_of_face(sheet, outline->face), SHEET_XY_MAX);
+  if (length == 0 || of->radius == 0)
+    return false;
+  double by = BESIDE / length;
+  of->along[0] = x / length;
+  of->along[1] = y / length;
+  of->aside =
+      (struct geom_point){(int32_t)lrint(by * y), -(int32_t)lrint(by * x), 0};
+  of->n = (uint32_t)ceil(length / TOLERANCE_OUTLINE_UNITS);
+  return true;
+}
+
+/* Where sample k is, as a share of the outline, and there. */
+static double share_of_sample(const struct sampled_outline *of, uint32_t k) {
+  double inset = k == 0 ? INSET : k == of->n ? -INSET : 0;
+  return (k + inset) / of->n;
+}
+
+static struct geom_point point_of_sample(const struct sampled_outline *of,
+                                         uint32_t k) {
+  return point_of_outline(of->image, share_of_sample(of, k));
+}
+
+/* The place to the right of a sample. */
+static struct geom_point beside_sample(const struct sampled_outline *of,
+                                       uint32_t k) {
+  struct geom_point p = point_of_sample(of, k);
+  return (struct geom_point){p.x + of->aside.x, p.y + of->aside.y, p.z};
+}
+
+/* Whether something is seen to the right of all samples of an outline, triangle
+ * by triangle. */
+static bool is_covered_beside(struct outline_gaps *g,
+                              const struct sampled_outline *of, bool *ok) {
+  struct geom_point last = beside_sample(of, of->n);
+  for (uint32_t k = 0; k <= of->n;) {
+    struct geom_point p = beside_sample(of, k);
+    if (!page_cover_is_over(&g->cover, p, ok))
+      return false;
+    double reach = page_cover_reach(&g->cover, p, last);
+    if (reach == 1)
+      return true;
+    double from = share_of_sample(of, k);
+    double to = from + reach * (share_of_sample(of, of->n) - from);
+    uint32_t next = (uint32_t)(to * of->n) + 1;
+    k = next > k + 1 ? next : k + 1;
+  }
+  return true;
+}
+
+/* Looks at sample k of an outline. */
+static struct outline_sample look(struct outline_gaps *g,
+                                  const struct sampled_outline *of, uint32_t k,
+                                  bool *ok) {
+  struct geom_point p = point_of_sample(of, k);
+  double radius = of->radius;
   struct nearest_contour near;
-  find_nearest(g, p, along, radius, &near);
+  find_nearest(g, p, of->along, radius, &near);
   bool at_end =
       near.loose < near.any &&
       near.loose <= TOLERANCE_OUTLINE_UNITS + BULGE_SHARE * near.loose_bulge;
   if (near.on_edge || at_end ||
       (near.any <= radius &&
        near.any <= near.loose + TOLERANCE_COINCIDENT_UNITS) ||
-      !is_at_background(g, outline->image, p, ok))
+      page_cover_is_over(&g->cover, beside_sample(of, k), ok))
     return (struct outline_sample){
         .at = near.on_edge             ? p
               : at_end                 ? near.loose_at
@@ -221,7 +258,7 @@ static struct outline_sample look(struct outline_gaps *g,
             radius - near.any,
             (fmin(fmin(sqrt(near.end), FIRST_REACH), radius) - near.any) / 2)};
   return (struct outline_sample){
-      .at = point_of_outline(outline->image, (double)k / n),
+      .at = point_of_outline(of->image, (double)k / of->n),
       .point = SHEET_NONE};
 }
 
@@ -230,24 +267,21 @@ static struct outline_sample look(struct outline_gaps *g,
 /* Adds the parts of an outline that are not drawn. */
 static bool add_open_parts(struct outline_gaps *g,
                            const struct contour_outline *outline) {
-  struct geom_segment s = outline->image;
-  double length = hypot((double)s.q.x - s.p.x, (double)s.q.y - s.p.y);
-  double radius =
-      fmin(extent_of_face(g->in->sheet, outline->face), SHEET_XY_MAX);
+  struct sampled_outline of;
   bool ok = true;
-  if (length == 0 || radius == 0)
+  if (!sample_outline(g->in->sheet, outline, &of) ||
+      is_covered_beside(g, &of, &ok))
     return true;
-  uint32_t n = (uint32_t)ceil(length / TOLERANCE_OUTLINE_UNITS);
-  struct outline_sample from = look(g, outline, radius, 0, n, &ok);
+  struct outline_sample from = look(g, &of, 0, &ok);
   struct outline_sample before = from;
-  for (uint32_t k = 1; ok && k <= n; k++) {
+  for (uint32_t k = 1; ok && k <= of.n; k++) {
     if (before.drawn && before.sure > 2 * TOLERANCE_OUTLINE_UNITS)
       k += (uint32_t)(before.sure / TOLERANCE_OUTLINE_UNITS) - 2;
-    k = k < n ? k : n;
-    struct outline_sample now = look(g, outline, radius, k, n, &ok);
+    k = k < of.n ? k : of.n;
+    struct outline_sample now = look(g, &of, k, &ok);
     if (before.drawn)
       from = before;
-    bool ends = now.drawn ? !before.drawn : k == n;
+    bool ends = now.drawn ? !before.drawn : k == of.n;
     if (ends && !ARRAY_PUSH(&g->part, ((struct outline_part){{from, now},
                                                              outline->face})))
       return false;
@@ -298,7 +332,9 @@ static bool find_open_parts(struct outline_gaps *g,
 }
 
 bool outline_gaps_close(const struct outline_gaps_input *input) {
-  struct outline_gaps g = {.in = input};
+  struct outline_gaps g = {
+      .in = input,
+      .cover = {input->sheet, input->grid, input->query, SHEET_NONE}};
   g.ends = mem_calloc(input->sheet->point.count - input->first_point, 1);
   bool ok = g.ends != NULL && list_drawn(&g) &&
             (g.grid.contours == 0 || segment_grid_make(&g.grid)) &&

@@ -197,9 +197,24 @@ USE_RESULT bool triangle_grid_find(const struct triangle_grid *grid,
                                    struct box2 box,
                                    struct triangle_grid_query *query);
 
-/* The same for the segment p-q: the triangles of the cells that it meets.
- * Triangles of overfull cells that overlap it in no more than a point of the
- * page may be missing. */
+/* Some of the sheet's triangles. */
+struct triangle_span {
+  const uint32_t *item;
+  size_t count;
+};
+
+/* Finds every triangle whose box holds the point p, and maybe others, each
+ * once.
+ * found  gets a list of the grid or of the query, until the next query
+ * Returns false when memory ran out. */
+USE_RESULT bool triangle_grid_find_at(const struct triangle_grid *grid,
+                                      struct geom_point p,
+                                      struct triangle_grid_query *query,
+                                      struct triangle_span *found);
+
+/* As triangle_grid_find, for the segment p-q: the triangles of the cells that
+ * it meets.  Triangles of overfull cells that overlap it in no more than a
+ * point of the page may be missing. */
 USE_RESULT bool triangle_grid_find_along(const struct triangle_grid *grid,
                                          struct geom_point p,
                                          struct geom_point q,
