@@ -30,13 +30,26 @@ enum { FOLD_SEGMENTS_MAX = 32 };
  * contours. */
 enum { BODY_FACES = 4 };
 
+/* What is known of a segment of the stack. */
+struct stack_segment {
+  double length, height; /* of its triangle; on the page, grid units */
+  size_t turn; /* the last node up to its first one at which the image turns
+                  back; the curve's first: none */
+};
+
+/* The segments whose boxes are united. */
+enum { BLOCK_SEGMENTS = 8 };
+
 struct thin_loops {
   struct zero_set *set;
   const struct camera *camera;
   struct part_size part;
   ARRAY(struct contour_step) step; /* the stack; its last one has no segment */
-  size_t first;                    /* of them: the curve's */
-  size_t lowest;                   /* loops begin at no segment before it */
+  ARRAY(struct stack_segment) measure; /* one a segment of the curve */
+  ARRAY(struct box2) block; /* of each BLOCK_SEGMENTS of the curve: a box about
+                               their images */
+  size_t first;             /* of the steps: the curve's */
+  size_t lowest;            /* loops begin at no segment before it */
 };
 
 static const struct contour_node *stack_node(const struct thin_loops *l,
@@ -47,6 +60,49 @@ static const struct contour_node *stack_node(const struct thin_loops *l,
 static struct page_segment stack_image(const struct thin_loops *l, size_t i) {
   return (struct page_segment){.p = stack_node(l, i)->page,
                                .q = stack_node(l, i + 1)->page};
+}
+
+static const struct stack_segment *measure_of(const struct thin_loops *l,
+                                              size_t i) {
+  return &l->measure.item[i - l->first];
+}
+
+/* ---- Segments ------------------------------------------------------------ */
+
+/* Whether the image turns back at a step, by more than 90 degrees. */
+static bool image_turns_back(const struct thin_loops *l, size_t i) {
+  struct page_segment a = stack_image(l, i - 1), b = stack_image(l, i);
+  double x = ((double)a.q.x - a.p.x) * ((double)b.q.x - b.p.x);
+  double y = ((double)a.q.y - a.p.y) * ((double)b.q.y - b.p.y);
+  return x + y < 0;
+}
+
+/* Unites the box of a segment with that of its block, of which it is the last
+ * one. */
+static bool extend_block(struct thin_loops *l, size_t i) {
+  size_t at = i - l->first;
+  struct page_segment s = stack_image(l, i);
+  struct box2 box = box2_of_segment(s.p, s.q);
+  l->block.count = at / BLOCK_SEGMENTS + (at % BLOCK_SEGMENTS != 0);
+  if (at % BLOCK_SEGMENTS == 0)
+    return ARRAY_PUSH(&l->block, box);
+  struct box2 *block = &l->block.item[l->block.count - 1];
+  *block = box2_union(*block, box);
+  return true;
+}
+
+/* Measures a segment of the stack, after those before it. */
+static bool measure_segment(struct thin_loops *l, size_t i) {
+  struct page_segment s = stack_image(l, i);
+  struct stack_segment made = {
+      .length = hypot((double)s.q.x - s.p.x, (double)s.q.y - s.p.y),
+      .height = contour_height(l->camera, stack_node(l, i),
+                               &l->set->segment.item[l->step.item[i].segment]),
+      .turn = i};
+  l->measure.count = i - l->first;
+  if (i > l->first && !image_turns_back(l, i))
+    made.turn = measure_of(l, i - 1)->turn;
+  return ARRAY_PUSH(&l->measure, made) && extend_block(l, i);
 }
 
 /* ---- Thin loops ---------------------------------------------------------- */
@@ -64,8 +120,7 @@ static bool is_thin(const struct thin_loops *l, size_t from, size_t to,
     double next_x = p.x - x0, next_y = p.y - y0;
     area += x * next_y - y * next_x;
     length += hypot(next_x - x, next_y - y);
-    heights += contour_height(l->camera, stack_node(l, i),
-                              &l->set->segment.item[l->step.item[i].segment]);
+    heights += measure_of(l, i)->height;
     x = next_x;
     y = next_y;
   }
@@ -121,86 +176,92 @@ static bool take_off(struct thin_loops *l, size_t from, double s, double t) {
   step[from + 1] = (struct contour_step){node, rest};
   step[from + 2] = (struct contour_step){end, SHEET_NONE};
   l->step.count = from + 3;
-  return true;
+  return measure_segment(l, from) && measure_segment(l, from + 1);
 }
 
-static bool do_boxes_meet(const struct page_segment *a,
-                          const struct page_segment *b) {
-  return box2_min(a->p.x, a->q.x) <= box2_max(b->p.x, b->q.x) &&
-         box2_min(b->p.x, b->q.x) <= box2_max(a->p.x, a->q.x) &&
-         box2_min(a->p.y, a->q.y) <= box2_max(b->p.y, b->q.y) &&
-         box2_min(b->p.y, b->q.y) <= box2_max(a->p.y, a->q.y);
+/* The last segment before one whose block's box meets another box, or that is
+ * in the same block. */
+static size_t previous_in_box(const struct thin_loops *l, size_t i,
+                              struct box2 box) {
+  while (i > l->first && (i - l->first) % BLOCK_SEGMENTS == 0 &&
+         box2_disjoint(l->block.item[(i - l->first) / BLOCK_SEGMENTS - 1], box))
+    i -= BLOCK_SEGMENTS;
+  return i > l->first ? i - 1 : l->first;
 }
 
 /* Takes off the thin loops that end on the last segment of the stack. */
 static bool take_off_loops(struct thin_loops *l) {
-  size_t last = l->step.count - 2, i = last;
+  size_t last = l->step.count - 2;
   size_t lowest = last > LOOP_SEGMENTS_MAX ? last - LOOP_SEGMENTS_MAX : 0;
   if (lowest < l->lowest)
     lowest = l->lowest;
   struct page_segment b = stack_image(l, last);
-  while (i > lowest + 1) {
-    struct page_segment a = stack_image(l, i - 2);
+  struct box2 box = box2_of_segment(b.p, b.q);
+  size_t i = last > lowest ? last - 1 : lowest;
+  while (i > lowest) {
     double s, t;
-    i--;
-    if (!do_boxes_meet(&a, &b) || !page_segments_cross(&a, &b, &s, &t))
+    i = previous_in_box(l, i, box);
+    if (i < lowest)
+      break;
+    struct page_segment a = stack_image(l, i);
+    if (box2_disjoint(box2_of_segment(a.p, a.q), box) ||
+        !page_segments_cross(&a, &b, &s, &t))
       continue;
-    if (!is_thin(l, i - 1, last, s)) {
-      l->lowest = i;
+    if (!is_thin(l, i, last, s)) {
+      l->lowest = i + 1;
       return true;
     }
-    if (!take_off(l, i - 1, s, t))
+    if (!take_off(l, i, s, t))
       return false;
-    last = i;
+    last = i + 1;
     b = stack_image(l, last);
+    box = box2_of_segment(b.p, b.q);
   }
   return true;
 }
 
 /* ---- Folds --------------------------------------------------------------- */
 
-/* Whether the image turns back at a step, by more than 90 degrees. */
-static bool image_turns_back(const struct thin_loops *l, size_t i) {
-  struct page_segment a = stack_image(l, i - 1), b = stack_image(l, i);
-  double x = ((double)a.q.x - a.p.x) * ((double)b.q.x - b.p.x);
-  double y = ((double)a.q.y - a.p.y) * ((double)b.q.y - b.p.y);
-  return x + y < 0;
-}
-
 /* Whether all steps between two of the stack are as near to the straight line
  * between these as a share of the triangles' mean height. */
 static bool is_straight_fold(const struct thin_loops *l, size_t from,
                              size_t to) {
   struct geom_point p = stack_node(l, from)->page, q = stack_node(l, to)->page;
-  double x = (double)q.x - p.x, y = (double)q.y - p.y, farthest = 0;
+  double x = (double)q.x - p.x, y = (double)q.y - p.y;
   double heights = 0, length = 0, square = x * x + y * y;
   for (size_t i = from; i < to; i++) {
-    struct geom_point at = stack_node(l, i)->page,
-                      next = stack_node(l, i + 1)->page;
-    length += hypot((double)next.x - at.x, (double)next.y - at.y);
+    length += measure_of(l, i)->length;
+    heights += measure_of(l, i)->height;
+  }
+  heights /= (double)(to - from);
+  if (!(length - sqrt(square) < FOLD_HEIGHTS * heights))
+    return false;
+  for (size_t i = from; i < to; i++) {
+    struct geom_point at = stack_node(l, i)->page;
     double px = (double)at.x - p.x, py = (double)at.y - p.y;
     double t = square > 0 ? (px * x + py * y) / square : 0;
     t = fmin(fmax(t, 0), 1);
-    farthest = fmax(farthest, hypot(px - t * x, py - t * y));
-    heights += contour_height(l->camera, stack_node(l, i),
-                              &l->set->segment.item[l->step.item[i].segment]);
+    if (!(hypot(px - t * x, py - t * y) < THIN_SHARE * heights))
+      return false;
   }
-  heights /= (double)(to - from);
-  return farthest < THIN_SHARE * heights &&
-         length - sqrt(square) < FOLD_HEIGHTS * heights;
+  return true;
 }
 
 /* Makes one segment of the last ones of the stack that fold back and forth
  * along a straight line. */
 static bool straighten_fold(struct thin_loops *l) {
-  size_t last = l->step.count - 1, i = last - 1;
+  size_t last = l->step.count - 1;
   size_t lowest = last > FOLD_SEGMENTS_MAX ? last - FOLD_SEGMENTS_MAX : 0;
-  int turns = 0;
   if (lowest < l->lowest)
     lowest = l->lowest;
-  for (; i > lowest; i--) {
-    turns += image_turns_back(l, i);
-    if (turns < 2 || !is_straight_fold(l, i - 1, last))
+  if (last <= lowest)
+    return true;
+  /* It turns back twice at least. */
+  size_t turn = measure_of(l, last - 1)->turn;
+  if (turn <= lowest)
+    return true;
+  for (size_t i = measure_of(l, turn - 1)->turn; i > lowest; i--) {
+    if (!is_straight_fold(l, i - 1, last))
       continue;
     struct contour_step *from = &l->step.item[i - 1];
     struct contour_step end = l->step.item[last];
@@ -209,7 +270,8 @@ static bool straighten_fold(struct thin_loops *l) {
     l->set->node.item[from->node].is_cut = true;
     l->set->node.item[end.node].is_cut = true;
     return add_segment_part(l->set, from->segment, from->node, end.node,
-                            &from->segment);
+                            &from->segment) &&
+           measure_segment(l, i - 1);
   }
   return true;
 }
@@ -221,7 +283,8 @@ static bool push_step(struct thin_loops *l, struct contour_step step,
                       uint32_t end) {
   l->step.item[l->step.count - 1] = step;
   return ARRAY_PUSH(&l->step, ((struct contour_step){end, SHEET_NONE})) &&
-         take_off_loops(l) && straighten_fold(l);
+         measure_segment(l, l->step.count - 2) && take_off_loops(l) &&
+         straighten_fold(l);
 }
 
 /* Moves a curve to the stack, from its step `start` on if it is closed. */
@@ -289,6 +352,8 @@ bool thin_loops_remove(struct contour_curves *curves, struct zero_set *set,
   }
   curves->curve.count = kept;
   part_size_fini(&l.part);
+  ARRAY_FREE(&l.measure);
+  ARRAY_FREE(&l.block);
   ARRAY_FREE(&curves->step);
   curves->step.item = l.step.item;
   curves->step.count = l.step.count;
