@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "scene/coarse_parts.h"
 #include "scene/edge_classes.h"
 #include "view/camera_aim.h"
 
@@ -61,6 +62,19 @@ static recto_status cut_prepared(struct preparation *preparation,
              : status;
 }
 
+/* Stores what views have in common, or ask for twice. */
+static recto_status store_classes(struct preparation *preparation,
+                                  const recto_options *options,
+                                  recto_error *error) {
+  struct topology *topology = &preparation->topology;
+  return topology_store_class_masks(topology, preparation->scene,
+                                    options->mesh.crease_deg) &&
+                 (options->ink.contours != RECTO_CONTOURS_SMOOTH ||
+                  topology_store_coarse_parts(topology, preparation->scene))
+             ? RECTO_OK
+             : error_memory(error);
+}
+
 recto_status preparation_init(struct preparation *preparation,
                               const struct scene *scene,
                               const recto_options *options, bool classes,
@@ -91,10 +105,9 @@ recto_status preparation_init(struct preparation *preparation,
     status = add_section(preparation, options, error);
   if (status == RECTO_OK && anything && preparation->planes > 0)
     status = cut_prepared(preparation, error);
-  if (status == RECTO_OK && classes &&
-      !topology_store_class_masks(&preparation->topology, preparation->scene,
-                                  options->mesh.crease_deg))
-    status = error_memory(error);
+  if (status == RECTO_OK &&
+      (classes || options->ink.contours == RECTO_CONTOURS_SMOOTH))
+    status = store_classes(preparation, options, error);
   return status;
 }
 

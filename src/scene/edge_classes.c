@@ -406,30 +406,6 @@ bool topology_drop_weak_creases(const struct topology *topology,
   return ok;
 }
 
-bool topology_coarse_parts(const struct topology *topology,
-                           const struct scene *scene,
-                           const uint8_t *class_masks, uint8_t *coarse) {
-  size_t points = scene->point.count, edges = topology->edge.count;
-  uint32_t *part = union_find_create(points);
-  uint32_t *count = mem_calloc(points, 2 * sizeof *count); /* all, creases */
-  bool ok = part != NULL && count != NULL;
-  for (size_t e = 0; ok && e < edges; e++)
-    union_find_join(part, topology->edge.item[e].point[0],
-                    topology->edge.item[e].point[1]);
-  for (size_t e = 0; ok && e < edges; e++) {
-    size_t root = union_find_root(part, topology->edge.item[e].point[0]);
-    count[2 * root]++;
-    count[2 * root + 1] += (class_masks[e] & RECTO_EDGE_CREASE) != 0;
-  }
-  for (uint32_t p = 0; ok && p < points; p++) {
-    size_t root = union_find_root(part, p);
-    coarse[p] = 4 * (uint64_t)count[2 * root + 1] > count[2 * root];
-  }
-  mem_free(part);
-  mem_free(count);
-  return ok;
-}
-
 bool topology_store_class_masks(struct topology *topology,
                                 const struct scene *scene, double crease_deg) {
   uint8_t *class_masks = mem_alloc(topology->edge.count, sizeof *class_masks);

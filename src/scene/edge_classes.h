@@ -48,16 +48,6 @@ USE_RESULT bool topology_drop_weak_creases(const struct topology *topology,
                                            double start_deg,
                                            uint8_t *class_masks);
 
-/* Finds the connected parts of the mesh of whose edges more than a quarter are
- * creases: such a part samples no smooth surface.
- * class_masks  one an edge
- * coarse       gets 1 for each point of such a part, 0 for the others
- * Returns false when memory ran out. */
-USE_RESULT bool topology_coarse_parts(const struct topology *topology,
-                                      const struct scene *scene,
-                                      const uint8_t *class_masks,
-                                      uint8_t *coarse);
-
 /* Stores the result of topology_class_masks at that angle for later calls.
  * Returns false when memory ran out. */
 USE_RESULT bool topology_store_class_masks(struct topology *topology,

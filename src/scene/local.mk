@@ -2,6 +2,7 @@
 librecto_core_la_SOURCES += \
   %D%/angle.c %D%/angle.h \
   %D%/cluster.c %D%/cluster.h \
+  %D%/coarse_parts.c %D%/coarse_parts.h \
   %D%/conversion.c %D%/conversion.h \
   %D%/diagnostics.c %D%/diagnostics.h \
   %D%/ear_clipping.c %D%/ear_clipping.h \

@@ -14,13 +14,30 @@
 void newell_normal(const struct scene_point *point, const uint32_t *corner,
                    uint32_t count, double normal[3]);
 
+/* The same for three corners. */
+static inline void newell_normal_of_triangle(const struct scene_point *o,
+                                             const struct scene_point *p,
+                                             const struct scene_point *q,
+                                             double normal[3]) {
+  double ax = p->x - o->x, ay = p->y - o->y, az = p->z - o->z;
+  double bx = q->x - o->x, by = q->y - o->y, bz = q->z - o->z;
+  normal[0] = ay * bz - az * by;
+  normal[1] = az * bx - ax * bz;
+  normal[2] = ax * by - ay * bx;
+}
+
 /* That of a face of the scene. */
 static inline void newell_normal_of_face(const struct scene *scene,
                                          uint32_t face, double normal[3]) {
-  const uint32_t start[2] = {scene_face_start(scene, face),
-                             scene_face_start(scene, face + 1)};
-  newell_normal(scene->point.item, scene->corner.item + start[0],
-                start[1] - start[0], normal);
+  const struct scene_point *point = scene->point.item;
+  const uint32_t start = scene_face_start(scene, face);
+  const uint32_t count = scene_face_start(scene, face + 1) - start;
+  const uint32_t *corner = scene->corner.item + start;
+  if (count == 3)
+    newell_normal_of_triangle(&point[corner[0]], &point[corner[1]],
+                              &point[corner[2]], normal);
+  else
+    newell_normal(point, corner, count, normal);
 }
 
 #endif

@@ -263,5 +263,6 @@ void topology_fini(struct topology *topology) {
   mem_free(topology->corner_edge);
   mem_free(topology->weld);
   mem_free(topology->class_masks);
+  mem_free(topology->coarse);
   memset(topology, 0, sizeof *topology);
 }

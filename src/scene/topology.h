@@ -17,6 +17,8 @@ struct topology {
   uint8_t *class_masks;  /* of all edges at the angle crease_deg, as of
                             topology_class_masks; NULL: not kept */
   double crease_deg;
+  uint8_t *coarse; /* of all points, as of topology_coarse_parts with
+                      class_masks; NULL: not kept */
   /* What may be freed once it was laid out, as it is not used later: */
   bool drop_corners; /* corner_edge */
   bool drop_edges;   /* edge */

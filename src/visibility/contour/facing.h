@@ -9,8 +9,9 @@
  *
  * The facing of a slot is g = n . v, where v points from the eye to the vertex
  * in perspective and along the view otherwise: negative where the surface faces
- * the viewer.  Where all faces about a slot have one sign it has the same, and
- * its normal is not computed unless a neighbour's sign is another. */
+ * the viewer.  Where all faces about a slot have one sign it has the same.  So
+ * slots are made, and normals computed, about those points alone about which
+ * there are faces of both signs, and one face further. */
 #ifndef VISIBILITY_CONTOUR_FACING_H
 #define VISIBILITY_CONTOUR_FACING_H
 
@@ -26,23 +27,40 @@ struct facing {
   const struct camera *camera;     /* borrowed, not owned */
   uint8_t *class_masks;            /* one a topology edge */
   uint8_t *coarse;                 /* one a point: topology_coarse_parts */
+  bool any_coarse;                 /* there are such points */
   uint8_t *face_sign;              /* one a face: FACING_FRONT or FACING_BACK */
-  uint8_t *split;  /* one a point: it is on a crease or border; NULL: none */
-  uint32_t *sets;  /* of corners at such points: union-find; NULL: none */
-  uint8_t *signs;  /* one a slot: FACING_... of the faces about it */
-  uint32_t *place; /* slot -> its normal and value; SHEET_NONE: not needed */
+  uint8_t *point_flags;    /* one a point: FACING_... of the faces about it, and
+                              what else is known */
+  ARRAY(uint32_t) crossed; /* the faces at points of both signs, which alone the
+                              contour can cross; ascending */
+  ARRAY(uint32_t) near;    /* the faces at the points of these; ascending */
+  uint32_t near_corners;   /* so many corners have they */
+  uint32_t *near_corner;   /* one a corner: its number among these from 1 on; 0:
+                              it is none; NULL: no normals are split */
+  double (*share)[3]; /* one a corner of near faces: what it adds to the normal
+                         there */
+  uint32_t *sets;     /* of these corners: union-find; NULL: as near_corner */
+  uint8_t *signs;     /* one a set, by its root: as of points */
+  uint32_t *place; /* slot -> its normal and value, from 1 on; 0: not needed */
   double (*normal)[3];   /* unit length, or 0, 0, 0 */
   double *value;         /* g */
   size_t count;          /* of normals and values */
-  ARRAY(uint32_t) mixed; /* the faces about whose slots both signs are, which
-                            alone the contour can cross; ascending */
+  ARRAY(uint32_t) mixed; /* the faces about whose slots both signs are;
+                            ascending */
 };
 
-enum { FACING_FRONT = 1, FACING_BACK = 2, FACING_MIXED = 3 };
+enum {
+  FACING_FRONT = 1,
+  FACING_BACK = 2,
+  FACING_MIXED = 3,  /* the two above */
+  FACING_NEEDED = 4, /* a point of a crossed face */
+  FACING_SPLIT = 8,  /* a point on a crease or border */
+  FACING_APEX = 16   /* no normal is near those of all faces about the point */
+};
 
 /* Finds the facing of all slots.
  * Errors  RECTO_ERROR_MEMORY, RECTO_ERROR_CANCELLED.
- * Cost    linear in the corners */
+ * Cost    linear in the corners; what takes long, in those about the contour */
 USE_RESULT recto_status facing_init(struct facing *facing,
                                     const struct sheet *sheet,
                                     const struct topology *topology,
@@ -55,18 +73,42 @@ static inline uint32_t facing_point(const struct facing *f, uint32_t corner) {
   return f->topology->weld != NULL ? f->topology->weld[point] : point;
 }
 
-/* The slot of a corner: that of its point, unless normals are split there. */
+/* The slot of a corner of a near face: that of its point, unless normals are
+ * split there. */
 static inline uint32_t facing_slot(const struct facing *f, uint32_t corner) {
   uint32_t point = facing_point(f, corner);
-  if (f->split == NULL || !f->split[point])
+  if (!(f->point_flags[point] & FACING_SPLIT))
     return point;
-  return (uint32_t)f->scene->point.count + union_find_root(f->sets, corner);
+  return (uint32_t)f->scene->point.count +
+         union_find_root(f->sets, f->near_corner[corner] - 1);
 }
 
-/* Whether the surface turns away there; 0 counts as turned away. */
-static inline bool facing_is_back(const struct facing *f, uint32_t slot) {
-  return f->place[slot] == SHEET_NONE ? f->signs[slot] == FACING_BACK
-                                      : f->value[f->place[slot]] >= 0;
+/* The signs of the faces about a slot. */
+static inline unsigned facing_signs(const struct facing *f, uint32_t slot) {
+  return slot < f->scene->point.count ? f->point_flags[slot] & FACING_MIXED
+                                      : f->signs[slot - f->scene->point.count];
+}
+
+/* The place of the normal and the value of a slot that needs them. */
+static inline uint32_t facing_place(const struct facing *f, uint32_t slot) {
+  return f->place[slot] - 1;
+}
+
+/* Whether the surface turns away at a corner; 0 counts as turned away. */
+static inline bool facing_is_back(const struct facing *f, uint32_t corner) {
+  unsigned signs = f->point_flags[facing_point(f, corner)] & FACING_MIXED;
+  if (signs != FACING_MIXED)
+    return signs == FACING_BACK;
+  uint32_t slot = facing_slot(f, corner);
+  return f->place[slot] == 0 ? facing_signs(f, slot) == FACING_BACK
+                             : f->value[facing_place(f, slot)] >= 0;
+}
+
+/* Whether the faces at an edge are near if there are two of them. */
+static inline bool facing_is_near(const struct facing *f, uint32_t edge) {
+  const uint32_t *point = f->topology->edge.item[edge].point;
+  return (f->point_flags[point[0]] & FACING_MIXED) == FACING_MIXED ||
+         (f->point_flags[point[1]] & FACING_MIXED) == FACING_MIXED;
 }
 
 /* Whether the surface is not smooth at the edge. */
@@ -77,7 +119,8 @@ static inline bool facing_is_feature(const struct facing *f, uint32_t edge) {
 }
 
 /* Whether the two faces of a feature have normals of their own at it; not where
- * a crease ends within a smooth surface. */
+ * a crease ends within a smooth surface.  The faces are near, or differ in the
+ * way they run along the edge. */
 bool facing_is_split(const struct facing *f, uint32_t edge);
 
 /* The vector from the eye to a point, or along the view. */

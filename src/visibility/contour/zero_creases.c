@@ -87,9 +87,10 @@ bool zero_finder_cross_crease(struct zero_finder *z, uint32_t edge) {
       return true;
     if (facing_point(f, c) != e->point[0])
       c = scene_next_corner(f->scene, face[k], c);
-    differ = differ != facing_is_back(f, facing_slot(f, c));
-    if (z->edge_node[2 * (size_t)edge + (size_t)k] != SHEET_NONE)
-      stop[count++] = z->edge_node[2 * (size_t)edge + (size_t)k];
+    differ = differ != facing_is_back(f, c);
+    uint32_t node = z->edge_node[2 * (size_t)edge + (size_t)k];
+    if (node != 0)
+      stop[count++] = node - 1;
   }
   if (!differ && count == 1)
     return true;

@@ -10,10 +10,12 @@ struct zero_finder {
   struct zero_set *set;
   const struct facing *facing;
   struct projection projection;
-  uint32_t *edge_node; /* two a topology edge: its node, where normals are split
-                          those of its first and its second face; SHEET_NONE */
+  uint32_t
+      *edge_node; /* two a topology edge: its node, from 1 on, where normals
+                          are split those of its first and its second face; 0:
+                          none */
   uint32_t *point_node;          /* one a scene point; NULL: none yet */
-  ARRAY(uint32_t) diagonal_node; /* of the current face */
+  ARRAY(uint32_t) diagonal_node; /* of the current face: likewise */
   ARRAY(uint32_t) corner;        /* of the current face, welded */
   struct triangulation triangulation;
 };

@@ -72,7 +72,7 @@ static bool cross_polygon(struct zero_finder *z, uint32_t face, uint32_t start,
     return false;
   for (uint32_t c = 0; c < count; c++) {
     z->corner.item[c] = facing_point(z->facing, start + c);
-    z->diagonal_node.item[c] = SHEET_NONE;
+    z->diagonal_node.item[c] = 0;
   }
   if (!triangulate(triangulation, z->facing->scene->point.item, z->corner.item,
                    count))
@@ -93,7 +93,7 @@ static bool cross_face(struct zero_finder *z, uint32_t face) {
   uint32_t count = scene_face_start(f->scene, face + 1) - start;
   bool front = false, back = false;
   for (uint32_t c = start; c < start + count; c++) {
-    bool is_back = facing_is_back(f, facing_slot(f, c));
+    bool is_back = facing_is_back(f, c);
     front = front || !is_back;
     back = back || is_back;
   }
@@ -111,26 +111,37 @@ static bool cross_face(struct zero_finder *z, uint32_t face) {
 
 /* ---- The whole ----------------------------------------------------------- */
 
+/* Whether an edge is neither a feature nor one at which faces fold over. */
+static inline bool is_within_surface(const struct facing *f, uint32_t e) {
+  const struct topology_edge *edge = &f->topology->edge.item[e];
+  return !facing_is_feature(f, e) &&
+         f->face_sign[edge->first] == f->face_sign[edge->second] &&
+         !(f->any_coarse && f->coarse[edge->point[0]]);
+}
+
+static bool cross_edge(struct zero_finder *z, uint32_t e) {
+  const struct facing *f = z->facing;
+  const struct topology_edge *edge = &f->topology->edge.item[e];
+  if (!zero_finder_add_outline(z, e) || !zero_finder_add_border(z, e))
+    return false;
+  return edge->uses != 2 || edge->first == edge->second ||
+         f->coarse[edge->point[0]] ||
+         !(edge->same_way || facing_is_near(f, e)) || !facing_is_split(f, e) ||
+         zero_finder_cross_crease(z, e);
+}
+
 static bool cross_all(struct zero_finder *z) {
   const struct facing *f = z->facing;
   size_t edges = f->topology->edge.count;
-  z->edge_node = mem_alloc(edges, 2 * sizeof *z->edge_node);
+  z->edge_node = mem_calloc(edges, 2 * sizeof *z->edge_node);
   if (z->edge_node == NULL)
     return false;
-  memset(z->edge_node, 0xff, edges * 2 * sizeof *z->edge_node);
   for (size_t i = 0; i < f->mixed.count; i++)
     if (!poll_at(i) || !cross_face(z, f->mixed.item[i]))
       return false;
-  for (uint32_t e = 0; e < edges; e++) {
-    const struct topology_edge *edge = &f->topology->edge.item[e];
-    if (!poll_at(e) || !zero_finder_add_outline(z, e) ||
-        !zero_finder_add_border(z, e))
+  for (uint32_t e = 0; e < edges; e++)
+    if (!poll_at(e) || (!is_within_surface(f, e) && !cross_edge(z, e)))
       return false;
-    if (f->split != NULL && edge->uses == 2 && edge->first != edge->second &&
-        !f->coarse[edge->point[0]] && facing_is_split(f, e) &&
-        !zero_finder_cross_crease(z, e))
-      return false;
-  }
   return true;
 }
 

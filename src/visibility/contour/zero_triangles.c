@@ -72,9 +72,9 @@ static void place_corners(struct zero_triangle *t) {
     uint32_t slot = facing_slot(f, t->corner[k]), edge = edge_of_side(t, k);
     t->weight[k][k] = 1;
     facing_position(f, facing_point(f, t->corner[k]), t->curved.point[k]);
-    memcpy(t->normal[k], f->normal[f->place[slot]], sizeof t->normal[k]);
+    memcpy(t->normal[k], f->normal[facing_place(f, slot)], sizeof t->normal[k]);
     memcpy(t->curved.normal[k], t->normal[k], sizeof t->normal[k]);
-    t->facing[k] = f->value[f->place[slot]];
+    t->facing[k] = f->value[facing_place(f, slot)];
     t->curved.straight[k] = edge != SHEET_NONE && facing_is_feature(f, edge);
   }
   curved_triangle_init(&t->curved);
@@ -123,8 +123,8 @@ static bool node_of_side(struct zero_triangle *t, int k, uint32_t *node) {
   const struct facing *f = t->finder->facing;
   uint32_t *place = place_of_side(t, k);
   int next = geom_next_corner(k), middle = FIRST_MIDDLE + k;
-  if (place != NULL && *place != SHEET_NONE) {
-    *node = *place;
+  if (place != NULL && *place != 0) {
+    *node = *place - 1;
     return true;
   }
   int front = t->back[k] ? next : k, back = t->back[k] ? k : next;
@@ -134,7 +134,7 @@ static bool node_of_side(struct zero_triangle *t, int k, uint32_t *node) {
                     t->back[middle] ? middle : back, slot, node))
     return false;
   if (place != NULL)
-    *place = *node;
+    *place = *node + 1;
   return true;
 }
 
@@ -212,7 +212,7 @@ bool zero_finder_cross_triangle(struct zero_finder *finder, uint32_t face,
   const struct facing *f = finder->facing;
   struct zero_triangle t = {.finder = finder, .face = face};
   for (int k = 0; k < 3; k++)
-    t.back[k] = facing_is_back(f, facing_slot(f, corner[k]));
+    t.back[k] = facing_is_back(f, corner[k]);
   if (t.back[0] == t.back[1] && t.back[1] == t.back[2])
     return true;
   memcpy(t.corner, corner, sizeof t.corner);
