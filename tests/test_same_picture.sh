@@ -26,8 +26,7 @@ pixels() {
 # Scenes that recto itself draws: their options.  No weights, which HPGL does not
 # have, and upright pages.  No dashes: where a hidden line is as good as on a
 # visible one in a plotter's units, but not in SVG's finer ones, they are spread
-# over what is left of it.  Nor are short strokes left out of what is lit, whose
-# ends lie near other lines or not by these units.
+# over what is left of it.
 models=$srcdir/examples/models
 declare -A scene=(
   [castle]="castle.obj"
@@ -35,7 +34,7 @@ declare -A scene=(
   [hidden-gears]="gears.obj --hidden layer,2"
   [gears-in-perspective]="gears.obj --camera 300,250,400 --pens 3"
   [hatched-knot]="knot.obj --fill hatch --edges silhouette"
-  [lit-knot]="knot.obj --fill hatch --light=-1,2,1 --order near --min-stroke 0"
+  [lit-knot]="knot.obj --fill hatch --light=-1,2,1 --order near"
 )
 
 # write NAME FORMAT - a drawing or a scene as page.FORMAT.

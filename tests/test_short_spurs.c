@@ -125,6 +125,38 @@ static void a_line_that_is_cut_off_is_drawn(void **state) {
   assert_int_equal(draw(&k), 1);
 }
 
+/* A line with a tick of 2.2 mm at its end, from where another line that comes
+ * from above turns back along it, by `beside` mm above. */
+static size_t draw_beside(double unit_mm, double beside) {
+  struct ink_fixture k;
+  start(&k);
+  k.options.output.unit_mm = unit_mm;
+  uint32_t at = ink_fixture_point(&k, 50, 50);
+  uint32_t before = ink_fixture_point(&k, 49, 50);
+  uint32_t turn = ink_fixture_point(&k, 50, 50 + beside);
+  ink_fixture_edge(&k, ink_fixture_point(&k, 10, 50), before,
+                   RECTO_EDGE_SILHOUETTE);
+  ink_fixture_edge(&k, before, at, RECTO_EDGE_SILHOUETTE);
+  ink_fixture_edge(&k, at, ink_fixture_point(&k, 52, 51),
+                   RECTO_EDGE_SILHOUETTE);
+  ink_fixture_edge(&k, ink_fixture_point(&k, 50, 90), turn,
+                   RECTO_EDGE_SILHOUETTE);
+  ink_fixture_edge(&k, turn, ink_fixture_point(&k, 49, 50 + beside),
+                   RECTO_EDGE_SILHOUETTE);
+  return draw(&k);
+}
+
+/* Where what coincides is one line, the two lines meet and the tick is a spur;
+ * where they are two lines, the tick is the end of one of them. */
+static void spurs_are_the_same_for_all_outputs(void **state) {
+  (void)state;
+  const double unit_mm[] = {0, 0.0001, 0.001, 0.025, 0.1};
+  for (size_t i = 0; i < sizeof unit_mm / sizeof *unit_mm; i++) {
+    assert_int_equal(draw_beside(unit_mm[i], 0.0005), 1);
+    assert_int_equal(draw_beside(unit_mm[i], 0.002), 2);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(what_touches_nothing_is_twenty_pens_long),
@@ -134,6 +166,7 @@ int main(void) {
       cmocka_unit_test(pieces_of_one_edge_are_judged_apart),
       cmocka_unit_test(of_some_classes_all_silhouettes_are_drawn),
       cmocka_unit_test(a_line_that_is_cut_off_is_drawn),
+      cmocka_unit_test(spurs_are_the_same_for_all_outputs),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

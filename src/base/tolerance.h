@@ -40,6 +40,16 @@
  *             than 20 nm: shorter files, no visible change. */
 #define TOLERANCE_COLLINEAR_UNITS 2.0
 
+/* Lines of a drawing that is tidied as a pen shows it are one within this
+ * distance, whatever the output's step: so what is left out or joined is the
+ * same in all formats.
+ * Unit        mm
+ * Derivation  the step of SVG's three decimals, less than a hundredth of the
+ *             thinnest pens.
+ * Users       ink/ink.c, ink/ink_lines.c
+ * Ten times   a slit of 0.01 mm is drawn as one line. */
+#define TOLERANCE_TIDY_MM 0.001
+
 /* A normal of the smooth surface is at right angles to the view where the
  * cosine between them is no more.
  * Unit        1

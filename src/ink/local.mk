@@ -2,6 +2,7 @@
 librecto_core_la_SOURCES += \
   %D%/dash_pattern.c %D%/dash_pattern.h \
   %D%/ink.c %D%/ink.h \
+  %D%/ink_lines.c %D%/ink_lines.h \
   %D%/layers.c %D%/layers.h \
   %D%/shading.c %D%/shading.h \
   %D%/tone.c %D%/tone.h \

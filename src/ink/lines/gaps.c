@@ -33,13 +33,18 @@ static struct ink_point end_point(const struct gaps *g, uint32_t end) {
   return g->graph->node.item[segment_of(g, end)->node[end & 1]];
 }
 
+/* Whether one segment ends at a node. */
+static bool has_one_end(const struct segment_graph *graph, uint32_t node) {
+  return graph->ends.start[node + 1] - graph->ends.start[node] == 1;
+}
+
 static bool collect_loose_ends(struct gaps *g) {
   const struct segment_graph *graph = g->graph;
   for (size_t n = 0; n < graph->node.count; n++) {
     uint32_t first = graph->ends.start[n];
     if (!poll_at(n))
       return false;
-    if (graph->ends.start[n + 1] - first != 1)
+    if (!has_one_end(graph, (uint32_t)n))
       continue;
     uint32_t end = graph->ends.item[first];
     const struct graph_segment *s = segment_of(g, end);
@@ -164,8 +169,57 @@ recto_status segment_graph_close_gaps(struct segment_graph *graph,
   bool changed = g.added.count > 0;
   ARRAY_FREE(&g.loose);
   ARRAY_FREE(&g.at);
-  ARRAY_FREE(&g.added);
+  graph->gap = g.added;
   if (!ok)
     return error_memory(error);
   return changed ? segment_graph_index_ends(graph, error) : RECTO_OK;
+}
+
+/* ---- While overlaps are dropped ------------------------------------------ */
+
+/* At both of its nodes a gap had one end: nothing else joins them. */
+void segment_graph_set_gaps_apart(struct segment_graph *graph) {
+  struct graph_segment *s = graph->segment.item, *gap = graph->gap.item;
+  size_t kept = 0, apart = 0, g = 0;
+  for (size_t i = 0; i < graph->segment.count; i++) {
+    int order = 1;
+    while (g < graph->gap.count &&
+           (order = compare_nodes(&gap[g], &s[i], NULL)) < 0)
+      g++; /* left out since */
+    if (g < graph->gap.count && order == 0)
+      gap[apart++] = gap[g++];
+    else
+      s[kept++] = s[i];
+  }
+  graph->segment.count = kept;
+  graph->gap.count = apart;
+}
+
+void segment_graph_move_gaps(struct segment_graph *graph,
+                             const uint32_t *root) {
+  size_t kept = 0;
+  for (size_t i = 0; i < graph->gap.count; i++) {
+    struct graph_segment s = graph->gap.item[i];
+    for (int k = 0; k < 2; k++)
+      s.node[k] = root[s.node[k]];
+    if (s.node[0] != s.node[1])
+      graph->gap.item[kept++] = graph_segment_sorted(s);
+  }
+  graph->gap.count = kept;
+}
+
+recto_status segment_graph_merge_gaps(struct segment_graph *graph,
+                                      recto_error *error) {
+  struct graph_segments *gap = &graph->gap;
+  size_t kept = 0;
+  for (size_t i = 0; i < gap->count; i++)
+    if (has_one_end(graph, gap->item[i].node[0]) &&
+        has_one_end(graph, gap->item[i].node[1]))
+      gap->item[kept++] = gap->item[i];
+  gap->count = kept;
+  if (!sort_stable(gap->item, gap->count, sizeof *gap->item, compare_nodes,
+                   NULL) ||
+      !graph_segments_merge(&graph->segment, gap))
+    return error_memory(error);
+  return segment_graph_index_ends(graph, error);
 }

@@ -98,6 +98,7 @@ recto_status segment_graph_separate_isolated(struct segment_graph *graph,
   size_t count = graph->segment.count;
   int32_t near = (int32_t)ceil(output_step) + NEAR_MARGIN;
   struct isolation work = {graph, rows, near, mem_alloc(count, 1)};
+  mem_free(graph->near_segment);
   graph->near_segment =
       mem_calloc(graph->node.count, sizeof *graph->near_segment);
   bool ok = work.found != NULL && graph->near_segment != NULL &&

@@ -171,7 +171,7 @@ recto_status segment_graph_drop_collinear(struct segment_graph *graph,
     ok = replace_clusters(&w);
   else if (ok && w.dropped_count)
     remove_dropped(&w);
-  graph->doubled = w.dropped_count;
+  graph->doubled += w.dropped_count;
   mem_free(w.dropped);
   mem_free(w.parent);
   ARRAY_FREE(&w.member);

@@ -343,10 +343,10 @@ static bool add_snapped_segment(struct segment_graph *graph,
     graph->approximate[a] = 1;
   if (a == b)
     return true;
-  s.node[0] = a < b ? a : b;
-  s.node[1] = a < b ? b : a;
+  s.node[0] = a;
+  s.node[1] = b;
   uint32_t last = (uint32_t)graph->segment.count;
-  if (!ARRAY_PUSH(&graph->segment, s))
+  if (!ARRAY_PUSH(&graph->segment, graph_segment_sorted(s)))
     return false;
   if (rows != NULL)
     segment_graph_mark_near_nodes(graph, rows, snapping->output_step, last);
@@ -384,6 +384,7 @@ static bool rebuild(struct output_overlaps *r, const struct node_rows *rows) {
     else if (!add_snapped_segment(graph, snapping, rows, isolated->item[i]))
       return false;
   isolated->count = kept;
+  segment_graph_move_gaps(graph, snapping->root);
   return segment_graph_restore_near_isolated(graph) &&
          segment_graph_sort_segments(graph);
 }
@@ -417,8 +418,9 @@ recto_status segment_graph_drop_output_overlaps(struct segment_graph *graph,
   int32_t whole = (int32_t)ceil(output_step);
   if (whole <= TOLERANCE_COINCIDENT_UNITS)
     return RECTO_OK;
-  graph->approximate =
-      mem_calloc(graph->node.count, sizeof *graph->approximate);
+  if (graph->approximate == NULL)
+    graph->approximate =
+        mem_calloc(graph->node.count, sizeof *graph->approximate);
   if (graph->approximate == NULL)
     return error_memory(error);
   bool changed = true;

@@ -16,6 +16,8 @@
  *   segment_graph_close_gaps            gaps less than half a pen are closed,
  *                                       unless the drawing is to be exact
  *                                       (gaps.c)
+ * Unless it is, overlaps are dropped at one precision for all outputs, and in
+ * the end once more where the output's is coarser.
  * Invariants, from segment_graph_unite on
  *   Two nodes differ in x or in y by more than the tolerance; they are numbered
  *   by position, row by row.
@@ -78,6 +80,9 @@ struct segment_graph {
   size_t dots, doubled;
   /* The ends of the segments that segment_graph_close_gaps added, in pairs. */
   ARRAY(struct ink_point) gap_end;
+  /* Those segments, sorted; or those that segment_graph_set_gaps_apart took
+   * from `segment`. */
+  struct graph_segments gap;
 };
 
 /* Nodes by rows, which are horizontal bands, about as many as there are nodes
@@ -176,6 +181,20 @@ USE_RESULT recto_status segment_graph_close_gaps(struct segment_graph *graph,
                                                  const struct pens *pens,
                                                  recto_error *error);
 
+/* Moves the segments that close gaps from `segment` to `gap`: they follow their
+ * nodes while overlaps are dropped, and are none themselves.  `segment` is then
+ * not indexed. */
+void segment_graph_set_gaps_apart(struct segment_graph *graph);
+
+/* Lets those that were set apart follow their nodes.
+ * root  what each node is merged into */
+void segment_graph_move_gaps(struct segment_graph *graph, const uint32_t *root);
+
+/* Moves those back that are gaps still, between two ends that are the only ones
+ * at their nodes, and indexes the ends, which are indexed without them. */
+USE_RESULT recto_status segment_graph_merge_gaps(struct segment_graph *graph,
+                                                 recto_error *error);
+
 /* Lists the ends at each node.  The segments are sorted. */
 USE_RESULT recto_status segment_graph_index_ends(struct segment_graph *graph,
                                                  recto_error *error);
@@ -214,6 +233,15 @@ void segment_graph_key_by_group(struct segment_graph *graph,
 static inline bool
 graph_segment_is_hidden(const struct graph_segment *segment) {
   return segment->pen_key & 1;
+}
+
+/* The segment with the lower node first. */
+static inline struct graph_segment
+graph_segment_sorted(struct graph_segment segment) {
+  uint32_t a = segment.node[0], b = segment.node[1];
+  segment.node[0] = a < b ? a : b;
+  segment.node[1] = a < b ? b : a;
+  return segment;
 }
 
 /* Of creases: the angle; that by which one that ends free bends somewhere, 0:

@@ -57,6 +57,7 @@ void segment_graph_fini(struct segment_graph *graph) {
   number_lists_fini(&graph->ends);
   mem_free(graph->approximate);
   ARRAY_FREE(&graph->gap_end);
+  ARRAY_FREE(&graph->gap);
   segment_graph_init(graph);
 }
 

@@ -17,7 +17,9 @@
 #include "ink/lines/short_spurs.h"
 
 #include <math.h>
+#include <stdlib.h>
 
+#include "base/parallel.h"
 #include "base/poll.h"
 #include "base/tolerance.h"
 #include "geom/nearest.h"
@@ -28,6 +30,10 @@ enum { NO_SPUR = UINT32_MAX };
 
 /* The cells of the grid along each side of the page, at most. */
 enum { GRID_MAX = 1 << 10 };
+
+/* A loose end of a spur is in the cell; or in one beside it or across a corner,
+ * at least. */
+enum cell_mark { HAS_END = 2, IS_BESIDE_END = 1 };
 
 struct spur {
   uint32_t end[2];   /* its loose ends; SEGMENT_GRAPH_NONE: there is one */
@@ -40,13 +46,15 @@ struct spur_search {
   const struct segment_graph *graph;
   const struct sheet *sheet;
   const struct pens *pens;
-  double step; /* the output's, grid units */
+  double step; /* see segment_graph_find_short_spurs */
   ARRAY(struct spur) spur;
-  uint32_t *of_segment; /* the spur of each, or NO_SPUR */
-  double near;          /* half of the widest pen, grid units */
-  double cell, low[2];  /* of the uniform grid, grid units */
-  int count[2];         /* of its cells, in x and in y */
-  uint8_t *is_marked;   /* one a cell: a loose end of a spur is near it */
+  uint32_t *of_segment;        /* the spur of each, or NO_SPUR */
+  double near;                 /* half of the widest pen, grid units */
+  double cell, low[2];         /* of the uniform grid, grid units */
+  double per_unit;             /* cells */
+  int count[2];                /* of its cells, in x and in y */
+  uint8_t *mark;               /* one a cell, of cell_mark */
+  uint8_t *is_near;            /* one a segment: it may be near a marked cell */
   struct number_lists in_cell; /* the segments near each marked cell */
 };
 
@@ -164,29 +172,62 @@ static bool mark_spurs(struct spur_search *s) {
 /* ---- 2 What passes by ---------------------------------------------------- */
 
 static int spur_cell(const struct spur_search *s, int axis, double at) {
-  double cell = floor((at - s->low[axis]) / s->cell);
-  return (int)fmin(fmax(cell, 0), s->count[axis] - 1);
+  double cell = (at - s->low[axis]) * s->per_unit;
+  int last = s->count[axis] - 1;
+  return cell < 0 ? 0 : cell < last ? (int)cell : last;
+}
+
+static size_t spur_cell_at(const struct spur_search *s, struct ink_point at) {
+  return (size_t)spur_cell(s, 1, at.y) * (size_t)s->count[0] +
+         (size_t)spur_cell(s, 0, at.x);
+}
+
+/* Marks the cell of a loose end, and those about it. */
+static void mark_spur_cells(struct spur_search *s, uint32_t end) {
+  struct ink_point at = s->graph->node.item[spur_node(s, end)];
+  int x = spur_cell(s, 0, at.x), y = spur_cell(s, 1, at.y);
+  for (int row = y - (y > 0); row <= y + 1 && row < s->count[1]; row++)
+    for (int i = x - (x > 0); i <= x + 1 && i < s->count[0]; i++)
+      s->mark[row * s->count[0] + i] |= IS_BESIDE_END;
+  s->mark[spur_cell_at(s, at)] |= HAS_END;
 }
 
 static bool make_spur_cells(struct spur_search *s) {
   const double *page_mm = s->sheet->camera.page_mm;
   double longest = fmax(page_mm[0], page_mm[1]) * SHEET_UNITS_PER_MM;
   s->cell = fmax(4 * s->near, longest / GRID_MAX);
+  s->per_unit = 1 / s->cell;
   for (int axis = 0; axis < 2; axis++) {
     s->low[axis] = -page_mm[axis] / 2 * SHEET_UNITS_PER_MM;
     s->count[axis] = 1 - (int)floor(2 * s->low[axis] / s->cell);
   }
-  s->is_marked = mem_calloc((size_t)s->count[0] * (size_t)s->count[1], 1);
-  for (size_t i = 0; s->is_marked != NULL && i < s->spur.count; i++)
-    for (int k = 0; k < 2; k++) {
-      uint32_t end = s->spur.item[i].end[k];
-      if (end == SEGMENT_GRAPH_NONE)
-        continue;
-      struct ink_point at = s->graph->node.item[spur_node(s, end)];
-      s->is_marked[spur_cell(s, 1, at.y) * s->count[0] +
-                   spur_cell(s, 0, at.x)] = 1;
-    }
-  return s->is_marked != NULL;
+  s->mark = mem_calloc((size_t)s->count[0] * (size_t)s->count[1], 1);
+  for (size_t i = 0; s->mark != NULL && i < s->spur.count; i++)
+    for (int k = 0; k < 2; k++)
+      if (s->spur.item[i].end[k] != SEGMENT_GRAPH_NONE)
+        mark_spur_cells(s, s->spur.item[i].end[k]);
+  return s->mark != NULL;
+}
+
+/* Whether a segment may be near a loose end: not if it is in one cell, or in
+ * two that share a side, and none of them is beside that of a loose end. */
+static bool may_be_near_end(const struct spur_search *s, uint32_t segment) {
+  const uint32_t *node = s->graph->segment.item[segment].node;
+  struct ink_point p = s->graph->node.item[node[0]];
+  struct ink_point q = s->graph->node.item[node[1]];
+  int x = spur_cell(s, 0, p.x), y = spur_cell(s, 1, p.y);
+  int dx = spur_cell(s, 0, q.x) - x, dy = spur_cell(s, 1, q.y) - y;
+  const uint8_t *mark = &s->mark[y * s->count[0] + x];
+  return abs(dx) + abs(dy) > 1 || *mark != 0 ||
+         mark[dy * s->count[0] + dx] != 0;
+}
+
+static bool find_near_of_range(void *user, struct parallel_range range) {
+  const struct spur_search *s = user;
+  for (size_t i = range.begin; i < range.end; i++)
+    s->is_near[i] = !graph_segment_is_hidden(&s->graph->segment.item[i]) &&
+                    may_be_near_end(s, (uint32_t)i);
+  return true;
 }
 
 /* Lists a segment in the marked cells that it is near, row by row. */
@@ -209,7 +250,7 @@ static void list_near_ends(struct spur_search *s, uint32_t segment) {
     int last = spur_cell(s, 0, fmax(x0, x1) + s->near);
     for (int x = spur_cell(s, 0, fmin(x0, x1) - s->near); x <= last; x++) {
       uint32_t cell = (uint32_t)(row * s->count[0] + x);
-      if (s->is_marked[cell])
+      if (s->mark[cell] & HAS_END)
         number_lists_put(&s->in_cell, cell, segment);
     }
   }
@@ -217,13 +258,17 @@ static void list_near_ends(struct spur_search *s, uint32_t segment) {
 
 static bool list_segments(struct spur_search *s) {
   size_t cells = (size_t)s->count[0] * (size_t)s->count[1];
-  if (!number_lists_init(&s->in_cell, cells))
+  size_t count = s->graph->segment.count;
+  s->is_near = mem_alloc(count, 1);
+  if (s->is_near == NULL || !number_lists_init(&s->in_cell, cells) ||
+      !parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
+                       PARALLEL_ITEMS, find_near_of_range, s))
     return false;
   for (int pass = 0; pass < 2; pass++) {
-    for (uint32_t i = 0; i < s->graph->segment.count; i++) {
+    for (uint32_t i = 0; i < count; i++) {
       if (!poll_at(i))
         return false;
-      if (!graph_segment_is_hidden(&s->graph->segment.item[i]))
+      if (s->is_near[i])
         list_near_ends(s, i);
     }
     if (pass == 0 && !number_lists_allocate(&s->in_cell, cells))
@@ -248,8 +293,7 @@ static bool is_near_place(const struct spur_search *s, uint32_t segment,
 static bool is_passed_by(const struct spur_search *s, uint32_t spur,
                          uint32_t end) {
   struct ink_point at = s->graph->node.item[spur_node(s, end)];
-  int cell = spur_cell(s, 1, at.y) * s->count[0] + spur_cell(s, 0, at.x);
-  const uint32_t *start = &s->in_cell.start[cell];
+  const uint32_t *start = &s->in_cell.start[spur_cell_at(s, at)];
   for (uint32_t i = start[0]; i < start[1]; i++) {
     uint32_t segment = s->in_cell.item[i];
     if (s->of_segment[segment] != spur && is_near_place(s, segment, at))
@@ -312,14 +356,12 @@ static void drop_spurs(const struct spur_search *s, uint8_t *drop) {
 bool segment_graph_find_short_spurs(const struct segment_graph *graph,
                                     const struct node_rows *rows,
                                     const struct sheet *sheet,
-                                    const struct pens *pens, double output_step,
+                                    const struct pens *pens, double step,
                                     uint8_t *drop) {
   struct spur_search s = {
-      .graph = graph, .sheet = sheet, .pens = pens, .step = output_step};
+      .graph = graph, .sheet = sheet, .pens = pens, .step = step};
   for (uint32_t pen = 0; pen < pens->count; pen++)
     s.near = fmax(s.near, pens_width_mm(pens, pen) / 2 * SHEET_UNITS_PER_MM);
-  if (output_step > s.near) /* outlines may have gaps of a step */
-    return true;
   bool ok = find_spurs(&s);
   if (ok && s.spur.count > 0) {
     ok = mark_spurs(&s) && find_passing(&s);
@@ -330,7 +372,8 @@ bool segment_graph_find_short_spurs(const struct segment_graph *graph,
   }
   ARRAY_FREE(&s.spur);
   mem_free(s.of_segment);
-  mem_free(s.is_marked);
+  mem_free(s.mark);
+  mem_free(s.is_near);
   number_lists_fini(&s.in_cell);
   return ok;
 }

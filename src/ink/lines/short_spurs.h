@@ -11,15 +11,15 @@
  * that may end free (pens_shortest_crease_mm); or of which that is so of both
  * ends, and which are shorter than pens_shortest_isolated_mm.  So none is part
  * of the picture's outline.
- * None where the output's step is wider than half a pen.
  * rows  of the graph's nodes
+ * step  how far nodes may be from the lines that meet there, grid units
  * drop  one a segment, 0
  * Returns false when memory ran out or the caller cancelled.
- * Cost  near linear; where there are such chains, that of a search for what is
- *       within half a pen of each segment */
+ * Cost  near linear; of segments far from loose ends of such chains, that of
+ *       finding the cells of their nodes */
 USE_RESULT bool segment_graph_find_short_spurs(
     const struct segment_graph *graph, const struct node_rows *rows,
-    const struct sheet *sheet, const struct pens *pens, double output_step,
+    const struct sheet *sheet, const struct pens *pens, double step,
     uint8_t *drop);
 
 #endif
