@@ -332,6 +332,38 @@ static void plain_numbers_are_read_as_all_others(void **state) {
   }
   assert_true(plain > samples(120000));
 }
+
+/* Their quotients by powers of ten end in ones or zeros: powers of two, and
+ * what lies next to the middle of two doubles. */
+static void plain_numbers_carry_where_they_are_rounded(void **state) {
+  static const char *const text[] = {
+      "0.5",
+      "0.015625",
+      "0.001953125",
+      "64.0",
+      "0.999999999999999944",
+      "0.999999999999999945",
+      "0.999999999999999999",
+      "99.99999999999999999",
+      "0.125000000000000013",
+      "0.125000000000000014",
+      "0.125000000000000041",
+      "0.125000000000000042",
+      "0.000000000000000001",
+      "0.0",
+      "9999999.999999999",
+  };
+  (void)state;
+  for (size_t i = 0; i < sizeof text / sizeof *text; i++) {
+    char block[2 * NUMBER_PLAIN_ROOM] = "-";
+    double value = 0;
+    strcat(block, text[i]);
+    size_t length = strlen(block);
+    block[length] = '\n';
+    assert_ptr_equal(number_parse_plain(block, &value), block + length);
+    assert_true(bits_of(value) == bits_of(strtod(block, NULL)));
+  }
+}
 #endif
 
 /* Is the whole text one number? */
@@ -588,6 +620,7 @@ int main(void) {
     cmocka_unit_test(nothing_is_read_past_the_end),
 #if DIGITS_CHUNKS
     cmocka_unit_test(plain_numbers_are_read_as_all_others),
+    cmocka_unit_test(plain_numbers_carry_where_they_are_rounded),
 #endif
     cmocka_unit_test(names_of_non_finite_numbers_are_read),
     cmocka_unit_test(integers_are_read_up_to_their_limits),

@@ -15,13 +15,12 @@ static inline bool digits_is_one(char c) { return c >= '0' && c <= '9'; }
  * returns how many of them, from the first one on, are digits.
  *
  * A byte b is a digit where b ^ '0' <= 9; adding 0x76 then carries into its
- * top bit if it is not. */
+ * top bit if it is not.  One beyond 0x89 carries into the byte after it, too;
+ * but it has its own top bit, and only bytes before it matter. */
 static inline int digits_count(const char *text, uint64_t *chunk) {
   memcpy(chunk, text, 8);
   *chunk ^= UINT64_C(0x3030303030303030);
-  uint64_t other =
-      ((*chunk & UINT64_C(0x7f7f7f7f7f7f7f7f)) + UINT64_C(0x7676767676767676)) |
-      *chunk;
+  uint64_t other = (*chunk + UINT64_C(0x7676767676767676)) | *chunk;
   other &= UINT64_C(0x8080808080808080);
   return other ? __builtin_ctzll(other) / 8 : 8;
 }

@@ -6,10 +6,12 @@
  *   2. w < 2^53 and |e| <= 22: both w and 10^|e| are doubles, so one division
  *      or product rounds once [Clinger].
  *   3. |e| <= 27: 5^|e| fits in 64 bits, and the product, or the quotient
- *      with its remainder, is exact in 128 bits.
+ *      with its remainder, is exact in 128 bits.  Nearly always an estimate
+ *      of the quotient is enough (number_scale_down).
  *   4. The rest goes to decimal.c.
  * Sources
  *   [Clinger] How to read floating point numbers accurately, 1990.
+ *   [Lemire] Lemire: Number parsing at a gigabyte per second, 2021.
  *   [Moller] Moller, Granlund: Improved division by invariant integers, 2011.
  */
 #include "base/number.h"
@@ -20,8 +22,6 @@
 
 #include "base/decimal.h"
 #include "base/digits.h"
-
-__extension__ typedef unsigned __int128 uint128;
 
 enum {
   DIGITS_SAFE = 19, /* so many digits always fit in 64 bits */
@@ -34,9 +34,8 @@ static const double power_of_ten[POWER_OF_TEN_MAX + 1] = {
     1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
 #if DIGITS_CHUNKS
-const double number_power_of_ten[16] = {1e0,  1e1,  1e2,  1e3, 1e4,  1e5,
-                                        1e6,  1e7,  1e8,  1e9, 1e10, 1e11,
-                                        1e12, 1e13, 1e14, 1e15};
+const uint64_t number_power_of_ten[9] = {
+    1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
 #endif
 
 /* How many zero bits stand above the highest one of x > 0. */
@@ -107,8 +106,8 @@ static inline uint64_t divide_by_power(uint64_t high, uint64_t low,
                                        const struct power_of_five *divisor,
                                        bool *rest) {
   uint64_t d = divisor->shifted;
-  uint128 estimate =
-      (uint128)divisor->reciprocal * high + ((uint128)high << 64 | low);
+  number_uint128 estimate = (number_uint128)divisor->reciprocal * high +
+                            ((number_uint128)high << 64 | low);
   uint64_t quotient = (uint64_t)(estimate >> 64) + 1;
   uint64_t remainder = low - quotient * d;
   if (remainder > (uint64_t)estimate) {
@@ -123,15 +122,34 @@ static inline uint64_t divide_by_power(uint64_t high, uint64_t low,
   return quotient;
 }
 
+/* The product of w, its top bit shifted to the 64th, and `scaled` is that of w
+ * and 2^(63 + b), where 2^b is the next power of two from 5^digits on.  The
+ * exponents are 1023 + 52 + 11 - b - digits, without the shifts, for a
+ * significand whose hidden bit adds one. */
+const struct number_reciprocal number_reciprocal[POWER_OF_FIVE_MAX + 1] = {
+    {UINT64_C(0x8000000000000000), 1086}, {UINT64_C(0xcccccccccccccccc), 1082},
+    {UINT64_C(0xa3d70a3d70a3d70a), 1079}, {UINT64_C(0x83126e978d4fdf3b), 1076},
+    {UINT64_C(0xd1b71758e219652b), 1072}, {UINT64_C(0xa7c5ac471b478423), 1069},
+    {UINT64_C(0x8637bd05af6c69b5), 1066}, {UINT64_C(0xd6bf94d5e57a42bc), 1062},
+    {UINT64_C(0xabcc77118461cefc), 1059}, {UINT64_C(0x89705f4136b4a597), 1056},
+    {UINT64_C(0xdbe6fecebdedd5be), 1052}, {UINT64_C(0xafebff0bcb24aafe), 1049},
+    {UINT64_C(0x8cbccc096f5088cb), 1046}, {UINT64_C(0xe12e13424bb40e13), 1042},
+    {UINT64_C(0xb424dc35095cd80f), 1039}, {UINT64_C(0x901d7cf73ab0acd9), 1036},
+    {UINT64_C(0xe69594bec44de15b), 1032}, {UINT64_C(0xb877aa3236a4b449), 1029},
+    {UINT64_C(0x9392ee8e921d5d07), 1026}, {UINT64_C(0xec1e4a7db69561a5), 1022},
+    {UINT64_C(0xbce5086492111aea), 1019}, {UINT64_C(0x971da05074da7bee), 1016},
+    {UINT64_C(0xf1c90080baf72cb1), 1012}, {UINT64_C(0xc16d9a0095928a27), 1009},
+    {UINT64_C(0x9abe14cd44753b52), 1006}, {UINT64_C(0xf79687aed3eec551), 1002},
+    {UINT64_C(0xc612062576589dda), 999},  {UINT64_C(0x9e74d1b791e07e48), 996},
+};
+
 /* The quotient below has 63 or 64 bits, as both numbers have their top bits set
  * and the dividend half a bit less.  A bit that it lacks at its end is made up
  * for by the remainder: rounding looks at 54 bits and whether anything
  * follows. */
-double number_scale_down(uint64_t w, int digits) {
+double number_divide(uint64_t w, int digits) {
   const struct power_of_five *five = &power_of_five[digits];
   bool rest;
-  if (w == 0)
-    return 0;
   int shift = leading_zeros(w);
   w <<= shift;
   uint64_t quotient = divide_by_power(w >> 1, w << 63, five, &rest);
@@ -145,7 +163,7 @@ static double scale_exactly(uint64_t w, int e) {
   if (e < 0)
     return number_scale_down(w, -e);
   const struct power_of_five *five = &power_of_five[e];
-  uint128 product = (uint128)w * (five->shifted >> five->shift);
+  number_uint128 product = (number_uint128)w * (five->shifted >> five->shift);
   uint64_t high = (uint64_t)(product >> 64), low = (uint64_t)product;
   if (high == 0)
     return decimal_round(low << leading_zeros(low), false,

@@ -2,10 +2,10 @@
 #ifndef BASE_NUMBER_H
 #define BASE_NUMBER_H
 
-#include <float.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #include "base/digits.h"
 
@@ -19,15 +19,61 @@
 const char *number_parse_double(const char *text, const char *end,
                                 double *value);
 
+__extension__ typedef unsigned __int128 number_uint128;
+
+/* 1 / 5^digits as `scaled` * 2^-n, whose top bit is set, rounded down. */
+struct number_reciprocal {
+  uint64_t scaled;
+  int exponent; /* of a double: see number_scale_down */
+};
+
+extern const struct number_reciprocal number_reciprocal[28];
+
+/* w / 10^digits, rounded once; w > 0, 0 <= digits <= 27. */
+double number_divide(uint64_t w, int digits);
+
+/* The same, also of w = 0, nearly always by one product and without a branch
+ * that depends on w [Lemire].
+ * Both factors have their top bits set.  The first 64 bits of the exact product
+ * are no less than those of this one, and less than two more: the reciprocal
+ * is too small by less than one, and so is what is left out of the product.
+ * Moved up by a bit, that is four.  So rounding to 53 bits is certain unless
+ * the half of a last bit is that near above. */
+static inline double number_scale_down(uint64_t w, int digits) {
+  enum { DROPPED = 64 - 53, HALF = 1 << (DROPPED - 1), ERROR = 4 };
+  if (w == 0)
+    return 0;
+  const struct number_reciprocal *by = &number_reciprocal[digits];
+  int shift = __builtin_clzll(w);
+  uint64_t high = (uint64_t)(((number_uint128)(w << shift) * by->scaled) >> 64);
+  int up = !(high >> 63);
+  high <<= up;
+  uint64_t rest = high & ((UINT64_C(1) << DROPPED) - 1);
+  if (rest + ERROR > HALF && rest <= HALF)
+    return number_divide(w, digits);
+  /* The hidden bit adds one to the exponent, and so does a carry. */
+  uint64_t bits = (((high >> (DROPPED - 1)) + 1) >> 1) +
+                  ((uint64_t)(by->exponent - shift - up) << 52);
+  double value;
+  memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
 #if DIGITS_CHUNKS
 /* So many bytes are read at once. */
 enum { NUMBER_PLAIN_ROOM = 32 };
 
-/* 1e0 to 1e15, all of them exact. */
-extern const double number_power_of_ten[16];
+/* 10^0 to 10^8. */
+extern const uint64_t number_power_of_ten[9];
 
-/* w / 10^digits, rounded once; 0 <= digits <= 27. */
-double number_scale_down(uint64_t w, int digits);
+/* The same number below zero where `negative`, without a branch. */
+static inline double number_with_sign(double magnitude, bool negative) {
+  uint64_t bits;
+  memcpy(&bits, &magnitude, sizeof bits);
+  bits |= (uint64_t)negative << 63;
+  memcpy(&magnitude, &bits, sizeof bits);
+  return magnitude;
+}
 
 /* Appends the digits at `text` to *sum, and returns how many there are, up to
  * 8. */
@@ -35,15 +81,12 @@ static inline int number_add_chunk(const char *text, uint64_t *sum) {
   uint64_t chunk;
   int count = digits_count(text, &chunk);
   if (count > 0)
-    *sum =
-        *sum * (uint64_t)number_power_of_ten[count] + digits_sum(chunk, count);
+    *sum = *sum * number_power_of_ten[count] + digits_sum(chunk, count);
   return count;
 }
 
 /* Parses [-]digits[.digits] where there are at most 7 digits before the point,
- * or at most 2 where more than 15 are behind it, and 19 in all.  Whole numbers
- * up to 2^53 over a power of ten that is a double are divided, which rounds
- * once [Clinger].
+ * or at most 2 where more than 15 are behind it, and 19 in all.
  * text  has NUMBER_PLAIN_ROOM bytes at least
  * Returns where it stopped, or NULL where there is something else.
  * Exact: as number_parse_double. */
@@ -52,8 +95,12 @@ static inline const char *number_parse_plain(const char *text, double *value) {
   uint64_t sum = 0;
   bool negative = *text == '-';
   text += negative;
-  int whole = number_add_chunk(text, &sum), decimals = 0;
-  if (FLT_EVAL_METHOD != 0 || whole == 0 || whole == CHUNK)
+  int whole = 1, decimals = 0;
+  if (text[1] == '.' && digits_is_one(*text))
+    sum = (uint64_t)(*text - '0'); /* nearly all: the branch is foreseen */
+  else
+    whole = number_add_chunk(text, &sum);
+  if (whole == 0 || whole == CHUNK)
     return NULL;
   text += whole;
   if (*text == '.') {
@@ -71,10 +118,7 @@ static inline const char *number_parse_plain(const char *text, double *value) {
       return NULL;
     text += decimals;
   }
-  double magnitude = sum <= UINT64_C(1) << 53 && decimals < 16
-                         ? (double)(int64_t)sum / number_power_of_ten[decimals]
-                         : number_scale_down(sum, decimals);
-  *value = negative ? -magnitude : magnitude;
+  *value = number_with_sign(number_scale_down(sum, decimals), negative);
   return text;
 }
 #endif
