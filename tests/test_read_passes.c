@@ -1,5 +1,5 @@
-/* test_read_passes.c - a model that is read in passes, block by block, is the
- * one that is read at once. */
+/* test_read_passes.c - a model that is read block by block, in one pass or in
+ * several, is the one that is read at once. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "scene/obj_blocks.h"
 #include "scene/read_passes.h"
 #include "tests/reading.h"
 #include "tests/temporary.h"
@@ -87,41 +88,72 @@ static void read_in_passes(struct reading *reading, const char *path,
   read_passes_close(file);
 }
 
-static void read_at_once(struct reading *reading, const char *path) {
+static void read_at_once(struct reading *reading, const char *path,
+                         const char *text) {
   reading_init(reading);
-  reading->status = scene_read(&reading->scene, path, "obj",
-                               &reading->diagnostics, &reading->error);
+  reading->status =
+      scene_read_memory(&reading->scene, text, strlen(text), path, "obj",
+                        &reading->diagnostics, &reading->error);
 }
 
-/* Compares both ways for a text. */
+/* Reads a file in one pass. */
+static void read_in_blocks(struct reading *reading, const char *path,
+                           size_t least) {
+  struct obj_blocks blocks = {.lines = {.bytes = NULL}};
+  reading_init(reading);
+  assert_true(line_blocks_open(&blocks.lines, path, least));
+  reading->status = scene_read_blocks(&reading->scene, &blocks, path,
+                                      &reading->diagnostics, &reading->error);
+}
+
+/* Compares a reading in blocks of so many bytes with the one at once. */
+static void compare_readings(const struct reading *whole,
+                             const struct reading *parts, size_t least,
+                             int passes, const char *text, bool same_words) {
+  if ((whole->status == RECTO_OK) != (parts->status == RECTO_OK) ||
+      (whole->status == RECTO_OK &&
+       (!reading_same(&whole->scene, &parts->scene) ||
+        whole->scene.face_skipped.count != parts->scene.face_skipped.count ||
+        whole->warnings != parts->warnings)))
+    fail_msg("blocks of %zu, %d passes: status %d and %d, %d and %d "
+             "warnings: %s\n%s",
+             least, passes, (int)whole->status, (int)parts->status,
+             whole->warnings, parts->warnings, parts->error.text, text);
+  for (size_t s = 0;
+       whole->status == RECTO_OK && s < whole->scene.face_skipped.count; s++)
+    assert_int_equal(whole->scene.face_skipped.item[s],
+                     parts->scene.face_skipped.item[s]);
+  if (same_words && whole->status != RECTO_OK) {
+    assert_string_equal(whole->error.text, parts->error.text);
+    assert_int_equal(whole->error.line, parts->error.line);
+  }
+}
+
+/* In one pass warnings come in the same order, too. */
+static void compare_warnings(const struct reading *whole,
+                             const struct reading *parts) {
+  for (int i = 0; i < whole->warnings && i < READING_WARNINGS; i++)
+    assert_string_equal(whole->warning[i], parts->warning[i]);
+}
+
+/* Compares all ways for a text. */
 static void compare_ways(void *const *state, const char *text,
                          bool same_words) {
   static const size_t least[] = {1, 7, 30, 100, 1 << 20};
   const char *path = temporary_file(state, "model.obj", text, strlen(text));
   struct reading whole, parts;
-  read_at_once(&whole, path);
-  for (size_t i = 0; i < sizeof least / sizeof least[0]; i++)
+  read_at_once(&whole, path, text);
+  for (size_t i = 0; i < sizeof least / sizeof least[0]; i++) {
+    read_in_blocks(&parts, path, least[i]);
+    compare_readings(&whole, &parts, least[i], 0, text, true);
+    compare_warnings(&whole, &parts);
+    reading_fini(&parts);
     for (int passes = 1; passes <= 2; passes++) {
       read_in_passes(&parts, path, least[i], passes);
-      if ((whole.status == RECTO_OK) != (parts.status == RECTO_OK) ||
-          (whole.status == RECTO_OK &&
-           (!reading_same(&whole.scene, &parts.scene) ||
-            whole.scene.face_skipped.count != parts.scene.face_skipped.count ||
-            whole.warnings != parts.warnings)))
-        fail_msg("blocks of %zu, %d passes: status %d and %d, %d and %d "
-                 "warnings: %s\n%s",
-                 least[i], passes, (int)whole.status, (int)parts.status,
-                 whole.warnings, parts.warnings, parts.error.text, text);
-      for (size_t s = 0;
-           whole.status == RECTO_OK && s < whole.scene.face_skipped.count; s++)
-        assert_int_equal(whole.scene.face_skipped.item[s],
-                         parts.scene.face_skipped.item[s]);
-      if (same_words && whole.status != RECTO_OK) {
-        assert_string_equal(whole.error.text, parts.error.text);
-        assert_int_equal(whole.error.line, parts.error.line);
-      }
+      compare_readings(&whole, &parts, least[i], passes, text, same_words);
       reading_fini(&parts);
     }
+  }
   reading_fini(&whole);
 }
 
@@ -149,6 +181,10 @@ static void what_a_file_may_have_is_read(void **state) {
       "  v 0 0 0\n\tv 1 0 0\n v 0 1 0\n f 1 2 3\n",
       POINTS "vague v\nvvv\nf 1 2 3\ns off\no thing v\nf 2 3 4\n",
       "v 1 2 3\n",
+      /* points after a face that names one of them, then more of both */
+      POINTS
+      "f 1 2 3\no a\nf 1 2 5\nv 5 5 5\nf 2 3 6\nv nan 0 0\ng b\nf 1 2 7\n"
+      "v 6 6 6\nf 1 2 3 \\\n4\nf 1 2 9\n",
   };
   for (size_t i = 0; i < sizeof text / sizeof text[0]; i++)
     compare_ways(state, text[i], true);

@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include "base/gunzip.h"
-#include "base/parallel.h"
+#include "base/parallel_read.h"
 #include "base/poll.h"
 
 size_t input_size_max(void) {
@@ -46,45 +46,18 @@ static bool was_cut_short(const struct source *source, size_t count) {
          (size_t)attributes.st_size < source->size;
 }
 
-/* ---- A regular file, in parallel ----------------------------------------- */
-
-enum { PART = 1 << 20 }; /* bytes that a thread reads at once */
-
-struct parallel_reading {
-  const struct source *source;
-  off_t from;
-  char *to;
-  size_t *got; /* of each part */
-};
-
-/* Ends where anything is wrong: it is read once more to say what. */
-static bool read_part(void *user, struct parallel_range range) {
-  const struct parallel_reading *reading = user;
-  size_t at = range.begin;
-  ssize_t got = 1;
-  for (; at < range.end && got > 0; at += got > 0 ? (size_t)got : 0)
-    got = pread(reading->source->descriptor, reading->to + at, range.end - at,
-                reading->from + (off_t)at);
-  reading->got[range.begin / PART] = at - range.begin;
-  return true;
-}
-
-/* Reads what it can of a large file, from its position, to which it adds what
- * was read. */
+/* Reads what it can of a large file in parallel, from its position, to which it
+ * adds what was read. */
 static void read_parts(const struct source *source, struct byte_array *data) {
-  size_t parts = parallel_range_count(source->size, PART), count = 0;
-  int workers = parallel_workers(source->size, PART);
-  off_t from = workers > 1 ? lseek(source->descriptor, 0, SEEK_CUR) : -1;
-  size_t *got = from >= 0 ? mem_calloc(parts, sizeof *got) : NULL;
-  if (got == NULL)
+  if (!parallel_read_is_worth(source->size))
     return;
-  struct parallel_reading reading = {source, from, data->item, got};
-  (void)parallel_ranges(workers, source->size, PART, read_part, &reading);
-  for (size_t i = 0; i < parts && count == i * PART; i++)
-    count += got[i];
-  if (lseek(source->descriptor, from + (off_t)count, SEEK_SET) >= 0)
-    data->count = count;
-  mem_free(got);
+  off_t from = lseek(source->descriptor, 0, SEEK_CUR);
+  if (from < 0)
+    return;
+  size_t got =
+      parallel_read(source->descriptor, from, data->item, source->size);
+  if (lseek(source->descriptor, from + (off_t)got, SEEK_SET) >= 0)
+    data->count = got;
 }
 
 /* ---- Anything ------------------------------------------------------------ */
@@ -107,7 +80,7 @@ static recto_status read_all(const struct source *source, struct input *input,
     size_t left = input->buffer.capacity - input->buffer.count - 1;
     ssize_t got =
         read(source->descriptor, input->buffer.item + input->buffer.count,
-             left < PART ? left : PART);
+             left < PARALLEL_READ_PART ? left : PARALLEL_READ_PART);
     if (got < 0 && errno == EINTR)
       continue;
     if (got < 0)

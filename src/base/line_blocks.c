@@ -13,6 +13,7 @@
 
 #include "base/gunzip.h"
 #include "base/input.h"
+#include "base/parallel_read.h"
 #include "base/poll.h"
 
 enum { NULS = 8 }; /* behind a block */
@@ -73,7 +74,15 @@ static recto_status append_bytes(struct line_blocks *blocks, size_t wanted,
   struct byte_array *buffer = &blocks->buffer;
   if (!ARRAY_RESERVE(buffer, wanted + NULS))
     return error_memory(error);
-  for (size_t left = wanted; left > 0;) {
+  size_t left = wanted;
+  if (parallel_read_is_worth(wanted)) {
+    size_t got =
+        parallel_read(blocks->descriptor, blocks->begin + (off_t)buffer->count,
+                      buffer->item + buffer->count, wanted);
+    buffer->count += got;
+    left -= got;
+  }
+  while (left > 0) {
     ssize_t got = pread(blocks->descriptor, buffer->item + buffer->count, left,
                         blocks->begin + (off_t)buffer->count);
     if (got < 0 && errno == EINTR)
@@ -124,15 +133,23 @@ recto_status line_blocks_next(struct line_blocks *blocks, recto_error *error) {
         wanted == (size_t)left ? buffer->count : whole_lines(buffer);
   } while (blocks->count == 0 && buffer->count > 0);
   blocks->end = blocks->begin + (off_t)blocks->count;
-  if (blocks->end == blocks->size && !is_unchanged(blocks))
+  if (blocks->end == blocks->size && !blocks->is_read_once &&
+      !is_unchanged(blocks))
     return refuse_change(blocks, error);
   memset(buffer->item + blocks->count, 0, NULS);
   blocks->bytes = buffer->item;
   return RECTO_OK;
 }
 
+void line_blocks_share(struct line_blocks *second,
+                       const struct line_blocks *blocks) {
+  *second = *blocks;
+  second->is_shared = true;
+  second->buffer = (struct byte_array){NULL, 0, 0};
+}
+
 void line_blocks_close(struct line_blocks *blocks) {
-  if (blocks->is_open)
+  if (blocks->is_open && !blocks->is_shared)
     close(blocks->descriptor);
   ARRAY_FREE(&blocks->buffer);
   *blocks = (struct line_blocks){.bytes = NULL};

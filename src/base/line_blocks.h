@@ -17,8 +17,10 @@ struct line_blocks {
   off_t begin, end; /* where it lies in the file */
   off_t size;       /* of the file */
   struct file_identity file;
+  bool is_read_once; /* so that it may be changed after it was read */
   /* private */
   bool is_open;
+  bool is_shared; /* the descriptor is another one's */
   int descriptor;
   const char *path;
   struct timespec modified;
@@ -39,11 +41,15 @@ void line_blocks_seek(struct line_blocks *blocks, off_t place);
 
 /* Reads the block that follows; at the end of the file it is empty.  It ends
  * with a line that no backslash continues, or with the file.
- * Errors  RECTO_ERROR_IO, also where the file is cut short or changed in the
- *         meantime; RECTO_ERROR_LIMIT: a line is too long; RECTO_ERROR_MEMORY,
- *         _CANCELLED */
+ * Errors  RECTO_ERROR_IO, also where the file is cut short in the meantime or,
+ *         unless it is read once, changed; RECTO_ERROR_LIMIT: a line is too
+ *         long; RECTO_ERROR_MEMORY, _CANCELLED */
 USE_RESULT recto_status line_blocks_next(struct line_blocks *blocks,
                                          recto_error *error);
+
+/* Makes `second` blocks of the same file, which are to be closed first. */
+void line_blocks_share(struct line_blocks *second,
+                       const struct line_blocks *blocks);
 
 void line_blocks_close(struct line_blocks *blocks);
 

@@ -17,6 +17,7 @@ librecto_core_la_SOURCES += \
   %D%/number_format.c \
   %D%/number_lists.c %D%/number_lists.h \
   %D%/parallel.c %D%/parallel.h \
+  %D%/parallel_read.c %D%/parallel_read.h \
   %D%/path.c %D%/path.h \
   %D%/poll.c %D%/poll.h \
   %D%/report.c %D%/report.h \

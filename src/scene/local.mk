@@ -15,6 +15,7 @@ librecto_core_la_SOURCES += \
   %D%/material.c %D%/material.h \
   %D%/name.c %D%/name.h \
   %D%/newell_normal.c %D%/newell_normal.h \
+  %D%/obj_blocks.c %D%/obj_blocks.h \
   %D%/obj_parser.c %D%/obj_parser.h \
   %D%/obj_run.c \
   %D%/obj_triangles.c \

@@ -10,8 +10,12 @@
 
 enum name_kind { NAME_OBJECT, NAME_GROUP, NAME_MATERIAL, NAME_COUNT };
 
+struct obj_blocks;
+
 struct obj_parser {
   struct scene *scene;
+  /* Of which this is one; NULL: it is the whole file. */
+  const struct obj_blocks *blocks;
   const char *at, *end; /* *end is NUL */
   unsigned long line;   /* of `at` */
   const char *path;

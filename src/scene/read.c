@@ -1,7 +1,8 @@
 /* read.c - brings a model file into memory and hands it to its reader.
  *
- * Readers see the whole of it with a NUL behind, so that most of their
- * look-ahead needs no comparison with the end.
+ * Readers see the whole of it, of an OBJ file a block of whole lines, with a
+ * NUL behind, so that most of their look-ahead needs no comparison with the
+ * end.
  */
 #include "scene/read.h"
 
@@ -11,6 +12,7 @@
 #include "base/path.h"
 #include "base/word.h"
 #include "scene/conversion.h"
+#include "scene/obj_blocks.h"
 
 /* ---- The reader ---------------------------------------------------------- */
 
@@ -115,9 +117,11 @@ static recto_status refuse_format(const char *path, const char *format,
 
 /* ---- Reading ------------------------------------------------------------- */
 
-/* Reads what was loaded; on a failure the scene is as it was. */
+/* Reads what was loaded; on a failure the scene is as it was.
+ * blocks  what it is read from instead; NULL: it was loaded */
 static recto_status read_input(struct scene *scene, const struct reader *reader,
-                               const struct input *input, const char *path,
+                               const struct input *input,
+                               struct obj_blocks *blocks, const char *path,
                                const char *format,
                                struct diagnostics *diagnostics,
                                recto_error *error) {
@@ -127,6 +131,7 @@ static recto_status read_input(struct scene *scene, const struct reader *reader,
   memcpy(model.up, reader->up, sizeof model.up);
   if (diagnostics != NULL) {
     diagnostics->bytes = input->bytes;
+    diagnostics->bytes_before = 0;
     diagnostics->byte_count = input->count;
   }
   scene_snapshot(scene, &before);
@@ -136,8 +141,10 @@ static recto_status read_input(struct scene *scene, const struct reader *reader,
     status = error_set(error, RECTO_ERROR_FORMAT, path, 1, "the file is empty");
   read_begin_file(scene, path);
   if (status == RECTO_OK)
-    status = reader->read(scene, input->bytes, input->count, path, format,
-                          diagnostics, error);
+    status = blocks != NULL
+                 ? obj_blocks_read(blocks, scene, path, diagnostics, error)
+                 : reader->read(scene, input->bytes, input->count, path, format,
+                                diagnostics, error);
   model.unit_mm = scene->file_unit_mm;
   scene_end_file(scene);
   if (status == RECTO_OK && scene->precision.count == before.precisions)
@@ -154,6 +161,20 @@ static recto_status read_input(struct scene *scene, const struct reader *reader,
   return RECTO_OK;
 }
 
+recto_status scene_read_blocks(struct scene *scene, struct obj_blocks *blocks,
+                               const char *path,
+                               struct diagnostics *diagnostics,
+                               recto_error *error) {
+  const struct input input = {.count = (size_t)blocks->lines.size,
+                              .is_file = true,
+                              .file = blocks->lines.file};
+  blocks->lines.is_read_once = true;
+  recto_status status = read_input(scene, &reader_obj, &input, blocks, path,
+                                   "obj", diagnostics, error);
+  obj_blocks_close(blocks);
+  return status;
+}
+
 recto_status scene_read(struct scene *scene, const char *path,
                         const char *format, struct diagnostics *diagnostics,
                         recto_error *error) {
@@ -161,11 +182,17 @@ recto_status scene_read(struct scene *scene, const char *path,
   const struct reader *reader = choose_reader(path, extension, &format);
   if (reader == NULL)
     return refuse_format(path, format, error);
+  struct obj_blocks blocks = {.lines = {.bytes = NULL}};
+  if (reader == &reader_obj &&
+      line_blocks_open(&blocks.lines, path, obj_blocks_bytes()) &&
+      (uint64_t)blocks.lines.size <= input_size_max())
+    return scene_read_blocks(scene, &blocks, path, diagnostics, error);
+  obj_blocks_close(&blocks);
   struct input input;
   recto_status status = input_load(&input, path, error);
   if (status == RECTO_OK)
-    status =
-        read_input(scene, reader, &input, path, format, diagnostics, error);
+    status = read_input(scene, reader, &input, NULL, path, format, diagnostics,
+                        error);
   input_unload(&input);
   return status;
 }
@@ -182,8 +209,8 @@ recto_status scene_read_memory(struct scene *scene, const void *bytes,
   struct input input;
   recto_status status = input_copy(&input, bytes, count, name, error);
   if (status == RECTO_OK)
-    status =
-        read_input(scene, reader, &input, name, format, diagnostics, error);
+    status = read_input(scene, reader, &input, NULL, name, format, diagnostics,
+                        error);
   input_unload(&input);
   return status;
 }

@@ -6,7 +6,8 @@
 #include "scene/scene.h"
 
 /* One reader per format, each a file reader_*.c.  The whole input is handed
- * over in memory (mapped, or read from a pipe), NUL-terminated past its end.
+ * over in memory, NUL-terminated past its end; but an OBJ file that can be read
+ * from any place is handed over in blocks (obj_blocks.h).
  * path    as the user wrote it, for messages
  * format  the reader's name, or the extension it was chosen by
  * A reader states the precision of its points; where it does not, the options
@@ -43,6 +44,17 @@ USE_RESULT recto_status scene_read(struct scene *scene, const char *path,
                                    const char *format,
                                    struct diagnostics *diagnostics,
                                    recto_error *error);
+
+struct obj_blocks;
+
+/* Does so with an OBJ file of that path that was opened in blocks, which are
+ * closed.
+ * Errors  as of scene_read */
+USE_RESULT recto_status scene_read_blocks(struct scene *scene,
+                                          struct obj_blocks *blocks,
+                                          const char *path,
+                                          struct diagnostics *diagnostics,
+                                          recto_error *error);
 
 /* Reads the bytes of a model file in the same way.
  * name    for messages; an OBJ file's material libraries are looked for beside

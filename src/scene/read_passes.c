@@ -12,9 +12,8 @@
 
 #include <string.h>
 
-#include "base/line_blocks.h"
 #include "base/poll.h"
-#include "scene/obj_parser.h"
+#include "scene/obj_blocks.h"
 #include "scene/read.h"
 
 enum { BLOCK_BYTES = 1 << 20 };
@@ -26,7 +25,7 @@ struct held_block {
 };
 
 struct read_passes {
-  struct line_blocks blocks;
+  struct obj_blocks blocks;
   struct obj_parser parser;
   const char *path;
   struct diagnostics *diagnostics;
@@ -36,7 +35,6 @@ struct read_passes {
   off_t faces_at;
   unsigned long faces_line;
   size_t faces_seen;
-  ARRAY(char) name[NAME_COUNT]; /* current names, of earlier blocks */
   ARRAY(struct held_block) held;
   size_t next_held;
 };
@@ -54,46 +52,13 @@ recto_status read_passes_open(struct read_passes **passes, const char *path,
     line_blocks_close(&blocks);
     return error_memory(error);
   }
-  (*passes)->blocks = blocks;
+  (*passes)->blocks.lines = blocks;
   (*passes)->path = path;
   return RECTO_OK;
 }
 
 struct file_identity read_passes_file(const struct read_passes *passes) {
-  return passes->blocks.file;
-}
-
-/* Copies the current names, which lie in the block. */
-static recto_status keep_names(struct read_passes *passes) {
-  struct obj_parser *p = &passes->parser;
-  for (int i = 0; i < NAME_COUNT; i++) {
-    struct material_name *name = &p->name[i];
-    if (name->length == 0 || name->start == passes->name[i].item)
-      continue;
-    passes->name[i].count = 0;
-    if (!ARRAY_RESERVE(&passes->name[i], name->length))
-      return error_memory(p->error);
-    memcpy(passes->name[i].item, name->start, name->length);
-    name->start = passes->name[i].item;
-  }
-  return RECTO_OK;
-}
-
-/* Hands the block to the parser. */
-static recto_status enter_block(struct read_passes *passes) {
-  const struct line_blocks *blocks = &passes->blocks;
-  struct obj_parser *p = &passes->parser;
-  struct diagnostics *diagnostics = p->diagnostics;
-  if (diagnostics != NULL) {
-    diagnostics->bytes = diagnostics->poll_at = blocks->bytes;
-    diagnostics->bytes_before = (size_t)blocks->begin;
-    diagnostics->byte_count = (size_t)blocks->size;
-  }
-  if (blocks->begin == 0)
-    return obj_parser_open(p, blocks->bytes, blocks->count);
-  p->at = p->run_end = p->next_v = blocks->bytes;
-  p->end = blocks->bytes + blocks->count;
-  return RECTO_OK;
+  return passes->blocks.lines.file;
 }
 
 /* ---- Points -------------------------------------------------------------- */
@@ -101,7 +66,7 @@ static recto_status enter_block(struct read_passes *passes) {
 /* Holds the block's triangles if it has nothing else. */
 static recto_status hold_block(struct read_passes *passes, size_t first) {
   struct obj_parser *p = &passes->parser;
-  const struct line_blocks *blocks = &passes->blocks;
+  const struct line_blocks *blocks = &passes->blocks.lines;
   if (p->plain_bytes != blocks->count) {
     p->held.count = first;
     return RECTO_OK;
@@ -118,20 +83,20 @@ static recto_status read_point_blocks(struct read_passes *passes,
                                       recto_error *error) {
   struct obj_parser *p = &passes->parser;
   for (;;) {
-    recto_status status = line_blocks_next(&passes->blocks, error);
-    if (status == RECTO_OK && passes->blocks.size == 0)
+    recto_status status = line_blocks_next(&passes->blocks.lines, error);
+    if (status == RECTO_OK && passes->blocks.lines.size == 0)
       status = error_set(error, RECTO_ERROR_FORMAT, passes->path, 1,
                          "the file is empty");
-    if (status != RECTO_OK || passes->blocks.count == 0)
+    if (status != RECTO_OK || passes->blocks.lines.count == 0)
       return status;
     if (!p->others) {
-      passes->faces_at = passes->blocks.begin;
+      passes->faces_at = passes->blocks.lines.begin;
       passes->faces_line = p->line;
       passes->faces_seen = p->seen;
     }
     size_t held = p->held.count;
     p->plain_bytes = 0;
-    status = enter_block(passes);
+    status = obj_blocks_enter(&passes->blocks, p);
     if (status == RECTO_OK)
       status = obj_read_statements(p, true);
     if (status == RECTO_OK)
@@ -148,11 +113,11 @@ recto_status read_passes_points(struct read_passes *passes, struct scene *scene,
   passes->diagnostics = diagnostics;
   obj_parser_begin(p, scene, passes->path, diagnostics, error);
   p->marks = p->holds = true;
-  if (!ARRAY_PUSH(&scene->file, passes->blocks.file))
+  if (!ARRAY_PUSH(&scene->file, passes->blocks.lines.file))
     return error_memory(error);
   memcpy(scene->up, reader_obj.up, sizeof scene->up);
   read_begin_file(scene, passes->path);
-  line_blocks_seek(&passes->blocks, 0);
+  line_blocks_seek(&passes->blocks.lines, 0);
   recto_status status = read_point_blocks(passes, error);
   return status == RECTO_OK ? obj_finish_points(p) : status;
 }
@@ -176,7 +141,7 @@ static void begin_faces(struct read_passes *passes, recto_error *error) {
   p->diagnostics = passes->knows_faces ? &passes->silent : passes->diagnostics;
   passes->silent = (struct diagnostics){.file = passes->path};
   passes->next_held = 0;
-  line_blocks_seek(&passes->blocks, passes->faces_at);
+  line_blocks_seek(&passes->blocks.lines, passes->faces_at);
 }
 
 /* Reads the faces of the next block; *count: of so many bytes. */
@@ -185,18 +150,18 @@ static recto_status read_block(struct read_passes *passes, size_t *count,
   struct obj_parser *p = &passes->parser;
   const struct held_block *held = passes->held.item + passes->next_held;
   if (passes->next_held < passes->held.count &&
-      held->begin == passes->blocks.end) {
+      held->begin == passes->blocks.lines.end) {
     passes->next_held++;
-    line_blocks_seek(&passes->blocks, held->end);
+    line_blocks_seek(&passes->blocks.lines, held->end);
     *count = (size_t)(held->end - held->begin);
     return poll_now() ? obj_add_triangles(p, p->held.item + held->first,
                                           (held->past - held->first) / 3)
                       : error_cancelled(error);
   }
-  recto_status status = line_blocks_next(&passes->blocks, error);
-  *count = passes->blocks.count;
+  recto_status status = line_blocks_next(&passes->blocks.lines, error);
+  *count = passes->blocks.lines.count;
   if (status == RECTO_OK && *count > 0)
-    status = enter_block(passes);
+    status = obj_blocks_enter(&passes->blocks, p);
   return status == RECTO_OK && *count > 0 ? obj_read_statements(p, false)
                                           : status;
 }
@@ -217,7 +182,7 @@ recto_status read_passes_faces(struct read_passes *passes,
       status = take(user, p->scene, error);
     scene_drop_elements(p->scene);
     if (status == RECTO_OK)
-      status = keep_names(passes);
+      status = obj_blocks_keep_names(&passes->blocks, p);
   }
   if (status == RECTO_OK && !passes->knows_faces) {
     passes->knows_faces = true;
@@ -230,10 +195,8 @@ recto_status read_passes_faces(struct read_passes *passes,
 void read_passes_close(struct read_passes *passes) {
   if (passes == NULL)
     return;
-  line_blocks_close(&passes->blocks);
+  obj_blocks_close(&passes->blocks);
   obj_parser_fini(&passes->parser);
   ARRAY_FREE(&passes->held);
-  for (int i = 0; i < NAME_COUNT; i++)
-    ARRAY_FREE(&passes->name[i]);
   mem_free(passes);
 }

@@ -13,7 +13,7 @@
  * bytes that no text holds, and a last line that stops in the middle of a
  * statement, mean that the file itself is broken.
  */
-#include "scene/obj_parser.h"
+#include "scene/obj_blocks.h"
 
 #include <math.h>
 #include <string.h>
@@ -77,6 +77,8 @@ static recto_status read_points_ahead(struct obj_parser *p) {
   size_t seen = p->seen;
   obj_skip_line(p, true);
   recto_status status = obj_read_statements(p, true);
+  if (status == RECTO_OK && p->blocks != NULL)
+    status = obj_blocks_read_points_behind(p->blocks, p);
   p->at = at;
   p->line = line;
   p->seen = seen;

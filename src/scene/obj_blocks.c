@@ -1,0 +1,106 @@
+/* obj_blocks.c - an OBJ file that is handed to its parser block by block.
+ *
+ * The memory of a block is used again for the next one: the system need not
+ * clear as many pages as the file has, and what is parsed is still in the
+ * cache from being read (doc/decisions/0091). */
+#include "scene/obj_blocks.h"
+
+#include <string.h>
+
+#include "base/parallel.h"
+#include "scene/diagnostics.h"
+
+/* Several threads parse parts of one block: so large that it is worth while. */
+enum { BLOCK_BYTES = 1 << 18, BLOCK_BYTES_OF_THREADS = 1 << 22 };
+
+size_t obj_blocks_bytes(void) {
+  return parallel_workers(BLOCK_BYTES_OF_THREADS, BLOCK_BYTES) > 1
+             ? BLOCK_BYTES_OF_THREADS
+             : BLOCK_BYTES;
+}
+
+/* Hands a block to the parser. */
+static recto_status enter_lines(const struct line_blocks *lines,
+                                struct obj_parser *p) {
+  struct diagnostics *diagnostics = p->diagnostics;
+  if (diagnostics != NULL) {
+    diagnostics->bytes = diagnostics->poll_at = lines->bytes;
+    diagnostics->bytes_before = (size_t)lines->begin;
+    diagnostics->byte_count = (size_t)lines->size;
+  }
+  if (lines->begin == 0)
+    return obj_parser_open(p, lines->bytes, lines->count);
+  p->at = p->run_end = p->next_v = lines->bytes;
+  p->end = lines->bytes + lines->count;
+  return RECTO_OK;
+}
+
+recto_status obj_blocks_enter(const struct obj_blocks *blocks,
+                              struct obj_parser *p) {
+  return enter_lines(&blocks->lines, p);
+}
+
+recto_status obj_blocks_keep_names(struct obj_blocks *blocks,
+                                   struct obj_parser *p) {
+  for (int i = 0; i < NAME_COUNT; i++) {
+    struct material_name *name = &p->name[i];
+    if (name->length == 0 || name->start == blocks->name[i].item)
+      continue;
+    blocks->name[i].count = 0;
+    if (!ARRAY_RESERVE(&blocks->name[i], name->length))
+      return error_memory(p->error);
+    memcpy(blocks->name[i].item, name->start, name->length);
+    name->start = blocks->name[i].item;
+  }
+  return RECTO_OK;
+}
+
+recto_status obj_blocks_read_points_behind(const struct obj_blocks *blocks,
+                                           struct obj_parser *p) {
+  struct line_blocks behind;
+  recto_status status = RECTO_OK;
+  line_blocks_share(&behind, &blocks->lines);
+  while (status == RECTO_OK) {
+    status = line_blocks_next(&behind, p->error);
+    if (status != RECTO_OK || behind.count == 0)
+      break;
+    status = enter_lines(&behind, p);
+    if (status == RECTO_OK)
+      status = obj_read_statements(p, true);
+  }
+  line_blocks_close(&behind);
+  if (status == RECTO_OK)
+    status = enter_lines(&blocks->lines, p);
+  return status;
+}
+
+recto_status obj_blocks_read(struct obj_blocks *blocks, struct scene *scene,
+                             const char *path, struct diagnostics *diagnostics,
+                             recto_error *error) {
+  struct obj_parser p;
+  recto_status status = RECTO_OK;
+  obj_parser_begin(&p, scene, path, diagnostics, error);
+  p.blocks = blocks;
+  while (status == RECTO_OK) {
+    status = line_blocks_next(&blocks->lines, error);
+    if (status != RECTO_OK || blocks->lines.count == 0)
+      break;
+    status = obj_blocks_enter(blocks, &p);
+    if (status == RECTO_OK)
+      status = obj_read_statements(&p, false);
+    if (status == RECTO_OK)
+      status = obj_blocks_keep_names(blocks, &p);
+  }
+  if (status == RECTO_OK)
+    status = obj_finish_points(&p);
+  if (status == RECTO_OK)
+    status = obj_finish(&p);
+  obj_parser_fini(&p);
+  return status;
+}
+
+void obj_blocks_close(struct obj_blocks *blocks) {
+  line_blocks_close(&blocks->lines);
+  for (int i = 0; i < NAME_COUNT; i++)
+    ARRAY_FREE(&blocks->name[i]);
+}
