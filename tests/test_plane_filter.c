@@ -38,6 +38,7 @@ static void start(struct sheet *sheet, bool perspective, int bits,
   sheet->camera.d_min = 2;
   sheet->camera.d_max = 5;
   sheet->camera.contact = perspective ? 0x1p-20 : 0x1p-18;
+  sheet->camera.contact_most = sheet->camera.contact;
   sheet->z_scale = perspective ? 0x1p41 : 0x1p38;
   sheet->units_per_view = 0x1p26;
   struct geom_point p[3];
@@ -102,9 +103,29 @@ static bool check_sign_between(const struct occluder *occluder,
   return sign != 0;
 }
 
+/* What the coarse plane says of three points; counts what is certain.
+ * side  of occluder_side */
+static void check_coarse_plane(const struct sheet *sheet,
+                               const struct occluder *occluder,
+                               const struct geom_point p[3], const int side[3],
+                               int certain[2]) {
+  struct occlusion_bound all = occlusion_tolerance_bound_all(sheet);
+  struct coarse_plane plane = coarse_plane_of(&all, occluder->p);
+  for (int k = 0; k < 3; k++) {
+    int sign = coarse_plane_contact_sign(&plane, p[k]);
+    assert_true(sign == 0 ||
+                sign == geom_sign128(occluder_value(occluder, p[k])));
+    certain[0] += sign != 0;
+  }
+  bool beside = coarse_plane_is_beside(&plane, p);
+  assert_true(!beside ||
+              (side[0] != 0 && side[0] == side[1] && side[0] == side[2]));
+  certain[1] += beside;
+}
+
 /* All doubts and certainties of one triangle; counts the certain ones. */
 static void compare_with_exact(bool perspective, int bits, int depth_bits,
-                               int certain[7]) {
+                               int certain[9]) {
   struct sheet sheet;
   struct occluder occluder;
   start(&sheet, perspective, bits, depth_bits);
@@ -140,12 +161,13 @@ static void compare_with_exact(bool perspective, int bits, int depth_bits,
     bool differ = side[0] * side[1] < 0;
     certain[5] += check_sign_between(&occluder, &plane, p[0], p[1]) && differ;
     certain[6] += differ;
+    check_coarse_plane(&sheet, &occluder, p, side, certain + 7);
   }
   exact_sheet_fini(&sheet);
 }
 
 static void doubles_are_right_or_undecided(void **state) {
-  int certain[7] = {0};
+  int certain[9] = {0};
   (void)state;
   for (int i = 0; i < 300; i++) {
     int bits = 4 + i % 26, depth_bits = 4 + i % 36;
@@ -158,6 +180,8 @@ static void doubles_are_right_or_undecided(void **state) {
   assert_true(certain[3] > 150000);
   assert_true(certain[4] > 10000);
   assert_true(certain[5] > 500 && 2 * certain[5] > certain[6]);
+  assert_true(certain[7] > 90000);
+  assert_true(certain[8] > 400);
 }
 
 /* ---- Octagons ------------------------------------------------------------ */

@@ -29,6 +29,7 @@ librecto_core_la_SOURCES += \
   %D%/intersection/edge_fan.c %D%/intersection/edge_fan.h \
   %D%/intersection/intersection.c %D%/intersection/intersection.h \
   %D%/intersection/intersection_segment.c %D%/intersection/intersection_segment.h \
+  %D%/intersection/swept_triangle.h \
   %D%/culling/occlusion_buffer.c %D%/culling/occlusion_buffer.h \
   %D%/culling/culling_bands.c %D%/culling/culling_bands.h \
   %D%/culling/occlusion_culling.c %D%/culling/occlusion_culling.h \
@@ -68,6 +69,7 @@ librecto_core_la_SOURCES += \
   %D%/pairwise/tile_classification.c %D%/pairwise/tile_classification.h \
   %D%/pairwise/deferred_triangles.c %D%/pairwise/deferred_triangles.h \
   %D%/predicate/box2.h \
+  %D%/predicate/coarse_plane.c %D%/predicate/coarse_plane.h \
   %D%/predicate/contact.c %D%/predicate/contact.h \
   %D%/predicate/depth_plane.h \
   %D%/predicate/edge_intervals.c %D%/predicate/edge_intervals.h \

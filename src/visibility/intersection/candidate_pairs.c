@@ -11,7 +11,7 @@
 
 #include "base/sort.h"
 #include "visibility/index/bsp.h"
-#include "visibility/predicate/plane_filter.h"
+#include "visibility/intersection/swept_triangle.h"
 
 /* The shortest list for which a BSP is worth while. */
 enum { BSP_LIST_MIN = 256 };
@@ -20,21 +20,6 @@ enum { BSP_LIST_MIN = 256 };
  * latter in a sample of so many triangles, from all over the list, unless none
  * of the first few has it. */
 enum { FACE_LIST_MIN = 64, FIRST_SAMPLES = 12, SAMPLE_STEP = 37 };
-
-/* What the tests use of a triangle, computed once per list. */
-struct swept_triangle {
-  struct box2 box;
-  int64_t high; /* depth of the nearest corner */
-  int x0, y0;   /* the cell of the box's lower left corner */
-  uint32_t triangle;
-  uint32_t point[3];
-  struct geom_triangle corners;
-  uint64_t right_copy;  /* bsp.h */
-  bool in_group;        /* it is not tested with others that are, too */
-  bool has_inner_sides; /* some side is no edge of the mesh */
-  bool has_plane;       /* `plane` has been computed */
-  struct plane_filter plane;
-};
 
 static void make_swept_triangle(const struct pair_sweep *sweep,
                                 uint32_t triangle, uint64_t right_copy,
@@ -53,6 +38,7 @@ static void make_swept_triangle(const struct pair_sweep *sweep,
   s->right_copy = right_copy;
   s->in_group = false;
   s->has_inner_sides = (sheet->triangle_flags[triangle] & 7 * SHEET_INNER) != 0;
+  s->has_coarse_plane = false;
   s->has_plane = false;
 }
 
@@ -88,92 +74,14 @@ static bool is_cell_of_pair(const struct pair_sweep *sweep,
   return true;
 }
 
-/* The corners that two triangles share: bit 3 i + j stands for corner i of f,
- * which is corner j of g. */
-static inline unsigned shared_corners(const uint32_t f[3],
-                                      const uint32_t g[3]) {
-  return (unsigned)(f[0] == g[0]) | (unsigned)(f[0] == g[1]) << 1 |
-         (unsigned)(f[0] == g[2]) << 2 | (unsigned)(f[1] == g[0]) << 3 |
-         (unsigned)(f[1] == g[1]) << 4 | (unsigned)(f[1] == g[2]) << 5 |
-         (unsigned)(f[2] == g[0]) << 6 | (unsigned)(f[2] == g[1]) << 7 |
-         (unsigned)(f[2] == g[2]) << 8;
-}
-
-/* A vector on the page. */
-struct page_vector {
-  int64_t x, y;
-};
-
-static inline struct page_vector vector_between(struct geom_point a,
-                                                struct geom_point b) {
-  return (struct page_vector){(int64_t)b.x - a.x, (int64_t)b.y - a.y};
-}
-
-/* The cross product of two vectors, in 63 bits. */
-static inline int64_t cross_product(struct page_vector a,
-                                    struct page_vector b) {
-  return a.x * b.y - a.y * b.x;
-}
-
-/* Do two counter-clockwise triangles that share a corner, i of p and j of q,
- * have no other point of the page in common?  On a dense mesh nearly all such
- * pairs have none.  So it is where a side that ends in that corner separates
- * them: all of the other triangle is strictly to the right of the side that
- * begins there, or to the left of the one that ends there. */
-static bool are_disjoint_at_corner(const struct geom_point p[3], int i,
-                                   const struct geom_point q[3], int j) {
-  struct page_vector f_next = vector_between(p[i], p[geom_next_corner(i)]),
-                     f_last = vector_between(p[i], p[i == 0 ? 2 : i - 1]),
-                     g_next = vector_between(q[j], q[geom_next_corner(j)]),
-                     g_last = vector_between(q[j], q[j == 0 ? 2 : j - 1]);
-  int64_t next_next = cross_product(f_next, g_next),
-          next_last = cross_product(f_next, g_last),
-          last_next = cross_product(f_last, g_next),
-          last_last = cross_product(f_last, g_last);
-  return (next_next & next_last) < 0 || ((last_next > 0) & (last_last > 0)) ||
-         ((next_next > 0) & (last_next > 0)) || (next_last & last_last) < 0;
-}
-
-/* Is the side that triangle f shares with a triangle of corners q an edge of
- * the mesh? */
-static bool is_mesh_edge(const struct sheet *sheet, uint32_t f,
-                         const uint32_t q[3]) {
-  const uint32_t *p = sheet->triangle.item[f].point;
-  int other = 0; /* the corner of f that is not shared */
-  while (p[other] == q[0] || p[other] == q[1] || p[other] == q[2])
-    other++;
-  return !sheet_is_inner_side(sheet, f, geom_next_corner(other));
-}
-
-/* Are triangles that share a side parts of one face, or is the side an edge of
- * the mesh?  Where it is a diagonal of one of two faces, these may cross in
- * it. */
-static bool are_neighbours_at_side(const struct sheet *sheet,
+/* Is f certainly on one side of the plane of g? */
+static inline bool is_beside_plane(const struct pair_sweep *sweep,
                                    const struct swept_triangle *f,
-                                   const struct swept_triangle *g) {
-  if (!f->has_inner_sides && !g->has_inner_sides)
-    return true;
-  return sheet->triangle.item[f->triangle].face ==
-             sheet->triangle.item[g->triangle].face ||
-         (is_mesh_edge(sheet, f->triangle, g->point) &&
-          is_mesh_edge(sheet, g->triangle, f->point));
-}
-
-/* Do two triangles share an edge of the mesh, a diagonal of one face, or a
- * corner and nothing more?  Then they do not pierce each other. */
-static bool are_neighbours(const struct sheet *sheet,
-                           const struct swept_triangle *f,
-                           const struct swept_triangle *g) {
-  unsigned shared = shared_corners(f->point, g->point),
-           others = shared & (shared - 1);
-  if (shared == 0)
-    return false;
-  if (others == 0) {
-    int first = __builtin_ctz(shared);
-    return are_disjoint_at_corner(f->corners.p, first / 3, g->corners.p,
-                                  first % 3);
-  }
-  return (others & (others - 1)) != 0 || are_neighbours_at_side(sheet, f, g);
+                                   struct swept_triangle *g) {
+  if (!g->has_coarse_plane)
+    g->coarse_plane = coarse_plane_of(&sweep->all, g->corners.p);
+  g->has_coarse_plane = true;
+  return coarse_plane_is_beside(&g->coarse_plane, f->corners.p);
 }
 
 /* May f straddle the plane of g or end on it? */
@@ -202,13 +110,14 @@ static bool is_outside_triangle(const struct geom_point p[3],
   return false;
 }
 
-/* Visits a pair whose depths overlap, unless a test rejects it. */
+/* Visits a pair whose depths and boxes overlap, unless a test rejects it. */
 static inline bool visit_pair(const struct pair_sweep *sweep,
                               struct swept_triangle *f,
                               struct swept_triangle *g) {
-  if (box2_disjoint(f->box, g->box) || (f->right_copy & g->right_copy) != 0 ||
-      !is_cell_of_pair(sweep, f, g) || are_neighbours(sweep->sheet, f, g) ||
-      !may_pierce(sweep->sheet, f, g) || !may_pierce(sweep->sheet, g, f) ||
+  if ((f->right_copy & g->right_copy) != 0 || !is_cell_of_pair(sweep, f, g) ||
+      are_neighbours(sweep->sheet, f, g) || is_beside_plane(sweep, f, g) ||
+      is_beside_plane(sweep, g, f) || !may_pierce(sweep->sheet, f, g) ||
+      !may_pierce(sweep->sheet, g, f) ||
       is_outside_triangle(f->corners.p, g->corners.p) ||
       is_outside_triangle(g->corners.p, f->corners.p))
     return true;
@@ -223,7 +132,8 @@ static inline bool visit_pair(const struct pair_sweep *sweep,
 static bool start_list(struct pair_sweep *sweep, size_t n) {
   sweep->listed.count = 0;
   return ARRAY_RESERVE(&sweep->listed, n) && ARRAY_RESERVE(&sweep->swept, n) &&
-         ARRAY_RESERVE(&sweep->key, 2 * n);
+         ARRAY_RESERVE(&sweep->box, n) && ARRAY_RESERVE(&sweep->key, 2 * n) &&
+         ARRAY_RESERVE(&sweep->met_now, n);
 }
 
 /* Adds a triangle, with its key: the depth of its farthest corner. */
@@ -241,10 +151,14 @@ static inline void add_to_list(struct pair_sweep *sweep, uint32_t triangle,
 static void sort_swept(struct pair_sweep *sweep) {
   size_t n = sweep->swept.count = sweep->listed.count;
   struct sort_key *key = sweep->key.item;
+  bool left = sweep->x > 0 && is_pair_selected(sweep, sweep->x - 1, sweep->y),
+       below = sweep->y > 0 && is_pair_selected(sweep, sweep->x, sweep->y - 1);
   sort_keys(key, key + n, n);
   for (size_t i = 0; i < n; i++) {
     struct listed_triangle t = sweep->listed.item[key[i].value];
     make_swept_triangle(sweep, t.triangle, t.right_copy, &sweep->swept.item[i]);
+    sweep->box.item[i] =
+        swept_box_of(&sweep->swept.item[i], sweep->x, sweep->y, left, below);
     key[i].value = (uint32_t)i;
   }
 }
@@ -340,26 +254,42 @@ static bool list_others(struct pair_sweep *sweep,
 
 /* ---- Sweeping ------------------------------------------------------------ */
 
+/* Tests triangle f with those of the keys from `first` on whose depths overlap
+ * that of f.  What boxes reject is left out without a jump for each, as half of
+ * all are.
+ * Returns false as pair_sweep_cells does. */
+static bool sweep_triangle(struct pair_sweep *sweep, uint32_t f,
+                           const struct sort_key *g, size_t first, size_t end) {
+  struct swept_triangle *swept = sweep->swept.item;
+  const struct swept_box *box = sweep->box.item, own = box[f];
+  uint32_t *met = sweep->met_now.item;
+  size_t j = first, count = 0;
+  for (; j < end && g[j].key <= (uint64_t)swept[f].high; j++) {
+    met[count] = g[j].value;
+    count += swept_boxes_meet(&own, &box[g[j].value]);
+  }
+  for (size_t i = 0; i < count; i++)
+    if (!visit_pair(sweep, &swept[f], &swept[met[i]]))
+      return false;
+  sweep->met += j - first;
+  return progress_step(sweep->progress, j - first + 1);
+}
+
 /* Tests the pairs of the list, but not those of its group. */
 static bool sweep_list(struct pair_sweep *sweep) {
   sort_swept(sweep);
-  struct swept_triangle *swept = sweep->swept.item;
-  struct sort_key *key = sweep->key.item;
   size_t n = sweep->swept.count, others = 0;
   struct pair_group group = choose_group(sweep);
   if (n >= FACE_LIST_MIN && !list_others(sweep, &group))
     return false;
   for (size_t i = 0; i < n; i++) {
-    struct swept_triangle *f = &swept[i];
-    const struct sort_key *g = f->in_group ? sweep->other.item : key;
-    size_t end = f->in_group ? sweep->other.count : n;
-    size_t first = f->in_group ? others : i + 1, j = first;
-    others += !f->in_group;
-    for (; j < end && g[j].key <= (uint64_t)f->high; j++)
-      if (!visit_pair(sweep, f, &swept[g[j].value]))
-        return false;
-    sweep->met += j - first;
-    if (!progress_step(sweep->progress, j - first + 1))
+    bool in_group = sweep->swept.item[i].in_group, ok;
+    ok = in_group
+             ? sweep_triangle(sweep, (uint32_t)i, sweep->other.item, others,
+                              sweep->other.count)
+             : sweep_triangle(sweep, (uint32_t)i, sweep->key.item, i + 1, n);
+    others += !in_group;
+    if (!ok)
       return false;
   }
   return true;
@@ -423,6 +353,7 @@ static bool sweep_cell(struct pair_sweep *sweep, size_t cell) {
 bool pair_sweep_cells(struct pair_sweep *sweep, size_t begin, size_t end) {
   const struct triangle_grid *grid = sweep->grid;
   bool ok = true;
+  sweep->all = occlusion_tolerance_bound_all(sweep->sheet);
   for (size_t cell = begin; ok && cell < end; cell++) {
     sweep->x = (int)(cell % (size_t)grid->columns);
     sweep->y = (int)(cell / (size_t)grid->columns);
@@ -436,6 +367,8 @@ bool pair_sweep_cells(struct pair_sweep *sweep, size_t begin, size_t end) {
 void pair_sweep_fini(struct pair_sweep *sweep) {
   ARRAY_FREE(&sweep->listed);
   ARRAY_FREE(&sweep->swept);
+  ARRAY_FREE(&sweep->box);
+  ARRAY_FREE(&sweep->met_now);
   ARRAY_FREE(&sweep->key);
   ARRAY_FREE(&sweep->other);
   bsp_fini(&sweep->bsp);

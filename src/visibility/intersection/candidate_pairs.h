@@ -5,6 +5,7 @@
 #include "base/sort.h"
 #include "visibility/index/bsp.h"
 #include "visibility/index/triangle_grid.h"
+#include "visibility/predicate/coarse_plane.h"
 #include "visibility/progress.h"
 
 /* An entry of a list.
@@ -24,9 +25,12 @@ struct pair_sweep {
   void *user;
   struct progress *progress; /* counts the work */
   uint64_t met; /* the number of pairs of one list whose depths overlap */
-  int x, y;     /* the current cell */
+  struct occlusion_bound all;           /* of contact tolerances */
+  int x, y;                             /* the current cell */
   ARRAY(struct listed_triangle) listed; /* those of the current list */
   ARRAY(struct swept_triangle) swept;   /* the same, sorted by depth */
+  ARRAY(struct swept_box) box;          /* of these */
+  ARRAY(uint32_t) met_now; /* scratch: those that a triangle is tested with */
   ARRAY(struct sort_key) key;   /* twice as many: by depth, and scratch */
   ARRAY(struct sort_key) other; /* those that are not of the face, or about the
                                    edge, that most of the list's triangles are

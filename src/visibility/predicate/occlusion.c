@@ -50,22 +50,6 @@ void occluder_init(struct occluder *occluder, const struct sheet *sheet,
   occluder->box = box2_of_triangle(sheet, triangle);
 }
 
-struct occlusion_bound
-occlusion_tolerance_bound_all(const struct sheet *sheet) {
-  const struct camera *camera = &sheet->camera;
-  double level = sheet->z_scale, slope = 0, share = camera->contact_most;
-  double grid = contact_grid_units(sheet);
-  if (camera->perspective) {
-    struct sheet_axis axis = sheet_view_axis(sheet);
-    level = sheet->z_scale / camera->d_max + (double)SHEET_Z_MAX;
-    slope = fmax(fabs(axis.x), fabs(axis.y)) + (double)SHEET_XY_MAX;
-    share /= camera->d_min;
-  }
-  slope += sheet->units_per_view;
-  return (struct occlusion_bound){(grid + level * share) * (1 + 0x1p-19),
-                                  (grid + slope * share) * (1 + 0x1p-19)};
-}
-
 int128 occluder_value(const struct occluder *occluder, struct geom_point p) {
   return geom_plane_value(&occluder->plane, p) * FIXED_ONE + occluder->t0 +
          occluder->t1 * p.z;
@@ -358,9 +342,14 @@ bool occlude_edge_by_cached(struct plane_cache *cache, uint32_t triangle,
                             struct occlusion_counts *counts) {
   const struct sheet *sheet = cache->sheet;
   const struct geom_triangle corners = sheet_corners(sheet, triangle);
-  return occlude_by_outline(sheet, triangle, &corners, p, q, interval,
-                            counts) &&
-         decide_depth(sheet, triangle, &corners,
+  if (!occlude_by_outline(sheet, triangle, &corners, p, q, interval, counts))
+    return false;
+  struct coarse_plane plane = coarse_plane_of(&cache->all, corners.p);
+  int at_p = coarse_plane_contact_sign(&plane, p),
+      at_q = coarse_plane_contact_sign(&plane, q);
+  if (at_p == at_q && at_p != 0)
+    return at_p < 0;
+  return decide_depth(sheet, triangle, &corners,
                       plane_cache_get(cache, triangle), p, q, interval, counts);
 }
 

@@ -169,29 +169,6 @@ void occlusion_counts_add(struct occlusion_counts *sum,
 void occlusion_report(const struct occlusion_counts *counts,
                       struct report *report);
 
-/* An upper bound of T over all depths of the sheet, for any triangle of it, in
- * units of value: at most 1 + level * nz + slope * (|nx| + |ny|).  Coarse: see
- * plane_filter_thickness. */
-struct occlusion_bound {
-  double level, slope;
-};
-struct occlusion_bound occlusion_tolerance_bound_all(const struct sheet *sheet);
-
-/* That bound of a triangle.
- * nz  gets the third component of its normal; the bound divided by it is one of
- *     the tolerance as a depth */
-static inline double occlusion_bound_of(const struct occlusion_bound *all,
-                                        const struct geom_triangle *corners,
-                                        double *nz) {
-  const struct geom_point *p = corners->p;
-  double ux = (double)p[1].x - p[0].x, uy = (double)p[1].y - p[0].y,
-         uz = (double)(p[1].z - p[0].z), vx = (double)p[2].x - p[0].x,
-         vy = (double)p[2].y - p[0].y, vz = (double)(p[2].z - p[0].z);
-  *nz = ux * vy - uy * vx;
-  return 1 + all->level * *nz +
-         all->slope * (fabs(uy * vz - uz * vy) + fabs(uz * vx - ux * vz));
-}
-
 /* (value << 16) + T of a point: negative where it is behind the plane by more
  * than the contact tolerance.  Exact. */
 int128 occluder_value(const struct occluder *occluder, struct geom_point p);

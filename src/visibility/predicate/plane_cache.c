@@ -8,8 +8,9 @@ bool plane_cache_init(struct plane_cache *cache, const struct sheet *sheet) {
   uint32_t count = 1;
   while (count < SLOTS_MAX && count < sheet->triangle.count)
     count *= 2;
-  *cache = (struct plane_cache){sheet, mem_calloc(count, sizeof *cache->slot),
-                                count - 1};
+  *cache =
+      (struct plane_cache){sheet, mem_calloc(count, sizeof *cache->slot),
+                           count - 1, occlusion_tolerance_bound_all(sheet)};
   return cache->slot != NULL;
 }
 

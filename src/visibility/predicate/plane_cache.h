@@ -8,6 +8,7 @@
 #ifndef VISIBILITY_PREDICATE_PLANE_CACHE_H
 #define VISIBILITY_PREDICATE_PLANE_CACHE_H
 
+#include "visibility/predicate/coarse_plane.h"
 #include "visibility/predicate/plane_filter.h"
 
 /* Direct-mapped: a triangle has one slot, which it shares with those whose
@@ -16,6 +17,7 @@ struct plane_cache {
   const struct sheet *sheet; /* borrowed, not owned */
   struct cached_plane *slot;
   uint32_t mask; /* the number of slots, a power of two, less 1 */
+  struct occlusion_bound all;
 };
 
 struct cached_plane {
