@@ -120,7 +120,18 @@ struct doubled_place {
   double x, y, z;
   double dx, dy; /* the edge's direction, of unit length */
   double along;
+  double reach; /* what covers it is no farther away */
 };
+
+/* Whether a segment's box is farther from a place than what covers it is. */
+static inline bool is_out_of_reach(const struct page_segment *s,
+                                   const struct doubled_place *at) {
+  struct box2 box = box2_of_segment(s->p, s->q);
+  /* Distances are computed to far less than a unit. */
+  double reach = at->reach + 1;
+  return box.x0 > at->x + reach || box.x1 < at->x - reach ||
+         box.y0 > at->y + reach || box.y1 < at->y - reach;
+}
 
 /* Whether a contour's segment covers a place. */
 static bool covers(const struct doubled_contours *d,
@@ -148,8 +159,7 @@ static bool covers(const struct doubled_contours *d,
 static uint32_t find_covering_contour(const struct doubled_contours *d,
                                       const struct doubled_place *at) {
   const struct triangle_grid *cell = &d->grid.cell;
-  double reach =
-      fmax(d->beyond, WITHIN_SHARE * (double)d->height[at->edge - d->first]);
+  double reach = at->reach;
   struct cell_range range =
       triangle_grid_cells(cell, (struct box2){(int32_t)floor(at->x - reach),
                                               (int32_t)floor(at->y - reach),
@@ -165,7 +175,8 @@ static uint32_t find_covering_contour(const struct doubled_contours *d,
         const struct page_segment *s =
             &d->grid.segment.item[cell->lists.item[k]];
         int64_t z = s->p.z > s->q.z ? s->p.z : s->q.z;
-        if (s->owner == at->edge || s->owner == best || !covers(d, s, at) ||
+        if (is_out_of_reach(s, at) || s->owner == at->edge ||
+            s->owner == best || !covers(d, s, at) ||
             (best != SHEET_NONE && z <= nearest))
           continue;
         best = s->owner;
@@ -181,6 +192,7 @@ static bool add_cells(struct doubled_contours *d,
   uint32_t index = s->owner - d->first, cells = cells_of(d, s->owner);
   double length = contour_length(d, s->owner);
   double x = (double)s->q.x - s->p.x, y = (double)s->q.y - s->p.y;
+  double reach = fmax(d->beyond, WITHIN_SHARE * (double)d->height[index]);
   bool reversed = is_reversed(d, s->owner);
   for (uint32_t k = 0; k < cells; k++) {
     uint32_t number = reversed ? cells - 1 - k : k;
@@ -191,7 +203,8 @@ static bool add_cells(struct doubled_contours *d,
                                      .z = page_segment_depth(s, t),
                                      .dx = x / length,
                                      .dy = y / length,
-                                     .along = d->along[index] + t * length};
+                                     .along = d->along[index] + t * length,
+                                     .reach = reach};
     const struct doubled_cell made = {s->owner, number,
                                       find_covering_contour(d, &at), false};
     d->is_covered[index] |= made.covering != SHEET_NONE;

@@ -22,6 +22,7 @@ struct zero_triangle {
   uint32_t corner[3], side[3];
   struct curved_triangle curved;
   double weight[PLACES][3];
+  double at[PLACES][3]; /* on the curved triangle */
   double normal[PLACES][3];
   double facing[PLACES]; /* g */
   bool back[PLACES];
@@ -42,11 +43,11 @@ static uint32_t edge_of_side(const struct zero_triangle *t, int k) {
 static void find_middle(struct zero_triangle *t, int k) {
   const struct camera *camera = t->finder->facing->camera;
   int next = geom_next_corner(k), m = FIRST_MIDDLE + k;
-  double at[3], v[3];
+  double v[3];
   t->weight[m][k] = t->weight[m][next] = 0.5;
   curved_triangle_side_normal(&t->curved, k, t->normal[m]);
-  curved_triangle_point(&t->curved, t->weight[m], at);
-  facing_view(camera, at, v);
+  curved_triangle_point(&t->curved, t->weight[m], t->at[m]);
+  facing_view(camera, t->at[m], v);
   t->facing[m] = facing_of_normal(t->normal[m], v);
   if (t->back[k] && t->back[next])
     t->facing[m] = fmax(t->facing[m], 0);
@@ -72,6 +73,7 @@ static void place_corners(struct zero_triangle *t) {
     uint32_t slot = facing_slot(f, t->corner[k]), edge = edge_of_side(t, k);
     t->weight[k][k] = 1;
     facing_position(f, facing_point(f, t->corner[k]), t->curved.point[k]);
+    memcpy(t->at[k], t->curved.point[k], sizeof t->at[k]);
     memcpy(t->normal[k], f->normal[facing_place(f, slot)], sizeof t->normal[k]);
     memcpy(t->curved.normal[k], t->normal[k], sizeof t->normal[k]);
     t->facing[k] = f->value[facing_place(f, slot)];
@@ -144,11 +146,9 @@ static bool node_of_side(struct zero_triangle *t, int k, uint32_t *node) {
  * of  its places */
 static void describe(const struct zero_triangle *t, const int of[3],
                      struct contour_segment *s) {
-  double p[3][3], e[2][3], n[3], across[2][3], v[3], g[3];
-  for (int k = 0; k < 3; k++) {
-    curved_triangle_point(&t->curved, t->weight[of[k]], p[k]);
-    g[k] = t->facing[of[k]];
-  }
+  const double *p[3] = {t->at[of[0]], t->at[of[1]], t->at[of[2]]};
+  const double g[3] = {t->facing[of[0]], t->facing[of[1]], t->facing[of[2]]};
+  double e[2][3], n[3], across[2][3], v[3];
   for (int i = 0; i < 3; i++) {
     e[0][i] = p[1][i] - p[0][i];
     e[1][i] = p[0][i] - p[2][i];
