@@ -53,6 +53,7 @@ librecto_core_la_SOURCES += \
   %D%/contour/page_crossings.c %D%/contour/page_crossings.h \
   %D%/contour/part_size.c %D%/contour/part_size.h \
   %D%/contour/segment_grid.c %D%/contour/segment_grid.h \
+  %D%/contour/slot_normals.c \
   %D%/contour/thin_loops.c %D%/contour/thin_loops.h \
   %D%/contour/zero_creases.c %D%/contour/zero_finder.h \
   %D%/contour/zero_segments.h \

@@ -2,7 +2,6 @@
  * which way they face. */
 #include "visibility/contour/facing.h"
 
-#include <float.h>
 #include <string.h>
 
 #include "base/parallel.h"
@@ -57,40 +56,41 @@ static void join_corners(struct facing *f, uint32_t edge) {
   }
 }
 
-/* Calls `visit` for all edges of near faces whose first face is near: those at
- * points of crossed faces are.  Returns whether a call returned true. */
-static bool visit_near_edges(struct facing *f,
-                             bool (*visit)(struct facing *f, uint32_t edge)) {
-  bool any = false;
+/* Lists the edges of near faces whose first face is near: those at points of
+ * crossed faces are among them. */
+static bool list_near_edges(struct facing *f) {
   for (size_t i = 0; i < f->near.count; i++) {
     uint32_t face = f->near.item[i];
     for (uint32_t c = scene_face_start(f->scene, face);
          c < scene_face_start(f->scene, face + 1); c++) {
       uint32_t edge = f->topology->corner_edge[c];
-      if (f->topology->edge.item[edge].first == face)
-        any = visit(f, edge) || any;
+      if (f->topology->edge.item[edge].first == face &&
+          !ARRAY_PUSH(&f->near_edge, edge))
+        return false;
     }
   }
-  return any;
-}
-
-/* Marks the points of an edge that is a feature; returns whether it is one. */
-static bool split_points(struct facing *f, uint32_t edge) {
-  if (!facing_is_feature(f, edge))
-    return false;
-  for (int k = 0; k < 2; k++)
-    f->point_flags[f->topology->edge.item[edge].point[k]] |= FACING_SPLIT;
   return true;
 }
 
-/* Joins the corners at an edge that is no feature, where normals are split. */
-static bool join_at_split_points(struct facing *f, uint32_t edge) {
+/* The union of the flags of an edge's points. */
+static unsigned flags_of_edge(const struct facing *f, uint32_t edge) {
   const uint32_t *point = f->topology->edge.item[edge].point;
-  if (((f->point_flags[point[0]] | f->point_flags[point[1]]) & FACING_SPLIT) !=
-          0 &&
-      !facing_is_feature(f, edge))
-    join_corners(f, edge);
-  return false;
+  return f->point_flags[point[0]] | f->point_flags[point[1]];
+}
+
+/* Marks the points at features among the near edges; returns whether there are
+ * any. */
+static bool mark_split_points(struct facing *f) {
+  bool any = false;
+  for (size_t i = 0; i < f->near_edge.count; i++) {
+    uint32_t edge = f->near_edge.item[i];
+    if (!facing_is_feature(f, edge))
+      continue;
+    for (int k = 0; k < 2; k++)
+      f->point_flags[f->topology->edge.item[edge].point[k]] |= FACING_SPLIT;
+    any = true;
+  }
+  return any;
 }
 
 /* Numbers the corners of near faces. */
@@ -111,13 +111,16 @@ static bool number_near_corners(struct facing *f) {
  * one: at all points of crossed faces, as all faces there are near.  Returns
  * false when memory ran out. */
 static bool split_at_features(struct facing *f) {
-  if (!visit_near_edges(f, split_points))
+  if (!mark_split_points(f))
     return true;
   f->sets = union_find_create(f->near_corners);
   f->signs = mem_calloc(f->near_corners, sizeof *f->signs);
   if (f->sets == NULL || f->signs == NULL || !number_near_corners(f))
     return false;
-  (void)visit_near_edges(f, join_at_split_points);
+  for (size_t i = 0; i < f->near_edge.count; i++)
+    if ((flags_of_edge(f, f->near_edge.item[i]) & FACING_SPLIT) != 0 &&
+        !facing_is_feature(f, f->near_edge.item[i]))
+      join_corners(f, f->near_edge.item[i]);
   for (size_t i = 0; i < f->near.count; i++) {
     uint32_t face = f->near.item[i];
     for (uint32_t c = scene_face_start(f->scene, face);
@@ -135,6 +138,23 @@ static unsigned signs_of_face(const struct facing *f, uint32_t face) {
        c < scene_face_start(f->scene, face + 1); c++)
     signs |= facing_signs(f, facing_slot(f, c));
   return signs;
+}
+
+/* Notes the places of the slots of all corners of near faces. */
+static bool place_near_corners(struct facing *f) {
+  uint32_t at = 0, points = (uint32_t)f->scene->point.count;
+  if (f->corner_place == NULL)
+    f->corner_place = mem_alloc(f->near_corners, sizeof *f->corner_place);
+  for (size_t i = 0; f->corner_place != NULL && i < f->near.count; i++) {
+    uint32_t face = f->near.item[i], end = scene_face_start(f->scene, face + 1);
+    for (uint32_t c = scene_face_start(f->scene, face); c < end; c++, at++) {
+      uint32_t slot = facing_point(f, c);
+      if (f->point_flags[slot] & FACING_SPLIT)
+        slot = points + union_find_root(f->sets, at);
+      f->corner_place[at] = f->place[slot];
+    }
+  }
+  return f->corner_place != NULL;
 }
 
 /* Lists the faces about whose slots both signs are, and numbers these slots,
@@ -157,24 +177,31 @@ static bool number_needed(struct facing *f) {
         *place = (uint32_t)++f->count;
     }
   }
-  return true;
+  return place_near_corners(f);
 }
 
 /* ---- Signs --------------------------------------------------------------- */
 
 /* Finds the sign of each face by its own normal. */
 static bool find_signs_of_range(void *user, struct parallel_range range) {
-  struct facing *f = user;
+  const struct facing *f = user;
+  const struct scene *scene = f->scene;
+  const struct camera *camera = f->camera;
+  const uint32_t *weld = f->topology->weld;
+  uint8_t *sign = f->face_sign;
   for (size_t face = range.begin; face < range.end; face++) {
     uint32_t first =
-        facing_point(f, scene_face_start(f->scene, (uint32_t)face));
-    double n[3], at[3], v[3];
-    newell_normal_of_face(f->scene, (uint32_t)face, n);
-    facing_position(f, first, at);
-    facing_view(f->camera, at, v);
+        scene->corner.item[scene_face_start(scene, (uint32_t)face)];
+    double n[3], v[3];
+    if (weld != NULL)
+      first = weld[first];
+    const struct scene_point *p = &scene->point.item[first];
+    newell_normal_of_face(scene, (uint32_t)face, n);
+    facing_view(camera, (const double[3]){p->x, p->y, p->z}, v);
     /* Coarse parts have no smooth contour. */
-    f->face_sign[face] =
-        vector_dot(n, v) < 0 && !f->coarse[first] ? FACING_FRONT : FACING_BACK;
+    sign[face] = vector_dot(n, v) < 0 && !(f->any_coarse && f->coarse[first])
+                     ? FACING_FRONT
+                     : FACING_BACK;
   }
   return true;
 }
@@ -189,21 +216,44 @@ static bool find_face_signs(struct facing *f) {
 }
 
 /* Sets flags of a face's points. */
-static inline void set_flags(struct facing *f, uint32_t face, uint8_t flags) {
-  const uint32_t *corner = f->scene->corner.item;
-  uint32_t end = scene_face_start(f->scene, face + 1);
-  for (uint32_t c = scene_face_start(f->scene, face); c < end; c++)
-    f->point_flags[corner[c]] |= flags;
+static void set_flags(struct facing *f, uint32_t face, uint8_t flags) {
+  for (uint32_t c = scene_face_start(f->scene, face);
+       c < scene_face_start(f->scene, face + 1); c++)
+    f->point_flags[f->scene->corner.item[c]] |= flags;
 }
 
-/* The union of the flags of a face's points. */
-static inline unsigned flags_of_face(const struct facing *f, uint32_t face) {
-  const uint32_t *corner = f->scene->corner.item;
-  uint32_t end = scene_face_start(f->scene, face + 1);
-  unsigned flags = 0;
-  for (uint32_t c = scene_face_start(f->scene, face); c < end; c++)
-    flags |= f->point_flags[corner[c]];
-  return flags;
+/* Sets the signs of all faces for their points.  What the loops over all faces
+ * read is copied, so that the compiler knows that writing bytes does not change
+ * it. */
+static void set_signs(struct facing *f) {
+  const struct scene *scene = f->scene;
+  const uint32_t *corner = scene->corner.item, faces = scene_face_count(scene);
+  const uint32_t *start =
+      scene->face_start.count > 0 ? scene->face_start.item : NULL;
+  const uint8_t *sign = f->face_sign;
+  uint8_t *flags = f->point_flags;
+  for (uint32_t face = 0, c = 0; face < faces; face++)
+    for (uint32_t end = start != NULL ? start[face + 1] : c + 3; c < end; c++)
+      flags[corner[c]] |= sign[face];
+}
+
+/* Lists the faces of whose points' flags the union has all of some bits.
+ * Returns false when memory ran out or the caller cancelled. */
+static bool list_faces_with(const struct facing *f, unsigned bits,
+                            struct facing_faces *list) {
+  const struct scene *scene = f->scene;
+  const uint32_t *corner = scene->corner.item, faces = scene_face_count(scene);
+  const uint32_t *start =
+      scene->face_start.count > 0 ? scene->face_start.item : NULL;
+  const uint8_t *flags = f->point_flags;
+  for (uint32_t face = 0, c = 0; face < faces; face++) {
+    unsigned all = 0;
+    for (uint32_t end = start != NULL ? start[face + 1] : c + 3; c < end; c++)
+      all |= flags[corner[c]];
+    if (!poll_at(face) || ((all & bits) == bits && !ARRAY_PUSH(list, face)))
+      return false;
+  }
+  return true;
 }
 
 /* Gives points that are welded the flags of each other. */
@@ -219,144 +269,24 @@ static void share_flags(struct facing *f) {
 /* Finds the faces that the contour can cross, and those about them.  Returns
  * false when memory ran out or the caller cancelled. */
 static bool find_near_faces(struct facing *f) {
-  uint32_t faces = scene_face_count(f->scene);
   f->point_flags = mem_calloc(f->scene->point.count, 1);
   if (f->point_flags == NULL)
     return false;
-  for (uint32_t face = 0; face < faces; face++)
-    set_flags(f, face, f->face_sign[face]);
+  set_signs(f);
   share_flags(f);
-  for (uint32_t face = 0; face < faces; face++)
-    if (!poll_at(face) ||
-        ((flags_of_face(f, face) & FACING_MIXED) == FACING_MIXED &&
-         !ARRAY_PUSH(&f->crossed, face)))
-      return false;
+  if (!list_faces_with(f, FACING_MIXED, &f->crossed))
+    return false;
   for (size_t i = 0; i < f->crossed.count; i++)
     set_flags(f, f->crossed.item[i], FACING_NEEDED);
   share_flags(f);
-  for (uint32_t face = 0; face < faces; face++)
-    if (!poll_at(face) || ((flags_of_face(f, face) & FACING_NEEDED) != 0 &&
-                           !ARRAY_PUSH(&f->near, face)))
-      return false;
+  if (!list_faces_with(f, FACING_NEEDED, &f->near))
+    return false;
   for (size_t i = 0; i < f->near.count; i++)
     f->near_corners += scene_face_corners(f->scene, f->near.item[i]);
-  return true;
-}
-
-/* ---- Normals ------------------------------------------------------------- */
-
-static double angle_between(const double a[3], const double b[3]) {
-  double cross[3];
-  vector_cross(a, b, cross);
-  return atan2(sqrt(vector_dot(cross, cross)), vector_dot(a, b));
-}
-
-/* Whether a normal is needed at a corner of a face. */
-static bool needs_normals(const struct facing *f, uint32_t face) {
-  for (uint32_t c = scene_face_start(f->scene, face);
-       c < scene_face_start(f->scene, face + 1); c++)
-    if (f->place[facing_slot(f, c)] != 0)
-      return true;
-  return false;
-}
-
-/* Finds what a face adds to the normals at its corners.
- * share  one a corner of the face */
-static void find_shares(const struct facing *f, uint32_t face,
-                        double (*share)[3]) {
-  uint32_t start = scene_face_start(f->scene, face);
-  uint32_t end = scene_face_start(f->scene, face + 1);
-  double n[3];
-  if (!needs_normals(f, face))
-    return;
-  newell_normal_of_face(f->scene, face, n);
-  if (!vector_normalise(n))
-    return;
-  for (uint32_t c = start; c < end; c++) {
-    double at[3], to[3], from[3];
-    facing_position(f, facing_point(f, c), at);
-    facing_position(f, facing_point(f, scene_next_corner(f->scene, face, c)),
-                    to);
-    facing_position(f, facing_point(f, c > start ? c - 1 : end - 1), from);
-    for (int k = 0; k < 3; k++) {
-      to[k] -= at[k];
-      from[k] -= at[k];
-    }
-    double angle = angle_between(to, from);
-    for (int k = 0; k < 3; k++)
-      share[c - start][k] = angle * n[k];
-  }
-}
-
-/* The shares of all near faces; they serve where more edges become creases, as
- * no more normals are needed then.  Returns false when memory ran out. */
-static bool find_all_shares(struct facing *f) {
-  size_t at = 0;
-  f->share = mem_calloc(f->near_corners, sizeof *f->share);
-  for (size_t i = 0; f->share != NULL && i < f->near.count; i++) {
-    (void)poll_at(i);
-    find_shares(f, f->near.item[i], f->share + at);
-    at += scene_face_corners(f->scene, f->near.item[i]);
-  }
-  return f->share != NULL;
-}
-
-/* Sets the values of the slots of a face. */
-static void set_values(struct facing *f, uint32_t face) {
-  for (uint32_t c = scene_face_start(f->scene, face);
-       c < scene_face_start(f->scene, face + 1); c++) {
-    uint32_t slot = facing_slot(f, c), place = facing_place(f, slot);
-    double at[3], v[3];
-    facing_position(f, facing_point(f, c), at);
-    facing_view(f->camera, at, v);
-    double g = facing_of_normal(f->normal[place], v);
-    /* Rounding does not change a sign on which all faces agree. */
-    if (facing_signs(f, slot) == FACING_BACK)
-      g = fmax(g, 0);
-    else if (facing_signs(f, slot) == FACING_FRONT)
-      g = fmin(g, -DBL_MIN);
-    f->value[place] = g;
-  }
-}
-
-/* Adds the shares of all near faces. */
-static void add_shares(struct facing *f) {
-  const double(*share)[3] = (const double(*)[3])f->share;
-  for (size_t i = 0; i < f->near.count; i++) {
-    uint32_t face = f->near.item[i];
-    uint32_t end = scene_face_start(f->scene, face + 1);
-    for (uint32_t c = scene_face_start(f->scene, face); c < end; c++, share++) {
-      uint32_t slot = facing_slot(f, c);
-      for (int k = 0; f->place[slot] != 0 && k < 3; k++)
-        f->normal[facing_place(f, slot)][k] += (*share)[k];
-    }
-  }
-}
-
-static bool find_normals(struct facing *f) {
-  f->normal = mem_calloc(f->count, sizeof *f->normal);
-  f->value = mem_calloc(f->count, sizeof *f->value);
-  if (f->normal == NULL || f->value == NULL ||
-      (f->share == NULL && !find_all_shares(f)))
-    return false;
-  add_shares(f);
-  for (size_t i = 0; i < f->count; i++)
-    (void)vector_normalise(f->normal[i]);
-  for (size_t i = 0; i < f->mixed.count; i++)
-    set_values(f, f->mixed.item[i]);
-  return !poll_is_cancelled();
+  return list_near_edges(f);
 }
 
 /* ---- Apices -------------------------------------------------------------- */
-
-/* Makes a crease of an edge at an apex. */
-static bool crease_at_apex(struct facing *f, uint32_t edge) {
-  const uint32_t *point = f->topology->edge.item[edge].point;
-  if (((f->point_flags[point[0]] | f->point_flags[point[1]]) & FACING_APEX) !=
-      0)
-    f->class_masks[edge] |= RECTO_EDGE_CREASE;
-  return false;
-}
 
 /* Makes creases of all edges at points about which a face bends away from the
  * mean normal by more than the crease angle: at the apex of a cone no normal is
@@ -379,8 +309,9 @@ static bool crease_apices(struct facing *f, double crease_deg) {
         any = true;
       }
   }
-  if (any)
-    (void)visit_near_edges(f, crease_at_apex);
+  for (size_t i = 0; any && i < f->near_edge.count; i++)
+    if ((flags_of_edge(f, f->near_edge.item[i]) & FACING_APEX) != 0)
+      f->class_masks[f->near_edge.item[i]] |= RECTO_EDGE_CREASE;
   return any;
 }
 
@@ -403,7 +334,7 @@ static void free_slots(struct facing *f) {
 /* Finds slots and their normals by the edges' classes.  Returns false when
  * memory ran out or the caller cancelled. */
 static bool find_facings(struct facing *f) {
-  return split_at_features(f) && number_needed(f) && find_normals(f);
+  return split_at_features(f) && number_needed(f) && facing_find_normals(f);
 }
 
 recto_status facing_init(struct facing *f, const struct sheet *sheet,
@@ -431,8 +362,10 @@ void facing_fini(struct facing *f) {
   mem_free(f->face_sign);
   mem_free(f->point_flags);
   mem_free(f->near_corner);
+  mem_free(f->corner_place);
   mem_free(f->share);
   ARRAY_FREE(&f->crossed);
   ARRAY_FREE(&f->near);
+  ARRAY_FREE(&f->near_edge);
   free_slots(f);
 }

@@ -21,6 +21,11 @@
 #include "view/sheet.h"
 #include "geom/vector.h"
 
+struct facing_faces {
+  uint32_t *item;
+  size_t count, capacity;
+};
+
 struct facing {
   const struct scene *scene;       /* borrowed, not owned */
   const struct topology *topology; /* borrowed, not owned */
@@ -29,14 +34,18 @@ struct facing {
   uint8_t *coarse;                 /* one a point: topology_coarse_parts */
   bool any_coarse;                 /* there are such points */
   uint8_t *face_sign;              /* one a face: FACING_FRONT or FACING_BACK */
-  uint8_t *point_flags;    /* one a point: FACING_... of the faces about it, and
+  uint8_t *point_flags; /* one a point: FACING_... of the faces about it, and
                               what else is known */
-  ARRAY(uint32_t) crossed; /* the faces at points of both signs, which alone the
+  struct facing_faces
+      crossed; /* the faces at points of both signs, which alone the
                               contour can cross; ascending */
-  ARRAY(uint32_t) near;    /* the faces at the points of these; ascending */
-  uint32_t near_corners;   /* so many corners have they */
-  uint32_t *near_corner;   /* one a corner: its number among these from 1 on; 0:
+  struct facing_faces near; /* the faces at the points of these; ascending */
+  uint32_t near_corners;    /* so many corners have they */
+  uint32_t *near_corner; /* one a corner: its number among these from 1 on; 0:
                               it is none; NULL: no normals are split */
+  ARRAY(uint32_t) near_edge; /* the edges at the points of crossed faces, and
+                                others of near faces */
+  uint32_t *corner_place;    /* one a corner of near faces: its slot's place */
   double (*share)[3]; /* one a corner of near faces: what it adds to the normal
                          there */
   uint32_t *sets;     /* of these corners: union-find; NULL: as near_corner */
@@ -66,6 +75,10 @@ USE_RESULT recto_status facing_init(struct facing *facing,
                                     const struct topology *topology,
                                     double crease_deg, recto_error *error);
 void facing_fini(struct facing *facing);
+
+/* A part of facing_init: the normals and the values of slots by their places.
+ * Returns false when memory ran out or the caller cancelled. */
+USE_RESULT bool facing_find_normals(struct facing *facing);
 
 /* The point of a corner, as welded. */
 static inline uint32_t facing_point(const struct facing *f, uint32_t corner) {
