@@ -61,11 +61,6 @@ static struct geom_point project_place(const struct contour_pieces *c,
                                    &(struct scene_point){at[0], at[1], at[2]}));
 }
 
-static int compare_doubles(const void *a, const void *b) {
-  double p = *(const double *)a, q = *(const double *)b;
-  return (p > q) - (p < q);
-}
-
 /* The median of the triangles' heights along a curve about one of its steps. */
 static double height_about(const struct contour_pieces *c,
                            const struct contour_curve *curve, uint32_t step) {
@@ -78,10 +73,13 @@ static double height_about(const struct contour_pieces *c,
       continue;
     const struct contour_segment *s =
         contour_curves_segment(c->curves, (size_t)at);
-    if (s == own || (!s->along_crease && !own->along_crease))
-      height[count++] = s->width;
+    if (s != own && (s->along_crease || own->along_crease))
+      continue;
+    size_t k = count++; /* they are few: each is put where it belongs */
+    for (; k > 0 && height[k - 1] > s->width; k--)
+      height[k] = height[k - 1];
+    height[k] = s->width;
   }
-  qsort(height, count, sizeof *height, compare_doubles);
   return height[count / 2];
 }
 

@@ -90,6 +90,23 @@ static double bulge_of(const struct outline_gaps *g, uint32_t edge) {
   return i < g->in->bulges ? (double)g->in->bulge[i] : 0;
 }
 
+/* Whether a segment is surely no nearer than the nearest drawn points so far, of
+ * all that it may change. */
+static inline bool is_farther(const struct outline_gaps *g,
+                              const struct page_segment *s, struct geom_point p,
+                              const struct nearest_contour *best) {
+  struct box2 box = box2_of_segment(s->p, s->q);
+  double x = max_number(box.x0 - (double)p.x, p.x - (double)box.x1);
+  double y = max_number(box.y0 - (double)p.y, p.y - (double)box.y1);
+  /* Distances are computed to far less than a unit. */
+  double least = max_number(x, y) - 1;
+  if (s->owner < g->in->first)
+    return least > TOLERANCE_COINCIDENT_UNITS;
+  const uint32_t *ends = g->in->sheet->edge.item[s->owner].point;
+  return least > best->any && g->ends[ends[0] - g->in->first_point] >= 2 &&
+         g->ends[ends[1] - g->in->first_point] >= 2;
+}
+
 /* Tries a segment, unless the surface lies on its other side.
  * along  the outline's direction, of unit length */
 static void try_segment(const struct outline_gaps *g,
@@ -148,9 +165,12 @@ static void find_nearest(const struct outline_gaps *g, struct geom_point p,
       for (int x = range.x0; x <= range.x1; x++) {
         size_t cell = triangle_grid_index(&g->grid.cell, x, y);
         for (uint32_t i = g->grid.cell.lists.start[cell];
-             i < g->grid.cell.lists.start[cell + 1]; i++)
-          try_segment(g, &g->grid.segment.item[g->grid.cell.lists.item[i]], p,
-                      along, best);
+             i < g->grid.cell.lists.start[cell + 1]; i++) {
+          const struct page_segment *s =
+              &g->grid.segment.item[g->grid.cell.lists.item[i]];
+          if (!is_farther(g, s, p, best))
+            try_segment(g, s, p, along, best);
+        }
       }
     if (reach >= radius || fmin(best->any, best->loose) <= reach)
       return;

@@ -55,8 +55,8 @@ bool zero_finder_add_segment(struct zero_finder *z, struct contour_segment s) {
     struct contour_node *node = &z->set->node.item[s.node[k]];
     if (node->degree < 2)
       node->segment[node->degree] = (uint32_t)z->set->segment.count;
-    node->degree++;
-    node->page = project_point(&z->projection, end[k]);
+    if (node->degree++ == 0)
+      node->page = project_point(&z->projection, end[k]);
   }
   return ARRAY_PUSH(&z->set->segment, s);
 }
