@@ -22,6 +22,7 @@ librecto_core_la_SOURCES += \
   %D%/index/common_corners.c %D%/index/common_corners.h \
   %D%/index/duplicate_triangles.c %D%/index/duplicate_triangles.h \
   %D%/index/kdop8.h \
+  %D%/index/partial_grid.c %D%/index/partial_grid.h \
   %D%/index/triangle_grid.c %D%/index/triangle_grid.h \
   %D%/index/upper_plane.c %D%/index/upper_plane.h \
   %D%/intersection/candidate_pairs.c %D%/intersection/candidate_pairs.h \
@@ -38,6 +39,7 @@ librecto_core_la_SOURCES += \
   %D%/contour/curved_triangle.c %D%/contour/curved_triangle.h \
   %D%/contour/corner_moves.c %D%/contour/corner_moves.h \
   %D%/contour/curve_pieces.c %D%/contour/curve_pieces.h \
+  %D%/contour/divided_curves.c %D%/contour/divided_curves.h \
   %D%/contour/doubled_contours.c %D%/contour/doubled_contours.h \
   %D%/contour/drawn_outlines.c %D%/contour/drawn_outlines.h \
   %D%/contour/facing.c %D%/contour/facing.h \

@@ -12,28 +12,17 @@
 #include "base/tolerance.h"
 #include "view/clip.h"
 #include "visibility/contour/curve_pieces.h"
+#include "visibility/contour/divided_curves.h"
 #include "visibility/contour/doubled_contours.h"
 #include "visibility/contour/fit_fragments.h"
 #include "visibility/contour/fit_outline.h"
 #include "visibility/contour/fold_bridges.h"
 #include "visibility/contour/intersection_cuts.h"
 #include "visibility/contour/line_ends.h"
-#include "visibility/contour/occluders.h"
 #include "visibility/contour/outline_gaps.h"
 #include "visibility/contour/page_crossings.h"
 #include "visibility/contour/thin_loops.h"
-#include "visibility/index/triangle_grid.h"
-
-/* Visibility is sampled off the surface, by so many heights of the triangles
- * about it: outwards and towards the viewer where the surface bends away from
- * the line of sight, since the mesh about it is uneven; else inwards. */
-#define OFFSET_OUT 0.1
-#define OFFSET_NEARER 1.0
-#define OFFSET_IN 0.6
-
-/* The samples of a piece, at most, and segments whose heights give the offset,
- * to either side of one. */
-enum { SAMPLES_MAX = 31, HEIGHT_REACH = 10 };
+#include "visibility/index/partial_grid.h"
 
 struct contour_pieces {
   struct sheet *sheet;
@@ -41,102 +30,14 @@ struct contour_pieces {
   const struct topology *topology;
   struct zero_set *set;
   struct contour_curves *curves;
-  struct projection projection;
-  struct triangle_grid grid;
+  struct divided_curves divided;
+  struct partial_grid grid; /* about the curves and the mesh's outlines */
   struct triangle_grid_query query;
   struct smooth_contours_options options;
-  ARRAY(struct contour_piece) piece; /* of the current curve */
   ARRAY(float) height; /* one an edge made: that of its triangle on the page,
                           grid units */
   ARRAY(float) bulge;  /* the same: how far it is from the mesh there */
-  uint64_t piece_count;
 };
-
-/* ---- The visibility of a point ------------------------------------------- */
-
-static struct geom_point project_place(const struct contour_pieces *c,
-                                       const double at[3]) {
-  return project_point(&c->projection,
-                       camera_view(&c->sheet->camera,
-                                   &(struct scene_point){at[0], at[1], at[2]}));
-}
-
-/* The median of the triangles' heights along a curve about one of its steps. */
-static double height_about(const struct contour_pieces *c,
-                           const struct contour_curve *curve, uint32_t step) {
-  double height[2 * HEIGHT_REACH + 1];
-  size_t count = 0;
-  const struct contour_segment *own = contour_curves_segment(c->curves, step);
-  for (int i = -HEIGHT_REACH; i <= HEIGHT_REACH; i++) {
-    int64_t at = (int64_t)step + i;
-    if (at < curve->step || at >= (int64_t)curve->step + curve->count)
-      continue;
-    const struct contour_segment *s =
-        contour_curves_segment(c->curves, (size_t)at);
-    if (s != own && (s->along_crease || own->along_crease))
-      continue;
-    size_t k = count++; /* they are few: each is put where it belongs */
-    for (; k > 0 && height[k - 1] > s->width; k--)
-      height[k] = height[k - 1];
-    height[k] = s->width;
-  }
-  return height[count / 2];
-}
-
-/* How many triangles hide a point of a curve; negative when memory ran out.
- * side  1: the surface bends away from the line of sight, so that the point is
- *       sampled in front of it; -1: it bends into it, which hides the point
- *       unless it is the other side of the surface that is seen */
-static int count_occluders_at(struct contour_pieces *c,
-                              const struct contour_curve *curve, uint32_t step,
-                              double t, int side) {
-  const struct contour_node *a = contour_curves_node(c->curves, step);
-  const struct contour_node *b = contour_curves_node(c->curves, step + 1);
-  const double *normal = contour_curves_segment(c->curves, step)->normal;
-  double height = height_about(c, curve, step), at[3], view[3];
-  facing_view(&c->sheet->camera, a->flat, view);
-  (void)vector_normalise(view);
-  double off = height * (side > 0 ? OFFSET_OUT : -OFFSET_IN);
-  double near = side > 0 ? height * OFFSET_NEARER : 0;
-  for (int k = 0; k < 3; k++)
-    at[k] = a->flat[k] + t * (b->flat[k] - a->flat[k]) + off * normal[k] -
-            near * view[k];
-  return occluders_count(c->sheet, &c->grid, &c->query, project_place(c, at));
-}
-
-/* ---- Pieces -------------------------------------------------------------- */
-
-/* The side of the surface on which the line of sight passes a piece: the outer
- * one, as normals have it, unless the surface bends into the line there; then
- * its other side is seen, or nothing. */
-static int side_of_piece(const struct contour_pieces *c,
-                         const struct contour_piece *piece) {
-  int64_t sum = 0;
-  for (uint32_t i = piece->from.step; contour_position(piece->to) > i; i++)
-    sum += contour_curves_segment(c->curves, i)->radial < 0 ? -1 : 1;
-  return sum < 0 ? -1 : 1;
-}
-
-static bool sample_piece(struct contour_pieces *c,
-                         const struct contour_curve *curve,
-                         struct contour_piece *piece) {
-  double from = contour_position(piece->from), to = contour_position(piece->to);
-  double last = (double)curve->step + curve->count - 1;
-  piece->side = side_of_piece(c, piece);
-  uint32_t samples = (uint32_t)fmin(ceil(to - from), SAMPLES_MAX) | 1;
-  for (uint32_t i = 0; i < samples; i++) {
-    double at = from + (to - from) * ((i + 0.5) / samples);
-    double step = fmin(floor(at), last);
-    int count =
-        count_occluders_at(c, curve, (uint32_t)step, at - step, piece->side);
-    if (count < 0)
-      return false;
-    piece->samples++;
-    piece->visible += count == 0;
-    piece->occluders += (uint32_t)count;
-  }
-  return true;
-}
 
 /* ---- Edges --------------------------------------------------------------- */
 
@@ -175,10 +76,10 @@ static bool has_surface_left(const struct contour_pieces *c, uint32_t step,
   const struct contour_node *a = contour_curves_node(c->curves, step);
   const struct contour_segment *s = contour_curves_segment(c->curves, step);
   double off = s->width * side;
-  struct geom_point outside =
-      project_place(c, (const double[3]){a->at[0] + off * s->normal[0],
-                                         a->at[1] + off * s->normal[1],
-                                         a->at[2] + off * s->normal[2]});
+  struct geom_point outside = divided_curves_project(
+      &c->divided, (const double[3]){a->at[0] + off * s->normal[0],
+                                     a->at[1] + off * s->normal[1],
+                                     a->at[2] + off * s->normal[2]});
   return geom_orient2d(a->page, contour_curves_node(c->curves, step + 1)->page,
                        outside) <= 0;
 }
@@ -188,7 +89,7 @@ static double bulge_at(const struct contour_pieces *c, uint32_t step) {
   double most = 0;
   for (uint32_t i = step; i <= step + 1; i++) {
     const struct contour_node *node = contour_curves_node(c->curves, i);
-    struct geom_point flat = project_place(c, node->flat);
+    struct geom_point flat = divided_curves_project(&c->divided, node->flat);
     most = fmax(most, hypot((double)node->page.x - flat.x,
                             (double)node->page.y - flat.y));
   }
@@ -243,51 +144,17 @@ static bool is_too_deep(const struct contour_pieces *c,
 
 /* ---- Curves -------------------------------------------------------------- */
 
-/* Divides a curve at its cuts, of which *cut is the first, and passes them. */
-static bool divide(struct contour_pieces *c, const struct contour_curve *curve,
-                   size_t *cut) {
-  const struct contour_cut *all = c->curves->cut.item;
-  uint32_t end = curve->step + curve->count;
-  struct contour_cut from = contour_cut_at(curve->step);
-  bool begins_with_cut = false;
-  c->piece.count = 0;
-  while (contour_position(from) < end) {
-    struct contour_piece made = {.from = from, .to = contour_cut_at(end)};
-    if (*cut < c->curves->cut.count && all[*cut].step < end)
-      made.to = all[(*cut)++];
-    from = made.to;
-    if (contour_position(made.from) == contour_position(made.to))
-      begins_with_cut = true;
-    else if (!sample_piece(c, curve, &made) || !ARRAY_PUSH(&c->piece, made))
-      return false;
-  }
-  /* A closed curve's first and last piece are one. */
-  if (curve->closed && !begins_with_cut && c->piece.count > 1) {
-    struct contour_piece *first = &c->piece.item[0],
-                         *last = &c->piece.item[c->piece.count - 1];
-    first->visible = last->visible += first->visible;
-    first->samples = last->samples += first->samples;
-    first->occluders = last->occluders += first->occluders;
-  }
-  for (size_t i = 0; i < c->piece.count; i++)
-    c->piece.item[i].is_visible =
-        2 * c->piece.item[i].visible > c->piece.item[i].samples;
-  return true;
-}
-
-static bool add_curve(struct contour_pieces *c,
-                      const struct contour_curve *curve, size_t *cut) {
+static bool add_curve(struct contour_pieces *c, size_t index) {
   uint32_t point = SHEET_NONE;
-  if (!divide(c, curve, cut))
-    return false;
-  struct curve_pieces pieces = {c->curves, curve, c->piece.item,
-                                c->piece.count};
+  const struct divided_curve *of = &c->divided.curve.item[index];
+  struct curve_pieces pieces = {c->curves, &c->curves->curve.item[index],
+                                c->divided.piece.item + of->first, of->count};
   curve_pieces_hide_pierced(&pieces, c->sheet);
   curve_pieces_absorb_short(&pieces);
   if (!c->options.exact)
     curve_pieces_absorb_runs(&pieces, &c->sheet->camera);
-  for (size_t i = 0; i < c->piece.count; i++) {
-    const struct contour_piece *piece = &c->piece.item[i];
+  for (size_t i = 0; i < pieces.count; i++) {
+    const struct contour_piece *piece = &pieces.piece[i];
     if (point == SHEET_NONE && !point_at(c, piece->from, &point))
       return false;
     if (is_too_deep(c, piece))
@@ -295,7 +162,6 @@ static bool add_curve(struct contour_pieces *c,
     else if (!add_edges(c, piece, &point))
       return false;
   }
-  c->piece_count += c->piece.count;
   return true;
 }
 
@@ -307,11 +173,30 @@ static bool add_all_curves(struct contour_pieces *c) {
   if (state == NULL)
     return false;
   map->edge_state = state;
-  size_t cut = 0;
   for (size_t i = 0; i < c->curves->curve.count; i++)
-    if (!poll_at(i) || !add_curve(c, &c->curves->curve.item[i], &cut))
+    if (!poll_at(i) || !add_curve(c, i))
       return false;
   return true;
+}
+
+/* ---- Triangles ----------------------------------------------------------- */
+
+/* Lists the triangles where points are tested: at the samples of the curves,
+ * and beside the mesh's outlines. */
+static bool list_triangles_about(struct contour_pieces *c) {
+  if (!partial_grid_shape(&c->grid, c->sheet))
+    return false;
+  for (size_t i = 0; i < c->divided.sample.count; i++) {
+    struct geom_point p = c->divided.sample.item[i];
+    partial_grid_want(&c->grid, (struct box2){p.x, p.y, p.x, p.y});
+  }
+  for (size_t i = 0; i < c->set->outline.count; i++)
+    partial_grid_want(&c->grid, outline_gaps_box(&c->set->outline.item[i]));
+  /* How many triangles hide a point may depend on which ones are duplicates of
+   * others in any list. */
+  if (c->options.hidden_max > 0)
+    partial_grid_want(&c->grid, box2_of_sheet(c->sheet));
+  return partial_grid_fill(&c->grid, c->sheet);
 }
 
 /* ---- The whole ----------------------------------------------------------- */
@@ -327,7 +212,7 @@ static bool close_gaps(struct contour_pieces *c, uint32_t first,
                                            .first_point = first_point,
                                            .bulge = c->bulge.item,
                                            .bulges = (uint32_t)c->bulge.count,
-                                           .grid = &c->grid,
+                                           .grid = &c->grid.grid,
                                            .query = &c->query};
   return fold_bridges_add(&input, c->height.item) && outline_gaps_close(&input);
 }
@@ -344,21 +229,23 @@ static bool add_pieces(struct contour_pieces *c) {
             page_crossings_cut(c->curves) &&
             intersection_cuts_add(c->curves, c->sheet, c->map) &&
             contour_cuts_sort(&c->curves->cut) &&
-            triangle_grid_init(&c->grid, c->sheet);
-  if (!ok)
-    return false;
-  ok = triangle_grid_query_init(&c->query, &c->grid) && add_all_curves(c) &&
-       doubled_contours_hide(c->sheet, c->map, first, c->height.item,
-                             c->options.exact
-                                 ? RECTO_FINEST_MM * SHEET_UNITS_PER_MM
-                                 : TOLERANCE_OUTLINE_UNITS) &&
-       close_gaps(c, first, first_point);
+            divided_curves_find(&c->divided) && list_triangles_about(c) &&
+            triangle_grid_query_init(&c->query, &c->grid.grid);
+  return ok && divided_curves_count(&c->divided, &c->grid.grid, &c->query) &&
+         add_all_curves(c) &&
+         doubled_contours_hide(c->sheet, c->map, first, c->height.item,
+                               c->options.exact
+                                   ? RECTO_FINEST_MM * SHEET_UNITS_PER_MM
+                                   : TOLERANCE_OUTLINE_UNITS) &&
+         close_gaps(c, first, first_point);
+}
+
+static void fini_pieces(struct contour_pieces *c) {
+  divided_curves_fini(&c->divided);
   triangle_grid_query_fini(&c->query);
-  triangle_grid_fini(&c->grid);
-  ARRAY_FREE(&c->piece);
+  partial_grid_fini(&c->grid);
   ARRAY_FREE(&c->height);
   ARRAY_FREE(&c->bulge);
-  return ok;
 }
 
 /* Makes the visible fragments end at the contours. */
@@ -404,20 +291,24 @@ recto_status smooth_contours_add(struct sheet *sheet, struct map *map,
   if (status == RECTO_OK)
     status = zero_set_find(&set, &facing, error);
   facing_fini(&facing);
-  struct contour_pieces pieces = {.sheet = sheet,
-                                  .map = map,
-                                  .topology = topology,
-                                  .set = &set,
-                                  .curves = &curves,
-                                  .projection = projection_of(&sheet->camera),
-                                  .options = options};
+  struct contour_pieces pieces = {
+      .sheet = sheet,
+      .map = map,
+      .topology = topology,
+      .set = &set,
+      .curves = &curves,
+      .divided = {.sheet = sheet,
+                  .curves = &curves,
+                  .projection = projection_of(&sheet->camera)},
+      .options = options};
   if (status == RECTO_OK &&
       !(add_pieces(&pieces) && end_at_contours(sheet, map, topology, first)))
     status = error_memory(error);
   if (!options.intersections)
     forget_intersections(sheet);
   *counts = (struct smooth_contours_counts){
-      set.segment.count, curves.curve.count, pieces.piece_count};
+      set.segment.count, curves.curve.count, pieces.divided.piece.count};
+  fini_pieces(&pieces);
   contour_curves_fini(&curves);
   zero_set_fini(&set);
   return status;

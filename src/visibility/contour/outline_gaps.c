@@ -90,8 +90,8 @@ static double bulge_of(const struct outline_gaps *g, uint32_t edge) {
   return i < g->in->bulges ? (double)g->in->bulge[i] : 0;
 }
 
-/* Whether a segment is surely no nearer than the nearest drawn points so far, of
- * all that it may change. */
+/* Whether a segment is surely no nearer than the nearest drawn points so far,
+ * of all that it may change. */
 static inline bool is_farther(const struct outline_gaps *g,
                               const struct page_segment *s, struct geom_point p,
                               const struct nearest_contour *best) {

@@ -17,7 +17,8 @@ struct outline_gaps_input {
   const float *bulge; /* one a contour's edge: how far it is from the mesh on
                          the page, grid units */
   uint32_t bulges;    /* so many are known; of further ones it is 0 */
-  const struct triangle_grid *grid; /* of the sheet's triangles */
+  const struct triangle_grid *grid; /* of the sheet's triangles, in the boxes
+                                       of the outlines at least */
   struct triangle_grid_query *query;
 };
 
@@ -31,5 +32,14 @@ struct outline_gaps_input {
  * Cost   near linear in the outlines
  * Returns false when memory ran out or the caller cancelled. */
 USE_RESULT bool outline_gaps_close(const struct outline_gaps_input *input);
+
+/* Where triangles are looked for about an outline. */
+static inline struct box2
+outline_gaps_box(const struct contour_outline *outline) {
+  enum { AROUND = 16 }; /* grid units: points beside it are within ten */
+  struct box2 box = box2_of_segment(outline->image.p, outline->image.q);
+  return (struct box2){box.x0 - AROUND, box.y0 - AROUND, box.x1 + AROUND,
+                       box.y1 + AROUND};
+}
 
 #endif

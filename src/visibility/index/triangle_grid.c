@@ -9,7 +9,6 @@
 #include "visibility/index/duplicate_triangles.h"
 
 enum {
-  SPREAD = 8, /* cells per triangle, on average, for lists of pairs */
   MAX_SHIFT = 31,
   SAMPLE = 1 << 16 /* triangles sampled to choose the cells */
 };
@@ -262,7 +261,7 @@ bool triangle_grid_fill(struct triangle_grid *grid, const struct sheet *sheet,
 }
 
 bool triangle_grid_init(struct triangle_grid *grid, const struct sheet *sheet) {
-  triangle_grid_shape(grid, sheet, SPREAD, 2);
+  triangle_grid_shape(grid, sheet, TRIANGLE_GRID_SPREAD, 2);
   if (fill(&(struct filling){
           .grid = grid, .sheet = sheet, .count = sheet->triangle.count}) &&
       triangle_grid_split(grid, false))
@@ -273,9 +272,12 @@ bool triangle_grid_init(struct triangle_grid *grid, const struct sheet *sheet) {
 
 bool triangle_grid_fill_some(struct triangle_grid *grid,
                              const struct sheet *sheet, const uint32_t *subset,
-                             size_t count) {
-  return fill(&(struct filling){
-      .grid = grid, .sheet = sheet, .subset = subset, .count = count});
+                             size_t count, const uint8_t *wanted) {
+  return fill(&(struct filling){.grid = grid,
+                                .sheet = sheet,
+                                .wanted = wanted,
+                                .subset = subset,
+                                .count = count});
 }
 
 void triangle_grid_fini(struct triangle_grid *grid) {

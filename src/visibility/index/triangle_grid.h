@@ -68,11 +68,13 @@ USE_RESULT bool triangle_grid_enlarge(struct triangle_grid *grid,
                                       const uint32_t *subset, size_t n,
                                       double *cost);
 
-/* Makes the lists of a subset of the triangles, ascending.  False when memory
- * ran out. */
+/* Makes the lists of a subset of the triangles, ascending.
+ * wanted  as of triangle_grid_fill; NULL: all cells get lists
+ * False when memory ran out. */
 USE_RESULT bool triangle_grid_fill_some(struct triangle_grid *grid,
                                         const struct sheet *sheet,
-                                        const uint32_t *subset, size_t count);
+                                        const uint32_t *subset, size_t count,
+                                        const uint8_t *wanted);
 
 /* Makes a BSP of each list of TRIANGLE_GRID_SPLIT triangles or more.
  * planes  split by planes too: a query then finds what may hide its shape, not
@@ -94,6 +96,7 @@ static inline int triangle_grid_cell(int32_t v, int32_t v0, int shift,
 }
 
 enum {
+  TRIANGLE_GRID_SPREAD = 8,      /* cells per triangle, for lists of all */
   TRIANGLE_GRID_SPLIT = 1024,    /* least list that gets a BSP */
   TRIANGLE_GRID_DUPLICATES = 256 /* least list searched for duplicates */
 };

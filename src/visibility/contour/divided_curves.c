@@ -1,0 +1,180 @@
+/* divided_curves.c - divides curves, and tests points of their pieces. */
+#include "visibility/contour/divided_curves.h"
+
+#include <math.h>
+
+#include "base/poll.h"
+#include "visibility/contour/occluders.h"
+
+/* Visibility is sampled off the surface, by so many heights of the triangles
+ * about it: outwards and towards the viewer where the surface bends away from
+ * the line of sight, since the mesh about it is uneven; else inwards. */
+#define OFFSET_OUT 0.1
+#define OFFSET_NEARER 1.0
+#define OFFSET_IN 0.6
+
+/* The samples of a piece, at most, and segments whose heights give the offset,
+ * to either side of one. */
+enum { SAMPLES_MAX = 31, HEIGHT_REACH = 10 };
+
+void divided_curves_fini(struct divided_curves *d) {
+  ARRAY_FREE(&d->piece);
+  ARRAY_FREE(&d->curve);
+  ARRAY_FREE(&d->sample);
+}
+
+/* ---- Samples ------------------------------------------------------------- */
+
+/* The median of the triangles' heights along a curve about one of its steps. */
+static double height_about(const struct divided_curves *d,
+                           const struct contour_curve *curve, uint32_t step) {
+  double height[2 * HEIGHT_REACH + 1];
+  size_t count = 0;
+  const struct contour_segment *own = contour_curves_segment(d->curves, step);
+  for (int i = -HEIGHT_REACH; i <= HEIGHT_REACH; i++) {
+    int64_t at = (int64_t)step + i;
+    if (at < curve->step || at >= (int64_t)curve->step + curve->count)
+      continue;
+    const struct contour_segment *s =
+        contour_curves_segment(d->curves, (size_t)at);
+    if (s != own && (s->along_crease || own->along_crease))
+      continue;
+    size_t k = count++; /* they are few: each is put where it belongs */
+    for (; k > 0 && height[k - 1] > s->width; k--)
+      height[k] = height[k - 1];
+    height[k] = s->width;
+  }
+  return height[count / 2];
+}
+
+/* Where the visibility of a curve is sampled.
+ * side  1: the surface bends away from the line of sight, so that the point is
+ *       in front of it; -1: it bends into it, which hides the point unless it
+ *       is the other side of the surface that is seen */
+static struct geom_point place_sample(const struct divided_curves *d,
+                                      const struct contour_curve *curve,
+                                      uint32_t step, double t, int side) {
+  const struct contour_node *a = contour_curves_node(d->curves, step);
+  const struct contour_node *b = contour_curves_node(d->curves, step + 1);
+  const double *normal = contour_curves_segment(d->curves, step)->normal;
+  double height = height_about(d, curve, step), at[3], view[3];
+  facing_view(&d->sheet->camera, a->flat, view);
+  (void)vector_normalise(view);
+  double off = height * (side > 0 ? OFFSET_OUT : -OFFSET_IN);
+  double near = side > 0 ? height * OFFSET_NEARER : 0;
+  for (int k = 0; k < 3; k++)
+    at[k] = a->flat[k] + t * (b->flat[k] - a->flat[k]) + off * normal[k] -
+            near * view[k];
+  return divided_curves_project(d, at);
+}
+
+/* ---- Pieces -------------------------------------------------------------- */
+
+/* The side of the surface on which the line of sight passes a piece: the outer
+ * one, as normals have it, unless the surface bends into the line there; then
+ * its other side is seen, or nothing. */
+static int side_of_piece(const struct divided_curves *d,
+                         const struct contour_piece *piece) {
+  int64_t sum = 0;
+  for (uint32_t i = piece->from.step; contour_position(piece->to) > i; i++)
+    sum += contour_curves_segment(d->curves, i)->radial < 0 ? -1 : 1;
+  return sum < 0 ? -1 : 1;
+}
+
+/* Adds a piece and its samples. */
+static bool add_sampled_piece(struct divided_curves *d,
+                              const struct contour_curve *curve,
+                              struct contour_piece *piece) {
+  double from = contour_position(piece->from), to = contour_position(piece->to);
+  double last = (double)curve->step + curve->count - 1;
+  piece->side = side_of_piece(d, piece);
+  piece->samples = (uint32_t)fmin(ceil(to - from), SAMPLES_MAX) | 1;
+  for (uint32_t i = 0; i < piece->samples; i++) {
+    double at = from + (to - from) * ((i + 0.5) / piece->samples);
+    double step = fmin(floor(at), last);
+    struct geom_point p =
+        place_sample(d, curve, (uint32_t)step, at - step, piece->side);
+    if (!ARRAY_PUSH(&d->sample, p))
+      return false;
+  }
+  return ARRAY_PUSH(&d->piece, *piece);
+}
+
+/* Divides a curve at its cuts, of which *cut is the first, and passes them. */
+static bool divide(struct divided_curves *d, const struct contour_curve *curve,
+                   size_t *cut) {
+  const struct contour_cut *all = d->curves->cut.item;
+  uint32_t end = curve->step + curve->count;
+  struct contour_cut from = contour_cut_at(curve->step);
+  struct divided_curve made = {.first = (uint32_t)d->piece.count};
+  bool begins_with_cut = false;
+  while (contour_position(from) < end) {
+    struct contour_piece piece = {.from = from, .to = contour_cut_at(end)};
+    if (*cut < d->curves->cut.count && all[*cut].step < end)
+      piece.to = all[(*cut)++];
+    from = piece.to;
+    if (contour_position(piece.from) == contour_position(piece.to))
+      begins_with_cut = true;
+    else if (!add_sampled_piece(d, curve, &piece))
+      return false;
+  }
+  made.count = (uint32_t)d->piece.count - made.first;
+  made.joins = curve->closed && !begins_with_cut && made.count > 1;
+  return ARRAY_PUSH(&d->curve, made);
+}
+
+bool divided_curves_find(struct divided_curves *d) {
+  size_t cut = 0;
+  for (size_t i = 0; i < d->curves->curve.count; i++)
+    if (!poll_at(i) || !divide(d, &d->curves->curve.item[i], &cut))
+      return false;
+  return true;
+}
+
+/* ---- What hides them ----------------------------------------------------- */
+
+/* Tests the samples of a piece. */
+static bool test_samples(const struct divided_curves *d,
+                         const struct triangle_grid *grid,
+                         struct triangle_grid_query *query,
+                         struct contour_piece *piece,
+                         const struct geom_point *sample) {
+  for (uint32_t i = 0; i < piece->samples; i++) {
+    int count = occluders_count(d->sheet, grid, query, sample[i]);
+    if (count < 0)
+      return false;
+    piece->visible += count == 0;
+    piece->occluders += (uint32_t)count;
+  }
+  return true;
+}
+
+/* Makes one of a curve's first and last piece. */
+static void join_end_pieces(struct contour_piece *first,
+                            struct contour_piece *last) {
+  first->visible = last->visible += first->visible;
+  first->samples = last->samples += first->samples;
+  first->occluders = last->occluders += first->occluders;
+}
+
+bool divided_curves_count(struct divided_curves *d,
+                          const struct triangle_grid *grid,
+                          struct triangle_grid_query *query) {
+  const struct geom_point *sample = d->sample.item;
+  for (size_t i = 0; i < d->piece.count; i++) {
+    struct contour_piece *piece = &d->piece.item[i];
+    if (!poll_at(i) || !test_samples(d, grid, query, piece, sample))
+      return false;
+    sample += piece->samples;
+  }
+  for (size_t i = 0; i < d->curve.count; i++) {
+    const struct divided_curve *of = &d->curve.item[i];
+    if (of->joins)
+      join_end_pieces(&d->piece.item[of->first],
+                      &d->piece.item[of->first + of->count - 1]);
+  }
+  for (size_t i = 0; i < d->piece.count; i++)
+    d->piece.item[i].is_visible =
+        2 * d->piece.item[i].visible > d->piece.item[i].samples;
+  return true;
+}
