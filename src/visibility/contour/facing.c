@@ -222,19 +222,27 @@ static void set_flags(struct facing *f, uint32_t face, uint8_t flags) {
     f->point_flags[f->scene->corner.item[c]] |= flags;
 }
 
-/* Sets the signs of all faces for their points.  What the loops over all faces
- * read is copied, so that the compiler knows that writing bytes does not change
- * it. */
+/* The loops over all faces take a few operations for each, and a face has three
+ * corners at least.  What they read is copied, so that the compiler knows that
+ * writing bytes does not change it. */
+
+/* Sets the signs of all faces for their points. */
 static void set_signs(struct facing *f) {
   const struct scene *scene = f->scene;
   const uint32_t *corner = scene->corner.item, faces = scene_face_count(scene);
   const uint32_t *start =
       scene->face_start.count > 0 ? scene->face_start.item : NULL;
-  const uint8_t *sign = f->face_sign;
+  const uint8_t *signs = f->face_sign;
   uint8_t *flags = f->point_flags;
-  for (uint32_t face = 0, c = 0; face < faces; face++)
-    for (uint32_t end = start != NULL ? start[face + 1] : c + 3; c < end; c++)
-      flags[corner[c]] |= sign[face];
+  for (uint32_t face = 0, c = 0; face < faces; face++) {
+    uint32_t end = start != NULL ? start[face + 1] : c + 3;
+    uint8_t sign = signs[face];
+    flags[corner[c]] |= sign;
+    flags[corner[c + 1]] |= sign;
+    flags[corner[c + 2]] |= sign;
+    for (c += 3; c < end; c++)
+      flags[corner[c]] |= sign;
+  }
 }
 
 /* Lists the faces of whose points' flags the union has all of some bits.
@@ -247,13 +255,15 @@ static bool list_faces_with(const struct facing *f, unsigned bits,
       scene->face_start.count > 0 ? scene->face_start.item : NULL;
   const uint8_t *flags = f->point_flags;
   for (uint32_t face = 0, c = 0; face < faces; face++) {
-    unsigned all = 0;
-    for (uint32_t end = start != NULL ? start[face + 1] : c + 3; c < end; c++)
+    uint32_t end = start != NULL ? start[face + 1] : c + 3;
+    unsigned all =
+        flags[corner[c]] | flags[corner[c + 1]] | flags[corner[c + 2]];
+    for (c += 3; c < end; c++)
       all |= flags[corner[c]];
-    if (!poll_at(face) || ((all & bits) == bits && !ARRAY_PUSH(list, face)))
+    if ((all & bits) == bits && !ARRAY_PUSH(list, face))
       return false;
   }
-  return true;
+  return poll_now();
 }
 
 /* Gives points that are welded the flags of each other. */

@@ -247,6 +247,16 @@ static bool is_straight_fold(const struct thin_loops *l, size_t from,
   return true;
 }
 
+/* A filter for is_straight_fold, by sums in another order: false only where that
+ * is. */
+static bool is_back_and_forth(const struct thin_loops *l, size_t from,
+                              size_t to, double length, double heights) {
+  struct geom_point p = stack_node(l, from)->page, q = stack_node(l, to)->page;
+  double x = (double)q.x - p.x, y = (double)q.y - p.y;
+  double most = FOLD_HEIGHTS * heights / (double)(to - from);
+  return length - sqrt(x * x + y * y) < most + 0x1p-32 * (length + most);
+}
+
 /* Makes one segment of the last ones of the stack that fold back and forth
  * along a straight line. */
 static bool straighten_fold(struct thin_loops *l) {
@@ -258,10 +268,16 @@ static bool straighten_fold(struct thin_loops *l) {
     return true;
   /* It turns back twice at least. */
   size_t turn = measure_of(l, last - 1)->turn;
+  if (turn > lowest)
+    turn = measure_of(l, turn - 1)->turn;
   if (turn <= lowest)
     return true;
-  for (size_t i = measure_of(l, turn - 1)->turn; i > lowest; i--) {
-    if (!is_straight_fold(l, i - 1, last))
+  double length = 0, heights = 0;
+  for (size_t i = last; i > lowest; i--) {
+    length += measure_of(l, i - 1)->length;
+    heights += measure_of(l, i - 1)->height;
+    if (i > turn || !is_back_and_forth(l, i - 1, last, length, heights) ||
+        !is_straight_fold(l, i - 1, last))
       continue;
     struct contour_step *from = &l->step.item[i - 1];
     struct contour_step end = l->step.item[last];

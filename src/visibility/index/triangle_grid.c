@@ -111,18 +111,23 @@ struct filling {
   struct triangle_grid *grid;
   const struct sheet *sheet;
   const struct footprint *footprint; /* NULL: computed */
+  bool by_subset;         /* footprints are one an item of the subset; else one
+                             a triangle */
   const uint8_t *wanted;  /* per cell: it gets a list; NULL: all do */
   const uint32_t *subset; /* the triangles that may be listed; NULL: all */
   size_t count;
 };
 
-/* Puts the triangle into its cells' lists. */
-static void fill_triangle(const struct filling *filling, uint32_t t) {
+/* Puts a triangle, by its index in the subset, into its cells' lists. */
+static void fill_triangle(const struct filling *filling, size_t index) {
+  uint32_t t =
+      filling->subset != NULL ? filling->subset[index] : (uint32_t)index;
   struct triangle_grid *grid = filling->grid;
   const struct sheet *sheet = filling->sheet;
   struct cell_range r =
       filling->footprint != NULL
-          ? footprint_cells(grid, sheet, t, filling->footprint[t])
+          ? footprint_cells(grid, sheet, t,
+                            filling->footprint[filling->by_subset ? index : t])
           : triangle_grid_cells(grid, box2_of_triangle(sheet, t));
   for (int y = r.y0; y <= r.y1; y++)
     for (int x = r.x0; x <= r.x1; x++) {
@@ -136,8 +141,7 @@ static void fill_triangle(const struct filling *filling, uint32_t t) {
 static void fill_cells(const struct filling *filling) {
   for (size_t i = filling->count; i-- > 0;) {
     (void)poll_at(i);
-    fill_triangle(filling,
-                  filling->subset != NULL ? filling->subset[i] : (uint32_t)i);
+    fill_triangle(filling, i);
   }
 }
 
@@ -254,8 +258,12 @@ bool triangle_grid_fill(struct triangle_grid *grid, const struct sheet *sheet,
   uint8_t *dilated = dilate(grid, wanted);
   bool ok = dilated != NULL && choose_subset(grid, footprint, dilated, &subset);
   mem_free(dilated);
-  ok = ok && fill(&(struct filling){grid, sheet, footprint, wanted, subset.item,
-                                    subset.count});
+  ok = ok && fill(&(struct filling){.grid = grid,
+                                    .sheet = sheet,
+                                    .footprint = footprint,
+                                    .wanted = wanted,
+                                    .subset = subset.item,
+                                    .count = subset.count});
   ARRAY_FREE(&subset);
   return ok;
 }
@@ -272,9 +280,12 @@ bool triangle_grid_init(struct triangle_grid *grid, const struct sheet *sheet) {
 
 bool triangle_grid_fill_some(struct triangle_grid *grid,
                              const struct sheet *sheet, const uint32_t *subset,
-                             size_t count, const uint8_t *wanted) {
+                             size_t count, const struct footprint *footprint,
+                             const uint8_t *wanted) {
   return fill(&(struct filling){.grid = grid,
                                 .sheet = sheet,
+                                .footprint = footprint,
+                                .by_subset = true,
                                 .wanted = wanted,
                                 .subset = subset,
                                 .count = count});

@@ -69,11 +69,13 @@ USE_RESULT bool triangle_grid_enlarge(struct triangle_grid *grid,
                                       double *cost);
 
 /* Makes the lists of a subset of the triangles, ascending.
- * wanted  as of triangle_grid_fill; NULL: all cells get lists
+ * footprint  one an item of the subset; NULL: they are computed
+ * wanted     as of triangle_grid_fill; NULL: all cells get lists
  * False when memory ran out. */
 USE_RESULT bool triangle_grid_fill_some(struct triangle_grid *grid,
                                         const struct sheet *sheet,
                                         const uint32_t *subset, size_t count,
+                                        const struct footprint *footprint,
                                         const uint8_t *wanted);
 
 /* Makes a BSP of each list of TRIANGLE_GRID_SPLIT triangles or more.

@@ -103,7 +103,7 @@ static bool enlarge_cells(struct tile_candidates *list,
     triangle_grid_fini(small);
     list->grid = large;
     list->cells_are_tiles = false;
-    ok = triangle_grid_fill_some(&list->grid, sheet, all, count, NULL) &&
+    ok = triangle_grid_fill_some(&list->grid, sheet, all, count, NULL, NULL) &&
          prepare_occluders(list, sheet, all, count);
   }
   mem_free(all);
