@@ -8,9 +8,9 @@
  *
  * Phases
  *   1 walk from each loose end of a silhouette, and keep the short spurs
- *   2 list, in the cells of a uniform grid about their loose ends, the segments
- *     there, and look for one that passes by
- *   3 look for nodes of other lines on them
+ *   2 look for nodes of other lines on them
+ *   3 list the loose ends of the others in the cells of a uniform grid, and
+ *     test each segment with those in its cells
  * Invariants  The outline of the picture is whole: along it lines go on from
  *   line to line.  So a spur with an end that no other line is near, and
  *   without a line that ends on it, is no part of the outline. */
@@ -26,14 +26,8 @@
 #include "ink/lines/nodes_near_segment.h"
 #include "ink/pens.h"
 
-enum { NO_SPUR = UINT32_MAX };
-
 /* The cells of the grid along each side of the page, at most. */
 enum { GRID_MAX = 1 << 10 };
-
-/* A loose end of a spur is in the cell; or in one beside it or across a corner,
- * at least. */
-enum cell_mark { HAS_END = 2, IS_BESIDE_END = 1 };
 
 struct spur {
   uint32_t end[2];   /* its loose ends; SEGMENT_GRAPH_NONE: there is one */
@@ -42,20 +36,29 @@ struct spur {
   bool is_long;      /* too long, unless it touches nothing */
 };
 
+/* A loose end in the list of a cell: end k of spur `end` >> 1, k = `end` & 1.
+ * next  one in the list, plus one; 0: none */
+struct listed_end {
+  uint32_t end, next;
+};
+
 struct spur_search {
   const struct segment_graph *graph;
   const struct sheet *sheet;
   const struct pens *pens;
   double step; /* see segment_graph_find_short_spurs */
   ARRAY(struct spur) spur;
-  uint32_t *of_segment;        /* the spur of each, or NO_SPUR */
-  double near;                 /* half of the widest pen, grid units */
-  double cell, low[2];         /* of the uniform grid, grid units */
-  double per_unit;             /* cells */
-  int count[2];                /* of its cells, in x and in y */
-  uint8_t *mark;               /* one a cell, of cell_mark */
-  uint8_t *is_near;            /* one a segment: it may be near a marked cell */
-  struct number_lists in_cell; /* the segments near each marked cell */
+  uint32_t *of_segment;    /* the spur of each, plus one; 0: it is of none */
+  ARRAY(uint32_t) segment; /* those of spurs */
+  double near;             /* half of the widest pen, grid units */
+  double cell, low[2];     /* of the uniform grid, grid units */
+  double per_unit;         /* cells */
+  int count[2];            /* of cells, in x and in y */
+  /* One a cell: the first of the loose ends in it and in those about it, as in
+   * listed_end. */
+  uint32_t *first;
+  ARRAY(struct listed_end) listed;
+  uint8_t *is_near; /* one a segment: some may be near it */
 };
 
 static uint32_t spur_node(const struct spur_search *s, uint32_t end) {
@@ -109,11 +112,9 @@ static uint32_t next_end(const struct spur_search *s, uint32_t end) {
              : SEGMENT_GRAPH_NONE;
 }
 
-/* Walks from a loose end, marking segments as those of a spur, as long as it
- * may be left out.  Returns the last end, or SEGMENT_GRAPH_NONE: it is too
- * long. */
-static uint32_t walk(const struct spur_search *s, uint32_t end, uint32_t spur,
-                     bool *is_long) {
+/* Walks from a loose end along what may be left out.  Returns the last end, or
+ * SEGMENT_GRAPH_NONE: it is too long. */
+static uint32_t walk(const struct spur_search *s, uint32_t end, bool *is_long) {
   const struct graph_segment *first = &s->graph->segment.item[end >> 1];
   uint32_t group = s->sheet->edge.item[first->edge].group;
   uint32_t pen = pens_of_line(s->pens, RECTO_EDGE_SILHOUETTE, group);
@@ -123,8 +124,6 @@ static uint32_t walk(const struct spur_search *s, uint32_t end, uint32_t spur,
     length += segment_mm(s, next >> 1);
     if (length >= pens_shortest_isolated_mm(s->pens, pen))
       return SEGMENT_GRAPH_NONE;
-    if (spur != NO_SPUR)
-      s->of_segment[next >> 1] = spur;
     end = next ^ 1;
   }
   *is_long = length >= pens_shortest_crease_mm(s->pens, pen);
@@ -133,7 +132,7 @@ static uint32_t walk(const struct spur_search *s, uint32_t end, uint32_t spur,
 
 static bool add_spur(struct spur_search *s, uint32_t end) {
   bool is_long = false;
-  uint32_t last = walk(s, end, NO_SPUR, &is_long);
+  uint32_t last = walk(s, end, &is_long);
   if (last == SEGMENT_GRAPH_NONE || is_cut_off(s, end))
     return true;
   bool both = ends_at(s, spur_node(s, last)) == 1;
@@ -159,17 +158,55 @@ static bool find_spurs(struct spur_search *s) {
   return true;
 }
 
-static bool mark_spurs(struct spur_search *s) {
-  size_t segments = s->graph->segment.count;
-  s->of_segment = mem_alloc(segments, sizeof *s->of_segment);
-  for (size_t i = 0; s->of_segment != NULL && i < segments; i++)
-    s->of_segment[i] = NO_SPUR;
-  for (uint32_t i = 0; s->of_segment != NULL && i < s->spur.count; i++)
-    (void)walk(s, s->spur.item[i].end[0], i, &s->spur.item[i].is_long);
-  return s->of_segment != NULL;
+/* Lists the segments of a spur. */
+static bool list_spur(struct spur_search *s, uint32_t spur) {
+  for (uint32_t end = s->spur.item[spur].end[0]; end != SEGMENT_GRAPH_NONE;
+       end = next_end(s, end ^ 1)) {
+    s->of_segment[end >> 1] = spur + 1;
+    if (!ARRAY_PUSH(&s->segment, end >> 1))
+      return false;
+  }
+  return true;
 }
 
-/* ---- 2 What passes by ---------------------------------------------------- */
+static bool list_spurs(struct spur_search *s) {
+  s->of_segment = mem_calloc(s->graph->segment.count, sizeof *s->of_segment);
+  bool ok = s->of_segment != NULL;
+  for (uint32_t i = 0; ok && i < s->spur.count; i++)
+    ok = list_spur(s, i);
+  return ok;
+}
+
+/* ---- 2 What ends on them ------------------------------------------------- */
+
+/* Whether a node is one of a spur's, or of none. */
+static bool is_of_spur(const struct spur_search *s, uint32_t node,
+                       uint32_t spur) {
+  const struct number_lists *ends = &s->graph->ends;
+  for (uint32_t i = ends->start[node]; i < ends->start[node + 1]; i++)
+    if (s->of_segment[ends->item[i] >> 1] == spur + 1)
+      return true;
+  return ends->start[node] == ends->start[node + 1];
+}
+
+/* Whether a node near a segment of a spur is its own. */
+static bool is_own_node(void *user, uint32_t segment, uint32_t node) {
+  const struct spur_search *s = user;
+  return is_of_spur(s, node, s->of_segment[segment] - 1);
+}
+
+static void find_met(struct spur_search *s, const struct node_rows *rows) {
+  double near = s->step + 2 * TOLERANCE_COINCIDENT_UNITS;
+  const struct node_search search = {s->graph, rows, (int32_t)ceil(near),
+                                     is_own_node, s};
+  for (size_t i = 0; i < s->segment.count; i++) {
+    uint32_t segment = s->segment.item[i];
+    struct spur *spur = &s->spur.item[s->of_segment[segment] - 1];
+    spur->is_met = spur->is_met || !nodes_near_segment_visit(&search, segment);
+  }
+}
+
+/* ---- 3 What passes by ---------------------------------------------------- */
 
 static int spur_cell(const struct spur_search *s, int axis, double at) {
   double cell = (at - s->low[axis]) * s->per_unit;
@@ -177,22 +214,24 @@ static int spur_cell(const struct spur_search *s, int axis, double at) {
   return cell < 0 ? 0 : cell < last ? (int)cell : last;
 }
 
-static size_t spur_cell_at(const struct spur_search *s, struct ink_point at) {
-  return (size_t)spur_cell(s, 1, at.y) * (size_t)s->count[0] +
-         (size_t)spur_cell(s, 0, at.x);
-}
-
-/* Marks the cell of a loose end, and those about it. */
-static void mark_spur_cells(struct spur_search *s, uint32_t end) {
-  struct ink_point at = s->graph->node.item[spur_node(s, end)];
+/* Lists a loose end in its cell and in those about it: what is near the end is
+ * in one of them. */
+static bool list_loose_end(struct spur_search *s, uint32_t spur, uint32_t k) {
+  struct ink_point at =
+      s->graph->node.item[spur_node(s, s->spur.item[spur].end[k])];
   int x = spur_cell(s, 0, at.x), y = spur_cell(s, 1, at.y);
   for (int row = y - (y > 0); row <= y + 1 && row < s->count[1]; row++)
-    for (int i = x - (x > 0); i <= x + 1 && i < s->count[0]; i++)
-      s->mark[row * s->count[0] + i] |= IS_BESIDE_END;
-  s->mark[spur_cell_at(s, at)] |= HAS_END;
+    for (int i = x - (x > 0); i <= x + 1 && i < s->count[0]; i++) {
+      uint32_t *first = &s->first[row * s->count[0] + i];
+      struct listed_end listed = {spur << 1 | k, *first};
+      if (!ARRAY_PUSH(&s->listed, listed))
+        return false;
+      *first = (uint32_t)s->listed.count;
+    }
+  return true;
 }
 
-static bool make_spur_cells(struct spur_search *s) {
+static bool list_loose_ends(struct spur_search *s) {
   const double *page_mm = s->sheet->camera.page_mm;
   double longest = fmax(page_mm[0], page_mm[1]) * SHEET_UNITS_PER_MM;
   s->cell = fmax(4 * s->near, longest / GRID_MAX);
@@ -201,78 +240,40 @@ static bool make_spur_cells(struct spur_search *s) {
     s->low[axis] = -page_mm[axis] / 2 * SHEET_UNITS_PER_MM;
     s->count[axis] = 1 - (int)floor(2 * s->low[axis] / s->cell);
   }
-  s->mark = mem_calloc((size_t)s->count[0] * (size_t)s->count[1], 1);
-  for (size_t i = 0; s->mark != NULL && i < s->spur.count; i++)
-    for (int k = 0; k < 2; k++)
-      if (s->spur.item[i].end[k] != SEGMENT_GRAPH_NONE)
-        mark_spur_cells(s, s->spur.item[i].end[k]);
-  return s->mark != NULL;
+  s->first =
+      mem_calloc((size_t)s->count[0] * (size_t)s->count[1], sizeof *s->first);
+  bool ok = s->first != NULL;
+  for (uint32_t i = 0; ok && i < s->spur.count; i++) {
+    struct spur *spur = &s->spur.item[i];
+    for (uint32_t k = 0; ok && k < 2; k++) {
+      spur->is_passed[k] = spur->end[k] == SEGMENT_GRAPH_NONE;
+      ok = spur->is_passed[k] || spur->is_met || list_loose_end(s, i, k);
+    }
+  }
+  return ok;
 }
 
-/* Whether a segment may be near a loose end: not if it is in one cell, or in
- * two that share a side, and none of them is beside that of a loose end. */
-static bool may_be_near_end(const struct spur_search *s, uint32_t segment) {
+/* The lists of the cells of a segment's ends, if it is in no other cells: in
+ * one, or in two that share a side.  Returns false if it may be. */
+static bool find_cells(const struct spur_search *s, uint32_t segment,
+                       uint32_t *first[2]) {
   const uint32_t *node = s->graph->segment.item[segment].node;
   struct ink_point p = s->graph->node.item[node[0]];
   struct ink_point q = s->graph->node.item[node[1]];
   int x = spur_cell(s, 0, p.x), y = spur_cell(s, 1, p.y);
   int dx = spur_cell(s, 0, q.x) - x, dy = spur_cell(s, 1, q.y) - y;
-  const uint8_t *mark = &s->mark[y * s->count[0] + x];
-  return abs(dx) + abs(dy) > 1 || *mark != 0 ||
-         mark[dy * s->count[0] + dx] != 0;
+  first[0] = &s->first[y * s->count[0] + x];
+  first[1] = first[0] + dy * s->count[0] + dx;
+  return abs(dx) + abs(dy) <= 1;
 }
 
 static bool find_near_of_range(void *user, struct parallel_range range) {
   const struct spur_search *s = user;
-  for (size_t i = range.begin; i < range.end; i++)
+  for (size_t i = range.begin; i < range.end; i++) {
+    uint32_t *first[2];
     s->is_near[i] = !graph_segment_is_hidden(&s->graph->segment.item[i]) &&
-                    may_be_near_end(s, (uint32_t)i);
-  return true;
-}
-
-/* Lists a segment in the marked cells that it is near, row by row. */
-static void list_near_ends(struct spur_search *s, uint32_t segment) {
-  const uint32_t *node = s->graph->segment.item[segment].node;
-  struct ink_point p = s->graph->node.item[node[0]];
-  struct ink_point q = s->graph->node.item[node[1]];
-  double low = fmin(p.y, q.y), high = fmax(p.y, q.y);
-  double slope = high > low ? ((double)q.x - p.x) / ((double)q.y - p.y) : 0;
-  for (int row = spur_cell(s, 1, low - s->near);
-       row <= spur_cell(s, 1, high + s->near); row++) {
-    double from = s->low[1] + row * s->cell;
-    double y0 = fmin(fmax(from - s->near, low), high);
-    double y1 = fmin(fmax(from + s->cell + s->near, low), high);
-    double x0 = p.x + slope * (y0 - p.y), x1 = p.x + slope * (y1 - p.y);
-    if (high == low) {
-      x0 = p.x;
-      x1 = q.x;
-    }
-    int last = spur_cell(s, 0, fmax(x0, x1) + s->near);
-    for (int x = spur_cell(s, 0, fmin(x0, x1) - s->near); x <= last; x++) {
-      uint32_t cell = (uint32_t)(row * s->count[0] + x);
-      if (s->mark[cell] & HAS_END)
-        number_lists_put(&s->in_cell, cell, segment);
-    }
-  }
-}
-
-static bool list_segments(struct spur_search *s) {
-  size_t cells = (size_t)s->count[0] * (size_t)s->count[1];
-  size_t count = s->graph->segment.count;
-  s->is_near = mem_alloc(count, 1);
-  if (s->is_near == NULL || !number_lists_init(&s->in_cell, cells) ||
-      !parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
-                       PARALLEL_ITEMS, find_near_of_range, s))
-    return false;
-  for (int pass = 0; pass < 2; pass++) {
-    for (uint32_t i = 0; i < count; i++) {
-      if (!poll_at(i))
-        return false;
-      if (s->is_near[i])
-        list_near_ends(s, i);
-    }
-    if (pass == 0 && !number_lists_allocate(&s->in_cell, cells))
-      return false;
+                    (!find_cells(s, (uint32_t)i, first) || *first[0] != 0 ||
+                     *first[1] != 0);
   }
   return true;
 }
@@ -289,57 +290,81 @@ static bool is_near_place(const struct spur_search *s, uint32_t segment,
   return hypot(px - t * x, py - t * y) <= s->near;
 }
 
-/* Whether another line passes by a loose end of a spur. */
-static bool is_passed_by(const struct spur_search *s, uint32_t spur,
-                         uint32_t end) {
-  struct ink_point at = s->graph->node.item[spur_node(s, end)];
-  const uint32_t *start = &s->in_cell.start[spur_cell_at(s, at)];
-  for (uint32_t i = start[0]; i < start[1]; i++) {
-    uint32_t segment = s->in_cell.item[i];
-    if (s->of_segment[segment] != spur && is_near_place(s, segment, at))
-      return true;
+/* Tests a segment with the loose ends in a list, which those leave that some
+ * segment is near. */
+static void test_list(struct spur_search *s, uint32_t *link, uint32_t segment) {
+  while (*link != 0) {
+    struct listed_end *listed = &s->listed.item[*link - 1];
+    uint32_t number = listed->end >> 1, k = listed->end & 1;
+    struct spur *spur = &s->spur.item[number];
+    spur->is_passed[k] =
+        spur->is_passed[k] ||
+        (s->of_segment[segment] != number + 1 &&
+         is_near_place(s, segment,
+                       s->graph->node.item[spur_node(s, spur->end[k])]));
+    if (spur->is_passed[k])
+      *link = listed->next;
+    else
+      link = &listed->next;
   }
-  return false;
 }
 
+/* Tests a segment with what is listed in all of its cells, row by row. */
+static void test_rows(struct spur_search *s, uint32_t segment) {
+  const uint32_t *node = s->graph->segment.item[segment].node;
+  struct ink_point p = s->graph->node.item[node[0]];
+  struct ink_point q = s->graph->node.item[node[1]];
+  double low = fmin(p.y, q.y), high = fmax(p.y, q.y);
+  double slope = high > low ? ((double)q.x - p.x) / ((double)q.y - p.y) : 0;
+  for (int row = spur_cell(s, 1, low); row <= spur_cell(s, 1, high); row++) {
+    double from = s->low[1] + row * s->cell - s->near;
+    double y0 = fmin(fmax(from, low), high);
+    double y1 = fmin(fmax(from + s->cell + 2 * s->near, low), high);
+    double x0 = p.x + slope * (y0 - p.y), x1 = p.x + slope * (y1 - p.y);
+    if (high == low) {
+      x0 = p.x;
+      x1 = q.x;
+    }
+    int last = spur_cell(s, 0, fmax(x0, x1));
+    for (int x = spur_cell(s, 0, fmin(x0, x1)); x <= last; x++)
+      test_list(s, &s->first[row * s->count[0] + x], segment);
+  }
+}
+
+static void test_segment(struct spur_search *s, uint32_t segment) {
+  uint32_t *first[2];
+  if (find_cells(s, segment, first)) {
+    test_list(s, first[0], segment);
+    test_list(s, first[1], segment);
+  } else {
+    test_rows(s, segment);
+  }
+}
+
+/* Segments of spurs come first: of ends that are close together all but a few
+ * leave the lists with these. */
 static bool find_passing(struct spur_search *s) {
-  if (!make_spur_cells(s) || !list_segments(s))
+  size_t count = s->graph->segment.count;
+  s->is_near = mem_alloc(count, 1);
+  if (s->is_near == NULL || !list_loose_ends(s) ||
+      !parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
+                       PARALLEL_ITEMS, find_near_of_range, s))
     return false;
-  for (uint32_t i = 0; i < s->spur.count; i++)
-    for (int k = 0; k < 2 && poll_at(i); k++)
-      s->spur.item[i].is_passed[k] =
-          s->spur.item[i].end[k] == SEGMENT_GRAPH_NONE ||
-          is_passed_by(s, i, s->spur.item[i].end[k]);
+  for (size_t i = 0; i < s->segment.count; i++) {
+    if (!poll_at(i))
+      return false;
+    test_segment(s, s->segment.item[i]);
+  }
+  for (uint32_t i = 0; i < count; i++) {
+    if (!poll_at(i))
+      return false;
+    if (s->is_near[i])
+      test_segment(s, i);
+  }
   return true;
 }
 
-/* ---- 3 What ends on them ------------------------------------------------- */
-
-/* Whether a node is one of a spur's, or of none. */
-static bool is_of_spur(const struct spur_search *s, uint32_t node,
-                       uint32_t spur) {
-  const struct number_lists *ends = &s->graph->ends;
-  for (uint32_t i = ends->start[node]; i < ends->start[node + 1]; i++)
-    if (s->of_segment[ends->item[i] >> 1] == spur)
-      return true;
-  return ends->start[node] == ends->start[node + 1];
-}
-
-/* Whether a node near a segment of a spur is its own. */
-static bool is_own_node(void *user, uint32_t segment, uint32_t node) {
-  const struct spur_search *s = user;
-  uint32_t spur = s->of_segment[segment];
-  return is_of_spur(s, node, spur);
-}
-
-static void find_met(struct spur_search *s, const struct node_rows *rows) {
-  double near = s->step + 2 * TOLERANCE_COINCIDENT_UNITS;
-  const struct node_search search = {s->graph, rows, (int32_t)ceil(near),
-                                     is_own_node, s};
-  for (uint32_t i = 0; i < s->graph->segment.count; i++)
-    if (s->of_segment[i] != NO_SPUR && !nodes_near_segment_visit(&search, i))
-      s->spur.item[s->of_segment[i]].is_met = true;
-}
+/* ---- All ----------------------------------------------------------------- */
 
 static bool leads_nowhere(const struct spur *spur) {
   return !spur->is_met &&
@@ -348,9 +373,10 @@ static bool leads_nowhere(const struct spur *spur) {
 }
 
 static void drop_spurs(const struct spur_search *s, uint8_t *drop) {
-  for (size_t i = 0; i < s->graph->segment.count; i++)
-    drop[i] = s->of_segment[i] != NO_SPUR &&
-              leads_nowhere(&s->spur.item[s->of_segment[i]]);
+  for (size_t i = 0; i < s->segment.count; i++) {
+    uint32_t segment = s->segment.item[i];
+    drop[segment] = leads_nowhere(&s->spur.item[s->of_segment[segment] - 1]);
+  }
 }
 
 bool segment_graph_find_short_spurs(const struct segment_graph *graph,
@@ -364,16 +390,18 @@ bool segment_graph_find_short_spurs(const struct segment_graph *graph,
     s.near = fmax(s.near, pens_width_mm(pens, pen) / 2 * SHEET_UNITS_PER_MM);
   bool ok = find_spurs(&s);
   if (ok && s.spur.count > 0) {
-    ok = mark_spurs(&s) && find_passing(&s);
-    if (ok) {
+    ok = list_spurs(&s);
+    if (ok)
       find_met(&s, rows);
+    ok = ok && find_passing(&s);
+    if (ok)
       drop_spurs(&s, drop);
-    }
   }
   ARRAY_FREE(&s.spur);
   mem_free(s.of_segment);
-  mem_free(s.mark);
+  ARRAY_FREE(&s.segment);
+  mem_free(s.first);
+  ARRAY_FREE(&s.listed);
   mem_free(s.is_near);
-  number_lists_fini(&s.in_cell);
   return ok;
 }

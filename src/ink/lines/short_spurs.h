@@ -16,7 +16,7 @@
  * drop  one a segment, 0
  * Returns false when memory ran out or the caller cancelled.
  * Cost  near linear; of segments far from loose ends of such chains, that of
- *       finding the cells of their nodes */
+ *       finding the cells of their nodes, in parallel */
 USE_RESULT bool segment_graph_find_short_spurs(
     const struct segment_graph *graph, const struct node_rows *rows,
     const struct sheet *sheet, const struct pens *pens, double step,
