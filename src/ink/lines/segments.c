@@ -63,16 +63,21 @@ void segment_graph_fini(struct segment_graph *graph) {
 
 /* ---- Segments ------------------------------------------------------------ */
 
+/* The node of a point of the sheet; while counting 0. */
+static inline uint32_t node_of_point(const struct collector *c,
+                                     uint32_t point) {
+  atomic_uint *node = &c->of->node_of_point[point];
+  if (c->counting)
+    atomic_store_explicit(node, 1, memory_order_relaxed);
+  return c->counting ? 0 : atomic_load_explicit(node, memory_order_relaxed);
+}
+
 /* The node of the point at t on the edge; while counting 0. */
 static uint32_t node_at(struct collector *c, const struct sheet_edge *edge,
                         struct ratio t) {
   const struct segment_collection *of = c->of;
-  if (t.num == 0 || t.num == t.den) {
-    atomic_uint *node = &of->node_of_point[edge->point[t.num != 0]];
-    if (c->counting)
-      atomic_store_explicit(node, 1, memory_order_relaxed);
-    return c->counting ? 0 : atomic_load_explicit(node, memory_order_relaxed);
-  }
+  if (t.num == 0 || t.num == t.den)
+    return node_of_point(c, edge->point[t.num != 0]);
   size_t node = c->range.nodes++;
   if (c->counting)
     return 0;
@@ -100,10 +105,10 @@ static void set_pen_key(struct collector *c, const struct sheet_edge *e) {
                  pens_weight_id(of->pens, e->edge_class));
 }
 
-static void collect_segment(struct collector *c, uint32_t edge, struct ratio t0,
-                            struct ratio t1) {
+/* Adds a segment between two nodes, or counts it. */
+static inline void add_segment(struct collector *c, uint32_t edge,
+                               uint32_t from, uint32_t to) {
   const struct sheet_edge *e = &c->of->sheet->edge.item[edge];
-  uint32_t from = node_at(c, e, t0), to = node_at(c, e, t1);
   size_t segment = c->range.segments[c->hidden]++;
   if (c->counting)
     return;
@@ -115,6 +120,13 @@ static void collect_segment(struct collector *c, uint32_t edge, struct ratio t0,
       .edge = edge,
       .pen_key = c->pen_key,
       .style_key = e->group << RECTO_EDGE_CLASS_COUNT | e->edge_class};
+}
+
+static void collect_segment(struct collector *c, uint32_t edge, struct ratio t0,
+                            struct ratio t1) {
+  const struct sheet_edge *e = &c->of->sheet->edge.item[edge];
+  uint32_t from = node_at(c, e, t0), to = node_at(c, e, t1);
+  add_segment(c, edge, from, to);
 }
 
 /* The intervals of one edge, sorted and disjoint. */
@@ -180,31 +192,49 @@ static struct intervals next_intervals(struct mixed_rows *rows, uint32_t edge) {
   return taken;
 }
 
-/* Adds the visible or the hidden intervals of the drawable edges of a range, in
- * order. */
-static void collect_from_edges(struct collector *c,
-                               struct parallel_range range) {
+/* Adds the visible intervals of the drawable edges of a range, in order.
+ * Memory  of hidden edges nothing but their states is read */
+static void collect_visible(struct collector *c, struct parallel_range range) {
+  const struct map *map = c->of->map;
+  struct mixed_rows mixed = rows_from(map->mixed.item, map->mixed.count,
+                                      map->interval.item, range.begin);
+  c->edge_class = 0; /* no drawn edge's */
+  for (uint32_t i = (uint32_t)range.begin; i < range.end; i++) {
+    if (map->edge_state[i] == MAP_HIDDEN)
+      continue;
+    struct intervals visible = next_intervals(&mixed, i);
+    const struct sheet_edge *edge = &c->of->sheet->edge.item[i];
+    if (edge->edge_class == 0)
+      continue;
+    if (!c->counting)
+      set_pen_key(c, edge);
+    if (map->edge_state[i] != MAP_VISIBLE)
+      add_visible_intervals(c, i, visible);
+    else
+      add_segment(c, i, node_of_point(c, edge->point[0]),
+                  node_of_point(c, edge->point[1]));
+  }
+}
+
+/* Adds the hidden ones. */
+static void collect_hidden(struct collector *c, struct parallel_range range) {
   const struct map *map = c->of->map;
   struct mixed_rows mixed = rows_from(map->mixed.item, map->mixed.count,
                                       map->interval.item, range.begin);
   struct mixed_rows deep =
       rows_from(map->over_limit.item, map->over_limit.count,
                 map->over_limit_interval.item, range.begin);
+  c->hidden = true;
   c->edge_class = 0; /* no drawn edge's */
   for (uint32_t i = (uint32_t)range.begin; i < range.end; i++) {
     struct intervals visible = next_intervals(&mixed, i);
     struct intervals too_deep = next_intervals(&deep, i);
     const struct sheet_edge *edge = &c->of->sheet->edge.item[i];
-    if (edge->edge_class == 0)
+    if (edge->edge_class == 0 || map->edge_state[i] == MAP_VISIBLE)
       continue;
     if (!c->counting)
       set_pen_key(c, edge);
-    if (c->hidden && map->edge_state[i] != MAP_VISIBLE)
-      add_hidden_intervals(c, i, visible, too_deep);
-    else if (!c->hidden && map->edge_state[i] == MAP_VISIBLE)
-      collect_segment(c, i, ratio_of(0, 1), ratio_of(1, 1));
-    else if (!c->hidden)
-      add_visible_intervals(c, i, visible);
+    add_hidden_intervals(c, i, visible, too_deep);
   }
 }
 
@@ -212,10 +242,9 @@ static void collect_edges_of_range(const struct segment_collection *of,
                                    struct parallel_range range, bool counting) {
   struct collected_range *own = &of->edges[range.begin / PARALLEL_ITEMS];
   struct collector c = {.of = of, .counting = counting, .range = *own};
-  collect_from_edges(&c, range);
-  c.hidden = true;
+  collect_visible(&c, range);
   if (of->options->ink.hidden != RECTO_HIDDEN_NONE)
-    collect_from_edges(&c, range);
+    collect_hidden(&c, range);
   *own = c.range;
 }
 

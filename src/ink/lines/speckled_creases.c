@@ -18,6 +18,7 @@
 
 #include <math.h>
 
+#include "base/parallel.h"
 #include "base/poll.h"
 #include "base/union_find.h"
 #include "ink/lines/crease_lines.h"
@@ -38,8 +39,10 @@ enum { SHALLOW_PIECES = 4 };
 /* What meets at a vertex. */
 struct speckle_corner {
   uint32_t edge[2], creases; /* the first two, and how many there are */
-  uint32_t drawable;         /* edges, up to 2 */
 };
+
+/* What else does. */
+enum { ENDS_LINE = 1 /* one edge of a line does */, HAS_OTHERS = 2 };
 
 struct speckle_line {
   double length, in_short; /* of all edges, of those in short pieces */
@@ -55,49 +58,83 @@ struct speckle_search {
   const struct pens *pens;
   struct projection projection;
   double crease, sharp; /* the cosines of the crease angle, that of zigzags */
-  struct large_face_normals *normals; /* of faces that were asked for last */
-  struct speckle_corner *corner;      /* one a vertex */
-  uint32_t *line;                     /* a union-find of the sheet's points */
-  uint32_t *piece;                    /* one of its edges */
-  double *piece_mm;                   /* one an edge: of a piece's root */
-  struct speckle_line *lines;         /* one a point: of a line's root */
+  uint8_t *is_of_line;  /* one an edge */
+  struct speckle_corner *corner; /* one a vertex */
+  atomic_uchar *others;          /* one a point: 0 or as above */
+  uint32_t *line;                /* a union-find of the sheet's points */
+  uint32_t *piece;               /* one of its edges */
+  double *piece_mm;              /* one an edge: of a piece's root */
+  struct speckle_line *lines;    /* one a point: of a line's root */
 };
 
 /* ---- Vertices ------------------------------------------------------------ */
 
-/* Whether an edge is of the line of a crease.
- * cosine  gets that of the angle between its faces */
-static bool is_of_line(const struct speckle_search *s, size_t edge,
-                       double *cosine) {
-  const struct sheet_edge *e = &s->sheet->edge.item[edge];
-  *cosine = crease_cosine(s->sheet, e, s->normals);
-  return crease_is_joined(e, *cosine, s->crease);
+static double cosine_of(const struct speckle_search *s, uint32_t edge,
+                        struct large_face_normals *normals) {
+  return crease_cosine(s->sheet, &s->sheet->edge.item[edge], normals);
+}
+
+/* Finds which edges are of the line of a crease. */
+static bool find_edges_of_range(void *user, struct parallel_range range) {
+  const struct speckle_search *s = user;
+  struct large_face_normals normals = large_face_normals_start();
+  for (size_t e = range.begin; e < range.end; e++) {
+    const struct sheet_edge *edge = &s->sheet->edge.item[e];
+    s->is_of_line[e] =
+        edge->edge_class != 0 &&
+        crease_is_joined(edge, cosine_of(s, (uint32_t)e, &normals), s->crease);
+  }
+  return true;
 }
 
 static void list_corners(const struct speckle_search *s) {
   for (size_t e = 0; e < s->sheet->edge.count; e++) {
     const struct sheet_edge *edge = &s->sheet->edge.item[e];
-    double cosine;
     (void)poll_at(e);
-    if (edge->edge_class == 0)
-      continue;
-    bool joined = is_of_line(s, e, &cosine);
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; k < 2 && s->is_of_line[e]; k++) {
       if (edge->point[k] >= s->sheet->vertex_count)
         continue;
       struct speckle_corner *at = &s->corner[edge->point[k]];
-      at->drawable += at->drawable < 2;
-      if (joined && at->creases < 2)
+      if (at->creases < 2)
         at->edge[at->creases] = (uint32_t)e;
-      at->creases += joined;
+      at->creases++;
+      s->others[edge->point[k]] = at->creases == 1 ? ENDS_LINE : 0;
     }
   }
 }
 
+/* Marks the ends of lines where another edge is drawable. */
+static bool mark_others_of_range(void *user, struct parallel_range range) {
+  const struct speckle_search *s = user;
+  for (size_t e = range.begin; e < range.end; e++) {
+    const struct sheet_edge *edge = &s->sheet->edge.item[e];
+    for (int k = 0; k < 2 && edge->edge_class != 0 && !s->is_of_line[e]; k++) {
+      atomic_uchar *at = &s->others[edge->point[k]];
+      if (atomic_load_explicit(at, memory_order_relaxed) == ENDS_LINE)
+        atomic_store_explicit(at, HAS_OTHERS, memory_order_relaxed);
+    }
+  }
+  return true;
+}
+
+static bool find_corners(struct speckle_search *s) {
+  size_t count = s->sheet->edge.count;
+  int workers = parallel_workers(count, PARALLEL_ITEMS);
+  s->is_of_line = mem_alloc(count, sizeof *s->is_of_line);
+  s->corner = mem_calloc(s->sheet->vertex_count, sizeof *s->corner);
+  s->others = mem_calloc(s->sheet->point.count, sizeof *s->others);
+  if (s->is_of_line == NULL || s->corner == NULL || s->others == NULL ||
+      !parallel_ranges(workers, count, PARALLEL_ITEMS, find_edges_of_range, s))
+    return false;
+  list_corners(s);
+  return parallel_ranges(workers, count, PARALLEL_ITEMS, mark_others_of_range,
+                         s);
+}
+
 /* Whether the end of a line is free at a vertex: no other edge is drawable
  * there. */
-static bool is_free_corner(const struct speckle_corner *corner) {
-  return corner->creases == 1 && corner->drawable == 1;
+static bool is_free_corner(const struct speckle_search *s, uint32_t point) {
+  return s->others[point] == ENDS_LINE;
 }
 
 /* The other one of the two creases that meet at the far end of a crease;
@@ -123,7 +160,7 @@ static bool is_on_triangle(const struct speckle_search *s, uint32_t point) {
 /* Whether any line may be noise: none of a solid is. */
 static bool has_candidates(const struct speckle_search *s) {
   for (uint32_t p = 0; p < s->sheet->vertex_count; p++)
-    if (is_free_corner(&s->corner[p]) || is_on_triangle(s, p))
+    if (is_free_corner(s, p) || is_on_triangle(s, p))
       return true;
   return false;
 }
@@ -179,20 +216,20 @@ static double length_mm(const struct speckle_search *s, uint32_t edge) {
 /* ---- Lines --------------------------------------------------------------- */
 
 static void measure_pieces(const struct speckle_search *s) {
-  double cosine;
   for (uint32_t e = 0; e < s->sheet->edge.count; e++)
-    if (is_of_line(s, e, &cosine))
+    if (s->is_of_line[e])
       s->piece_mm[union_find_root(s->piece, e)] += length_mm(s, e);
 }
 
 static void measure_lines(const struct speckle_search *s) {
   double degree = acos(-1) / 180;
+  struct large_face_normals normals = large_face_normals_start();
   for (uint32_t e = 0; e < s->sheet->edge.count; e++) {
     const struct sheet_edge *edge = &s->sheet->edge.item[e];
-    double cosine;
     (void)poll_at(e);
-    if (!is_of_line(s, e, &cosine))
+    if (!s->is_of_line[e])
       continue;
+    double cosine = cosine_of(s, e, &normals);
     uint32_t pen = pens_of_line(s->pens, RECTO_EDGE_CREASE, edge->group);
     uint32_t piece = union_find_root(s->piece, e);
     struct speckle_line *of =
@@ -208,7 +245,7 @@ static void measure_lines(const struct speckle_search *s) {
       of->in_short += length;
   }
   for (uint32_t p = 0; p < s->sheet->vertex_count; p++)
-    if (is_free_corner(&s->corner[p]))
+    if (is_free_corner(s, p))
       s->lines[union_find_root(s->line, p)].free_ends++;
 }
 
@@ -230,23 +267,25 @@ static bool is_speckled(const struct speckle_line *line, double sharp_deg) {
   return !is_network(line) && (is_ragged || is_shallow);
 }
 
+static bool is_crease_segment(const struct graph_segment *segment) {
+  return (segment->style_key & RECTO_EDGES_ALL) == RECTO_EDGE_CREASE;
+}
+
 static void mark_speckled(const struct speckle_search *s,
                           const struct segment_graph *graph, double sharp_deg,
                           uint8_t *drop) {
   for (size_t i = 0; i < graph->segment.count; i++) {
-    const struct sheet_edge *edge =
-        &s->sheet->edge.item[graph->segment.item[i].edge];
-    if (edge->edge_class == RECTO_EDGE_CREASE)
+    const struct graph_segment *segment = &graph->segment.item[i];
+    const struct sheet_edge *edge = &s->sheet->edge.item[segment->edge];
+    if (is_crease_segment(segment))
       drop[i] = is_speckled(&s->lines[union_find_root(s->line, edge->point[0])],
                             sharp_deg);
   }
 }
 
-static bool has_creases(const struct segment_graph *graph,
-                        const struct sheet *sheet) {
+static bool has_creases(const struct segment_graph *graph) {
   for (size_t i = 0; i < graph->segment.count; i++)
-    if (sheet->edge.item[graph->segment.item[i].edge].edge_class ==
-        RECTO_EDGE_CREASE)
+    if (is_crease_segment(&graph->segment.item[i]))
       return true;
   return false;
 }
@@ -256,21 +295,15 @@ bool segment_graph_find_speckled(const struct segment_graph *graph,
                                  const struct pens *pens,
                                  const struct crease_angles *angles,
                                  uint8_t *drop) {
-  if (angles->zigzag_deg == 0 || sheet->scene == NULL ||
-      !has_creases(graph, sheet))
+  if (angles->zigzag_deg == 0 || sheet->scene == NULL || !has_creases(graph))
     return true;
-  struct large_face_normals normals = large_face_normals_start();
   struct speckle_search s = {
       .sheet = sheet,
       .pens = pens,
       .projection = projection_of(&sheet->camera),
       .crease = angle_of_degrees(angles->crease_deg).cosine,
-      .sharp = angle_of_degrees(angles->zigzag_deg).cosine,
-      .normals = &normals,
-      .corner = mem_calloc(sheet->vertex_count, sizeof *s.corner)};
-  bool ok = s.corner != NULL;
-  if (ok)
-    list_corners(&s);
+      .sharp = angle_of_degrees(angles->zigzag_deg).cosine};
+  bool ok = find_corners(&s);
   if (ok && has_candidates(&s)) {
     s.line = crease_lines_create(sheet, angles->crease_deg);
     s.piece = union_find_create(sheet->edge.count);
@@ -285,7 +318,9 @@ bool segment_graph_find_speckled(const struct segment_graph *graph,
       mark_speckled(&s, graph, angles->zigzag_deg, drop);
     }
   }
+  mem_free(s.is_of_line);
   mem_free(s.corner);
+  mem_free((void *)s.others);
   mem_free(s.line);
   mem_free(s.piece);
   mem_free(s.piece_mm);
