@@ -27,6 +27,7 @@ librecto_core_la_SOURCES += \
   %D%/hatch/inset.c %D%/hatch/inset.h \
   %D%/hatch/tone_hatch.c %D%/hatch/tone_hatch.h \
   %D%/lines/chain.c \
+  %D%/lines/changed_cells.c %D%/lines/changed_cells.h \
   %D%/lines/continued_ends.c \
   %D%/lines/covered.c \
   %D%/lines/crease_lines.c %D%/lines/crease_lines.h \
@@ -40,6 +41,7 @@ librecto_core_la_SOURCES += \
   %D%/lines/open_paths.c %D%/lines/open_paths.h \
   %D%/lines/overlap.c %D%/lines/overlap.h \
   %D%/lines/overlap_collinear.c \
+  %D%/lines/overlap_cover.c %D%/lines/overlap_cover.h \
   %D%/lines/overlap_output.c \
   %D%/lines/pairing.c %D%/lines/pairing.h \
   %D%/lines/paths.h \

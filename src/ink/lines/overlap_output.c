@@ -12,7 +12,8 @@
  *                 with the pieces that are kept; the rest ends at nodes of
  *                 theirs
  *   4 rebuild     and repeat if anything has moved, as it may have come near
- *                 something else
+ *                 something else: where segments have changed since their pairs
+ *                 were searched for (changed_cells.h)
  * Invariants  What is removed is within an output step of what is kept, not
  *   of something that is removed in turn.  A node moves by at most a step in a
  *   round, and only where a line is removed or contracted. */
@@ -20,30 +21,17 @@
 #include "ink/lines/segment_graph.h"
 
 #include <math.h>
-#include <stdlib.h>
+#include <string.h>
 
 #include "base/sort.h"
 #include "base/tolerance.h"
 #include "ink/lines/vertex_snapping.h"
+#include "ink/lines/changed_cells.h"
 #include "ink/lines/overlap.h"
+#include "ink/lines/overlap_cover.h"
 #include "ink/lines/nodes_near_segment.h"
 
-/* A segment with its derived quantities. */
-struct measured_segment {
-  struct ink_point from, to;
-  int64_t dx, dy, cross_max; /* see nodes_near_segment.c */
-  double length;
-};
-
 enum { SEGMENTS_IN_RANGE = PARALLEL_RANGE(1 << 10) };
-
-/* The part of a segment that a kept piece overlaps: from..to grid units along
- * it, and the nodes at which it is split there; SEGMENT_GRAPH_NONE at the
- * segment's own ends. */
-struct overlap_cover {
-  double from, to;
-  uint32_t node[2];
-};
 
 /* The remaining pieces: those of the segment at index i by priority are
  * piece[start[i]] up to piece[start[i + 1]]. */
@@ -55,72 +43,9 @@ struct output_overlaps {
   ARRAY(struct graph_segment) piece;
   ARRAY(struct overlap_cover) cover; /* of the current segment */
   size_t cut; /* number of segments that lost something */
+  /* Where this round searches, or NULL: everywhere; where the next one does. */
+  struct changed_cells *here, *next;
 };
-
-/* ---- Two segments -------------------------------------------------------- */
-
-static struct measured_segment run_of(const struct vertex_snapping *snapping,
-                                      const uint32_t node[2]) {
-  struct measured_segment run = {.from = vertex_snapping_at(snapping, node[0]),
-                                 .to = vertex_snapping_at(snapping, node[1])};
-  run.dx = (int64_t)run.to.x - run.from.x;
-  run.dy = (int64_t)run.to.y - run.from.y;
-  run.cross_max = snapping->output_step * (llabs(run.dx) + llabs(run.dy));
-  run.length = sqrt((double)(run.dx * run.dx + run.dy * run.dy));
-  return run;
-}
-
-/* Whether the point is near the segment; sets *along to its position, clamped
- * to the segment. */
-static bool is_near_segment(const struct measured_segment *run,
-                            struct ink_point p, double *along) {
-  int64_t x = (int64_t)p.x - run->from.x, y = (int64_t)p.y - run->from.y;
-  int64_t cross = run->dx * y - run->dy * x, dot = run->dx * x + run->dy * y;
-  double at = (double)dot / run->length;
-  *along = fmin(fmax(at, 0), run->length);
-  return llabs(cross) <= run->cross_max && dot >= -run->cross_max &&
-         at - run->length <= (double)run->cross_max / run->length;
-}
-
-static void widen(struct overlap_cover *cover, double along, uint32_t node) {
-  if (along < cover->from ||
-      (along == cover->from && node == SEGMENT_GRAPH_NONE)) {
-    cover->from = along;
-    cover->node[0] = node;
-  }
-  if (along > cover->to || (along == cover->to && node == SEGMENT_GRAPH_NONE)) {
-    cover->to = along;
-    cover->node[1] = node;
-  }
-}
-
-/* Whether the segments overlap by more than the output step or, where one is
- * shorter than two steps, by half of it; if so, *cover is the part of a that b
- * overlaps. */
-static bool find_cover(const struct vertex_snapping *snapping,
-                       const uint32_t a[2], const uint32_t b[2],
-                       struct overlap_cover *cover) {
-  struct measured_segment of_a = run_of(snapping, a),
-                          of_b = run_of(snapping, b);
-  *cover = (struct overlap_cover){
-      INFINITY, -INFINITY, {SEGMENT_GRAPH_NONE, SEGMENT_GRAPH_NONE}};
-  if (of_a.length == 0 || of_b.length == 0)
-    return false;
-  double along, at[2];
-  for (int k = 0; k < 2; k++)
-    if (is_near_segment(&of_a, k ? of_b.to : of_b.from, &at[k]))
-      widen(cover, at[k],
-            at[k] > 0 && at[k] < of_a.length ? b[k] : SEGMENT_GRAPH_NONE);
-  if (is_near_segment(&of_b, of_a.from, &along))
-    widen(cover, 0, SEGMENT_GRAPH_NONE);
-  if (is_near_segment(&of_b, of_a.to, &along))
-    widen(cover, of_a.length, SEGMENT_GRAPH_NONE);
-  /* An end is near even a little beyond the other's end; the overlap itself
-   * does not begin there, or short sides of a curve would overlap the next. */
-  double shorter = fmin(of_a.length, of_b.length);
-  double run = fmin(fabs(at[1] - at[0]), cover->to - cover->from);
-  return run > fmin((double)snapping->output_step, shorter / 2);
-}
 
 /* ---- 2 Pairs ------------------------------------------------------------- */
 
@@ -133,6 +58,7 @@ static bool is_better(const struct segment_graph *graph, uint32_t a,
 /* The search of one worker. */
 struct pair_search {
   const struct vertex_snapping *snapping;
+  const struct changed_cells *here;
   const struct node_rows *rows;
   ARRAY(struct sort_key) pair; /* see output_overlaps */
 };
@@ -147,7 +73,7 @@ static bool record_pairs(void *user, uint32_t segment, uint32_t node) {
        i++) {
     uint32_t other = graph->ends.item[i] >> 1;
     if (snapping->gone[other] ||
-        !find_cover(snapping, s[segment].node, s[other].node, &cover))
+        !overlap_cover_find(snapping, s[segment].node, s[other].node, &cover))
       continue;
     bool better = is_better(graph, segment, other);
     uint32_t best = better ? segment : other, worst = better ? other : segment;
@@ -165,9 +91,34 @@ static bool find_pairs_of_range(void *user, struct parallel_range range) {
                                     snapping->output_step, record_pairs,
                                     search};
   for (size_t i = range.begin; i < range.end; i++)
-    if (!snapping->gone[i] && !nodes_near_segment_visit(&nodes, (uint32_t)i))
+    if (!snapping->gone[i] &&
+        (search->here == NULL ||
+         changed_cells_have(search->here, snapping->graph,
+                            &snapping->graph->segment.item[i])) &&
+        !nodes_near_segment_visit(&nodes, (uint32_t)i))
       return false;
   return true;
+}
+
+static bool has_moved(const struct vertex_snapping *snapping,
+                      const struct graph_segment *s) {
+  return snapping->root[s->node[0]] != s->node[0] ||
+         snapping->root[s->node[1]] != s->node[1];
+}
+
+static void mark_changed(const struct output_overlaps *r,
+                         struct changed_cells *cells,
+                         const struct graph_segment *s) {
+  changed_cells_mark(cells, r->snapping.graph, s,
+                     2 * (r->snapping.output_step + 1));
+}
+
+/* Marks where segments have moved since the round began. */
+static void mark_moved(const struct output_overlaps *r) {
+  const struct segment_graph *graph = r->snapping.graph;
+  for (size_t i = 0; r->here != NULL && i < graph->segment.count; i++)
+    if (has_moved(&r->snapping, &graph->segment.item[i]))
+      mark_changed(r, r->here, &graph->segment.item[i]);
 }
 
 /* The order of the pairs does not matter, as they are sorted. */
@@ -180,6 +131,7 @@ static bool find_pairs(struct output_overlaps *r,
     return false;
   for (int w = 0; w < workers; w++) {
     search[w].snapping = &r->snapping;
+    search[w].here = r->here;
     search[w].rows = rows;
   }
   bool ok = parallel_ranges(workers, count, SEGMENTS_IN_RANGE,
@@ -225,7 +177,7 @@ static bool record_cover(struct output_overlaps *r, uint32_t segment,
                          const struct graph_segment *piece) {
   const uint32_t *node = r->snapping.graph->segment.item[segment].node;
   struct overlap_cover cover;
-  if (!find_cover(&r->snapping, node, piece->node, &cover))
+  if (!overlap_cover_find(&r->snapping, node, piece->node, &cover))
     return true;
   for (int end = 0; end < 2; end++)
     for (int k = 0; cover.node[end] == SEGMENT_GRAPH_NONE && k < 2; k++)
@@ -331,10 +283,11 @@ static bool resolve_members(struct output_overlaps *r) {
 
 /* Adds a segment between the nodes that its own were merged into.
  * rows  to search around it, where it is not what it was before; else NULL */
-static bool add_snapped_segment(struct segment_graph *graph,
-                                const struct vertex_snapping *snapping,
+static bool add_snapped_segment(struct output_overlaps *r,
                                 const struct node_rows *rows,
                                 struct graph_segment s) {
+  const struct vertex_snapping *snapping = &r->snapping;
+  struct segment_graph *graph = snapping->graph;
   uint32_t a = snapping->root[s.node[0]], b = snapping->root[s.node[1]];
   /* Moving an end turns the whole line a little. */
   if (a != s.node[0])
@@ -348,15 +301,11 @@ static bool add_snapped_segment(struct segment_graph *graph,
   uint32_t last = (uint32_t)graph->segment.count;
   if (!ARRAY_PUSH(&graph->segment, graph_segment_sorted(s)))
     return false;
-  if (rows != NULL)
+  if (rows != NULL) {
     segment_graph_mark_near_nodes(graph, rows, snapping->output_step, last);
+    mark_changed(r, r->next, &graph->segment.item[last]);
+  }
   return true;
-}
-
-static bool has_moved(const struct vertex_snapping *snapping,
-                      const struct graph_segment *s) {
-  return snapping->root[s->node[0]] != s->node[0] ||
-         snapping->root[s->node[1]] != s->node[1];
 }
 
 /* Adds the segments again that are left of those in `segment`, the pieces, and
@@ -371,31 +320,38 @@ static bool rebuild(struct output_overlaps *r, const struct node_rows *rows) {
     const struct graph_segment *s = &graph->segment.item[i];
     if (!poll_at(i) ||
         (!snapping->gone[i] &&
-         !add_snapped_segment(graph, snapping,
-                              has_moved(snapping, s) ? rows : NULL, *s)))
+         !add_snapped_segment(r, has_moved(snapping, s) ? rows : NULL, *s)))
       return false;
   }
   for (size_t i = 0; i < r->piece.count; i++)
-    if (!add_snapped_segment(graph, snapping, rows, r->piece.item[i]))
+    if (!add_snapped_segment(r, rows, r->piece.item[i]))
       return false;
   for (size_t i = 0; i < isolated->count; i++)
     if (!has_moved(snapping, &isolated->item[i]))
       isolated->item[kept++] = isolated->item[i];
-    else if (!add_snapped_segment(graph, snapping, rows, isolated->item[i]))
+    else if (!add_snapped_segment(r, rows, isolated->item[i]))
       return false;
   isolated->count = kept;
   segment_graph_move_gaps(graph, snapping->root);
-  return segment_graph_restore_near_isolated(graph) &&
-         segment_graph_sort_segments(graph);
+  size_t count = graph->segment.count;
+  if (!segment_graph_restore_near_isolated(graph))
+    return false;
+  for (size_t i = count; i < graph->segment.count; i++)
+    mark_changed(r, r->next, &graph->segment.item[i]);
+  return segment_graph_sort_segments(graph);
 }
 
-/* One round; sets *changed if another round may find more. */
+/* One round; sets *changed if another round may find more.
+ * here, next  as of output_overlaps */
 static bool drop_once(struct segment_graph *graph, const struct node_rows *rows,
-                      int32_t output_step, bool *changed) {
-  struct output_overlaps r = {0};
+                      int32_t output_step, struct changed_cells *here,
+                      struct changed_cells *next, bool *changed) {
+  struct output_overlaps r = {.here = here, .next = next};
   bool ok = vertex_snapping_init(&r.snapping, graph, output_step) &&
-            vertex_snapping_drop_duplicates(&r.snapping, rows) &&
-            find_pairs(&r, rows);
+            vertex_snapping_drop_duplicates(&r.snapping, rows);
+  if (ok)
+    mark_moved(&r);
+  ok = ok && find_pairs(&r, rows);
   if (ok && r.pair.count > 0)
     ok = resolve_members(&r);
   *changed = r.cut > 0 || r.snapping.gone_count > 0;
@@ -423,15 +379,18 @@ recto_status segment_graph_drop_output_overlaps(struct segment_graph *graph,
         mem_calloc(graph->node.count, sizeof *graph->approximate);
   if (graph->approximate == NULL)
     return error_memory(error);
-  bool changed = true;
-  for (int round = 0; changed && round < SEGMENT_GRAPH_ROUNDS; round++) {
-    if (!drop_once(graph, rows, whole, &changed))
-      return error_memory(error);
-    if (changed) {
-      recto_status status = segment_graph_index_ends(graph, error);
-      if (status != RECTO_OK)
-        return status;
-    }
+  struct changed_cells *cells = mem_calloc(2, sizeof *cells);
+  bool ok = cells != NULL, changed = true;
+  recto_status status = RECTO_OK;
+  for (int round = 0; ok && changed && round < SEGMENT_GRAPH_ROUNDS; round++) {
+    struct changed_cells *next = &cells[round & 1];
+    struct changed_cells *here = round > 0 ? &cells[!(round & 1)] : NULL;
+    memset(next, 0, sizeof *next);
+    ok = drop_once(graph, rows, whole, here, next, &changed);
+    if (ok && changed)
+      status = segment_graph_index_ends(graph, error);
+    ok = ok && status == RECTO_OK;
   }
-  return RECTO_OK;
+  mem_free(cells);
+  return ok || status != RECTO_OK ? status : error_memory(error);
 }

@@ -106,8 +106,8 @@ static void set_pen_key(struct collector *c, const struct sheet_edge *e) {
 }
 
 /* Adds a segment between two nodes, or counts it. */
-static inline void add_segment(struct collector *c, uint32_t edge,
-                               uint32_t from, uint32_t to) {
+static inline void store_or_count(struct collector *c, uint32_t edge,
+                                  uint32_t from, uint32_t to) {
   const struct sheet_edge *e = &c->of->sheet->edge.item[edge];
   size_t segment = c->range.segments[c->hidden]++;
   if (c->counting)
@@ -126,7 +126,7 @@ static void collect_segment(struct collector *c, uint32_t edge, struct ratio t0,
                             struct ratio t1) {
   const struct sheet_edge *e = &c->of->sheet->edge.item[edge];
   uint32_t from = node_at(c, e, t0), to = node_at(c, e, t1);
-  add_segment(c, edge, from, to);
+  store_or_count(c, edge, from, to);
 }
 
 /* The intervals of one edge, sorted and disjoint. */
@@ -211,8 +211,8 @@ static void collect_visible(struct collector *c, struct parallel_range range) {
     if (map->edge_state[i] != MAP_VISIBLE)
       add_visible_intervals(c, i, visible);
     else
-      add_segment(c, i, node_of_point(c, edge->point[0]),
-                  node_of_point(c, edge->point[1]));
+      store_or_count(c, i, node_of_point(c, edge->point[0]),
+                     node_of_point(c, edge->point[1]));
   }
 }
 

@@ -117,7 +117,7 @@ static bool mark_others_of_range(void *user, struct parallel_range range) {
   return true;
 }
 
-static bool find_corners(struct speckle_search *s) {
+static bool find_line_ends(struct speckle_search *s) {
   size_t count = s->sheet->edge.count;
   int workers = parallel_workers(count, PARALLEL_ITEMS);
   s->is_of_line = mem_alloc(count, sizeof *s->is_of_line);
@@ -303,7 +303,7 @@ bool segment_graph_find_speckled(const struct segment_graph *graph,
       .projection = projection_of(&sheet->camera),
       .crease = angle_of_degrees(angles->crease_deg).cosine,
       .sharp = angle_of_degrees(angles->zigzag_deg).cosine};
-  bool ok = find_corners(&s);
+  bool ok = find_line_ends(&s);
   if (ok && has_candidates(&s)) {
     s.line = crease_lines_create(sheet, angles->crease_deg);
     s.piece = union_find_create(sheet->edge.count);
