@@ -41,9 +41,27 @@ static uint32_t search(const struct topology *topology, uint32_t a,
   return found;
 }
 
+/* Checks that the edges of one face are listed, and no others. */
+static void check_borders(const struct topology *topology) {
+  uint32_t edges = (uint32_t)topology->edge.count;
+  size_t count = 0;
+  uint32_t next = topology_next_border(topology, 0);
+  for (uint32_t e = 0; e < edges; e++) {
+    bool is_border = topology->edge.item[e].uses == 1;
+    assert_int_equal(e == next, is_border);
+    count += is_border;
+    if (is_border)
+      next = topology_next_border(topology, e + 1);
+  }
+  assert_int_equal(next, edges);
+  assert_int_equal(topology_next_border(topology, edges), edges);
+  assert_int_equal(topology->borders, count);
+}
+
 /* Checks every promise of topology.h but welding. */
 static void check(const struct scene *scene, const struct topology *topology) {
   size_t edges = topology->edge.count;
+  check_borders(topology);
   struct topology_edge *seen = calloc(edges + 1, sizeof *seen);
   uint8_t *forward = calloc(edges + 1, 1);
   uint32_t next = 0;

@@ -193,24 +193,67 @@ static bool find_in_ranges(struct topology *topology, const struct scene *scene,
   return ok;
 }
 
+/* ---- Borders ------------------------------------------------------------- */
+
+/* Edges that a thread takes at once: whole words of the map. */
+enum { EDGES_IN_RANGE = 64 * PARALLEL_RANGE(POLL_ITEMS / 64) };
+
+static bool map_borders(void *user, struct parallel_range edges) {
+  struct topology *topology = user;
+  const struct topology_edge *edge = topology->edge.item;
+  for (size_t e = edges.begin; e < edges.end; e += 64) {
+    size_t bits = edges.end - e < 64 ? edges.end - e : 64;
+    uint64_t word = 0;
+    for (size_t k = 0; k < bits; k++)
+      word |= (uint64_t)(edge[e + k].uses == 1) << k;
+    topology->border[e / 64] = word;
+  }
+  return true;
+}
+
+/* Finds the edges of one face in one pass, as several steps look at them. */
+static bool find_borders(struct topology *topology) {
+  size_t edges = topology->edge.count, words = edges / 64 + 1;
+  mem_free(topology->border);
+  topology->border = mem_calloc(words, sizeof *topology->border);
+  topology->borders = 0;
+  if (topology->border == NULL ||
+      !parallel_ranges(parallel_workers(edges, EDGES_IN_RANGE), edges,
+                       EDGES_IN_RANGE, map_borders, topology))
+    return false;
+  for (size_t w = 0; w < words; w++)
+    topology->borders += (size_t)__builtin_popcountll(topology->border[w]);
+  return true;
+}
+
+uint32_t topology_next_border(const struct topology *topology, uint32_t edge) {
+  size_t edges = topology->edge.count;
+  if (edge >= edges)
+    return (uint32_t)edges;
+  size_t w = edge / 64, last = (edges - 1) / 64;
+  uint64_t word = topology->border[w] & ~UINT64_C(0) << edge % 64;
+  while (word == 0 && w < last)
+    word = topology->border[++w];
+  return word != 0 ? (uint32_t)(64 * w) + (uint32_t)__builtin_ctzll(word)
+                   : (uint32_t)edges;
+}
+
 /* Builds corner_edge and the edges with the points as they are welded. */
 static bool build_edges(struct topology *topology, const struct scene *scene) {
   int workers = parallel_workers(scene_face_count(scene), PARALLEL_ITEMS);
   bool overfull;
   ARRAY_FREE(&topology->edge);
-  return find_in_ranges(topology, scene, workers, false, &overfull) ||
-         (overfull && find_in_ranges(topology, scene, 1, true, &overfull));
+  return (find_in_ranges(topology, scene, workers, false, &overfull) ||
+          (overfull && find_in_ranges(topology, scene, 1, true, &overfull))) &&
+         find_borders(topology);
 }
-
-/* ---- Borders ------------------------------------------------------------- */
 
 /* Marks the points of border edges; returns how many there are. */
 static size_t mark_border(const struct topology *topology, uint8_t *marked) {
   size_t count = 0;
-  for (size_t e = 0; e < topology->edge.count; e++) {
+  for (uint32_t e = topology_next_border(topology, 0); e < topology->edge.count;
+       e = topology_next_border(topology, e + 1)) {
     const struct topology_edge *edge = &topology->edge.item[e];
-    if (edge->uses != 1)
-      continue;
     for (int k = 0; k < 2; k++) {
       count += !marked[edge->point[k]];
       marked[edge->point[k]] = 1;
@@ -221,6 +264,8 @@ static size_t mark_border(const struct topology *topology, uint8_t *marked) {
 
 /* Welds the points of border edges that coincide. */
 static bool weld_border(struct topology *topology, const struct scene *scene) {
+  if (topology->borders == 0)
+    return true;
   uint8_t *marked = mem_calloc(scene->point.count, sizeof *marked);
   bool ok =
       marked != NULL &&
@@ -262,6 +307,7 @@ void topology_fini(struct topology *topology) {
   ARRAY_FREE(&topology->edge);
   mem_free(topology->corner_edge);
   mem_free(topology->weld);
+  mem_free(topology->border);
   mem_free(topology->class_masks);
   mem_free(topology->coarse);
   memset(topology, 0, sizeof *topology);

@@ -14,6 +14,8 @@ struct topology {
   ARRAY(struct topology_edge) edge; /* in order of first use by a face */
   uint32_t *corner_edge; /* for corner c of a face, the edge from it to the
                             face's next corner; one per scene corner */
+  uint64_t *border;      /* a bit an edge: one face alone has it */
+  size_t borders;        /* how many there are */
   uint8_t *class_masks;  /* of all edges at the angle crease_deg, as of
                             topology_class_masks; NULL: not kept */
   double crease_deg;
@@ -36,6 +38,10 @@ USE_RESULT recto_status topology_init_welded(struct topology *topology,
                                              const struct scene *scene,
                                              recto_error *error);
 void topology_fini(struct topology *topology);
+
+/* The first edge from `edge` on that one face alone has; the number of edges:
+ * there is none.  Few edges of most meshes are such. */
+uint32_t topology_next_border(const struct topology *topology, uint32_t edge);
 
 /* Gives up corner_edge. */
 void topology_drop_corners(struct topology *topology);

@@ -18,9 +18,10 @@ bool weld_candidates_find(struct weld_candidates *candidates,
   if (candidates->number == NULL)
     return false;
   size_t count = 0;
-  for (size_t e = 0; e < topology->edge.count; e++) {
+  for (uint32_t e = topology_next_border(topology, 0); e < topology->edge.count;
+       e = topology_next_border(topology, e + 1)) {
     const struct topology_edge *edge = &topology->edge.item[e];
-    for (int k = 0; k < 2 && weld_is_border(edge); k++) {
+    for (int k = 0; k < 2; k++) {
       count += candidates->number[edge->point[k]] == 0;
       candidates->number[edge->point[k]] = 1;
     }
@@ -69,10 +70,9 @@ bool weld_candidates_measure(struct weld_candidates *candidates,
   /* The edges of a face follow one another. */
   uint32_t face = SCENE_NONE;
   double size = 0;
-  for (size_t e = 0; e < topology->edge.count; e++) {
+  for (uint32_t e = topology_next_border(topology, 0); e < topology->edge.count;
+       e = topology_next_border(topology, e + 1)) {
     const struct topology_edge *edge = &topology->edge.item[e];
-    if (!weld_is_border(edge))
-      continue;
     if (edge->first != face)
       size = face_size(scene, edge->first);
     face = edge->first;

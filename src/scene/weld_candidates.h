@@ -18,10 +18,6 @@ struct weld_candidates {
 
 void weld_candidates_fini(struct weld_candidates *candidates);
 
-static inline bool weld_is_border(const struct topology_edge *edge) {
-  return edge->uses == 1;
-}
-
 /* Lists the points of borders.  Returns false when memory ran out. */
 USE_RESULT bool weld_candidates_find(struct weld_candidates *candidates,
                                      const struct scene *scene,

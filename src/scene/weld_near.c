@@ -32,13 +32,6 @@
 #include "geom/vector.h"
 #include "scene/weld_candidates.h"
 
-static size_t count_borders(const struct topology *topology) {
-  size_t count = 0;
-  for (size_t e = 0; e < topology->edge.count; e++)
-    count += weld_is_border(&topology->edge.item[e]);
-  return count;
-}
-
 /* ---- Radii --------------------------------------------------------------- */
 
 /* The power of two below which nine in ten of the members' largest coordinates
@@ -294,7 +287,7 @@ recto_status weld_near(struct welded *welded, struct topology *topology,
   recto_status status = topology_init(topology, scene, error);
   if (status != RECTO_OK)
     return status;
-  welded->borders = count_borders(topology);
+  welded->borders = topology->borders;
   if (request->length == 0 || welded->borders == 0)
     return status;
   if (!join_close_points(welded, &candidates, topology, request)) {
@@ -307,7 +300,7 @@ recto_status weld_near(struct welded *welded, struct topology *topology,
     if (status == RECTO_OK)
       status = topology_init(topology, &welded->scene, error);
     if (status == RECTO_OK)
-      welded->borders = count_borders(topology);
+      welded->borders = topology->borders;
   }
   weld_candidates_fini(&candidates);
   if (status != RECTO_OK) {
