@@ -27,6 +27,25 @@ static void free_layout(struct layout *layout) {
   triangulation_fini(&layout->triangulation);
 }
 
+/* Gives the memory of the topology's edges to the triangles, which need about
+ * as much: the system need not clear new pages for them.  False when memory ran
+ * out. */
+static bool reuse_edges(struct layout *layout) {
+  struct topology *topology = layout->topology;
+  struct sheet *sheet = layout->sheet;
+  size_t count = layout->flags.count > 0 ? layout->flags.count : 1;
+  if (!topology->drop_edges || topology->edge.item == NULL)
+    return true;
+  void *block =
+      mem_resize(topology->edge.item, count, sizeof *sheet->triangle.item);
+  if (block == NULL)
+    return false;
+  memset(&topology->edge, 0, sizeof topology->edge);
+  sheet->triangle.item = block;
+  sheet->triangle.capacity = count;
+  return true;
+}
+
 /* Makes the triangles that were left out before there were edges; what they do
  * not need is freed first. */
 static recto_status make_late_triangles(struct layout *layout) {
@@ -34,9 +53,7 @@ static recto_status make_late_triangles(struct layout *layout) {
   mem_free(layout->class_masks);
   mem_free(layout->outcode);
   layout->sides = layout->class_masks = layout->outcode = NULL;
-  if (layout->topology->drop_edges)
-    ARRAY_FREE(&layout->topology->edge);
-  bool ok = layout_make_all_triangles(layout);
+  bool ok = reuse_edges(layout) && layout_make_all_triangles(layout);
   layout_free_face_ranges(layout);
   return ok ? RECTO_OK : error_memory(layout->error);
 }
