@@ -83,45 +83,88 @@ static bool edge_layout_init(struct edge_layout *work, struct layout *layout) {
          work->special != NULL;
 }
 
-static bool is_contour(const struct layout *layout, uint32_t edge) {
-  return layout->topology->edge.item[edge].uses != 2 ||
-         layout->sides[edge] != LAYOUT_TWO_SIDED;
+/* On which sides of an edge its faces lie, where it has two.  By their flags it
+ * is seen along the first face's way. */
+static uint8_t sides_of_edge(const struct layout *layout, uint32_t edge) {
+  const struct topology_edge *e = &layout->topology->edge.item[edge];
+  const uint32_t face[2] = {e->first, e->second};
+  uint8_t sides = 0;
+  if (layout->sides != NULL)
+    return layout->sides[edge];
+  for (int k = 0; e->uses == 2 && k < 2; k++) {
+    uint8_t flags = layout->flags.item[face[k]];
+    if (flags != LAYOUT_NO_TRIANGLE)
+      layout_record_side(&sides, k == 0 || e->same_way,
+                         flags & SHEET_FLIPPED   ? -1
+                         : flags & SHEET_EDGE_ON ? 0
+                                                 : 1);
+  }
+  return sides;
 }
 
-/* Is the edge nothing but smooth, with a face on each side of it?  Most are. */
-static inline bool is_smooth_alone(const struct layout *layout, uint32_t edge) {
-  return layout->class_masks[edge] == RECTO_EDGE_SMOOTH &&
-         layout->sides[edge] == LAYOUT_TWO_SIDED &&
-         layout->topology->edge.item[edge].uses == 2;
+static bool is_contour(const struct topology_edge *edge, uint8_t sides) {
+  return edge->uses != 2 || sides != LAYOUT_TWO_SIDED;
 }
 
-/* Chooses the requested edges of a range, and contours. */
+/* What is read of all edges. */
+struct edge_sides {
+  const struct layout *layout;
+  const struct topology_edge *edge;
+  const uint8_t *sides, *flags; /* as in struct layout */
+  uint32_t edges;
+};
+
+/* The same as sides_of_edge, where most edges have two faces, one on each side
+ * of it. */
+static inline uint8_t look_up_sides(const struct edge_sides *of, uint32_t e) {
+  const struct topology_edge *edge = &of->edge[e];
+  if (of->sides != NULL)
+    return of->sides[e];
+  if (e + MEM_PREFETCH_AHEAD < of->edges &&
+      edge[MEM_PREFETCH_AHEAD].second != TOPOLOGY_NONE)
+    MEM_PREFETCH(&of->flags[edge[MEM_PREFETCH_AHEAD].second]);
+  return edge->uses == 2 && layout_flags_are_two_sided(of->flags[edge->first],
+                                                       of->flags[edge->second],
+                                                       edge->same_way)
+             ? LAYOUT_TWO_SIDED
+             : sides_of_edge(of->layout, e);
+}
+
+/* Chooses the requested edges of a range, and contours.  Most have a face on
+ * each side, and are nothing but smooth. */
 static bool choose_edges(void *user, struct parallel_range range) {
   struct edge_layout *work = user;
   const struct layout *layout = work->layout;
   unsigned wanted = layout->options->ink.edges & LAYOUT_FACE_CLASSES;
   unsigned silhouette = RECTO_EDGE_SILHOUETTE;
-  bool skips_smooth = layout->class_masks != NULL && !layout->all_edges &&
+  uint8_t *class_masks = layout->class_masks;
+  bool skips_smooth = class_masks != NULL && !layout->all_edges &&
                       !(wanted & RECTO_EDGE_SMOOTH);
+  const struct edge_sides of = {
+      .layout = layout,
+      .edge = layout->topology->edge.item,
+      .sides = layout->sides,
+      .flags = layout->flags.item,
+      .edges = (uint32_t)layout->topology->edge.count,
+  };
   for (uint32_t e = (uint32_t)range.begin; e < range.end; e++) {
-    if (skips_smooth && is_smooth_alone(layout, e)) {
-      layout->class_masks[e] = 0;
+    const struct topology_edge *edge = &of.edge[e];
+    uint8_t sides = look_up_sides(&of, e);
+    bool contour = is_contour(edge, sides), made = layout->all_edges;
+    uint64_t bit = UINT64_C(1) << e % 64;
+    if (skips_smooth && !contour && class_masks[e] == RECTO_EDGE_SMOOTH) {
+      class_masks[e] = 0;
       continue;
     }
-    const struct topology_edge *edge = &layout->topology->edge.item[e];
-    uint64_t bit = UINT64_C(1) << e % 64;
-    bool made = layout->all_edges;
-    if (layout->class_masks != NULL) {
+    if (class_masks != NULL) {
       unsigned edge_class = topology_class_of_mask(
-          class_mask_of(layout->scene, edge, layout->class_masks[e],
-                        layout->sides[e]) &
+          class_mask_of(layout->scene, edge, class_masks[e], sides) &
           (has_mesh_contours(layout->coarse, edge->point[0])
                ? wanted
                : wanted & ~silhouette));
-      layout->class_masks[e] = (uint8_t)edge_class;
+      class_masks[e] = (uint8_t)edge_class;
       made |= edge_class != 0;
     }
-    bool contour = is_contour(layout, e);
     if (made)
       layout->ids.bits[e / 64] |= bit;
     if (contour ||
@@ -140,7 +183,8 @@ static recto_status clip_edge(struct edge_layout *work, uint32_t edge) {
   recto_status status = find_end_points(layout, edge, &ends);
   if (status == RECTO_OK && ends.point[0] == SHEET_NONE)
     layout->ids.bits[edge / 64] &= ~(UINT64_C(1) << edge % 64);
-  else if (status == RECTO_OK && is_contour(layout, edge))
+  else if (status == RECTO_OK && is_contour(&layout->topology->edge.item[edge],
+                                            sides_of_edge(layout, edge)))
     status = layout_contour(layout, ends.point[0], ends.point[1]);
   return status;
 }

@@ -1,11 +1,13 @@
 /* layout_face_ranges.c - lays out ranges of faces that need neither
  * triangulation nor clipping.
  *
- * Each range knows where its triangles stand once the faces that have no area
- * are counted.  An edge belongs to the range of its first face: edges are in
- * the order of these, so those of a range are consecutive.  Only that range
- * changes an edge directly; others list their sides of it, which are done at
- * the end, in the order of the ranges. */
+ * The orientation of each face is stored by its number; that of the faces of an
+ * edge says on which sides of it they lie.  Each range knows where its
+ * triangles stand once the faces that have no area are counted.  An edge
+ * belongs to the range of its first face: edges are in the order of these, so
+ * those of a range are consecutive.  Only that range links an edge to triangles
+ * directly; others list their sides of it, which are done at the end, in the
+ * order of the ranges. */
 #include "view/layout_face_ranges.h"
 
 #include <stdatomic.h>
@@ -18,8 +20,8 @@
 
 /* A side of an edge that belongs to an earlier range. */
 struct range_side {
-  uint32_t edge; /* of the topology; then of the sheet */
-  uint32_t of;   /* its side of the edge, as recorded; then its triangle */
+  uint32_t edge; /* of the sheet */
+  uint32_t triangle;
 };
 
 struct face_range {
@@ -107,7 +109,7 @@ static inline bool find_face_points(const struct face_loop *loop, size_t face,
   return true;
 }
 
-/* ---- Sides of edges ------------------------------------------------------ */
+/* ---- Orientations ------------------------------------------------------- */
 
 /* Fetches the points of faces that come later. */
 MEM_PREFETCH_INLINE void prefetch_points(const struct face_loop *loop,
@@ -126,34 +128,15 @@ MEM_PREFETCH_INLINE void prefetch_points(const struct face_loop *loop,
   MEM_PREFETCH(&loop->point[map != NULL ? map[own[2]] : own[2]]);
 }
 
-/* Records the sides of a triangle, some of whose edges may belong to an earlier
- * range; returns false when memory ran out. */
-static bool record_some_sides(struct face_range *range, uint8_t *sides,
-                              const uint32_t edge[3], const uint32_t corner[3],
-                              int sign) {
-  for (int k = 0; k < 3; k++) {
-    uint8_t own = 0;
-    layout_record_side(&own, corner[k] < corner[geom_next_corner(k)], sign);
-    struct range_side late = {edge[k], own};
-    if (edge[k] >= range->first_edge)
-      layout_unite_sides(&sides[edge[k]], own);
-    else if (!ARRAY_PUSH(&range->late, late))
-      return false;
-  }
-  return true;
-}
-
-static bool record_sides_of_range(void *user, struct parallel_range faces) {
+static bool find_orientations(void *user, struct parallel_range faces) {
   struct face_ranges_work *work = user;
   struct layout *layout = work->layout;
   const struct face_loop loop = face_loop_of(layout);
-  struct face_range *range = range_of(layout, faces.begin);
-  const uint32_t first_edge = range->first_edge;
-  uint8_t *sides = layout->sides, *flags = layout->flags.item + range->first;
+  uint8_t *flags = layout->flags.item;
   for (size_t f = faces.begin; f < faces.end; f++) {
-    const uint32_t *edge = loop.corner_edge + 3 * f;
     uint32_t corner[3], point[3];
     prefetch_points(&loop, 3 * f);
+    flags[f] = LAYOUT_NO_TRIANGLE;
     if (!find_face_points(&loop, f, corner, point))
       continue;
     if (point[0] == SHEET_NONE || point[1] == SHEET_NONE ||
@@ -161,31 +144,13 @@ static bool record_sides_of_range(void *user, struct parallel_range faces) {
       atomic_store(&work->found_other, true);
       return false;
     }
-    int64_t area = geom_orient2d(loop.point[point[0]], loop.point[point[1]],
-                                 loop.point[point[2]]);
-    int sign = geom_sign64(area);
-    *flags++ = layout_flags_of_area(area);
-    if (edge[0] < first_edge || edge[1] < first_edge || edge[2] < first_edge) {
-      if (!record_some_sides(range, sides, edge, corner, sign))
-        return false;
-      continue;
-    }
-    layout_record_side(&sides[edge[0]], corner[0] < corner[1], sign);
-    layout_record_side(&sides[edge[1]], corner[1] < corner[2], sign);
-    layout_record_side(&sides[edge[2]], corner[2] < corner[0], sign);
+    flags[f] = layout_flags_of_area(geom_orient2d(
+        loop.point[point[0]], loop.point[point[1]], loop.point[point[2]]));
   }
   return true;
 }
 
-static void record_late_sides(struct layout *layout, struct face_range *range) {
-  for (size_t i = 0; i < range->late.count; i++) {
-    const struct range_side *late = &range->late.item[i];
-    layout_unite_sides(&layout->sides[late->edge], (uint8_t)late->of);
-  }
-  range->late.count = 0;
-}
-
-bool layout_record_all_sides(struct layout *layout) {
+bool layout_orient_all_faces(struct layout *layout) {
   size_t faces = scene_face_count(layout->scene);
   size_t ranges = count_ranges(layout);
   if (!layout->sheet->camera.all_on_page || faces == 0 ||
@@ -198,18 +163,24 @@ bool layout_record_all_sides(struct layout *layout) {
       layout->face_range != NULL && ARRAY_RESERVE(&layout->flags, faces) &&
       parallel_ranges(workers, faces, PARALLEL_ITEMS, count_kept_faces, layout);
   size_t kept = ok ? assign_positions(layout->face_range, ranges) : 0;
-  ok = ok && parallel_ranges(workers, faces, PARALLEL_ITEMS,
-                             record_sides_of_range, &work);
+  ok = ok && parallel_ranges(workers, faces, PARALLEL_ITEMS, find_orientations,
+                             &work);
   if (atomic_load(&work.found_other)) {
     layout_free_face_ranges(layout);
-    memset(layout->sides, 0, layout->topology->edge.count);
     return true;
   }
-  for (size_t i = 0; ok && i < ranges; i++)
-    record_late_sides(layout, &layout->face_range[i]);
   layout->flags.count = kept;
   layout->sheet->empty += faces - kept;
   return ok;
+}
+
+/* Makes the flags of faces those of triangles. */
+static void move_flags(struct layout *layout) {
+  size_t faces = scene_face_count(layout->scene), kept = 0;
+  uint8_t *flags = layout->flags.item;
+  for (size_t f = 0; layout->flags.count < faces && f < faces; f++)
+    if (flags[f] != LAYOUT_NO_TRIANGLE)
+      flags[kept++] = flags[f];
 }
 
 /* ---- Triangles ----------------------------------------------------------- */
@@ -256,13 +227,14 @@ static bool make_triangles_of_range(void *user, struct parallel_range faces) {
 static void link_late_sides(struct layout *layout, struct face_range *range) {
   for (size_t i = 0; i < range->late.count; i++) {
     const struct range_side *late = &range->late.item[i];
-    layout_use_edge(&layout->sheet->edge.item[late->edge], late->of);
+    layout_use_edge(&layout->sheet->edge.item[late->edge], late->triangle);
   }
 }
 
 bool layout_make_all_triangles(struct layout *layout) {
   struct sheet *sheet = layout->sheet;
   size_t faces = scene_face_count(layout->scene);
+  move_flags(layout);
   if (!ARRAY_RESERVE(&sheet->triangle, layout->flags.count) ||
       !parallel_ranges(parallel_workers(faces, PARALLEL_ITEMS), faces,
                        PARALLEL_ITEMS, make_triangles_of_range, layout))

@@ -77,9 +77,19 @@ static inline void layout_unite_sides(uint8_t *sides, uint8_t of_face) {
     *sides = (uint8_t)(*sides + LAYOUT_ONE_FACE);
 }
 
+/* Stands for the flags of a face that is left out. */
+enum { LAYOUT_NO_TRIANGLE = 128 };
+
 /* The flags of a triangle by its area, in its face's winding. */
 static inline uint8_t layout_flags_of_area(int64_t area) {
   return area < 0 ? SHEET_FLIPPED : area == 0 ? SHEET_EDGE_ON : 0;
+}
+
+/* Whether an edge of two faces is LAYOUT_TWO_SIDED, by their flags. */
+static inline bool layout_flags_are_two_sided(uint8_t first, uint8_t second,
+                                              bool same_way) {
+  return (first ^ second) == (same_way ? SHEET_FLIPPED : 0) &&
+         (first & ~SHEET_FLIPPED) == 0;
 }
 
 /* The triangle of three points and the sides after them.
@@ -168,7 +178,8 @@ struct layout {
                           welded to another, or not used; NULL: each is that of
                           its own number */
   uint8_t *outcode;     /* one a scene point: see clip.h */
-  uint8_t *sides;       /* one a topology edge: LAYOUT_... */
+  uint8_t *sides;       /* one a topology edge: LAYOUT_...; NULL: the flags of
+                          faces say it (layout_face_ranges.h) */
   uint8_t *class_masks; /* likewise; once they are chosen, the class of each.
                            NULL where no class of them was requested */
   uint8_t *coarse;      /* of topology_coarse_parts; or NULL */

@@ -381,13 +381,13 @@ static recto_status layout_face(struct layout *layout, uint32_t face) {
 recto_status layout_triangles(struct layout *layout) {
   uint32_t faces = scene_face_count(layout->scene);
   size_t triangles = layout->scene->corner.count - 2 * (size_t)faces;
-  layout->sides =
-      mem_calloc(layout->topology->edge.count, sizeof *layout->sides);
-  if (layout->sides == NULL || !layout_record_all_sides(layout))
+  if (!layout_orient_all_faces(layout))
     return error_memory(layout->error);
   if (layout->face_range != NULL)
     return RECTO_OK;
-  if (!layout_reserve(layout, triangles))
+  layout->sides =
+      mem_calloc(layout->topology->edge.count, sizeof *layout->sides);
+  if (layout->sides == NULL || !layout_reserve(layout, triangles))
     return error_memory(layout->error);
   for (uint32_t face = 0; face < faces; face++) {
     uint32_t next = (face | (POLL_ITEMS - 1)) + 1;
