@@ -47,7 +47,10 @@ int ratio_compare_wide(struct ratio a, struct ratio b) {
   return sa > 0 ? order : -order;
 }
 
-double ratio_to_double(struct ratio a) { return (double)a.num / (double)a.den; }
+double ratio_to_double(struct ratio a) {
+  return ratio_is_narrow(a) ? (double)(int64_t)a.num / (double)(int64_t)a.den
+                            : (double)a.num / (double)a.den;
+}
 
 /* floor(num d / den + 1/2), the product of 169 bits. */
 static int64_t round_wide(struct ratio t, int64_t d) {

@@ -125,9 +125,19 @@ static inline int kdop8_nearest(uint64_t key) {
   return (int)(key >> (8 * KDOP8_LANE)) & KDOP8_MAX;
 }
 
+/* The guard bits of the lanes in which a key is at least a query. */
+static inline uint64_t kdop8_compare(uint64_t key, uint64_t query) {
+  return ((key | KDOP8_GUARDS) - query) & KDOP8_GUARDS;
+}
+
+/* Is the 8-DOP of a key that was so compared behind all of the query's? */
+static inline bool kdop8_is_behind(uint64_t lanes) {
+  return lanes >> (9 * KDOP8_LANE - 1) == 0;
+}
+
 /* May the 8-DOP of a key overlap that of a query?  False is certain. */
 static inline bool kdop8_overlaps(uint64_t key, uint64_t query) {
-  return (((key | KDOP8_GUARDS) - query) & KDOP8_GUARDS) == KDOP8_GUARDS;
+  return kdop8_compare(key, query) == KDOP8_GUARDS;
 }
 
 #endif

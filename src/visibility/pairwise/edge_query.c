@@ -19,12 +19,20 @@ void edge_query_fini(struct edge_query *query) {
   triangle_grid_query_fini(&query->found);
 }
 
+/* The number at parameter t of an edge, rounded: off by less than one, as its
+ * magnitude is at most 2^40.  Exact at 0. */
+static inline int64_t number_of_edge(double t, int64_t p, int64_t q) {
+  double more = t * (double)(q - p);
+  return p + (int64_t)(more < 0 ? more - 0.5 : more + 0.5);
+}
+
 /* The point of the edge at parameter t, each coordinate rounded. */
-static struct geom_point point_of_edge(const struct edge_query *query,
-                                       struct ratio t) {
-  return (struct geom_point){(int32_t)ratio_lerp(t, query->p.x, query->q.x),
-                             (int32_t)ratio_lerp(t, query->p.y, query->q.y),
-                             ratio_lerp(t, query->p.z, query->q.z)};
+static inline struct geom_point point_of_edge(const struct edge_query *query,
+                                              double t) {
+  return (struct geom_point){
+      (int32_t)number_of_edge(t, query->p.x, query->q.x),
+      (int32_t)number_of_edge(t, query->p.y, query->q.y),
+      number_of_edge(t, query->p.z, query->q.z)};
 }
 
 /* Shrinks the remaining part of the edge to what is not known to be hidden, if
@@ -42,8 +50,8 @@ static void shrink_rest(struct edge_query *query) {
   query->share = to - from;
   query->from = from;
   query->to = to;
-  query->end[0] = point_of_edge(query, rest.from);
-  query->end[1] = point_of_edge(query, rest.to);
+  query->end[0] = point_of_edge(query, from);
+  query->end[1] = point_of_edge(query, to);
   query->kdop = kdop8_of_point(query->end[0]);
   kdop8_add(&query->kdop, query->end[1]);
   for (int k = 0; k < 4; k++) {
@@ -119,7 +127,7 @@ struct cell_query {
 };
 
 /* Computes the 8-DOP query anew if the edge was shortened. */
-static void update_kdop_query(struct cell_query *at,
+static inline void update_kdop_query(struct cell_query *at,
                               const struct edge_query *query) {
   if (at->share == query->share)
     return;
@@ -177,15 +185,21 @@ static bool test_cell(struct edge_query *query, int x, int y) {
   const struct bvh *bvh = tile_candidates_bvh(list, cell);
   if (bvh != NULL)
     return test_bvh(query, bvh, &at);
-  for (;; i++) {
-    while (i < end && !kdop8_overlaps(list->key[i], at.kdop_query))
+  for (; !query->intervals.occluded; i++) {
+    uint64_t lanes = 0;
+    while (i < end && (lanes = kdop8_compare(list->key[i], at.kdop_query)) !=
+                          KDOP8_GUARDS) {
+      if (kdop8_is_behind(lanes))
+        return true; /* so are all that follow */
       i++;
-    if (i == end || query->intervals.occluded)
+    }
+    if (i == end)
       return true;
     if (!add_triangle_occlusion(query, list->grid.lists.item[i]))
       return false;
     update_kdop_query(&at, query);
   }
+  return true;
 }
 
 bool edge_query_solve(struct edge_query *query, uint32_t e) {

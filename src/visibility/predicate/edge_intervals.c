@@ -36,7 +36,7 @@ static void insert(occluded_intervals *united,
     if (ratio_compare(interval.to, item[past].to) < 0)
       interval.to = item[past].to;
   }
-  if (past != first + 1)
+  if (past != first + 1 && past < united->count)
     memmove(item + first + 1, item + past,
             (united->count - past) * sizeof *item);
   united->count += first + 1 - past;
@@ -50,7 +50,10 @@ bool edge_intervals_occlude(struct edge_intervals *intervals,
     return ARRAY_PUSH(&intervals->unmerged, interval);
   if (!ARRAY_RESERVE(merged, 1))
     return false;
-  insert(merged, interval);
+  if (merged->count == 0)
+    merged->item[merged->count++] = interval;
+  else
+    insert(merged, interval);
   intervals->occluded = merged->count == 1 && merged->item[0].from.num == 0 &&
                         merged->item[0].to.num == merged->item[0].to.den;
   return true;

@@ -16,6 +16,9 @@ static int128 round_up_capped(double value) {
   return (int128)ceil(value < T_CAP ? value : T_CAP);
 }
 
+/* Unrolls the loop over corners that follows. */
+#define UNROLL_CORNERS _Pragma("GCC unroll 3")
+
 static int128 absolute(int128 a) { return a < 0 ? -a : a; }
 
 void occluder_init(struct occluder *occluder, const struct sheet *sheet,
@@ -103,15 +106,6 @@ static void clip_after(struct occluded_interval *interval, struct ratio t) {
     interval->to = t;
 }
 
-/* Which side of the edge p-q is occluded by a triangle that it runs along: a-b
- * is the triangle's side, with the triangle on its left. */
-static int occluded_side(struct geom_point a, struct geom_point b,
-                         struct geom_point p, struct geom_point q) {
-  int64_t along = ((int64_t)q.x - p.x) * ((int64_t)b.x - a.x) +
-                  ((int64_t)q.y - p.y) * ((int64_t)b.y - a.y);
-  return along > 0 ? OCCLUDED_LEFT : OCCLUDED_RIGHT;
-}
-
 /* Sets the interval from 0 to 1 clipped to where all three values, s at 0 and t
  * at 1, are not negative.  Returns false where nothing is left. */
 static bool clip_to_sides(const int64_t s[3], const int64_t t[3],
@@ -133,38 +127,62 @@ static bool clip_to_sides(const int64_t s[3], const int64_t t[3],
   return (int128)from * to_den < (int128)to * from_den;
 }
 
-/* Clips the interval, from 0 to 1, to the triangle's projection.
- * With the corners c relative to p, and d = q - p, the twofold areas are
- *     line[k] = d x c[k]                        of p, q and corner k;
+/* The corners c of a triangle relative to the start p of an edge, and the
+ * twofold areas d x c of p, the end q = p + d and each corner. */
+struct outline {
+  int64_t x[3], y[3], line[3];
+};
+
+/* Sets an outline.  Returns false where all corners are on one side of the line
+ * p-q, at most one of them on it: the projection does not overlap the edge. */
+static inline bool outline_set(struct outline *outline,
+                               const struct geom_point *a,
+                               const struct geom_point *b,
+                               const struct geom_point *c, struct geom_point p,
+                               struct geom_point q) {
+  const struct geom_point *corner[3] = {a, b, c};
+  int64_t dx = (int64_t)q.x - p.x, dy = (int64_t)q.y - p.y, line[3];
+  UNROLL_CORNERS
+  for (int k = 0; k < 3; k++) {
+    int64_t x = outline->x[k] = (int64_t)corner[k]->x - p.x,
+            y = outline->y[k] = (int64_t)corner[k]->y - p.y;
+    outline->line[k] = line[k] = dx * y - dy * x;
+  }
+  bool one_side = (line[0] | line[1] | line[2]) >= 0 ||
+                  (-line[0] | -line[1] | -line[2]) >= 0;
+  return !one_side || (line[0] == 0) + (line[1] == 0) + (line[2] == 0) > 1;
+}
+
+/* Which side of the edge p-q is occluded by a triangle that it runs along: the
+ * triangle is on the left of its side from corner a to corner b. */
+static int occluded_side(const struct outline *outline, int a, int b,
+                         struct geom_point p, struct geom_point q) {
+  int64_t along = ((int64_t)q.x - p.x) * (outline->x[b] - outline->x[a]) +
+                  ((int64_t)q.y - p.y) * (outline->y[b] - outline->y[a]);
+  return along > 0 ? OCCLUDED_LEFT : OCCLUDED_RIGHT;
+}
+
+/* Sets the interval to the part of the edge p-q within the triangle's
+ * projection.  With the areas
  *     s[k]    = c[k] x c[k + 1]                 of side k and p;
  *     t[k]    = s[k] + line[k] - line[k + 1]    of side k and q.
  * Each is below 2^63; the intermediate sum may overflow, hence unsigned.
- * Where all corners are on one side of the line p-q, at most one of them on it,
- * the projection does not overlap the edge.
  * Returns false where nothing is left. */
-static bool clip_to_outline(const struct geom_point corner[3],
-                            struct geom_point p, struct geom_point q,
-                            struct occluded_interval *interval) {
-  int64_t dx = (int64_t)q.x - p.x, dy = (int64_t)q.y - p.y;
-  int64_t x[3], y[3], line[3], s[3], t[3];
-  int left = 0, right = 0;
-  for (int k = 0; k < 3; k++) {
-    x[k] = (int64_t)corner[k].x - p.x;
-    y[k] = (int64_t)corner[k].y - p.y;
-    line[k] = dx * y[k] - dy * x[k];
-    left += line[k] > 0;
-    right += line[k] < 0;
-  }
-  if ((left == 0 || right == 0) && left + right >= 2)
-    return false;
+static inline bool clip_to_outline(const struct outline *outline,
+                                   struct geom_point p, struct geom_point q,
+                                   struct occluded_interval *interval) {
+  int64_t s[3], t[3];
+  interval->sides = OCCLUDED_BOTH;
+  UNROLL_CORNERS
   for (int k = 0; k < 3; k++) {
     int next = geom_next_corner(k);
-    s[k] = x[k] * y[next] - y[k] * x[next];
-    t[k] = (int64_t)((uint64_t)s[k] + (uint64_t)line[k] - (uint64_t)line[next]);
+    s[k] = outline->x[k] * outline->y[next] - outline->y[k] * outline->x[next];
+    t[k] = (int64_t)((uint64_t)s[k] + (uint64_t)outline->line[k] -
+                     (uint64_t)outline->line[next]);
     if (s[k] <= 0 && t[k] <= 0) {
       if (s[k] < 0 || t[k] < 0)
         return false;
-      interval->sides = occluded_side(corner[k], corner[next], p, q);
+      interval->sides = occluded_side(outline, k, next, p, q);
     }
   }
   return clip_to_sides(s, t, interval);
@@ -222,10 +240,9 @@ static bool clip_to_depth(const struct occluder *occluder, struct geom_point p,
 bool occlude_by_projection(const struct geom_point corner[3],
                            struct geom_point p, struct geom_point q,
                            struct occluded_interval *interval) {
-  interval->from = ratio_of(0, 1);
-  interval->to = ratio_of(1, 1);
-  interval->sides = OCCLUDED_BOTH;
-  return clip_to_outline(corner, p, q, interval);
+  struct outline outline;
+  return outline_set(&outline, &corner[0], &corner[1], &corner[2], p, q) &&
+         clip_to_outline(&outline, p, q, interval);
 }
 
 bool occluder_edge_is_off_plane(const struct occluder *occluder,
@@ -310,27 +327,16 @@ static bool decide_depth(const struct sheet *sheet, uint32_t triangle,
   return clip_to_depth(&occluder, p, q, interval, counts);
 }
 
-/* Clips the interval to the projection of a triangle with an area. */
-static bool occlude_by_outline(const struct sheet *sheet, uint32_t triangle,
-                               const struct geom_triangle *corners,
-                               struct geom_point p, struct geom_point q,
-                               struct occluded_interval *interval,
-                               struct occlusion_counts *counts) {
-  counts->pairs++;
-  if (!occlude_by_projection(corners->p, p, q, interval) ||
-      sheet_is_edge_on(sheet, triangle))
-    return false;
-  counts->depth_tests++;
-  return true;
-}
-
 bool occlude_edge_by_triangle(const struct sheet *sheet, uint32_t triangle,
                               struct geom_point p, struct geom_point q,
                               struct occluded_interval *interval,
                               struct occlusion_counts *counts) {
   const struct geom_triangle corners = sheet_corners(sheet, triangle);
-  if (!occlude_by_outline(sheet, triangle, &corners, p, q, interval, counts))
+  counts->pairs++;
+  if (!occlude_by_projection(corners.p, p, q, interval) ||
+      sheet_is_edge_on(sheet, triangle))
     return false;
+  counts->depth_tests++;
   struct plane_filter plane = plane_filter_of(sheet, triangle);
   return decide_depth(sheet, triangle, &corners, &plane, p, q, interval,
                       counts);
@@ -341,9 +347,17 @@ bool occlude_edge_by_cached(struct plane_cache *cache, uint32_t triangle,
                             struct occluded_interval *interval,
                             struct occlusion_counts *counts) {
   const struct sheet *sheet = cache->sheet;
-  const struct geom_triangle corners = sheet_corners(sheet, triangle);
-  if (!occlude_by_outline(sheet, triangle, &corners, p, q, interval, counts))
+  const uint32_t *corner = sheet->triangle.item[triangle].point;
+  const struct geom_point *point = sheet->point.item;
+  struct outline outline;
+  counts->pairs++;
+  if (!outline_set(&outline, &point[corner[0]], &point[corner[1]],
+                   &point[corner[2]], p, q) ||
+      !clip_to_outline(&outline, p, q, interval) ||
+      sheet_is_edge_on(sheet, triangle))
     return false;
+  counts->depth_tests++;
+  const struct geom_triangle corners = sheet_corners(sheet, triangle);
   struct coarse_plane plane = coarse_plane_of(&cache->all, corners.p);
   int at_p = coarse_plane_contact_sign(&plane, p),
       at_q = coarse_plane_contact_sign(&plane, q);
