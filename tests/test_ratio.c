@@ -169,6 +169,22 @@ static void lerp_is_what_gmp_says(void **state) {
   }
 }
 
+/* Also at halves and next to them, where doubles decide nothing. */
+static void lerp_rounds_halves_up(void **state) {
+  uint64_t r = 5;
+  (void)state;
+  for (int i = 0; i < ROUNDS; i++) {
+    int64_t p0 = draw_end(&r), d = 1 + (int64_t)below(&r, LERP_BITS),
+            num = (int64_t)below(&r, LERP_BITS) % (2 * d);
+    struct ratio t = {num, 2 * d};
+    assert_true(ratio_lerp(t, p0, p0 + d) == lerp_by_gmp(t, p0, p0 + d));
+    t = (struct ratio){(int128)num * (INT64_C(1) << 50) - 1,
+                       (int128)2 * d * (INT64_C(1) << 50)};
+    if (num > 0)
+      assert_true(ratio_lerp(t, p0, p0 + d) == lerp_by_gmp(t, p0, p0 + d));
+  }
+}
+
 static void lerp_depends_on_the_value_alone(void **state) {
   uint64_t r = 5;
   (void)state;
@@ -236,6 +252,7 @@ int main(void) {
       cmocka_unit_test(comparing_is_antisymmetric_and_reflexive),
       cmocka_unit_test(comparing_is_transitive),
       cmocka_unit_test(lerp_is_what_gmp_says),
+      cmocka_unit_test(lerp_rounds_halves_up),
       cmocka_unit_test(lerp_depends_on_the_value_alone),
       cmocka_unit_test(lerp_rounds_halves_up_whatever_the_direction),
       cmocka_unit_test(lerp_meets_both_ends),

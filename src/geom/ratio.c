@@ -60,8 +60,17 @@ static int64_t round_wide(struct ratio t, int64_t d) {
   return wide_round_quotient(&product, &den, 0);
 }
 
+/* Doubles decide unless the sum is so near a whole number.  With u = 2^-53, the
+ * product is off by at most 5u times 2^43, and its sum with 1/2 by u more. */
+#define LERP_NEAR 0x1p-6
+
 int64_t ratio_lerp(struct ratio t, int64_t p0, int64_t p1) {
   int64_t d = p1 - p0; /* at most 2^43 */
+  double sum = ratio_to_double(t) * (double)d + 0.5;
+  int64_t whole = (int64_t)sum - (sum < 0);
+  double rest = sum - (double)whole; /* exact; below 0, 1 for a whole sum */
+  if (rest > LERP_NEAR && rest < 1 - LERP_NEAR)
+    return p0 + whole;
   const int128 narrow = (int128)1 << 81;
   if (-narrow < t.num && t.num < narrow && t.den < narrow) {
     int128 num = 2 * t.num * d + t.den, den = 2 * t.den;

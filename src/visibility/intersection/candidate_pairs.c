@@ -74,14 +74,14 @@ static bool is_cell_of_pair(const struct pair_sweep *sweep,
   return true;
 }
 
-/* Is f certainly on one side of the plane of g? */
-static inline bool is_beside_plane(const struct pair_sweep *sweep,
-                                   const struct swept_triangle *f,
-                                   struct swept_triangle *g) {
+/* May f straddle the coarse plane of g or end on it? */
+static inline bool may_meet_plane(const struct pair_sweep *sweep,
+                                  const struct swept_triangle *f,
+                                  struct swept_triangle *g) {
   if (!g->has_coarse_plane)
     g->coarse_plane = coarse_plane_of(&sweep->all, g->corners.p);
   g->has_coarse_plane = true;
-  return coarse_plane_is_beside(&g->coarse_plane, f->corners.p);
+  return coarse_plane_may_intersect(&g->coarse_plane, f->corners.p);
 }
 
 /* May f straddle the plane of g or end on it? */
@@ -115,8 +115,8 @@ static inline bool visit_pair(const struct pair_sweep *sweep,
                               struct swept_triangle *f,
                               struct swept_triangle *g) {
   if ((f->right_copy & g->right_copy) != 0 || !is_cell_of_pair(sweep, f, g) ||
-      are_neighbours(sweep->sheet, f, g) || is_beside_plane(sweep, f, g) ||
-      is_beside_plane(sweep, g, f) || !may_pierce(sweep->sheet, f, g) ||
+      are_neighbours(sweep->sheet, f, g) || !may_meet_plane(sweep, f, g) ||
+      !may_meet_plane(sweep, g, f) || !may_pierce(sweep->sheet, f, g) ||
       !may_pierce(sweep->sheet, g, f) ||
       is_outside_triangle(f->corners.p, g->corners.p) ||
       is_outside_triangle(g->corners.p, f->corners.p))

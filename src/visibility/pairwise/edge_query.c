@@ -29,10 +29,9 @@ static inline int64_t number_of_edge(double t, int64_t p, int64_t q) {
 /* The point of the edge at parameter t, each coordinate rounded. */
 static inline struct geom_point point_of_edge(const struct edge_query *query,
                                               double t) {
-  return (struct geom_point){
-      (int32_t)number_of_edge(t, query->p.x, query->q.x),
-      (int32_t)number_of_edge(t, query->p.y, query->q.y),
-      number_of_edge(t, query->p.z, query->q.z)};
+  return (struct geom_point){(int32_t)number_of_edge(t, query->p.x, query->q.x),
+                             (int32_t)number_of_edge(t, query->p.y, query->q.y),
+                             number_of_edge(t, query->p.z, query->q.z)};
 }
 
 /* Shrinks the remaining part of the edge to what is not known to be hidden, if
@@ -86,10 +85,18 @@ static void remember(struct edge_query *query, uint32_t t) {
   query->recent[0] = t;
 }
 
+/* Does the edge belong to triangle t, as occlusion_is_own has it? */
+static inline bool is_triangle_of_edge(const struct edge_query *query,
+                                       uint32_t t) {
+  uint32_t face = query->sheet->triangle.item[t].face;
+  return (face == query->face[0] || face == query->face[1]) &&
+         occlusion_is_own(query->sheet, query->edge, t);
+}
+
 /* Tests triangle t, which may overlap the edge, and adds what it occludes. */
 static bool add_triangle_occlusion(struct edge_query *query, uint32_t t) {
   struct occluded_interval part;
-  if (occlusion_is_own(query->sheet, query->edge, t) ||
+  if (is_triangle_of_edge(query, t) ||
       (query->several_cells && !triangle_grid_query_first(&query->found, t)) ||
       !occlude_by_triangle(query, t, &part))
     return true;
@@ -128,7 +135,7 @@ struct cell_query {
 
 /* Computes the 8-DOP query anew if the edge was shortened. */
 static inline void update_kdop_query(struct cell_query *at,
-                              const struct edge_query *query) {
+                                     const struct edge_query *query) {
   if (at->share == query->share)
     return;
   at->share = query->share;
@@ -207,6 +214,10 @@ bool edge_query_solve(struct edge_query *query, uint32_t e) {
   const struct sheet_edge *edge = &query->sheet->edge.item[e];
   struct cell_range r;
   query->edge = edge;
+  for (int k = 0; k < 2; k++)
+    query->face[k] = edge->triangle[k] == SHEET_NONE
+                         ? SHEET_NONE
+                         : query->sheet->triangle.item[edge->triangle[k]].face;
   query->p = query->sheet->point.item[edge->point[0]];
   query->q = query->sheet->point.item[edge->point[1]];
   query->kdop = kdop8_of_point(query->p);

@@ -16,5 +16,5 @@ occlusion_tolerance_bound_all(const struct sheet *sheet) {
   }
   slope += sheet->units_per_view;
   return (struct occlusion_bound){(grid + level * share) * (1 + 0x1p-19),
-                                  (grid + slope * share) * (1 + 0x1p-19)};
+                                  (grid + slope * share) * (1 + 0x1p-19), grid};
 }

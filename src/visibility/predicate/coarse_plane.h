@@ -9,6 +9,8 @@
  *     |d| is at most the extent of the sheet.
  *   - The bound of the tolerance is linear in |n|, which may be too small by
  *     3u m; its factors are rounded up by more than its own roundings.
+ *   - So is the lower bound; what |n| is too large by there is far less than
+ *     the error bound of the value has to spare.
  */
 #ifndef VISIBILITY_PREDICATE_COARSE_PLANE_H
 #define VISIBILITY_PREDICATE_COARSE_PLANE_H
@@ -22,6 +24,7 @@
  * |ny|).  Coarse: see plane_filter_thickness. */
 struct occlusion_bound {
   double level, slope;
+  double grid; /* a lower bound of T: grid (|nx| + |ny| + nz) */
 };
 struct occlusion_bound occlusion_tolerance_bound_all(const struct sheet *sheet);
 
@@ -43,8 +46,9 @@ static inline double occlusion_bound_of(const struct occlusion_bound *all,
 struct coarse_plane {
   double x, y, z;    /* a corner of the triangle */
   double nx, ny, nz; /* the normal */
-  double error;      /* more than the error of the value at any point */
-  double contact;    /* more than the same and the contact tolerance */
+  double most;       /* more than the contact tolerance and the error of the
+                        value at any point */
+  double least;      /* less than the tolerance less that error */
 };
 
 static inline struct coarse_plane
@@ -58,13 +62,18 @@ coarse_plane_of(const struct occlusion_bound *all,
          z1 = uy * vx;
   double page_most = fabs(x0) + fabs(x1) + fabs(y0) + fabs(y1),
          depth_most = fabs(z0) + fabs(z1);
-  struct coarse_plane plane = {
-      p[0].x, p[0].y, (double)p[0].z, x0 - x1, y0 - y1, z0 - z1, 0, 0};
-  plane.error = FILTER_ERROR * (page * page_most + depth * depth_most);
-  plane.contact =
-      plane.error + 1 + all->level * fabs(plane.nz) +
-      all->slope * (fabs(plane.nx) + fabs(plane.ny)) +
+  struct coarse_plane plane = {.x = p[0].x,
+                               .y = p[0].y,
+                               .z = (double)p[0].z,
+                               .nx = x0 - x1,
+                               .ny = y0 - y1,
+                               .nz = z0 - z1};
+  double across = fabs(plane.nx) + fabs(plane.ny), along = fabs(plane.nz),
+         error = FILTER_ERROR * (page * page_most + depth * depth_most);
+  plane.most =
+      error + 1 + all->level * along + all->slope * across +
       FILTER_ERROR * (all->slope * page_most + all->level * depth_most);
+  plane.least = all->grid * (across + along) - error;
   return plane;
 }
 
@@ -80,19 +89,23 @@ static inline double coarse_plane_value(const struct coarse_plane *plane,
 static inline int coarse_plane_contact_sign(const struct coarse_plane *plane,
                                             struct geom_point p) {
   double value = coarse_plane_value(plane, p);
-  return (value > plane->error) - (value < -plane->contact);
+  return (value > -plane->least) - (value < -plane->most);
 }
 
-/* Are all three corners certainly on one side of the plane, by more than the
- * contact tolerance? */
-static inline bool coarse_plane_is_beside(const struct coarse_plane *plane,
-                                          const struct geom_point corner[3]) {
-  double a = coarse_plane_value(plane, corner[0]),
-         b = coarse_plane_value(plane, corner[1]),
-         c = coarse_plane_value(plane, corner[2]);
-  double far = plane->contact;
-  return ((a > far) & (b > far) & (c > far)) |
-         ((a < -far) & (b < -far) & (c < -far));
+/* May a triangle with these corners straddle the plane or end on it, as
+ * plane_filter_may_intersect has it?  False is certain. */
+static inline bool
+coarse_plane_may_intersect(const struct coarse_plane *plane,
+                           const struct geom_point corner[3]) {
+  int behind = 0, in_front = 0, touching = 0;
+  for (int k = 0; k < 3; k++) {
+    double value = coarse_plane_value(plane, corner[k]);
+    behind += value < -plane->most;
+    in_front += value > plane->most;
+    touching += fabs(value) < plane->least;
+  }
+  return behind + in_front + touching < 3 || (behind > 0 && in_front > 0) ||
+         touching == 2;
 }
 
 #endif

@@ -129,24 +129,24 @@ static bool clip_to_sides(const int64_t s[3], const int64_t t[3],
 
 /* The corners c of a triangle relative to the start p of an edge, and the
  * twofold areas d x c of p, the end q = p + d and each corner. */
-struct outline {
+struct edge_corners {
   int64_t x[3], y[3], line[3];
 };
 
-/* Sets an outline.  Returns false where all corners are on one side of the line
- * p-q, at most one of them on it: the projection does not overlap the edge. */
-static inline bool outline_set(struct outline *outline,
-                               const struct geom_point *a,
-                               const struct geom_point *b,
-                               const struct geom_point *c, struct geom_point p,
-                               struct geom_point q) {
+/* Sets the corners.  Returns false where all are on one side of the line p-q,
+ * at most one of them on it: the projection does not overlap the edge. */
+static inline bool edge_corners_set(struct edge_corners *corners,
+                                    const struct geom_point *a,
+                                    const struct geom_point *b,
+                                    const struct geom_point *c,
+                                    struct geom_point p, struct geom_point q) {
   const struct geom_point *corner[3] = {a, b, c};
   int64_t dx = (int64_t)q.x - p.x, dy = (int64_t)q.y - p.y, line[3];
   UNROLL_CORNERS
   for (int k = 0; k < 3; k++) {
-    int64_t x = outline->x[k] = (int64_t)corner[k]->x - p.x,
-            y = outline->y[k] = (int64_t)corner[k]->y - p.y;
-    outline->line[k] = line[k] = dx * y - dy * x;
+    int64_t x = corners->x[k] = (int64_t)corner[k]->x - p.x,
+            y = corners->y[k] = (int64_t)corner[k]->y - p.y;
+    corners->line[k] = line[k] = dx * y - dy * x;
   }
   bool one_side = (line[0] | line[1] | line[2]) >= 0 ||
                   (-line[0] | -line[1] | -line[2]) >= 0;
@@ -155,10 +155,10 @@ static inline bool outline_set(struct outline *outline,
 
 /* Which side of the edge p-q is occluded by a triangle that it runs along: the
  * triangle is on the left of its side from corner a to corner b. */
-static int occluded_side(const struct outline *outline, int a, int b,
+static int occluded_side(const struct edge_corners *corners, int a, int b,
                          struct geom_point p, struct geom_point q) {
-  int64_t along = ((int64_t)q.x - p.x) * (outline->x[b] - outline->x[a]) +
-                  ((int64_t)q.y - p.y) * (outline->y[b] - outline->y[a]);
+  int64_t along = ((int64_t)q.x - p.x) * (corners->x[b] - corners->x[a]) +
+                  ((int64_t)q.y - p.y) * (corners->y[b] - corners->y[a]);
   return along > 0 ? OCCLUDED_LEFT : OCCLUDED_RIGHT;
 }
 
@@ -168,7 +168,7 @@ static int occluded_side(const struct outline *outline, int a, int b,
  *     t[k]    = s[k] + line[k] - line[k + 1]    of side k and q.
  * Each is below 2^63; the intermediate sum may overflow, hence unsigned.
  * Returns false where nothing is left. */
-static inline bool clip_to_outline(const struct outline *outline,
+static inline bool clip_to_outline(const struct edge_corners *corners,
                                    struct geom_point p, struct geom_point q,
                                    struct occluded_interval *interval) {
   int64_t s[3], t[3];
@@ -176,13 +176,13 @@ static inline bool clip_to_outline(const struct outline *outline,
   UNROLL_CORNERS
   for (int k = 0; k < 3; k++) {
     int next = geom_next_corner(k);
-    s[k] = outline->x[k] * outline->y[next] - outline->y[k] * outline->x[next];
-    t[k] = (int64_t)((uint64_t)s[k] + (uint64_t)outline->line[k] -
-                     (uint64_t)outline->line[next]);
+    s[k] = corners->x[k] * corners->y[next] - corners->y[k] * corners->x[next];
+    t[k] = (int64_t)((uint64_t)s[k] + (uint64_t)corners->line[k] -
+                     (uint64_t)corners->line[next]);
     if (s[k] <= 0 && t[k] <= 0) {
       if (s[k] < 0 || t[k] < 0)
         return false;
-      interval->sides = occluded_side(outline, k, next, p, q);
+      interval->sides = occluded_side(corners, k, next, p, q);
     }
   }
   return clip_to_sides(s, t, interval);
@@ -240,9 +240,10 @@ static bool clip_to_depth(const struct occluder *occluder, struct geom_point p,
 bool occlude_by_projection(const struct geom_point corner[3],
                            struct geom_point p, struct geom_point q,
                            struct occluded_interval *interval) {
-  struct outline outline;
-  return outline_set(&outline, &corner[0], &corner[1], &corner[2], p, q) &&
-         clip_to_outline(&outline, p, q, interval);
+  struct edge_corners relative;
+  return edge_corners_set(&relative, &corner[0], &corner[1], &corner[2], p,
+                          q) &&
+         clip_to_outline(&relative, p, q, interval);
 }
 
 bool occluder_edge_is_off_plane(const struct occluder *occluder,
@@ -349,11 +350,11 @@ bool occlude_edge_by_cached(struct plane_cache *cache, uint32_t triangle,
   const struct sheet *sheet = cache->sheet;
   const uint32_t *corner = sheet->triangle.item[triangle].point;
   const struct geom_point *point = sheet->point.item;
-  struct outline outline;
+  struct edge_corners relative;
   counts->pairs++;
-  if (!outline_set(&outline, &point[corner[0]], &point[corner[1]],
-                   &point[corner[2]], p, q) ||
-      !clip_to_outline(&outline, p, q, interval) ||
+  if (!edge_corners_set(&relative, &point[corner[0]], &point[corner[1]],
+                        &point[corner[2]], p, q) ||
+      !clip_to_outline(&relative, p, q, interval) ||
       sheet_is_edge_on(sheet, triangle))
     return false;
   counts->depth_tests++;
