@@ -105,6 +105,26 @@ static void pieces_of_one_edge_are_judged_apart(void **state) {
   assert_int_equal(draw(&k), 1);
 }
 
+/* The middle of a crease, `length` mm of it, alone or with one end on another
+ * line. */
+static size_t draw_middle(double length, bool touches) {
+  struct ink_fixture k;
+  start(&k);
+  uint32_t edge = ink_fixture_line(&k, 10, 10, 90, 10, RECTO_EDGE_CREASE);
+  ink_fixture_show(&k, edge, 40 * 8, (int64_t)((40 + length) * 8), 80 * 8);
+  if (touches)
+    line(&k, 50, 5, 50, 90);
+  return draw(&k) - touches;
+}
+
+/* What hides the rest of it is drawn elsewhere, if it is a smooth contour. */
+static void a_short_part_of_a_crease_touches_something(void **state) {
+  (void)state;
+  assert_int_equal(draw_middle(2.5, false), 0);
+  assert_int_equal(draw_middle(3.5, false), 1);
+  assert_int_equal(draw_middle(2.5, true), 1);
+}
+
 /* Without creases what a silhouette leads to may not be drawn. */
 static void of_some_classes_all_silhouettes_are_drawn(void **state) {
   (void)state;
@@ -164,6 +184,7 @@ int main(void) {
       cmocka_unit_test(a_link_between_lines_is_drawn),
       cmocka_unit_test(a_spur_on_which_a_line_ends_is_drawn),
       cmocka_unit_test(pieces_of_one_edge_are_judged_apart),
+      cmocka_unit_test(a_short_part_of_a_crease_touches_something),
       cmocka_unit_test(of_some_classes_all_silhouettes_are_drawn),
       cmocka_unit_test(a_line_that_is_cut_off_is_drawn),
       cmocka_unit_test(spurs_are_the_same_for_all_outputs),

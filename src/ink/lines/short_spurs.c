@@ -1,5 +1,5 @@
 /* short_spurs.c - finds the short silhouettes within the picture that lead
- * nowhere.
+ * nowhere, and short creases that touch nothing.
  *
  * Where a mesh is rough its surface folds over itself by next to nothing: each
  * fold is a silhouette, of which visibility leaves a tick beside the outline,
@@ -7,7 +7,8 @@
  * end to where lines meet, or to another loose end.
  *
  * Phases
- *   1 walk from each loose end of a silhouette, and keep the short spurs
+ *   1 walk from each loose end of a silhouette or a crease, and keep the short
+ *     spurs
  *   2 look for nodes of other lines on them
  *   3 list the loose ends of the others in the cells of a uniform grid, and
  *     test each segment with those in its cells
@@ -33,7 +34,7 @@ struct spur {
   uint32_t end[2];   /* its loose ends; SEGMENT_GRAPH_NONE: there is one */
   bool is_passed[2]; /* another line is near that end, or there is none */
   bool is_met;       /* another line ends on it */
-  bool is_long;      /* too long, unless it touches nothing */
+  bool is_dash;      /* it is left out only if it touches nothing */
 };
 
 /* A loose end in the list of a cell: end k of spur `end` >> 1, k = `end` & 1.
@@ -69,9 +70,12 @@ static uint32_t ends_at(const struct spur_search *s, uint32_t node) {
   return s->graph->ends.start[node + 1] - s->graph->ends.start[node];
 }
 
-static bool is_silhouette_segment(const struct graph_segment *segment) {
-  return !graph_segment_is_hidden(segment) &&
-         (segment->style_key & RECTO_EDGES_ALL) == RECTO_EDGE_SILHOUETTE;
+/* The class of a visible silhouette or crease; 0: the segment is none. */
+static unsigned spur_class(const struct graph_segment *segment) {
+  unsigned edge_class = segment->style_key & RECTO_EDGES_ALL;
+  bool may_be =
+      edge_class == RECTO_EDGE_SILHOUETTE || edge_class == RECTO_EDGE_CREASE;
+  return may_be && !graph_segment_is_hidden(segment) ? edge_class : 0;
 }
 
 /* ---- 1 Spurs ------------------------------------------------------------- */
@@ -98,7 +102,7 @@ static double segment_mm(const struct spur_search *s, uint32_t segment) {
   return hypot((double)p.x - q.x, (double)p.y - q.y) / SHEET_UNITS_PER_MM;
 }
 
-/* The end at which a silhouette goes on beyond another end of it;
+/* The end at which a line goes on beyond another end of it, with its class;
  * SEGMENT_GRAPH_NONE: other lines meet it there, or nothing does. */
 static uint32_t next_end(const struct spur_search *s, uint32_t end) {
   const struct segment_graph *graph = s->graph;
@@ -107,7 +111,8 @@ static uint32_t next_end(const struct spur_search *s, uint32_t end) {
   if (ends_at(s, node) != 2)
     return SEGMENT_GRAPH_NONE;
   uint32_t next = two[two[0] == end];
-  return is_silhouette_segment(&graph->segment.item[next >> 1])
+  return spur_class(&graph->segment.item[next >> 1]) ==
+                 spur_class(&graph->segment.item[end >> 1])
              ? next
              : SEGMENT_GRAPH_NONE;
 }
@@ -117,7 +122,7 @@ static uint32_t next_end(const struct spur_search *s, uint32_t end) {
 static uint32_t walk(const struct spur_search *s, uint32_t end, bool *is_long) {
   const struct graph_segment *first = &s->graph->segment.item[end >> 1];
   uint32_t group = s->sheet->edge.item[first->edge].group;
-  uint32_t pen = pens_of_line(s->pens, RECTO_EDGE_SILHOUETTE, group);
+  uint32_t pen = pens_of_line(s->pens, spur_class(first), group);
   double length = 0;
   for (uint32_t next = end; next != SEGMENT_GRAPH_NONE;
        next = next_end(s, end)) {
@@ -138,8 +143,12 @@ static bool add_spur(struct spur_search *s, uint32_t end) {
   bool both = ends_at(s, spur_node(s, last)) == 1;
   if (both && (last < end || is_cut_off(s, last)))
     return true; /* found from there, or cut off */
+  bool is_crease =
+      spur_class(&s->graph->segment.item[end >> 1]) == RECTO_EDGE_CREASE;
+  if (is_crease && (is_long || !both))
+    return true;
   struct spur spur = {.end = {end, both ? last : SEGMENT_GRAPH_NONE},
-                      .is_long = is_long};
+                      .is_dash = is_long || is_crease};
   return ARRAY_PUSH(&s->spur, spur);
 }
 
@@ -151,8 +160,7 @@ static bool find_spurs(struct spur_search *s) {
     if (ends_at(s, (uint32_t)n) != 1) /* there are nodes without any */
       continue;
     uint32_t end = graph->ends.item[graph->ends.start[n]];
-    if (is_silhouette_segment(&graph->segment.item[end >> 1]) &&
-        !add_spur(s, end))
+    if (spur_class(&graph->segment.item[end >> 1]) != 0 && !add_spur(s, end))
       return false;
   }
   return true;
@@ -368,7 +376,7 @@ static bool find_passing(struct spur_search *s) {
 
 static bool leads_nowhere(const struct spur *spur) {
   return !spur->is_met &&
-         (spur->is_long ? !spur->is_passed[0] && !spur->is_passed[1]
+         (spur->is_dash ? !spur->is_passed[0] && !spur->is_passed[1]
                         : !spur->is_passed[0] || !spur->is_passed[1]);
 }
 
