@@ -35,6 +35,7 @@ librecto_core_la_SOURCES += \
   %D%/culling/culling_bands.c %D%/culling/culling_bands.h \
   %D%/culling/occlusion_culling.c %D%/culling/occlusion_culling.h \
   %D%/culling/potentially_visible.c %D%/culling/potentially_visible.h \
+  %D%/contour/contour_cusps.c %D%/contour/contour_cusps.h \
   %D%/contour/contour_curves.c %D%/contour/contour_curves.h \
   %D%/contour/curved_triangle.c %D%/contour/curved_triangle.h \
   %D%/contour/corner_moves.c %D%/contour/corner_moves.h \

@@ -11,6 +11,7 @@
 #include "base/sort.h"
 #include "base/tolerance.h"
 #include "view/clip.h"
+#include "visibility/contour/contour_cusps.h"
 #include "visibility/contour/curve_pieces.h"
 #include "visibility/contour/divided_curves.h"
 #include "visibility/contour/doubled_contours.h"
@@ -225,7 +226,7 @@ static bool add_pieces(struct contour_pieces *c) {
   bool ok = contour_curves_join(c->curves, c->set, c->options.crease_deg) &&
             (c->options.exact ||
              thin_loops_remove(c->curves, c->set, c->sheet, c->topology)) &&
-            contour_curves_cut_at_cusps(c->curves) &&
+            contour_cusps_cut(c->curves) &&
             page_crossings_cut(c->curves) &&
             intersection_cuts_add(c->curves, c->sheet, c->map) &&
             contour_cuts_sort(&c->curves->cut) &&

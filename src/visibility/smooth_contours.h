@@ -22,7 +22,7 @@ struct smooth_contours_options {
  * each visible or hidden from end to end.
  *
  * A curve is divided where its visibility may change: at its cusps, where lines
- * pass in front of it, and where it passes through faces (contour_curves.h,
+ * pass in front of it, and where it passes through faces (contour_cusps.h,
  * page_crossings.h, intersection_cuts.h).  Each piece
  * is visible or hidden as a whole, as most of its samples are.  These lie a
  * little off the surface, so that the triangles about them do not decide.

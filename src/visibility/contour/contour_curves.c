@@ -1,5 +1,5 @@
-/* contour_curves.c - joins the segments of a contour to curves, and finds their
- * cusps. */
+/* contour_curves.c - joins the segments of a contour to curves, and sorts their
+ * cuts. */
 #include "visibility/contour/contour_curves.h"
 
 #include <math.h>
@@ -14,10 +14,6 @@
  * which have other vertices on one side; about a bump of the noise that normals
  * have it passes fewer. */
 enum { NOISE_VERTICES = 6 };
-
-/* The sign of the radial curvature is that of most of so many segments to
- * either side of one. */
-enum { CURVATURE_REACH = 5 };
 
 void contour_curves_fini(struct contour_curves *curves) {
   ARRAY_FREE(&curves->step);
@@ -116,91 +112,7 @@ bool contour_curves_join(struct contour_curves *curves,
   return ok;
 }
 
-/* ---- Cusps --------------------------------------------------------------- */
-
-/* The step of a curve at an index that may pass its ends; a closed curve is
- * gone around.  Returns false where there is none. */
-static bool step_at(const struct contour_curve *curve, int64_t index,
-                    uint32_t *step) {
-  int64_t count = curve->count;
-  if (curve->closed)
-    index = (index % count + count) % count;
-  *step = curve->step + (uint32_t)index;
-  return index >= 0 && index < count;
-}
-
-/* The sign of the radial curvature about a segment of a curve. */
-static bool is_concave(const struct contour_curves *curves,
-                       const struct contour_curve *curve, int64_t index) {
-  int sum = 0;
-  uint32_t at;
-  (void)step_at(curve, index, &at);
-  bool crease = contour_curves_segment(curves, at)->along_crease;
-  for (int64_t i = index - CURVATURE_REACH; i <= index + CURVATURE_REACH; i++) {
-    uint32_t step;
-    if (!step_at(curve, i, &step) ||
-        contour_curves_segment(curves, step)->along_crease != crease ||
-        (crease && i != index))
-      continue;
-    sum += contour_curves_segment(curves, step)->radial < 0 ? -1 : 1;
-  }
-  return sum < 0;
-}
-
-/* The node near the change of sign before segment `index` at which the image of
- * the curve turns back: of those within reach, the one farthest along the
- * curve's direction on its way there. */
-static uint32_t turning_step(const struct contour_curves *curves,
-                             const struct contour_curve *curve, int64_t index) {
-  uint32_t from, best;
-  if (!step_at(curve, index - 2 * CURVATURE_REACH, &from) ||
-      !step_at(curve, index, &best))
-    return curve->step + (uint32_t)index;
-  const struct geom_point a = contour_curves_node(curves, from)->page;
-  const struct geom_point b = contour_curves_node(curves, best)->page;
-  double x = (double)b.x - a.x, y = (double)b.y - a.y, most = 0;
-  for (int64_t i = index - CURVATURE_REACH; i <= index + CURVATURE_REACH; i++) {
-    uint32_t step;
-    if (!step_at(curve, i, &step) ||
-        contour_curves_segment(curves, step)->along_crease)
-      continue;
-    const struct geom_point c = contour_curves_node(curves, step)->page;
-    double along = ((double)c.x - b.x) * x + ((double)c.y - b.y) * y;
-    if (along > most) {
-      most = along;
-      best = step;
-    }
-  }
-  return best;
-}
-
-bool contour_curves_cut_at_cusps(struct contour_curves *curves) {
-  for (size_t c = 0; c < curves->curve.count; c++) {
-    const struct contour_curve *curve = &curves->curve.item[c];
-    int64_t first = curve->closed ? curve->count - 1 : 0;
-    bool before = is_concave(curves, curve, first);
-    bool crease_before =
-        contour_curves_segment(curves, curve->step + (uint32_t)first)
-            ->along_crease;
-    if (!poll_at(c))
-      return false;
-    for (int64_t i = 0; i < curve->count; i++) {
-      uint32_t step = curve->step + (uint32_t)i;
-      bool concave = is_concave(curves, curve, i);
-      bool crease = contour_curves_segment(curves, step)->along_crease;
-      bool left_out = contour_curves_node(curves, step)->is_cut;
-      if (!crease && !crease_before && concave != before)
-        step = turning_step(curves, curve, i);
-      struct contour_cut cut = contour_cut_at(step);
-      if ((crease || crease_before || left_out || concave != before) &&
-          !ARRAY_PUSH(&curves->cut, cut))
-        return false;
-      before = concave;
-      crease_before = crease;
-    }
-  }
-  return true;
-}
+/* ---- Cuts ---------------------------------------------------------------- */
 
 static int compare_cuts(const void *a, const void *b, void *user) {
   const struct contour_cut *p = a, *q = b;

@@ -54,10 +54,6 @@ USE_RESULT bool contour_curves_join(struct contour_curves *curves,
                                     double crease_deg);
 void contour_curves_fini(struct contour_curves *curves);
 
-/* Adds cuts at cusps: where the radial curvature changes its sign, and the
- * image of the curve turns back.  Returns false when memory ran out. */
-USE_RESULT bool contour_curves_cut_at_cusps(struct contour_curves *curves);
-
 /* Sorts the cuts, and drops repeated ones.  Returns false when memory ran
  * out. */
 USE_RESULT bool contour_cuts_sort(struct contour_cuts *cuts);
