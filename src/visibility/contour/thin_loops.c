@@ -179,14 +179,16 @@ static bool take_off(struct thin_loops *l, size_t from, double s, double t) {
   return measure_segment(l, from) && measure_segment(l, from + 1);
 }
 
-/* The last segment before one whose block's box meets another box, or that is
- * in the same block. */
+/* The last segment before one, no lower than `lowest`, whose block's box meets
+ * another box, or that is in the same block; what is below where there is
+ * none. */
 static size_t previous_in_box(const struct thin_loops *l, size_t i,
-                              struct box2 box) {
-  while (i > l->first && (i - l->first) % BLOCK_SEGMENTS == 0 &&
-         box2_disjoint(l->block.item[(i - l->first) / BLOCK_SEGMENTS - 1], box))
-    i -= BLOCK_SEGMENTS;
-  return i > l->first ? i - 1 : l->first;
+                              size_t lowest, struct box2 box) {
+  size_t at = i - l->first;
+  while (at % BLOCK_SEGMENTS == 0 && at > lowest - l->first &&
+         box2_disjoint(l->block.item[at / BLOCK_SEGMENTS - 1], box))
+    at -= BLOCK_SEGMENTS;
+  return at > 0 ? l->first + at - 1 : l->first;
 }
 
 /* Takes off the thin loops that end on the last segment of the stack. */
@@ -200,7 +202,7 @@ static bool take_off_loops(struct thin_loops *l) {
   size_t i = last > lowest ? last - 1 : lowest;
   while (i > lowest) {
     double s, t;
-    i = previous_in_box(l, i, box);
+    i = previous_in_box(l, i, lowest, box);
     if (i < lowest)
       break;
     struct page_segment a = stack_image(l, i);
@@ -247,8 +249,8 @@ static bool is_straight_fold(const struct thin_loops *l, size_t from,
   return true;
 }
 
-/* A filter for is_straight_fold, by sums in another order: false only where that
- * is. */
+/* A filter for is_straight_fold, by sums in another order: false only where
+ * that is. */
 static bool is_back_and_forth(const struct thin_loops *l, size_t from,
                               size_t to, double length, double heights) {
   struct geom_point p = stack_node(l, from)->page, q = stack_node(l, to)->page;

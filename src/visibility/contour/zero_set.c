@@ -113,11 +113,12 @@ static bool cross_face(struct zero_finder *z, uint32_t face) {
 
 /* Whether an edge is neither a feature nor one at which faces fold over. */
 static inline bool is_within_surface(const struct facing *f, uint32_t e) {
-  const struct topology_edge edge = f->topology->edge.item[e];
-  return edge.uses == 2 && !edge.same_way && edge.first != edge.second &&
-         (f->class_masks[e] & (RECTO_EDGE_CREASE | RECTO_EDGE_BORDER)) == 0 &&
-         f->face_sign[edge.first] == f->face_sign[edge.second] &&
-         !(f->any_coarse && f->coarse[edge.point[0]]);
+  const struct topology_edge *edge = &f->topology->edge.item[e];
+  return (f->class_masks[e] & (RECTO_EDGE_CREASE | RECTO_EDGE_BORDER)) == 0 &&
+         edge->uses == 2 && !edge->same_way &&
+         f->face_sign[edge->first] == f->face_sign[edge->second] &&
+         edge->first != edge->second &&
+         !(f->any_coarse && f->coarse[edge->point[0]]);
 }
 
 static bool cross_edge(struct zero_finder *z, uint32_t e) {

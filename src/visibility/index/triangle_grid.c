@@ -374,25 +374,6 @@ bool triangle_grid_find(const struct triangle_grid *grid, struct box2 box,
   return find_in_box(grid, &shape, query);
 }
 
-bool triangle_grid_find_at(const struct triangle_grid *grid,
-                           struct geom_point p,
-                           struct triangle_grid_query *query,
-                           struct triangle_span *found) {
-  int x = triangle_grid_cell(p.x, grid->x0, grid->shift, grid->columns);
-  int y = triangle_grid_cell(p.y, grid->y0, grid->shift, grid->rows);
-  size_t cell = triangle_grid_index(grid, x, y);
-  if (triangle_grid_bsp(grid, cell) != SHEET_NONE) {
-    bool ok =
-        triangle_grid_find(grid, (struct box2){p.x, p.y, p.x, p.y}, query);
-    *found = (struct triangle_span){query->found.item, query->found.count};
-    return ok;
-  }
-  const uint32_t *start = grid->lists.start;
-  *found = (struct triangle_span){grid->lists.item + start[cell],
-                                  start[cell + 1] - start[cell]};
-  return true;
-}
-
 bool triangle_grid_find_overlapping(const struct triangle_grid *grid,
                                     uint32_t triangle,
                                     struct triangle_grid_query *query) {

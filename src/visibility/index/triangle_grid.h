@@ -212,10 +212,22 @@ struct triangle_span {
  * once.
  * found  gets a list of the grid or of the query, until the next query
  * Returns false when memory ran out. */
-USE_RESULT bool triangle_grid_find_at(const struct triangle_grid *grid,
-                                      struct geom_point p,
-                                      struct triangle_grid_query *query,
-                                      struct triangle_span *found);
+USE_RESULT static inline bool
+triangle_grid_find_at(const struct triangle_grid *grid, struct geom_point p,
+                      struct triangle_grid_query *query,
+                      struct triangle_span *found) {
+  int x = triangle_grid_cell(p.x, grid->x0, grid->shift, grid->columns);
+  int y = triangle_grid_cell(p.y, grid->y0, grid->shift, grid->rows);
+  size_t cell = triangle_grid_index(grid, x, y);
+  const uint32_t *start = grid->lists.start;
+  *found = (struct triangle_span){grid->lists.item + start[cell],
+                                  start[cell + 1] - start[cell]};
+  if (triangle_grid_bsp(grid, cell) == SHEET_NONE)
+    return true;
+  bool ok = triangle_grid_find(grid, (struct box2){p.x, p.y, p.x, p.y}, query);
+  *found = (struct triangle_span){query->found.item, query->found.count};
+  return ok;
+}
 
 /* As triangle_grid_find, for the segment p-q: the triangles of the cells that
  * it meets.  Triangles of overfull cells that overlap it in no more than a
