@@ -34,10 +34,18 @@ void drawn_outlines_fini(struct drawn_outlines *d) {
 static void try_drawn(const struct drawn_outlines *d,
                       const struct page_segment *s, const double p[2],
                       const double along[2], struct drawn_place *best) {
+  struct box2 box = box2_of_segment(s->p, s->q);
+  /* Distances are computed to far less than a unit. */
+  double least = best->distance + 1;
+  if (box.x0 - p[0] > least || p[0] - box.x1 > least || box.y0 - p[1] > least ||
+      p[1] - box.y1 > least)
+    return;
   double x = (double)s->q.x - s->p.x, y = (double)s->q.y - s->p.y;
   double px = p[0] - s->p.x, py = p[1] - s->p.y;
   double t = fmin(fmax((px * x + py * y) / (x * x + y * y), 0), 1);
   double distance = hypot(px - t * x, py - t * y);
+  if (distance >= best->distance)
+    return;
   if (s->owner >= d->first &&
       x * along[0] + y * along[1] <
           TURNED_COSINE * hypot(x, y) * hypot(along[0], along[1]))
