@@ -350,6 +350,18 @@ typedef struct recto_cut_hatch {
   uint64_t reserved[2];
 } recto_cut_hatch;
 
+/* What of a file says which edges are creases, besides their angle: those that
+ * it marks as hard, where the normals of two faces differ at both ends of their
+ * edge, or else their smoothing groups do; and as smooth, where they are the
+ * same. */
+typedef enum recto_crease_marks {
+  /* Marks between half and twice the crease angle, of connected parts of the
+   * model that have hard edges and smooth ones. */
+  RECTO_CREASE_MARKS_AUTO = 0,
+  RECTO_CREASE_MARKS_NONE,
+  RECTO_CREASE_MARKS_ALL
+} recto_crease_marks;
+
 /* How the scene's points are understood, and what is cut off. */
 typedef struct recto_mesh_options {
   /* Corners of borders that are at most this far apart are welded, scene units;
@@ -362,7 +374,9 @@ typedef struct recto_mesh_options {
    * where all of them are single precision numbers, else 53.  For coordinates
    * from files the precision follows from the file. */
   int coordinate_bits;
-  char unused[4]; /* 0 */
+  /* Of OBJ files: both when they are read and when the scene is drawn; with
+   * RECTO_CREASE_MARKS_NONE for either there are none. */
+  recto_crease_marks crease_marks;
   /* Creases that are joined end to end are drawn only if faces meet at a larger
    * angle than this at one of them at least.  0: this holds, with 1.5 times
    * `crease_deg`, for lines that end free alone; for none where `ink.exact` is

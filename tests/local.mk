@@ -93,6 +93,7 @@ dist_check_SCRIPTS += \
   %D%/test_cli.sh \
   %D%/test_cli_check.sh \
   %D%/test_captions.sh \
+  %D%/test_cli_crease_marks.sh \
   %D%/test_cli_curves.sh \
   %D%/test_cli_dash.sh \
   %D%/test_cli_multiview.sh \
@@ -187,6 +188,9 @@ unit_tests += %D%/test_obj
 %C%_test_obj_SOURCES = %D%/test_obj.c %D%/reading.c %D%/reading.h \
   %D%/comma_locale.c %D%/comma_locale.h
 %C%_test_obj_LDADD = %D%/scenes/libscenes.la $(LDADD)
+unit_tests += %D%/test_crease_marks
+%C%_test_crease_marks_SOURCES = %D%/test_crease_marks.c \
+  %D%/reading.c %D%/reading.h
 unit_tests += %D%/test_obj_parallel
 %C%_test_obj_parallel_SOURCES = %D%/test_obj_parallel.c \
   %D%/reading.c %D%/reading.h

@@ -7,7 +7,10 @@
 #include <string.h>
 
 #include "base/poll.h"
+#include "scene/corner_normals.h"
 #include "scene/read.h"
+
+bool reading_takes_marks = true;
 
 static void keep_warning(void *user, const char *file, unsigned long line,
                          const char *text) {
@@ -22,6 +25,7 @@ static void keep_warning(void *user, const char *file, unsigned long line,
 void reading_init(struct reading *reading) {
   memset(reading, 0, sizeof *reading);
   scene_init(&reading->scene);
+  reading->scene.needs_crease_marks = reading_takes_marks;
   reading->diagnostics.file = "file";
   reading->diagnostics.warning = keep_warning;
   reading->diagnostics.user = reading;
@@ -120,6 +124,13 @@ const char *reading_fault(const struct scene *scene) {
       if (strcmp(scene->group.item[i].name, scene->group.item[k].name) == 0)
         return "two groups of one name";
   }
+  if (scene->point_normal.count > scene->point.count ||
+      scene->corner_normal.count > scene->corner.count)
+    return "normals of nothing";
+  for (size_t i = 1; i < scene->smoothing.range.count; i++)
+    if (scene->smoothing.range.item[i].first_face <
+        scene->smoothing.range.item[i - 1].first_face)
+      return "smoothing groups out of order";
   const char *fault = faces_fault(scene);
   if (fault)
     return fault;
@@ -151,6 +162,17 @@ static bool same_precision(const struct scene *a, const struct scene *b) {
   return true;
 }
 
+static bool same_marks(const struct scene *a, const struct scene *b) {
+  for (uint32_t c = 0; c < a->corner.count; c++)
+    if (corner_normal_of(a, c) != corner_normal_of(b, c))
+      return false;
+  for (uint32_t f = 0; f < a->face_count; f++)
+    if (smoothing_of_face(&a->smoothing, f) !=
+        smoothing_of_face(&b->smoothing, f))
+      return false;
+  return true;
+}
+
 bool reading_same(const struct scene *a, const struct scene *b) {
   if (a->point.count != b->point.count || a->group.count != b->group.count)
     return false;
@@ -167,7 +189,7 @@ bool reading_same(const struct scene *a, const struct scene *b) {
         scene_face_group(a, f) != scene_face_group(b, f))
       return false;
   return SAME(a, b, corner) && SAME(a, b, wire_start) &&
-         SAME(a, b, wire_corner) && SAME(a, b, wire_group);
+         SAME(a, b, wire_corner) && SAME(a, b, wire_group) && same_marks(a, b);
 }
 
 /* ---- Threads ------------------------------------------------------------- */

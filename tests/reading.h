@@ -16,6 +16,10 @@ struct reading {
   char warning[READING_WARNINGS][300]; /* "LINE: text" of the first few */
 };
 
+/* Whether normals and smoothing groups are read by readings that begin; true
+ * unless a test sets it. */
+extern bool reading_takes_marks;
+
 /* An empty scene with diagnostics that keep the warnings. */
 void reading_init(struct reading *reading);
 void reading_fini(struct reading *reading);
@@ -32,8 +36,8 @@ void reading_of(struct reading *reading, const struct reader *reader,
 /* Why the scene does not keep its invariants; NULL where it does. */
 const char *reading_fault(const struct scene *scene);
 
-/* Whether two scenes have the same points, faces, polylines, groups and
- * precision. */
+/* Whether two scenes have the same points, faces, polylines and groups, and
+ * the same normals and smoothing groups. */
 bool reading_same(const struct scene *a, const struct scene *b);
 
 /* What differs when the bytes are read by several threads; NULL: nothing, or

@@ -88,6 +88,7 @@ unit x 1 km 5mm
 pen-colour 2=blurple 2= 2=#12345 2=#gg0000 2=Reddish
 pen-color 2=blurple
 crease -1 181 x 30,20 30,181 30, ,40 30,x 30,40,50
+crease-marks x 30 auto,none
 contours x exact 1 smooth,mesh
 hidden x 0 -1 none,2 layer,0 dashed,x ,2 1,2
 pen 0 -1 101 x 1e-9 0.009mm
@@ -123,7 +124,7 @@ offered_or_refused() {
 for option in output format from method pitch resolution depth-bits subpixels \
   remove-backs contact view azimuth \
   elevation camera lookat up fov ortho fit no-fit scale sheet views view-names hidden-in detail near cut cut-fill cut-hatch section page \
-  landscape margin edges crease contours hidden dash fill hatch-pitch hatch-angle hatch-inset light ambient fill-light pen \
+  landscape margin edges crease crease-marks contours hidden dash fill hatch-pitch hatch-angle hatch-inset light ambient fill-light pen \
   pens pen-for pen-width pen-colour pen-color unit portrait weights path order simplify curves min-stroke exact precision ids id-prefix title desc background stats verify check threads progress quiet \
   completion version help; do
   claim "--$option is there, or refused by name" offered_or_refused "$option"

@@ -128,6 +128,26 @@ refuses() { # WHAT OPTION...
 }
 claim "smooth contours are refused in parts" \
   refuses "smooth contours" --contours smooth
+marked() { # OPTION... - a roof whose ridge smoothing groups mark as hard
+  printf 'v %s\n' "0 0 0" "4 0 0" "4 1 2" "0 1 2" "4 0 4" "0 0 4" "8 0 0" \
+    "8 1 2" "8 0 4" >marked.obj
+  printf '%s\n' "s 1" "f 1 4 3 2" "f 2 3 8 7" "s 2" "f 4 6 5 3" "f 3 5 9 8" \
+    >>marked.obj
+  "$recto" marked.obj -q --part 1/2 -o marked-1.recto "$@" 2>err
+}
+refuses_marks() {
+  ! marked &&
+    grep -q "smoothing groups that mark hard edges.*--crease-marks none" err
+}
+claim "marks of hard edges are refused in parts" refuses_marks
+joins_unmarked() {
+  marked --crease-marks none &&
+    "$recto" marked.obj -q --part 2/2 -o marked-2.recto --crease-marks none &&
+    "$recto" marked.obj -q --crease-marks none -o whole-marked.svg &&
+    "$recto" --join marked-?.recto -q -o joined-marked.svg &&
+    cmp whole-marked.svg joined-marked.svg
+}
+claim "without them such a model is drawn in parts" joins_unmarked
 claim "cuts are refused in parts" refuses cuts --cut 1,0,0,0
 claim "sheets are refused in parts" refuses "sheets of several views" --sheet first
 claim "the judge is refused in parts" refuses verification --verify

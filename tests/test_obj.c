@@ -601,6 +601,7 @@ static void real_models_are_read_whole(void **state) {
 }
 
 int main(void) {
+  reading_takes_marks = false; /* test_crease_marks.c has them */
 #define T(name) cmocka_unit_test_teardown(name, tear_down)
   const struct CMUnitTest tests[] = {
       T(points_are_read_in_every_form),

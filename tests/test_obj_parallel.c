@@ -33,13 +33,30 @@ static const char *const odd_points[] = {
     "\n",
     "vt 0 0\n",
     "v 1 \\\n2 3\n",
+    "vn 0 0 -2\n",
+    "vn x\n",
+    "vn nan 0 0\n",
     "o thing\n"};
 
-static const char *const odd_faces[] = {
-    "f 1 2 2\n",         "f 1 2 3 4\n", "f -1 -2 -3\n",  "f 1//3 2//4 3//5\n",
-    "f 1/2/3 4/5/6 7\n", "f 1 2 x\n",   "f 7 8 12 \r\n", "f 1 2 99999999\n",
-    "g other\n",         "l 1 2 3\n",   "f 1 2\n",       "f 0 1 2\n",
-    "v 7 7 7\n",         "# text\n"};
+static const char *const odd_faces[] = {"f 1 2 2\n",
+                                        "f 1 2 3 4\n",
+                                        "f -1 -2 -3\n",
+                                        "f 1//3 2//4 3//5\n",
+                                        "f 1/2/3 4/5/6 7\n",
+                                        "f 1 2 x\n",
+                                        "f 7 8 12 \r\n",
+                                        "f 1 2 99999999\n",
+                                        "g other\n",
+                                        "l 1 2 3\n",
+                                        "f 1 2\n",
+                                        "f 0 1 2\n",
+                                        "s 1\n",
+                                        "s off\n",
+                                        "s none\n",
+                                        "f 3//9 4//99 5//1\n",
+                                        "f 6//1 7//2 9//-1\n",
+                                        "v 7 7 7\n",
+                                        "# text\n"};
 
 struct text {
   char *bytes;
@@ -76,7 +93,8 @@ static void put_face(struct text *text, struct random *random) {
   for (int k = 0; k < 3; k++)
     c[k] = random_int(random, 1, POINTS - 20);
   snprintf(statement, sizeof statement,
-           random_below(random, 4) ? "f %d %d %d\n" : "f %d/1 %d/2 %d/3\n",
+           random_below(random, 4) ? "f %d//1 %d//2 %d/5/3\n"
+                                   : "f %d/1 %d/2 %d/3\n",
            c[0], c[1], c[2]);
   put(text, statement);
 }
@@ -86,6 +104,7 @@ static struct text write_file(uint64_t seed, uint32_t rarity) {
   struct random random = {seed};
   struct text text = {malloc(((size_t)POINTS + FACES) * 64 + (1 << 22)), 0};
   assert_non_null(text.bytes);
+  put(&text, "vn 1 0 0\nvn 0 1 0\nvn 1 1 1\n");
   for (int i = 0; i < POINTS; i++) {
     put_point(&text, &random);
     if (rarity > 0 && random_below(&random, rarity) == 0)

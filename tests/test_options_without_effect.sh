@@ -73,6 +73,7 @@ done <<'END_OF_ROWS'
 --crease 20|a.svg|a.svg -e silhouette|edges of the classes crease and smooth, fills and smooth contours; this --edges
 --crease 20|a.svg -e none --fill shade|a.svg -e border|edges of the classes crease and smooth, fills and smooth contours; this --edges
 --crease 20|a.svg -e silhouette --contours smooth|a.svg -e silhouette|edges of the classes crease and smooth, fills and smooth contours; this --edges
+--crease-marks all|a.svg|a.svg -e silhouette|edges of the classes crease and smooth, fills and smooth contours; this --edges
 --contours smooth|a.svg|a.svg -e crease|edges of the class silhouette; this --edges
 --hidden layer|a.svg|a.svg -e none --fill paint|lines; --edges none
 --hidden-in top=layer|a.svg --sheet first|a.svg --sheet first -e none --fill paint|lines; --edges none

@@ -60,6 +60,7 @@ class Options(TypedDict, total=False):
 
     edges: Union[str, Iterable[str]]
     crease: Union[float, tuple[float, float]]  # 30, or (30, 45)
+    crease_marks: str  # auto (default), none, all
     contours: str  # mesh (default), or smooth
     hidden: Union[str, tuple[str, int]]  # "dashed", or ("dashed", 2)
     dash: Mapping[str, str]  # {"crease": "chain", "hidden": "3:1"}
@@ -460,6 +461,14 @@ class _Setter:
         angle, start = value if pair else (value, 0)
         self.options.mesh.crease_deg = angle
         self.options.mesh.crease_start_deg = start
+
+    def crease_marks(self, value: str) -> None:
+        known = {
+            "auto": lib.RECTO_CREASE_MARKS_AUTO,
+            "none": lib.RECTO_CREASE_MARKS_NONE,
+            "all": lib.RECTO_CREASE_MARKS_ALL,
+        }
+        self.options.mesh.crease_marks = _word("crease_marks", value, known)
 
     def contours(self, value: str) -> None:
         known = {

@@ -117,6 +117,8 @@ static recto_status judge_file_drawing(const struct preparation *prepared,
     options.ink_distance_mm += o->ink.pen_mm / 4;
   if (options.crease_start_deg == 0)
     options.crease_start_deg = pens_zigzag_start_deg(o);
+  if (prepared->topology.crease_mark != NULL)
+    judge_input_allow_marks(&options, o);
   status = find_shortest(&options, scene, o, error);
   if (status == RECTO_OK &&
       !judge_drawing(verdict, drawing, &input.scene, &seen, &options))

@@ -1,7 +1,10 @@
 /* judge_input.c - converts a scene, a camera and options for the judge. */
 #include "api/judge_input.h"
 
+#include <math.h>
+
 #include "base/tolerance.h"
+#include "scene/crease_marks.h"
 
 bool judge_input_init(struct judge_input *input, const struct scene *scene) {
   size_t count = scene->point.count;
@@ -77,4 +80,12 @@ struct judge_options judge_input_options(const struct judge_input *input,
   made.given = input->given;
   made.removed = input->removed;
   return made;
+}
+
+void judge_input_allow_marks(struct judge_options *made,
+                             const recto_options *options) {
+  const struct crease_mark_range range = crease_mark_range_of(
+      options->mesh.crease_marks, options->mesh.crease_deg);
+  made->crease_deg = fmin(made->crease_deg, range.low_deg);
+  made->crease_start_deg = fmax(made->crease_start_deg, range.high_deg);
 }

@@ -34,4 +34,9 @@ struct judge_options judge_input_options(const struct judge_input *input,
                                          const struct camera *camera,
                                          const recto_options *options);
 
+/* Leaves it open whether edges are creases at whose angles the marks of files
+ * may decide. */
+void judge_input_allow_marks(struct judge_options *made,
+                             const recto_options *options);
+
 #endif

@@ -229,6 +229,8 @@ static recto_status check_options(const recto_options *o, recto_error *error) {
       {"the mask of edges", o->ink.edges, 0, RECTO_EDGES_ALL},
       {"the crease angle", o->mesh.crease_deg, 0, 180},
       {"the angle at which creases start", o->mesh.crease_start_deg, 0, 180},
+      {"the kind of marks of creases", o->mesh.crease_marks, 0,
+       RECTO_CREASE_MARKS_ALL},
       {"the kind of contours", o->ink.contours, 0, RECTO_CONTOURS_SMOOTH},
       {"the kind of hidden lines", o->ink.hidden, 0, RECTO_HIDDEN_LAYER},
       {"the number of faces that hide a line", o->ink.hidden_by_max, 0,

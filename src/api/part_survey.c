@@ -17,6 +17,7 @@
 #include "base/hash.h"
 #include "ink/tone.h"
 #include "parts/part_common.h"
+#include "scene/crease_marks.h"
 #include "scene/weld_near.h"
 #include "view/camera_aim.h"
 #include "view/project.h"
@@ -196,6 +197,8 @@ static recto_status open_model(struct part_survey *survey, recto_error *error) {
       (struct diagnostics){.file = model->path,
                            .warning = survey->options->warning,
                            .user = survey->options->user};
+  survey->read.needs_crease_marks =
+      survey->options->mesh.crease_marks != RECTO_CREASE_MARKS_NONE;
   survey->read.needs_colours = survey->options->ink.fill == RECTO_FILL_PAINT;
   recto_status status =
       read_passes_open(&source->passes, model->path, model->format, 0, error);
@@ -252,6 +255,20 @@ static recto_status guess_and_pick(struct part_survey *survey, uint8_t *used,
              : aim_and_pick(survey, used, error);
 }
 
+/* Which marks of creases count, only the whole model decides. */
+static recto_status refuse_marks(const struct part_survey *survey,
+                                 recto_error *error) {
+  bool found = false;
+  if (survey->options->mesh.crease_marks != RECTO_CREASE_MARKS_NONE &&
+      !crease_marks_exist(survey->pick.source.scene, &found))
+    return error_memory(error);
+  return found ? error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
+                           "the model has normals or smoothing groups that "
+                           "mark hard edges, which drawings in parts have "
+                           "not: --crease-marks none leaves them out")
+               : RECTO_OK;
+}
+
 recto_status part_survey_run(struct part_survey *survey, recto_error *error) {
   recto_status status = open_model(survey, error);
   survey->pick.counts_groups = survey->options->ink.ids;
@@ -267,6 +284,8 @@ recto_status part_survey_run(struct part_survey *survey, recto_error *error) {
   status = is_held ? aim_and_pick(survey, used, error)
                    : guess_and_pick(survey, used, error);
   mem_free(used);
+  if (status == RECTO_OK)
+    status = refuse_marks(survey, error);
   return status == RECTO_OK ? make_common(survey, error) : status;
 }
 

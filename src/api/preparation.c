@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "scene/coarse_parts.h"
+#include "scene/crease_marks.h"
 #include "scene/edge_classes.h"
 #include "view/camera_aim.h"
 
@@ -47,7 +48,12 @@ static recto_status cut_prepared(struct preparation *preparation,
                                  recto_error *error) {
   const struct scene *scene = &preparation->welded.scene;
   struct cut_plane plane[RECTO_CUT_MAX];
+  struct crease_pairs marks = {0};
   preparation_planes(preparation, plane);
+  if (!crease_pairs_list(&marks, &preparation->topology)) {
+    ARRAY_FREE(&marks.pair);
+    return error_memory(error);
+  }
   preparation->edges = preparation->topology.edge.count;
   preparation->is_suspicious =
       welded_is_suspicious(&preparation->welded, &preparation->topology);
@@ -57,9 +63,13 @@ static recto_status cut_prepared(struct preparation *preparation,
                 plane, preparation->planes, error);
   topology_fini(&preparation->topology);
   preparation->scene = &preparation->cut.scene;
-  return status == RECTO_OK
-             ? topology_init(&preparation->topology, preparation->scene, error)
-             : status;
+  if (status == RECTO_OK)
+    status = topology_init(&preparation->topology, preparation->scene, error);
+  if (status == RECTO_OK &&
+      !crease_pairs_mark(&marks, &preparation->topology, preparation->scene))
+    status = error_memory(error);
+  ARRAY_FREE(&marks.pair);
+  return status;
 }
 
 /* Stores what views have in common, or ask for twice. */
@@ -83,6 +93,8 @@ recto_status preparation_init(struct preparation *preparation,
   *preparation =
       (struct preparation){.weld = options->mesh.weld,
                            .coordinate_bits = options->mesh.coordinate_bits,
+                           .crease_marks = options->mesh.crease_marks,
+                           .crease_deg = options->mesh.crease_deg,
                            .planes = options->mesh.cut_count};
   for (size_t i = 0; i < options->mesh.cut_count; i++)
     preparation->plane[i] = options->mesh.cut[i];
@@ -98,6 +110,10 @@ recto_status preparation_init(struct preparation *preparation,
   status = weld_near(&preparation->welded, &preparation->topology,
                      &preparation->rescaled.scene, &request, error);
   preparation->scene = &preparation->welded.scene;
+  if (status == RECTO_OK &&
+      !crease_marks_find(&preparation->topology, preparation->scene,
+                         options->mesh.crease_marks, options->mesh.crease_deg))
+    status = error_memory(error);
   bool anything = scene_face_count(preparation->scene) +
                       scene_wire_count(preparation->scene) >
                   0;
@@ -135,12 +151,22 @@ recto_status preparation_rescale(const struct preparation *preparation,
   return status;
 }
 
+/* Whether the marks of creases that were found are those of these options. */
+static bool has_marks_for(const struct preparation *preparation,
+                          const recto_options *options) {
+  const struct scene *scene = &preparation->welded.scene;
+  return (preparation->crease_marks == options->mesh.crease_marks &&
+          preparation->crease_deg == options->mesh.crease_deg) ||
+         (scene->point_normal.count == 0 && scene->smoothing.range.count == 0);
+}
+
 bool preparation_is_valid_for(const struct preparation *preparation,
                               const recto_options *options) {
   bool valid = !preparation->has_section && !options->camera.has_section &&
                preparation->weld == options->mesh.weld &&
                preparation->coordinate_bits == options->mesh.coordinate_bits &&
-               preparation->planes == options->mesh.cut_count;
+               preparation->planes == options->mesh.cut_count &&
+               has_marks_for(preparation, options);
   for (size_t i = 0; valid && i < preparation->planes; i++) {
     const recto_plane *own = &preparation->plane[i];
     const recto_plane *wanted = &options->mesh.cut[i];

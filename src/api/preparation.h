@@ -24,6 +24,8 @@ struct preparation {
   size_t planes;
   double weld;
   int coordinate_bits;
+  recto_crease_marks crease_marks;
+  double crease_deg; /* where marks of creases depend on it */
 };
 
 /* Prepares a scene, which is to live as long and not to change.

@@ -72,7 +72,8 @@ static bool draws_smooth_contours(const struct render *render) {
 /* Whether the scene's edges are used after the sheet was laid out. */
 static bool uses_topology(const struct render *render) {
   return has_fills(render) || draws_smooth_contours(render) ||
-         render->options->ink.ids || render->options->results != 0;
+         render->topology.crease_mark != NULL || render->options->ink.ids ||
+         render->options->results != 0;
 }
 
 static bool keeps_invisibility(const struct render *render) {
@@ -191,8 +192,7 @@ static recto_status project_scene(struct render *render, recto_error *error) {
       !(render->options->results & RECTO_RESULT_FACES) &&
       render->prepared->scene->cut != NULL)
     render->sheet.first_filled = render->prepared->scene->cut->first_face;
-  /* The topology of a fine mesh takes a quarter of all memory, and without
-   * fills or results it is not used again. */
+  /* The topology of a fine mesh takes a quarter of all memory. */
   if (!uses_topology(render)) {
     render->sheet.topology = NULL;
     drop_topology(render);

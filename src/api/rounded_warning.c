@@ -6,6 +6,7 @@
 
 #include "base/poll.h"
 #include "ink/planar_regions.h"
+#include "scene/crease_marks.h"
 #include "scene/edge_classes.h"
 #include "scene/newell_normal.h"
 #include "scene/topology.h"
@@ -124,24 +125,27 @@ static bool has_rounded_flats(const struct rounded *r) {
 }
 
 /* Prepares what find_flats needs; false when memory ran out. */
-static bool prepare_flats(struct rounded *r, double crease_deg) {
+static bool prepare_flats(struct rounded *r, recto_crease_marks marks,
+                          double crease_deg) {
   if (topology_init(&r->topology, r->scene, NULL) != RECTO_OK ||
       !planar_regions_init(&r->planar, r->scene))
     return false;
   r->class_mask = mem_alloc(r->topology.edge.count, 1);
   r->is_smooth = mem_calloc(scene_face_count(r->scene), sizeof *r->is_smooth);
   return r->class_mask != NULL && r->is_smooth != NULL &&
+         crease_marks_find(&r->topology, r->scene, marks, crease_deg) &&
          topology_class_masks(&r->topology, r->scene, crease_deg,
                               r->class_mask);
 }
 
 /* Sets *found; false when memory ran out. */
-static bool find_rounded_flats(const struct scene *scene, double crease_deg,
-                               bool *found) {
+static bool find_rounded_flats(const struct scene *scene,
+                               const recto_mesh_options *options, bool *found) {
   struct rounded r = {.scene = scene};
   bool ok = find_large_faces(scene, found);
   if (ok && *found) {
-    ok = set_normals(&r) && prepare_flats(&r, crease_deg);
+    ok = set_normals(&r) &&
+         prepare_flats(&r, options->crease_marks, options->crease_deg);
     if (ok)
       find_flats(&r);
     *found = ok && has_rounded_flats(&r);
@@ -163,7 +167,7 @@ bool rounded_warn(const struct drawing *drawing, const struct scene *scene,
       (options->ink.edges & RECTO_EDGE_SMOOTH) != 0 || scene->cut != NULL ||
       !is_mostly_outlines(drawing))
     return true;
-  if (!find_rounded_flats(scene, options->mesh.crease_deg, &found))
+  if (!find_rounded_flats(scene, &options->mesh, &found))
     return false;
   if (found)
     options->warning(

@@ -100,6 +100,8 @@ static recto_status read_model(recto_scene *scene, const void *bytes,
       .file = path, .warning = own.warning, .user = own.user};
   const double *up = own.camera.up;
   scene->scene.needs_colours = own.ink.fill == RECTO_FILL_PAINT;
+  scene->scene.needs_crease_marks =
+      own.mesh.crease_marks != RECTO_CREASE_MARKS_NONE;
   scene->scene.keeps_unit = own.camera.unit_mm > 0;
   scene->scene.keeps_up = up[0] != 0 || up[1] != 0 || up[2] != 0;
   scene_forget_preparation(scene);

@@ -179,6 +179,9 @@ static recto_status judge_own_drawing(const struct verify *verify,
   struct judge_camera camera = judge_input_camera(input, verify->camera, o);
   struct judge_options options = judge_input_options(input, verify->camera, o);
   camera.depth_contact = TOLERANCE_CONTACT_GRID_UNITS / verify->sheet->z_scale;
+  const struct topology *topology = verify->sheet->topology;
+  if (topology != NULL && topology->crease_mark != NULL)
+    judge_input_allow_marks(&options, o);
   options.samples = (size_t)o->verify;
   options.ink_distance_mm += ink_deviation_mm(o);
   options.lateral_mm += ink_deviation_mm(o);

@@ -82,13 +82,24 @@
  *             line. */
 #define TOLERANCE_FILL_UNITS (1 << 14)
 
+/* Normals that a file gives to two faces at a common corner are one where the
+ * square of the cosine between them is no less; and faces that bend by no more
+ * meet at no edge that is marked.
+ * Unit        1 (the square of a cosine)
+ * Derivation  one degree: normals that are written with two digits are off by
+ *             half of it, those of CAD programs at the seams of smooth surfaces
+ *             by some tenths.
+ * Users       scene/corner_normals.c, scene/crease_marks.c
+ * Ten times   hard edges that bend by less than ten degrees are none. */
+#define TOLERANCE_NORMAL_SQUARED_COSINE 0.99969541350954785
+
 /* Two faces bend only if the cosine between their normals is below that of the
  * crease angle by more than this.
  * Unit        1 (a cosine)
  * Derivation  each unit normal is off by about 2 units in the last place and
  *             their product by as many again: 8 * 2^-53, so that a flat or a
  *             square joint is not a crease by rounding.
- * Users       scene/edge_classes.c
+ * Users       scene/edge_classes.c, scene/crease_marks.c
  * Ten times   joints within 5e-8 rad of the crease angle count as within. */
 #define TOLERANCE_CREASE_COSINE (8 * 0x1p-53)
 

@@ -29,6 +29,9 @@ static void borrow(struct scene *to, const struct scene *from) {
   memset(&to->wire_corner, 0, sizeof to->wire_corner);
   memset(&to->wire_group, 0, sizeof to->wire_group);
   memset(&to->precision, 0, sizeof to->precision);
+  memset(&to->point_normal, 0, sizeof to->point_normal);
+  memset(&to->corner_normal, 0, sizeof to->corner_normal);
+  memset(&to->smoothing, 0, sizeof to->smoothing);
 }
 
 void cut_fini(struct cut *cut) {

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "scene/corner_normals.h"
+
 /* ---- The up axis --------------------------------------------------------- */
 
 /* Turns the points about X from +Y up to +Z up, or back: what the view from the
@@ -18,7 +20,7 @@ static void turn_points(struct scene *scene, size_t first, bool to_z) {
   }
 }
 
-static void convert_up(struct scene *scene, size_t first,
+static void convert_up(struct scene *scene, const struct scene_snapshot *before,
                        const struct model_coordinates *model,
                        struct diagnostics *diagnostics) {
   bool to_z = scene->up[2] > 0;
@@ -29,7 +31,8 @@ static void convert_up(struct scene *scene, size_t first,
                      "turned, as up is taken for %s in it and for %s in the "
                      "first model; --up leaves all models as they are",
                      to_z ? "+Y" : "+Z", to_z ? "+Z" : "+Y");
-  turn_points(scene, first, to_z);
+  turn_points(scene, before->points, to_z);
+  corner_normals_turn(scene, before->points, before->corners, to_z);
 }
 
 /* ---- The unit ------------------------------------------------------------ */
@@ -127,6 +130,6 @@ recto_status conversion_apply(struct scene *scene,
     memcpy(scene->up, model->up, sizeof scene->up);
     scene->up_is_stated = model->up_is_stated;
   }
-  convert_up(scene, before->points, model, diagnostics);
+  convert_up(scene, before, model, diagnostics);
   return RECTO_OK;
 }

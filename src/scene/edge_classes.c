@@ -18,6 +18,7 @@
 #include "base/union_find.h"
 #include "base/tolerance.h"
 #include "scene/angle.h"
+#include "scene/crease_marks.h"
 
 struct face_normal {
   double x, y, z; /* of any length; 0, 0, 0: a face of no area */
@@ -208,6 +209,7 @@ unsigned topology_class_mask_by_cosine(const struct topology *topology,
       is_crease(normal_of_face(scene, e->first),
                 normal_of_face(scene, e->second), e->same_way, crease_cosine))
     class_mask |= RECTO_EDGE_CREASE;
+  class_mask = crease_mark_apply(topology, edge, class_mask);
   if (scene->cut != NULL)
     return class_mask_after_cut(e, scene, class_mask);
   return class_mask ? class_mask : RECTO_EDGE_SMOOTH;
@@ -375,6 +377,8 @@ bool topology_class_masks(const struct topology *topology,
             parallel_ranges(workers, topology->edge.count, PARALLEL_ITEMS,
                             find_masks, &work);
   mem_free(work.direction);
+  if (ok)
+    crease_marks_apply(topology, class_masks);
   return ok;
 }
 

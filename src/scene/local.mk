@@ -4,6 +4,8 @@ librecto_core_la_SOURCES += \
   %D%/cluster.c %D%/cluster.h \
   %D%/coarse_parts.c %D%/coarse_parts.h \
   %D%/conversion.c %D%/conversion.h \
+  %D%/corner_normals.c %D%/corner_normals.h \
+  %D%/crease_marks.c %D%/crease_marks.h \
   %D%/diagnostics.c %D%/diagnostics.h \
   %D%/ear_clipping.c %D%/ear_clipping.h \
   %D%/edge_classes.c %D%/edge_classes.h \
@@ -16,6 +18,7 @@ librecto_core_la_SOURCES += \
   %D%/name.c %D%/name.h \
   %D%/newell_normal.c %D%/newell_normal.h \
   %D%/obj_blocks.c %D%/obj_blocks.h \
+  %D%/obj_marks.c \
   %D%/obj_parser.c %D%/obj_parser.h \
   %D%/obj_run.c \
   %D%/obj_triangles.c \
@@ -37,6 +40,7 @@ librecto_core_la_SOURCES += \
   %D%/scene.c %D%/scene.h \
   %D%/self_intersection.c %D%/self_intersection.h \
   %D%/side_iterator.h \
+  %D%/smoothing.c %D%/smoothing.h \
   %D%/topology.c %D%/topology.h \
   %D%/topology_edge.h \
   %D%/triangulate.c %D%/triangulate.h \

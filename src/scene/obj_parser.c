@@ -164,5 +164,8 @@ void obj_parser_fini(struct obj_parser *p) {
   ARRAY_FREE(&p->mark);
   ARRAY_FREE(&p->held);
   ARRAY_FREE(&p->corner);
+  ARRAY_FREE(&p->normal);
+  ARRAY_FREE(&p->corner_normal);
+  ARRAY_FREE(&p->run_normal);
   ARRAY_FREE(&p->group);
 }

@@ -8,6 +8,8 @@
 #include "scene/exact.h"
 #include "scene/material.h"
 
+enum { OBJ_DIGITS_MAX = 12 }; /* of an index that may be in range */
+
 enum name_kind { NAME_OBJECT, NAME_GROUP, NAME_MATERIAL, NAME_COUNT };
 
 struct obj_blocks;
@@ -40,9 +42,15 @@ struct obj_parser {
   bool mark_failed; /* not of all faces */
   ARRAY(uint8_t) mark;
   bool holds; /* corners of plain triangles that are passed over are */
-  ARRAY(uint32_t) held; /* held, */
-  size_t plain_bytes;   /* of so many bytes */
-  const char *next_v;   /* no letter v lies between `at` and here; may be before
+  ARRAY(uint32_t) held;   /* held, */
+  size_t plain_bytes;     /* of so many bytes */
+  ARRAY(uint32_t) normal; /* of vn statements; with needs_crease_marks alone */
+  size_t normals_seen;    /* vn statements so far */
+  ARRAY(uint32_t) corner_normal; /* of the corners of a face that is read, */
+  const char *missing_normal;    /* its first index of none that is there */
+  ARRAY(uint32_t) run_normal;    /* one a corner of a run */
+  bool out_of_memory;
+  const char *next_v; /* no letter v lies between `at` and here; may be before
                          `at` */
 };
 
@@ -89,16 +97,25 @@ static inline void obj_skip_blanks(struct obj_parser *p) {
   p->at = at;
 }
 
-/* Passes over the texture and normal indices, /n or //n or /n/n. */
-static inline const char *obj_skip_other_indices(const char *at) {
+/* Passes over the texture and normal indices, /n or //n or /n/n.
+ * normal  gets where that of the normal is; NULL: there is none */
+static inline const char *obj_pass_other_indices(const char *at,
+                                                 const char **normal) {
+  *normal = NULL;
   for (int slash = 0; slash < 2 && *at == '/'; slash++) {
     at++;
+    *normal = slash == 1 ? at : NULL;
     if (*at == '-' || *at == '+')
       at++;
     while (digits_is_one(*at))
       at++;
   }
   return at;
+}
+
+static inline const char *obj_skip_other_indices(const char *at) {
+  const char *normal;
+  return obj_pass_other_indices(at, &normal);
 }
 
 static inline bool obj_is_at_end_of_line(const struct obj_parser *p) {
@@ -145,6 +162,9 @@ USE_RESULT recto_status obj_skip_broken(struct obj_parser *p, const char *start,
 USE_RESULT recto_status obj_read_statements(struct obj_parser *p,
                                             bool points_only);
 
+/* Reads the points of all lines after this one, and the normals. */
+USE_RESULT recto_status obj_read_ahead(struct obj_parser *p);
+
 /* Adds the triangle of the current line, whose points are there, as its
  * statement does. */
 USE_RESULT recto_status obj_add_triangle(struct obj_parser *p,
@@ -158,6 +178,35 @@ static inline bool obj_is_surely_bent(const struct scene *scene,
                            *c = &point[corner[2]];
   return exact_surely_not_collinear(a->x, a->y, b->x, b->y, c->x, c->y) ||
          exact_surely_not_collinear(a->y, a->z, b->y, b->z, c->y, c->z);
+}
+
+/* ---- Hard and smooth edges (obj_marks.c) --------------------------------- */
+
+/* vn x y z. */
+USE_RESULT recto_status obj_read_normal(struct obj_parser *p);
+
+/* s and a number, or off. */
+USE_RESULT recto_status obj_read_smoothing(struct obj_parser *p);
+
+/* Sets the normal of the corner that comes next of those of the statement;
+ * false when memory ran out. */
+USE_RESULT bool obj_set_corner_normal(struct obj_parser *p, uint32_t normal);
+
+/* The same for the index at a place, if the normal is there. */
+USE_RESULT recto_status obj_take_normal(struct obj_parser *p, const char *at);
+
+/* Adds the face of p->corner, all of which are points, with its normals. */
+USE_RESULT recto_status obj_add_face(struct obj_parser *p, unsigned long line);
+
+/* The normal of an index of plain digits; false where there is none so far. */
+static inline bool obj_find_plain_normal(const struct obj_parser *p,
+                                         const char *at, uint32_t *normal) {
+  uint64_t index = 0;
+  const char *stop = digits_gather(at, p->end, &index);
+  if (stop - at > OBJ_DIGITS_MAX || index - 1 >= p->normal.count)
+    return false;
+  *normal = p->normal.item[index - 1];
+  return true;
 }
 
 /* ---- Runs of plain statements (obj_run.c) -------------------------------- */

@@ -16,6 +16,7 @@
 
 #include "base/number.h"
 #include "base/parallel.h"
+#include "scene/corner_normals.h"
 #include "scene/exact.h"
 #include "scene/limit.h"
 
@@ -38,6 +39,7 @@ struct run {
   const char *at, *end; /* where the next one begins, and where it ends */
   size_t most, count;   /* how many it may have, and has */
   size_t before;        /* how many the parts before it may have */
+  bool has_normals;     /* a corner of its faces has one */
   ARRAY(const char *) sampled; /* points whose numbers are looked at */
 };
 
@@ -119,7 +121,7 @@ static void sample_point(struct obj_parser *p, const char *at,
   }
 }
 
-static void add_points(struct obj_parser *p, const struct run *run) {
+static bool add_points(struct obj_parser *p, const struct run *run) {
   const struct scene_point *point =
       p->scene->point.item + p->scene->point.count;
   for (size_t i = 0; i < run->sampled.count; i++) {
@@ -129,10 +131,11 @@ static void add_points(struct obj_parser *p, const struct run *run) {
   }
   p->seen += run->count;
   p->scene->point.count += run->count;
+  return true;
 }
 
-static bool reserve_points(struct scene *scene, size_t count) {
-  return ARRAY_RESERVE(&scene->point, count);
+static bool reserve_points(struct obj_parser *p, size_t count) {
+  return ARRAY_RESERVE(&p->scene->point, count);
 }
 
 /* ---- Faces --------------------------------------------------------------- */
@@ -169,7 +172,7 @@ static inline const char *read_plain_face(const struct obj_parser *p,
 
 /* Reads the faces of a run.  Their points lie anywhere in memory: those of a
  * face are looked at when some more were read, and they have been fetched. */
-static bool read_faces(const struct obj_parser *p, struct run *run) {
+static void read_corners_of_faces(const struct obj_parser *p, struct run *run) {
   struct scene *scene = p->scene;
   size_t corners = scene->corner.count + 3 * run->before, read = 0;
   uint32_t *corner = scene->corner.item + corners;
@@ -204,31 +207,94 @@ static bool read_faces(const struct obj_parser *p, struct run *run) {
   } while (true);
   if (run->count < read)
     run->at = begin[run->count % MEM_PREFETCH_AHEAD];
+}
+
+static bool wants_normals(const struct obj_parser *p) {
+  return p->scene->needs_crease_marks && p->normal.count > 0;
+}
+
+/* Reads the normal of the corner at a place, whose point was read: indices of
+ * up to seven digits, of a normal that is there.  Returns where it ends; NULL
+ * where it is something else.
+ * normal  gets 0 where there is no index */
+static inline const char *read_plain_normal(const struct obj_parser *p,
+                                            const char *at, uint32_t *normal) {
+  uint64_t chunk;
+  *normal = 0;
+  at += digits_count(at, &chunk);
+  if (*at != '/')
+    return at;
+  at++;
+  at += digits_count(at, &chunk);
+  if (*at == '/') {
+    int count = digits_count(++at, &chunk);
+    uint64_t index = digits_sum(chunk, count) - 1;
+    if (count == 0 || count == 8 || index >= p->normal.count)
+      return NULL;
+    *normal = p->normal.item[index];
+    at += count;
+  }
+  return *at == ' ' || *at == '\n' ? at : NULL;
+}
+
+/* Reads the normals of the faces of a run, which begins at `at`; the run ends
+ * before the first face with one that is not plain. */
+static void read_normals_of_faces(const struct obj_parser *p, struct run *run,
+                                  const char *at) {
+  uint32_t *normal = p->run_normal.item + 3 * run->before;
+  uint32_t any = 0;
+  for (size_t f = 0; f < run->count; f++, at++) {
+    const char *start = at++;
+    for (int k = 0; k < 3; k++, any |= *normal++) {
+      at = read_plain_normal(p, at + 1, normal);
+      if (at == NULL) {
+        run->count = f;
+        run->at = start;
+        run->has_normals = any != 0;
+        return;
+      }
+    }
+  }
+  run->has_normals = any != 0;
+}
+
+static bool read_faces(const struct obj_parser *p, struct run *run) {
+  const char *start = run->at;
+  read_corners_of_faces(p, run);
+  if (wants_normals(p))
+    read_normals_of_faces(p, run, start);
   return true;
 }
 
-static void add_run_faces(struct obj_parser *p, const struct run *run) {
+static bool add_run_faces(struct obj_parser *p, const struct run *run) {
   struct scene *scene = p->scene;
+  size_t first = scene->corner.count;
   scene->corner.count += 3 * run->count;
   scene->face_count += (uint32_t)run->count;
   if (scene->face_start.count > 0)
     scene->face_start.count += run->count;
   if (scene->face_group.count > 0)
     scene->face_group.count += run->count;
+  return !scene->needs_crease_marks ||
+         corner_normals_add(
+             scene, first,
+             run->has_normals ? p->run_normal.item + 3 * run->before : NULL);
 }
 
-static bool reserve_faces(struct scene *scene, size_t count) {
+static bool reserve_faces(struct obj_parser *p, size_t count) {
+  struct scene *scene = p->scene;
   return (scene->current_group == 0 || scene_list_groups(scene)) &&
-         scene_reserve_faces(scene, count, 3 * count);
+         scene_reserve_faces(scene, count, 3 * count) &&
+         (!wants_normals(p) || ARRAY_RESERVE(&p->run_normal, 3 * count));
 }
 
 /* ---- In parallel --------------------------------------------------------- */
 
 /* What differs between points and faces. */
 struct run_kind {
-  bool (*reserve)(struct scene *scene, size_t count);
+  bool (*reserve)(struct obj_parser *p, size_t count);
   bool (*read)(const struct obj_parser *p, struct run *run);
-  void (*add)(struct obj_parser *p, const struct run *run);
+  bool (*add)(struct obj_parser *p, const struct run *run);
 };
 
 static const struct run_kind points = {reserve_points, read_points, add_points},
@@ -259,7 +325,8 @@ static bool read_run_parts(void *user, struct parallel_range range) {
 /* Takes the statements of a run; whether it was plain to its end. */
 static bool take_run(struct obj_parser *p, const struct run_kind *kind,
                      const struct run *run) {
-  kind->add(p, run);
+  if (!kind->add(p, run))
+    p->out_of_memory = true;
   p->at = run->at;
   p->line += run->count;
   return run->at == run->end;
@@ -301,7 +368,7 @@ static recto_status read_ahead(struct obj_parser *p,
     return RECTO_OK;
   parts.part = mem_calloc(count, sizeof *parts.part);
   bool ok = parts.part != NULL &&
-            kind->reserve(p->scene, divide_into_parts(&parts, count, workers));
+            kind->reserve(p, divide_into_parts(&parts, count, workers));
   ok = ok && parallel_ranges(workers, count, 1, read_run_parts, &parts);
   *plain = ok;
   const char *start = p->at;
@@ -311,7 +378,7 @@ static recto_status read_ahead(struct obj_parser *p,
   for (size_t i = 0; parts.part != NULL && i < count; i++)
     ARRAY_FREE(&parts.part[i].sampled);
   mem_free(parts.part);
-  return ok ? RECTO_OK : error_memory(p->error);
+  return ok && !p->out_of_memory ? RECTO_OK : error_memory(p->error);
 }
 
 /* ---- Runs ---------------------------------------------------------------- */
@@ -322,12 +389,13 @@ static recto_status read_run(struct obj_parser *p,
                              const struct run_kind *kind) {
   struct run run = {.at = p->at, .end = p->end, .most = PLAIN_RUN};
   bool goes_on = p->run_end <= p->at && p->at - p->run_end < PLAIN_ROOM;
-  bool ok = kind->reserve(p->scene, PLAIN_RUN) && kind->read(p, &run);
+  bool ok = kind->reserve(p, PLAIN_RUN) && kind->read(p, &run);
   p->run_bytes = (goes_on ? p->run_bytes : 0) + (size_t)(run.at - p->at);
   if (ok)
     (void)take_run(p, kind, &run);
   ARRAY_FREE(&run.sampled);
-  recto_status status = ok ? RECTO_OK : error_memory(p->error);
+  recto_status status =
+      ok && !p->out_of_memory ? RECTO_OK : error_memory(p->error);
   bool plain = run.count == PLAIN_RUN;
   while (status == RECTO_OK && plain)
     status = read_ahead(p, kind, &plain);

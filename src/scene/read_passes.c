@@ -34,7 +34,7 @@ struct read_passes {
   /* Where the first block begins that has anything but points. */
   off_t faces_at;
   unsigned long faces_line;
-  size_t faces_seen;
+  size_t faces_seen, faces_normals_seen;
   ARRAY(struct held_block) held;
   size_t next_held;
 };
@@ -93,6 +93,7 @@ static recto_status read_point_blocks(struct read_passes *passes,
       passes->faces_at = passes->blocks.lines.begin;
       passes->faces_line = p->line;
       passes->faces_seen = p->seen;
+      passes->faces_normals_seen = p->normals_seen;
     }
     size_t held = p->held.count;
     p->plain_bytes = 0;
@@ -113,6 +114,7 @@ recto_status read_passes_points(struct read_passes *passes, struct scene *scene,
   passes->diagnostics = diagnostics;
   obj_parser_begin(p, scene, passes->path, diagnostics, error);
   p->marks = p->holds = true;
+  scene->is_read_in_passes = true;
   if (!ARRAY_PUSH(&scene->file, passes->blocks.lines.file))
     return error_memory(error);
   memcpy(scene->up, reader_obj.up, sizeof scene->up);
@@ -134,6 +136,7 @@ static void begin_faces(struct read_passes *passes, recto_error *error) {
   struct obj_parser *p = &passes->parser;
   p->ahead = true;
   p->seen = passes->faces_seen;
+  p->normals_seen = passes->faces_normals_seen;
   p->line = passes->faces_line;
   p->renamed = true;
   p->error = error;

@@ -23,8 +23,6 @@
 #include "scene/limit.h"
 #include "scene/read.h"
 
-enum { DIGITS_MAX = 12 }; /* of an index that may be in range */
-
 /* ---- Points -------------------------------------------------------------- */
 
 static recto_status add_obj_point(struct obj_parser *p, const double xyz[3],
@@ -70,11 +68,10 @@ static recto_status read_point(struct obj_parser *p) {
   return add_obj_point(p, xyz, finite);
 }
 
-/* Reads the points of all lines after this one. */
-static recto_status read_points_ahead(struct obj_parser *p) {
+recto_status obj_read_ahead(struct obj_parser *p) {
   const char *at = p->at;
   unsigned long line = p->line;
-  size_t seen = p->seen;
+  size_t seen = p->seen, normals_seen = p->normals_seen;
   obj_skip_line(p, true);
   recto_status status = obj_read_statements(p, true);
   if (status == RECTO_OK && p->blocks != NULL)
@@ -82,6 +79,7 @@ static recto_status read_points_ahead(struct obj_parser *p) {
   p->at = at;
   p->line = line;
   p->seen = seen;
+  p->normals_seen = normals_seen;
   p->ahead = true;
   return status;
 }
@@ -164,7 +162,7 @@ static inline const char *parse_index(const char *at, const char *end,
     at++;
   uint64_t sum = 0;
   const char *stop = digits_gather(at, end, &sum);
-  int64_t magnitude = stop - at > DIGITS_MAX ? beyond : (int64_t)sum;
+  int64_t magnitude = stop - at > OBJ_DIGITS_MAX ? beyond : (int64_t)sum;
   *index = negative ? -magnitude : magnitude;
   return stop > at ? stop : NULL;
 }
@@ -175,7 +173,7 @@ static recto_status resolve_rare_index(struct obj_parser *p, int64_t index,
                                        uint32_t *point) {
   *point = SCENE_NONE;
   if (index > 0 && !p->ahead) {
-    recto_status status = read_points_ahead(p);
+    recto_status status = obj_read_ahead(p);
     if (status != RECTO_OK)
       return status;
   }
@@ -199,13 +197,18 @@ static bool read_plain_corners(struct obj_parser *p) {
       at++;
     uint64_t index = 0;
     const char *stop = digits_gather(at, p->end, &index);
-    if (stop - at > DIGITS_MAX || index - 1 >= seen)
+    if (stop - at > OBJ_DIGITS_MAX || index - 1 >= seen)
       break;
+    const char *normal = NULL;
+    uint32_t code = 0;
     if (*stop == '/')
-      stop = obj_skip_other_indices(stop);
-    if (!obj_ends_word(*stop))
+      stop = obj_pass_other_indices(stop, &normal);
+    bool has_normal = normal != NULL && p->scene->needs_crease_marks;
+    if (!obj_ends_word(*stop) ||
+        (has_normal && !obj_find_plain_normal(p, normal, &code)))
       break;
-    if (!ARRAY_PUSH(&p->corner, before + (uint32_t)index))
+    if ((has_normal && !obj_set_corner_normal(p, code)) ||
+        !ARRAY_PUSH(&p->corner, before + (uint32_t)index))
       return false;
     at = stop;
   }
@@ -219,15 +222,16 @@ static bool read_plain_corners(struct obj_parser *p) {
 static recto_status read_corners(struct obj_parser *p, bool *broken,
                                  const char **missing) {
   *broken = false;
-  *missing = NULL;
-  p->corner.count = 0;
+  *missing = p->missing_normal = NULL;
+  p->corner.count = p->corner_normal.count = 0;
   if (!read_plain_corners(p))
     return error_memory(p->error);
   for (obj_skip_blanks(p); !obj_is_at_end_of_line(p); obj_skip_blanks(p)) {
     int64_t index;
     const char *stop = parse_index(p->at, p->end, &index);
+    const char *normal = NULL;
     if (stop != NULL && *stop == '/')
-      stop = obj_skip_other_indices(stop);
+      stop = obj_pass_other_indices(stop, &normal);
     *broken = stop == NULL || !obj_ends_word(*stop);
     if (*broken)
       break;
@@ -240,6 +244,11 @@ static recto_status read_corners(struct obj_parser *p, bool *broken,
         *missing = p->at;
     }
     p->at = stop;
+    if (normal != NULL && p->scene->needs_crease_marks) {
+      recto_status status = obj_take_normal(p, normal);
+      if (status != RECTO_OK)
+        return status;
+    }
     if (!ARRAY_PUSH(&p->corner, point))
       return error_memory(p->error);
   }
@@ -279,15 +288,15 @@ static recto_status add_statement(struct obj_parser *p, unsigned long line,
     return is_face ? scene_skip_face(p->scene, p->error) : RECTO_OK;
   if (p->renamed && (status = use_named_group(p)) != RECTO_OK)
     return status;
-  return is_face ? scene_add_face(p->scene, p->corner.item, p->corner.count,
-                                  line, p->diagnostics, p->error)
+  return is_face ? obj_add_face(p, line)
                  : scene_add_wire(p->scene, p->corner.item, p->corner.count,
                                   line, p->diagnostics, p->error);
 }
 
 recto_status obj_add_triangle(struct obj_parser *p, const uint32_t corner[3]) {
   p->known = true;
-  p->corner.count = 0;
+  p->missing_normal = NULL;
+  p->corner.count = p->corner_normal.count = 0;
   for (int k = 0; k < 3; k++)
     if (!ARRAY_PUSH(&p->corner, corner[k]))
       return error_memory(p->error);
@@ -364,9 +373,18 @@ static recto_status read_obj_statement(struct obj_parser *p, char keyword) {
     return read_name(p, NAME_GROUP, 1);
   case 'o':
     return read_name(p, NAME_OBJECT, 1);
+  case 's':
+    return p->scene->needs_crease_marks ? obj_read_smoothing(p)
+                                        : read_unknown(p);
   default:
     return read_unknown(p);
   }
+}
+
+/* Whether a statement is that of a normal which is to be read. */
+static bool is_normal(const struct obj_parser *p, char keyword, char next) {
+  return keyword == 'v' && next == 'n' && p->scene->needs_crease_marks &&
+         obj_ends_word(p->at[2]);
 }
 
 /* Whether a statement is passed over without a look at what follows. */
@@ -392,6 +410,8 @@ recto_status obj_read_statements(struct obj_parser *p, bool points_only) {
     } else if (points_only && p->marks && !p->mark_failed &&
                (keyword == 'f' || keyword == 'l') && next == ' ') {
       obj_mark_faces(p);
+    } else if (is_normal(p, keyword, next)) {
+      status = obj_read_normal(p);
     } else if (is_ignored(keyword, next, points_only)) {
       p->others = p->others || keyword != 'v';
       obj_skip_line(p, true);

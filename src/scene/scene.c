@@ -46,6 +46,9 @@ void scene_fini(struct scene *scene) {
   ARRAY_FREE(&scene->precision);
   ARRAY_FREE(&scene->group);
   ARRAY_FREE(&scene->file);
+  ARRAY_FREE(&scene->point_normal);
+  ARRAY_FREE(&scene->corner_normal);
+  ARRAY_FREE(&scene->smoothing.range);
   mem_free(scene->group_slot);
   scene->group_slot = NULL;
   scene->group_slot_count = 0;
@@ -109,6 +112,9 @@ void scene_begin_file(struct scene *scene, const char *stem, size_t length) {
   scene->file_stem_length = length;
   scene->groups_before_file = scene->group.count;
   scene->file_unit_mm = 0;
+  smoothing_begin_file(&scene->smoothing, scene->face_count);
+  scene->first_file_corner = scene->corner.count;
+  scene->has_file_normals = scene->lists_normals = false;
 }
 
 void scene_end_file(struct scene *scene) {
@@ -189,6 +195,8 @@ void scene_snapshot(const struct scene *scene, struct scene_snapshot *before) {
   before->current_group = scene->current_group;
 }
 
+static size_t least_size(size_t a, size_t b) { return a < b ? a : b; }
+
 void scene_restore(struct scene *scene, const struct scene_snapshot *before) {
   scene->point.count = before->points;
   scene->face_count = (uint32_t)before->faces;
@@ -202,6 +210,11 @@ void scene_restore(struct scene *scene, const struct scene_snapshot *before) {
   scene->wire_start.count = before->wires ? before->wires + 1 : 0;
   scene->wire_corner.count = before->wire_corners;
   scene->precision.count = before->precisions;
+  scene->point_normal.count =
+      least_size(scene->point_normal.count, before->points);
+  scene->corner_normal.count =
+      least_size(scene->corner_normal.count, before->corners);
+  smoothing_restore(&scene->smoothing, scene->face_count);
   drop_groups(scene, before->groups);
   scene->current_group = before->current_group;
   if (scene->group_slot != NULL)
@@ -262,6 +275,7 @@ bool scene_end_face(struct scene *scene, uint32_t group) {
 }
 
 void scene_drop_elements(struct scene *scene) {
+  smoothing_drop_faces(&scene->smoothing, scene->face_count);
   scene->face_count = 0;
   scene->face_start.count = scene->corner.count = scene->face_group.count =
       scene->face_skipped.count = 0;

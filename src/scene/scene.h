@@ -14,6 +14,7 @@
 #include "base/memory.h"
 #include "base/status.h"
 #include "scene/precision.h"
+#include "scene/smoothing.h"
 
 #define SCENE_NONE UINT32_MAX
 
@@ -87,7 +88,19 @@ struct scene {
   ARRAY(char *) without_unit; /* paths of files that state no unit, owned;
                                   none once another one does */
   bool needs_colours; /* readers look for colours of groups in other files */
-  const struct scene_cut *cut;      /* NULL: it was not cut */
+  /* What files say of hard and smooth edges, if readers are to note it; the
+   * arrays end with the last element that has any. */
+  bool needs_crease_marks;
+  struct smoothing_groups smoothing; /* of faces */
+  ARRAY(uint32_t) point_normal;  /* one a point, where corner_normal ends: see
+                                    corner_normals.h */
+  ARRAY(uint32_t) corner_normal; /* one a corner */
+  size_t first_file_corner;      /* of the file that is read */
+  bool has_file_normals;         /* it has normals so far, */
+  bool lists_normals;            /* and one a corner */
+  bool is_read_in_passes;        /* its faces are not kept: */
+  bool has_several_normals;      /* a point of it has */
+  const struct scene_cut *cut;   /* NULL: it was not cut */
   ARRAY(struct file_identity) file; /* what it was read from */
 };
 

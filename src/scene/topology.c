@@ -310,5 +310,6 @@ void topology_fini(struct topology *topology) {
   mem_free(topology->border);
   mem_free(topology->class_masks);
   mem_free(topology->coarse);
+  mem_free(topology->crease_mark);
   memset(topology, 0, sizeof *topology);
 }

@@ -21,6 +21,8 @@ struct topology {
   double crease_deg;
   uint8_t *coarse; /* of all points, as of topology_coarse_parts with
                       class_masks; NULL: not kept */
+  uint8_t *crease_mark; /* one an edge, enum crease_mark: what files say of it;
+                           NULL: nothing */
   /* What may be freed once it was laid out, as it is not used later: */
   bool drop_corners; /* corner_edge */
   bool drop_edges;   /* edge */

@@ -30,6 +30,7 @@
 #include "base/poll.h"
 #include "base/tolerance.h"
 #include "geom/vector.h"
+#include "scene/corner_normals.h"
 #include "scene/weld_candidates.h"
 
 /* ---- Radii --------------------------------------------------------------- */
@@ -174,8 +175,47 @@ static bool map_corners(const uint32_t *corner, size_t count,
   return changed;
 }
 
-/* Adds the faces of `from` with their corners mapped.  Those that keep theirs
- * are without fault; the others are examined as if they were new. */
+/* Notes what the file says of a face's hard and smooth edges, and then of the
+ * normals of its corners from `first` on, if it was added. */
+static bool map_smoothing(struct scene *to, const struct scene *from,
+                          uint32_t face) {
+  return from->smoothing.range.count == 0 ||
+         smoothing_set(&to->smoothing, to->face_count,
+                       smoothing_of_face(&from->smoothing, face));
+}
+static bool map_normals(struct scene *to, size_t first,
+                        const struct scene *from, uint32_t face) {
+  return from->point_normal.count == 0 ||
+         corner_normals_copy(to, first, from, face);
+}
+
+/* Adds a face of `from` with its corners mapped.  One that keeps them is
+ * without fault; others are examined as if they were new.
+ * corner  room for its corners */
+static recto_status map_face(struct scene *to, const struct scene *from,
+                             uint32_t face, const uint32_t *map,
+                             uint32_t *corner, recto_error *error) {
+  const uint32_t *own = from->corner.item + scene_face_start(from, face);
+  uint32_t count = scene_face_corners(from, face);
+  size_t first = to->corner.count;
+  recto_status status = RECTO_OK;
+  to->current_group = scene_face_group(from, face);
+  if (!map_smoothing(to, from, face))
+    return error_memory(error);
+  if (map_corners(own, count, map, corner)) {
+    status = scene_add_face(to, corner, count, 0, NULL, error);
+  } else {
+    memcpy(to->corner.item + first, corner, count * sizeof *corner);
+    to->corner.count += count;
+    if (!scene_end_face(to, to->current_group))
+      status = error_memory(error);
+  }
+  return status == RECTO_OK && !map_normals(to, first, from, face)
+             ? error_memory(error)
+             : status;
+}
+
+/* Adds the faces of `from` with their corners mapped. */
 static recto_status map_faces(struct scene *to, const struct scene *from,
                               const uint32_t *map, uint32_t *corner,
                               recto_error *error) {
@@ -185,25 +225,14 @@ static recto_status map_faces(struct scene *to, const struct scene *from,
   if (!ARRAY_RESERVE(&to->corner, from->corner.count))
     return error_memory(error);
   for (uint32_t f = 0; f < faces && status == RECTO_OK; f++) {
-    uint32_t start = scene_face_start(from, f);
-    uint32_t count = scene_face_start(from, f + 1) - start;
-    to->current_group = scene_face_group(from, f);
     if (!poll_at(f))
       status = error_cancelled(error);
     for (; status == RECTO_OK && skipped < from->face_skipped.count &&
            from->face_skipped.item[skipped] == f;
          skipped++)
       status = scene_skip_face(to, error);
-    if (status != RECTO_OK)
-      break;
-    if (map_corners(from->corner.item + start, count, map, corner)) {
-      status = scene_add_face(to, corner, count, 0, NULL, error);
-      continue;
-    }
-    memcpy(to->corner.item + to->corner.count, corner, count * sizeof *corner);
-    to->corner.count += count;
-    if (!scene_end_face(to, to->current_group))
-      return error_memory(error);
+    if (status == RECTO_OK)
+      status = map_face(to, from, f, map, corner, error);
   }
   return status;
 }
@@ -231,6 +260,8 @@ static void share_arrays(struct welded *welded, const struct scene *scene) {
   memset(&own->face_start, 0, sizeof own->face_start);
   memset(&own->face_group, 0, sizeof own->face_group);
   memset(&own->face_skipped, 0, sizeof own->face_skipped);
+  memset(&own->corner_normal, 0, sizeof own->corner_normal);
+  memset(&own->smoothing, 0, sizeof own->smoothing);
   memset(&own->wire_corner, 0, sizeof own->wire_corner);
   memset(&own->wire_start, 0, sizeof own->wire_start);
   memset(&own->wire_group, 0, sizeof own->wire_group);
@@ -317,6 +348,8 @@ void welded_fini(struct welded *welded) {
     ARRAY_FREE(&own->face_start);
     ARRAY_FREE(&own->face_group);
     ARRAY_FREE(&own->face_skipped);
+    ARRAY_FREE(&own->corner_normal);
+    ARRAY_FREE(&own->smoothing.range);
     ARRAY_FREE(&own->wire_corner);
     ARRAY_FREE(&own->wire_start);
     ARRAY_FREE(&own->wire_group);

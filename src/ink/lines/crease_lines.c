@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "base/union_find.h"
 #include "scene/angle.h"
+#include "scene/crease_marks.h"
 #include "scene/newell_normal.h"
 
 /* Faces of more corners have their normals kept. */
@@ -29,11 +30,27 @@ static void find_normal(const struct scene *scene, uint32_t face,
   memcpy(normal, normals->normal[k], sizeof normals->normal[k]);
 }
 
+static int mark_of_edge(const struct sheet *sheet,
+                        const struct sheet_edge *edge) {
+  return sheet->topology != NULL && sheet->topology->crease_mark != NULL &&
+                 edge->source != SHEET_NONE
+             ? sheet->topology->crease_mark[edge->source]
+             : CREASE_MARK_NONE;
+}
+
 double crease_cosine(const struct sheet *sheet, const struct sheet_edge *edge,
                      struct large_face_normals *normals) {
   double n[2][3], dot = 0, square[2] = {0, 0};
   if ((edge->edge_class & (RECTO_EDGE_CREASE | RECTO_EDGE_SILHOUETTE)) == 0)
     return 1;
+  switch (mark_of_edge(sheet, edge)) {
+  case CREASE_MARK_HARD:
+    return -1;
+  case CREASE_MARK_SOFT:
+    return 1;
+  default:
+    break;
+  }
   for (int k = 0; k < 2; k++) {
     uint32_t face = edge->triangle[k];
     if (face == SHEET_NONE)

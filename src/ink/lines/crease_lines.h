@@ -20,7 +20,8 @@ static inline struct large_face_normals large_face_normals_start(void) {
 
 /* The cosine of the angle between the two faces of an edge that is drawn as a
  * crease or a silhouette; 1 where it has other faces than two.  Faces that run
- * the same way along it count as bent sharply.
+ * the same way along it count as bent sharply, and so do those whose edge is
+ * marked as hard; one that is marked as smooth as not bent.
  * normals  of the edges before */
 double crease_cosine(const struct sheet *sheet, const struct sheet_edge *edge,
                      struct large_face_normals *normals);
