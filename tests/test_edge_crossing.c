@@ -22,7 +22,7 @@ static void add_fan(struct sheet *sheet, bool turned) {
                                          {5, 6, 4}, {6, 2, 3}, {3, 4, 6}};
   uint32_t *group = mem_calloc(6, sizeof *group);
   exact_sheet_init(sheet);
-  sheet->camera.contact = 7.6155887709093129e-06;
+  sheet->camera.contact = sheet->camera.contact_most = 7.6155887709093129e-06;
   sheet->z_scale = 410225734732.82434;
   sheet->units_per_view = 17994439.889407944;
   for (size_t k = 0; k < 7; k++) {

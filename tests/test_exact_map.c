@@ -223,7 +223,7 @@ static void random_scene(struct sheet *sheet, uint64_t seed) {
   int scale = 1 << (4 + exact_random_below(&r, 10));
   exact_sheet_init(sheet);
   if (exact_random_below(&r, 3) == 0)
-    sheet->camera.contact = scale / 4;
+    sheet->camera.contact = sheet->camera.contact_most = scale / 4;
   for (int f = 0; f < faces; f++) {
     int corner[4][3], count = 3;
     for (int k = 0; k < 3; k++)
@@ -276,7 +276,7 @@ static void solvers_agree_on_random_scenes(void **state) {
 static void deep_soup(struct sheet *sheet, uint64_t seed, int faces) {
   uint64_t r = seed;
   exact_sheet_init(sheet);
-  sheet->camera.contact = seed % 2 == 0 ? 0 : 500;
+  sheet->camera.contact = sheet->camera.contact_most = seed % 2 == 0 ? 0 : 500;
   for (int f = 0; f < faces; f++) {
     int corner[3][3], level = exact_random_below(&r, 2900);
     bool steep = exact_random_below(&r, 20) == 0;

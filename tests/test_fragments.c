@@ -228,7 +228,7 @@ static const int decal[][3] = {{4, 4, 8}, {12, 4, 8}, {12, 12, 8}, {4, 12, 8}};
 static void table_and_decal(struct sheet *sheet, bool table_first, int off,
                             double contact) {
   exact_sheet_init(sheet);
-  sheet->camera.contact = contact;
+  sheet->camera.contact = sheet->camera.contact_most = contact;
   exact_add_face(sheet, table_first ? table : decal, 4, SCALE);
   exact_add_face(sheet, table_first ? decal : table, 4, SCALE);
   for (size_t k = 0; k < 4; k++)

@@ -243,7 +243,7 @@ static void contact_says_how_deep_touching_is(void **state) {
   for (int depth = 90; depth <= 110; depth++) {
     struct sheet sheet;
     exact_sheet_init(&sheet);
-    sheet.camera.contact = 100;
+    sheet.camera.contact = sheet.camera.contact_most = 100;
     exact_add_face(&sheet, top, 4, SCALE);
     add_box(&sheet, 8 * SCALE - depth);
     /* T is contact and one unit of depth. */

@@ -335,7 +335,7 @@ static void check_contact(const struct view *v, double contact, uint64_t *r) {
   }
   sheet.camera.perspective = v->perspective;
   sheet.camera.d_max = v->d_max;
-  sheet.camera.contact = contact;
+  sheet.camera.contact = sheet.camera.contact_most = contact;
   sheet.camera.middle_mm[0] =
       sheet.camera.page_mm[0] / 2 + v->ax / SHEET_UNITS_PER_MM;
   sheet.camera.middle_mm[1] =

@@ -119,7 +119,10 @@ static void check_coarse_plane(const struct sheet *sheet,
   }
   bool may = coarse_plane_may_intersect(&plane, p);
   assert_true(may || !side_count_of_sides(side));
-  certain[1] += !may;
+  bool straddles = coarse_plane_is_straddled(&plane, p);
+  assert_true(!straddles || side[0] * side[1] * side[2] != 0);
+  assert_true(!straddles || side[0] != side[1] || side[1] != side[2]);
+  certain[1] += !may + straddles;
 }
 
 /* All doubts and certainties of one triangle; counts the certain ones. */

@@ -189,4 +189,5 @@ void exact_random_sheet(struct sheet *sheet, enum exact_kind kind, int faces,
   if (exact_random_below(r, 3) == 0)
     sheet->camera.contact = (sheet->camera.perspective ? 0x1p-24 : 1) *
                             (1 << exact_random_below(r, 8));
+  sheet->camera.contact_most = sheet->camera.contact;
 }

@@ -45,6 +45,30 @@ static bool is_segment_hidden(const struct hidden_segments *hidden,
          hidden->hides(hidden->user, segment->end[0], segment->end[1]);
 }
 
+/* Adds the segment of two triangles none of whose corners is in contact with
+ * the other's plane: they pierce each other, unless they are apart.
+ * cf, cg  their coarse planes */
+static bool add_pierced_segment(struct intersection_search *search, uint32_t f,
+                                uint32_t g, const struct coarse_plane *cf,
+                                const struct coarse_plane *cg) {
+  const struct sheet *sheet = search->sheet;
+  const struct triangle_plane pf = triangle_plane_of(sheet, f),
+                              pg = triangle_plane_of(sheet, g);
+  struct intersection_segment segment;
+  search->counts.straddle++;
+  if (!intersection_segment_of_planes(sheet, f, g, &pf, &pg, &segment) ||
+      is_segment_hidden(search->hidden, &segment))
+    return true;
+  if (!triangles_are_off_plane(pf.p, pg.p, cf, cg)) {
+    const struct occluder *hf = prepare_triangle(search, f);
+    struct occluder hg;
+    occluder_init(&hg, sheet, g);
+    if (triangles_coplanar_within_rounding(sheet, f, g, hf, &hg))
+      return true;
+  }
+  return ARRAY_PUSH(&search->segment.list, segment);
+}
+
 /* Decides a candidate pair exactly; either triangle may be SHEET_EDGE_ON. */
 static bool decide_pair(void *user, uint32_t f, uint32_t g) {
   struct intersection_search *search = user;
@@ -58,8 +82,15 @@ static bool decide_pair(void *user, uint32_t f, uint32_t g) {
   search->counts.pairs++;
   if (!progress_step(&search->progress, PAIR_WORK))
     return false;
+  const struct geom_triangle pf = sheet_corners(sheet, f),
+                             pg = sheet_corners(sheet, g);
+  const struct coarse_plane plane_f = coarse_plane_of(&search->sweep.all, pf.p),
+                            plane_g = coarse_plane_of(&search->sweep.all, pg.p);
+  if (coarse_plane_is_straddled(&plane_f, pg.p) &&
+      coarse_plane_is_straddled(&plane_g, pf.p))
+    return add_pierced_segment(search, f, g, &plane_f, &plane_g);
   hf = prepare_triangle(search, f);
-  cg = corner_counts_of(hf, sheet_corners(sheet, g).p);
+  cg = corner_counts_of(hf, pg.p);
   if (!straddles(cg) && !ends_on_plane(cg))
     return true;
   occluder_init(&hg, sheet, g);

@@ -28,6 +28,33 @@ bool triangles_coplanar_within_rounding(const struct sheet *sheet, uint32_t f,
   return true;
 }
 
+/* Is an edge, clipped to the projection of a triangle, off its plane by more
+ * than twice the contact tolerance?  The factor is for rounding. */
+static bool edge_is_off_plane(const struct coarse_plane *plane,
+                              const struct geom_point triangle[3],
+                              struct geom_point p, struct geom_point q) {
+  struct occluded_interval part;
+  if (!occlude_by_projection(triangle, p, q, &part))
+    return false;
+  double at_p = coarse_plane_value(plane, p),
+         more = coarse_plane_value(plane, q) - at_p;
+  return fabs(at_p + ratio_to_double(part.from) * more) > 2 * plane->most ||
+         fabs(at_p + ratio_to_double(part.to) * more) > 2 * plane->most;
+}
+
+bool triangles_are_off_plane(const struct geom_point f[3],
+                             const struct geom_point g[3],
+                             const struct coarse_plane *cf,
+                             const struct coarse_plane *cg) {
+  for (int k = 0; k < 3; k++) {
+    int next = geom_next_corner(k);
+    if (edge_is_off_plane(cg, g, f[k], f[next]) ||
+        edge_is_off_plane(cf, f, g[k], g[next]))
+      return true;
+  }
+  return false;
+}
+
 /* The sign of the volume of the tetrahedron a, b, c, d. */
 static int volume_sign(struct geom_point a, struct geom_point b,
                        struct geom_point c, struct geom_point d) {
@@ -64,7 +91,7 @@ static void add_segment_end(struct segment_ends *ends, struct geom_point p) {
 
 /* Adds the points where edges of triangle f pass through triangle g. */
 static void add_piercing_points(const struct sheet *sheet, uint32_t f,
-                                const struct occluder *hg,
+                                const struct triangle_plane *pg,
                                 struct segment_ends *ends) {
   const uint32_t *point = sheet->triangle.item[f].point;
   for (int k = 0; k < 3; k++) {
@@ -79,11 +106,11 @@ static void add_piercing_points(const struct sheet *sheet, uint32_t f,
     }
     a = sheet->point.item[i];
     b = sheet->point.item[j];
-    va = geom_plane_value(&hg->plane, a);
-    vb = geom_plane_value(&hg->plane, b);
+    va = geom_plane_value(&pg->plane, a);
+    vb = geom_plane_value(&pg->plane, b);
     if ((va > 0 && vb > 0) || (va < 0 && vb < 0) || va == vb)
       continue;
-    if (!line_meets(a, b, hg->p))
+    if (!line_meets(a, b, pg->p))
       continue;
     t = va > vb ? (struct ratio){va, va - vb} : (struct ratio){-va, vb - va};
     add_segment_end(ends, (struct geom_point){(int32_t)ratio_lerp(t, a.x, b.x),
@@ -102,19 +129,31 @@ static int count_equal_corners(const struct geom_point f[3],
   return shared;
 }
 
-bool intersection_segment_find(const struct sheet *sheet, uint32_t f,
-                               uint32_t g, const struct occluder *hf,
-                               const struct occluder *hg,
-                               struct intersection_segment *segment) {
+bool intersection_segment_of_planes(const struct sheet *sheet, uint32_t f,
+                                    uint32_t g, const struct triangle_plane *pf,
+                                    const struct triangle_plane *pg,
+                                    struct intersection_segment *segment) {
   struct segment_ends ends = {0};
-  if (count_equal_corners(hf->p, hg->p) > 1)
+  if (count_equal_corners(pf->p, pg->p) > 1)
     return false;
-  add_piercing_points(sheet, f, hg, &ends);
-  add_piercing_points(sheet, g, hf, &ends);
+  add_piercing_points(sheet, f, pg, &ends);
+  add_piercing_points(sheet, g, pf, &ends);
   if (ends.count < 2 ||
       (ends.low.x == ends.high.x && ends.low.y == ends.high.y))
     return false;
   *segment = (struct intersection_segment){{f < g ? f : g, f < g ? g : f},
                                            {ends.low, ends.high}};
   return true;
+}
+
+static struct triangle_plane plane_of_occluder(const struct occluder *h) {
+  return (struct triangle_plane){{h->p[0], h->p[1], h->p[2]}, h->plane};
+}
+
+bool intersection_segment_find(const struct sheet *sheet, uint32_t f,
+                               uint32_t g, const struct occluder *hf,
+                               const struct occluder *hg,
+                               struct intersection_segment *segment) {
+  struct triangle_plane pf = plane_of_occluder(hf), pg = plane_of_occluder(hg);
+  return intersection_segment_of_planes(sheet, f, g, &pf, &pg, segment);
 }

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "visibility/predicate/occlusion.h"
+#include "visibility/predicate/triangle_pair.h"
 
 /* The corners of a triangle by the side of a plane.  Those that are not counted
  * are in contact with the plane. */
@@ -35,6 +36,14 @@ bool triangles_coplanar_within_rounding(const struct sheet *sheet, uint32_t f,
                                         uint32_t g, const struct occluder *hf,
                                         const struct occluder *hg);
 
+/* Do the triangles certainly differ by more than rounding somewhere?
+ * f, g    their corners
+ * cf, cg  their planes */
+bool triangles_are_off_plane(const struct geom_point f[3],
+                             const struct geom_point g[3],
+                             const struct coarse_plane *cf,
+                             const struct coarse_plane *cg);
+
 /* Two triangles and the segment in which their surfaces intersect. */
 struct intersection_segment {
   uint32_t triangle[2]; /* the lower first */
@@ -54,5 +63,11 @@ bool intersection_segment_find(const struct sheet *sheet, uint32_t f,
                                uint32_t g, const struct occluder *hf,
                                const struct occluder *hg,
                                struct intersection_segment *segment);
+
+/* The same of triangles that are not prepared. */
+bool intersection_segment_of_planes(const struct sheet *sheet, uint32_t f,
+                                    uint32_t g, const struct triangle_plane *pf,
+                                    const struct triangle_plane *pg,
+                                    struct intersection_segment *segment);
 
 #endif

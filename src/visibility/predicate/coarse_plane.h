@@ -92,6 +92,20 @@ static inline int coarse_plane_contact_sign(const struct coarse_plane *plane,
   return (value > -plane->least) - (value < -plane->most);
 }
 
+/* Is a triangle with these corners certainly on both sides of the plane, no
+ * corner in contact with it? */
+static inline bool
+coarse_plane_is_straddled(const struct coarse_plane *plane,
+                          const struct geom_point corner[3]) {
+  int behind = 0, in_front = 0;
+  for (int k = 0; k < 3; k++) {
+    double value = coarse_plane_value(plane, corner[k]);
+    behind += value < -plane->most;
+    in_front += value > plane->most;
+  }
+  return behind + in_front == 3 && behind % 3 != 0;
+}
+
 /* May a triangle with these corners straddle the plane or end on it, as
  * plane_filter_may_intersect has it?  False is certain. */
 static inline bool
