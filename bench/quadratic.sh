@@ -69,6 +69,28 @@ make_scene() {
           point(10 * cos(b) + 0.003, 10 * sin(b) + 0.003, z)
         }
         faces(3)
+      } else if (kind == "assembly") { # a closed box with cylinders inside
+        for (i = 0; i < 8; i++)
+          point(100 * (i % 4 == 1 || i % 4 == 2), 100 * (i % 4 > 1), 100 * (i > 3))
+        print "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8"
+        for (i = 0; i < n; i++) {
+          print "o part" i
+          x = 5 + 90 * rand(); y = 5 + 90 * rand(); z = 5 + 85 * rand()
+          s = 0.5 + rand(); u = 1 + 3 * rand()
+          for (k = 0; k < 24; k++) {
+            a = turn * k / 24
+            point(x + s * cos(a), y + s * sin(a), z)
+            point(x + s * cos(a), y + s * sin(a), z + u)
+          }
+          text = "f"; for (k = 23; k >= 0; k--) text = text " " 8 + 48 * i + 2 * k + 1
+          print text
+          text = "f"; for (k = 0; k < 24; k++) text = text " " 8 + 48 * i + 2 * k + 2
+          print text
+          for (k = 0; k < 24; k++) {
+            a = 8 + 48 * i + 2 * k; b = 8 + 48 * i + 2 * ((k + 1) % 24)
+            print "f", a + 1, b + 1, b + 2, a + 2
+          }
+        }
       } else if (kind == "needles") { # of that length, in a unit cube
         for (i = 0; i < n; i++) {
           x = rand(); y = rand(); z = rand()
@@ -124,6 +146,7 @@ slivers 3000
 slivers 10000
 needles 25000 0.3
 needles 100000 0.05
+assembly 10000
 corners 1500000
 corners 15000000
 END

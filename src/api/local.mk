@@ -42,4 +42,5 @@ librecto_core_la_SOURCES += \
   %D%/multiview_text.c %D%/multiview_text.h \
   %D%/verify.c %D%/verify.h \
   %D%/version.c \
+  %D%/visible_part.c %D%/visible_part.h \
   %D%/vocabulary.c

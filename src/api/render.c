@@ -21,6 +21,7 @@
 #include "api/rounded_warning.h"
 #include "api/shares.h"
 #include "api/stats.h"
+#include "api/visible_part.h"
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "base/poll.h"
@@ -29,7 +30,6 @@
 #include "ink/ink.h"
 #include "ink/pens.h"
 #include "view/camera_aim.h"
-#include "view/layout.h"
 #include "visibility/quantitative_invisibility.h"
 #include "visibility/smooth_contours.h"
 #include "visibility/solver.h"
@@ -44,6 +44,7 @@ struct render {
   recto_options scaled;               /* its lengths as those of that scene */
   struct topology topology; /* owned unless the preparation is shared */
   struct camera camera;
+  struct visible_part visible;
   struct sheet sheet;
   size_t triangles; /* of the sheet, also once they are dropped */
   struct page_overflow overflow;
@@ -107,8 +108,7 @@ static void report_preparation(const struct render *render) {
 }
 
 /* Takes what was prepared for the scene, where it serves, or prepares it.  The
- * topology is lent by a shared preparation, and taken from the render's own so
- * that it can be freed early. */
+ * topology is lent by a shared preparation, else taken, to be freed early. */
 static recto_status find_topology(struct render *render, recto_error *error) {
   const recto_options *o = render->options;
   const struct preparation *shared = render->request->prepared;
@@ -144,8 +144,7 @@ static recto_status find_topology(struct render *render, recto_error *error) {
   return status;
 }
 
-/* What a cut leaves may be so little that the page shows the grid of its
- * points. */
+/* A cut may leave so little that the page shows the grid of its points. */
 static recto_status check_cut_scale(const struct render *render,
                                     recto_error *error) {
   const struct camera *camera = &render->camera;
@@ -178,9 +177,10 @@ static recto_status aim(struct render *render, recto_error *error) {
 }
 
 static recto_status project_scene(struct render *render, recto_error *error) {
-  recto_status status = layout_sheet(
-      &render->sheet, render->prepared->scene, &render->topology,
-      &render->camera, &render->scaled, needs_fragments(render), error);
+  recto_status status = visible_part_layout(
+      &render->visible, &render->sheet, render->prepared->scene,
+      &render->topology, &render->camera, &render->scaled,
+      needs_fragments(render), render->report, error);
   if (status == RECTO_OK && (render->sheet.clipped_page > 0 ||
                              scene_wire_count(render->prepared->scene) > 0))
     status = page_overflow_measure(&render->overflow, render->prepared->scene,
@@ -333,8 +333,7 @@ static recto_status run_stages(struct render *render, recto_error *error) {
 
 /* ---- The whole render ---------------------------------------------------- */
 
-/* Reports errors in the lists of pens before the work, and warns of unused
- * pens. */
+/* Reports errors in the lists of pens, and warns of unused ones. */
 static recto_status check_pens(const struct render *render,
                                recto_error *error) {
   struct pens pens;
@@ -392,7 +391,9 @@ static recto_status run_and_report(struct render *render, recto_error *error) {
          !group_numbers_set(render->drawing, scene,
                             &render->prepared->welded.scene,
                             render->sheet.topology)) ||
-        !rounded_warn(render->drawing, scene, render->options))
+        !rounded_warn(render->drawing,
+                      visible_part_scene(&render->visible, scene),
+                      render->options))
       status = error_memory(error);
     source_numbers_set(render->drawing, scene);
     stats_add_seconds(render->report, "render_cpu_s", clock_cpu() - cpu);
@@ -402,14 +403,14 @@ static recto_status run_and_report(struct render *render, recto_error *error) {
   map_fini(&render->map);
   (void)poll_now();
   sheet_fini(&render->sheet);
+  visible_part_fini(&render->visible);
   drop_topology(render);
   (void)poll_now();
   preparation_fini(&render->own);
   return poll_is_cancelled() ? error_cancelled(error) : status;
 }
 
-/* Keeps the identities of the scene's files, which the drawing must not
- * replace. */
+/* Keeps the identities of the files that the drawing must not replace. */
 static bool keep_files(recto_drawing *drawing, const struct scene *scene) {
   for (size_t i = 0; i < scene->file.count; i++)
     if (!ARRAY_PUSH(&drawing->file, scene->file.item[i]))

@@ -9,6 +9,7 @@
 /* Issues a warning if lines alone are drawn, and flat faces that smooth edges
  * surround are a large part of the scene: where they go over into fillets there
  * is no line.
+ * scene   what was laid out: faces known to be hidden before need not be in it
  * Cost    linear in the drawing; where most of it is silhouettes, in the scene;
  *         where large faces are much of this, that of its topology
  * Returns false when memory ran out. */

@@ -22,5 +22,6 @@ librecto_core_la_SOURCES += \
   %D%/preferred_scale.c %D%/preferred_scale.h \
   %D%/project.c %D%/project.h \
   %D%/rescale.c %D%/rescale.h \
+  %D%/scene_part.c %D%/scene_part.h \
   %D%/sheet.c %D%/sheet.h \
   %D%/used.c %D%/used.h

@@ -1,6 +1,7 @@
 # src/visibility/local.mk - from the sheet to the visible map, a folder a method.
 librecto_core_la_SOURCES += \
   %D%/auto.c \
+  %D%/hidden_faces.c %D%/hidden_faces.h \
   %D%/map.c %D%/map.h \
   %D%/map_assembly.c %D%/map_assembly.h \
   %D%/progress.c %D%/progress.h \
@@ -31,11 +32,14 @@ librecto_core_la_SOURCES += \
   %D%/intersection/intersection.c %D%/intersection/intersection.h \
   %D%/intersection/intersection_segment.c %D%/intersection/intersection_segment.h \
   %D%/intersection/swept_triangle.h \
+  %D%/culling/face_runs.c %D%/culling/face_runs.h \
   %D%/culling/occlusion_buffer.c %D%/culling/occlusion_buffer.h \
   %D%/culling/culling_bands.c %D%/culling/culling_bands.h \
   %D%/culling/occlusion_culling.c %D%/culling/occlusion_culling.h \
+  %D%/culling/space_box.c %D%/culling/space_box.h \
   %D%/culling/potentially_visible.c %D%/culling/potentially_visible.h \
   %D%/contour/contour_cusps.c %D%/contour/contour_cusps.h \
+  %D%/culling/vertex_fans.c %D%/culling/vertex_fans.h \
   %D%/contour/contour_curves.c %D%/contour/contour_curves.h \
   %D%/contour/curved_triangle.c %D%/contour/curved_triangle.h \
   %D%/contour/corner_moves.c %D%/contour/corner_moves.h \

@@ -11,6 +11,7 @@ enum {
   CELLS_PER_TRIANGLE = 4,
   CELLS_MIN = 1 << 12,
   CELLS_MAX = 1 << 22,
+  LARGE_CELLS = 8,     /* in either direction, of a large triangle */
   VISITS = 64,         /* to a block to raise its cells, on average, at most */
   VISITS_MIN = 1 << 15 /* to all blocks, this many are no cost */
 };
@@ -271,14 +272,28 @@ static void raise_block(struct raising *raising, struct cell_range r, int bx,
     update_block(buffer, bx, by);
 }
 
+/* The cells of a band that a triangle may surround, alone or with others: not
+ * the outermost ones of its box, except that of a large triangle a side may run
+ * along them, beyond which there is another one. */
+static struct cell_range cells_to_raise(const struct occlusion_buffer *buffer,
+                                        const struct occlusion_band *band,
+                                        struct box2 box) {
+  const struct triangle_grid *cells = &buffer->cells;
+  struct cell_range r = triangle_grid_cells(cells, box);
+  int trim = r.x1 - r.x0 >= LARGE_CELLS && r.y1 - r.y0 >= LARGE_CELLS ? 0 : 1;
+  /* The last column and row are not wholly within the page. */
+  int x1 = r.x1 - trim < cells->columns - 2 ? r.x1 - trim : cells->columns - 2,
+      y1 = r.y1 - trim < cells->rows - 2 ? r.y1 - trim : cells->rows - 2;
+  return (struct cell_range){r.x0 + trim,
+                             r.y0 + trim < band->y0 ? band->y0 : r.y0 + trim,
+                             x1, y1 > band->y1 ? band->y1 : y1};
+}
+
 void occlusion_buffer_raise(struct occlusion_buffer *buffer,
                             struct occlusion_band *band,
                             const struct sheet *sheet, uint32_t t) {
-  const struct triangle_grid *cells = &buffer->cells;
   struct box2 box = box2_of_triangle(sheet, t);
-  struct cell_range r = triangle_grid_cells(cells, box);
-  r = (struct cell_range){r.x0 + 1, r.y0 < band->y0 ? band->y0 : r.y0 + 1,
-                          r.x1 - 1, r.y1 > band->y1 ? band->y1 : r.y1 - 1};
+  struct cell_range r = cells_to_raise(buffer, band, box);
   if (r.x0 > r.x1 || r.y0 > r.y1 || sheet_is_edge_on(sheet, t))
     return;
   struct raising raising = {.buffer = buffer,
@@ -304,6 +319,16 @@ void occlusion_buffer_raise(struct occlusion_buffer *buffer,
         band->visits--;
       }
     }
+}
+
+void occlusion_buffer_raise_cell(struct occlusion_buffer *buffer, int x, int y,
+                                 int32_t bound) {
+  int32_t *own = &buffer->bound[triangle_grid_index(&buffer->cells, x, y)];
+  if (bound > *own) {
+    *own = bound;
+    update_block(buffer, x >> OCCLUSION_BLOCK_SHIFT,
+                 y >> OCCLUSION_BLOCK_SHIFT);
+  }
 }
 
 void occlusion_buffer_lower(struct occlusion_buffer *buffer,

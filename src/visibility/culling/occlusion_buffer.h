@@ -61,6 +61,10 @@ void occlusion_buffer_raise(struct occlusion_buffer *buffer,
                             struct occlusion_band *band,
                             const struct sheet *sheet, uint32_t triangle);
 
+/* Raises the bound of one cell to `bound`, if it is farther. */
+void occlusion_buffer_raise_cell(struct occlusion_buffer *buffer, int x, int y,
+                                 int32_t bound);
+
 /* Lowers the bounds of a band.
  * steps  one per cell of the buffer */
 void occlusion_buffer_lower(struct occlusion_buffer *buffer,

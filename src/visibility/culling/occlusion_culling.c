@@ -124,18 +124,14 @@ static bool list_candidates(struct culling_work *work) {
   return ok;
 }
 
-/* By how much what lies on a triangle, within the contact length and rounding,
- * may be off the triangle: on the page, and in depth. */
-static void find_xy_margin(struct occlusion_culling *culling,
-                           const struct sheet *sheet,
-                           const struct occlusion_bound *contact) {
+struct occlusion_margins occlusion_margins_of(const struct sheet *sheet) {
   const struct camera *camera = &sheet->camera;
+  struct occlusion_bound contact = occlusion_tolerance_bound_all(sheet);
   double length = camera->contact_most * sheet->units_per_view /
                   (camera->perspective ? camera->d_min : 1);
-  double xy_margin = ceil(length + contact_grid_units(sheet)) + 2;
-  culling->xy_margin =
-      xy_margin < SHEET_XY_MAX ? (int64_t)xy_margin : SHEET_XY_MAX;
-  culling->margin = 2 * contact->level + 4;
+  double xy = ceil(length + contact_grid_units(sheet)) + 2;
+  return (struct occlusion_margins){
+      xy < SHEET_XY_MAX ? (int64_t)xy : SHEET_XY_MAX, 2 * contact.level + 4};
 }
 
 /* Tests the candidates, if large triangles cover enough.  Returns false when
@@ -170,9 +166,9 @@ bool occlusion_culling_init(struct occlusion_culling *culling,
       occlusion_culling_complexity(sheet, box_area(page)) < COMPLEXITY_MIN)
     return true;
   occlusion_buffer_shape(&culling->buffer, page, n);
-  find_xy_margin(culling, sheet, &work.contact);
-  work.xy_margin = culling->xy_margin;
-  work.margin = culling->margin;
+  struct occlusion_margins margins = occlusion_margins_of(sheet);
+  work.xy_margin = culling->xy_margin = margins.xy;
+  work.margin = culling->margin = margins.depth;
   work.workers = parallel_workers(n, PARALLEL_ITEMS);
   bool ok = cull_triangles(&work);
   culling->culled = work.culled;

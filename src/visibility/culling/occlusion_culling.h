@@ -37,6 +37,13 @@
 #include "view/sheet.h"
 #include "visibility/culling/occlusion_buffer.h"
 
+/* By how much what lies on a triangle, within the contact length and rounding,
+ * may be off the triangle. */
+struct occlusion_margins {
+  int64_t xy;   /* on the page, grid units */
+  double depth; /* depth units */
+};
+
 struct occlusion_culling {
   uint8_t *culled; /* one per triangle, not 0: it is hidden; NULL: culling was
                       not worth while, and nothing is culled */
@@ -45,6 +52,10 @@ struct occlusion_culling {
   int64_t xy_margin; /* by how much edges may stray on the page */
   double margin;     /* the same in depth */
 };
+
+/* The margins that hold for all triangles of the scene of a sheet, also for
+ * those that are not in the sheet. */
+struct occlusion_margins occlusion_margins_of(const struct sheet *sheet);
 
 /* Culls the triangles of the sheet, or, if that would not be worth while or
  * would leave more than three quarters of them, none.

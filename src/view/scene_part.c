@@ -1,0 +1,184 @@
+/* scene_part.c - some faces of a scene as a scene of their own.
+ *
+ * Phases
+ *   1 list the faces, and mark their points and those of polylines
+ *   2 list the points, and the ranges of their precisions
+ *   3 number the points of corners anew
+ *   4 find the edges
+ */
+#include "view/scene_part.h"
+
+#include <string.h>
+
+#include "base/poll.h"
+
+/* ---- 1. Faces ------------------------------------------------------------ */
+
+static bool copy_faces(struct scene_part *part, const struct scene *whole,
+                       const uint8_t *left_out) {
+  struct scene *scene = &part->scene;
+  uint32_t faces = scene_face_count(whole);
+  ARRAY(uint32_t) number = {0};
+  bool ok = true;
+  for (uint32_t f = 0; ok && f < faces; f++) {
+    ok = poll_at(f);
+    if (left_out[f])
+      continue;
+    uint32_t start = scene_face_start(whole, f),
+             count = scene_face_corners(whole, f);
+    ok = ok && ARRAY_PUSH(&number, f) && ARRAY_RESERVE(&scene->corner, count);
+    if (!ok)
+      break;
+    memcpy(scene->corner.item + scene->corner.count, whole->corner.item + start,
+           count * sizeof *scene->corner.item);
+    scene->corner.count += count;
+    ok = scene_end_face(scene, scene_face_group(whole, f));
+  }
+  part->face = number.item;
+  return ok;
+}
+
+/* Copies the polylines. */
+static bool copy_wires(struct scene *scene, const struct scene *whole) {
+  bool ok = true;
+  for (size_t i = 0; ok && i < whole->wire_start.count; i++)
+    ok = ARRAY_PUSH(&scene->wire_start, whole->wire_start.item[i]);
+  for (size_t i = 0; ok && i < whole->wire_corner.count; i++)
+    ok = ARRAY_PUSH(&scene->wire_corner, whole->wire_corner.item[i]);
+  for (size_t i = 0; ok && i < whole->wire_group.count; i++)
+    ok = ARRAY_PUSH(&scene->wire_group, whole->wire_group.item[i]);
+  return ok;
+}
+
+/* ---- 2. Points ----------------------------------------------------------- */
+
+/* Lists the points that are used.
+ * used    one a point of the whole scene
+ * number  gets the number in the part of each of them */
+static bool copy_used_points(struct scene *scene, const struct scene *whole,
+                             const uint8_t *used, uint32_t *number) {
+  const struct precision_range *range = whole->precision.item;
+  size_t ranges = whole->precision.count, next = 0;
+  bool ok = true;
+  for (size_t p = 0; ok && p < whole->point.count; p++) {
+    for (; ok && next < ranges && range[next].first_point <= p; next++) {
+      struct precision_range own = range[next];
+      own.first_point = (uint32_t)scene->point.count;
+      ok = ARRAY_PUSH(&scene->precision, own);
+    }
+    if (!used[p])
+      continue;
+    number[p] = (uint32_t)scene->point.count;
+    ok = ok && ARRAY_PUSH(&scene->point, whole->point.item[p]);
+  }
+  return ok;
+}
+
+/* ---- 3. Corners ---------------------------------------------------------- */
+
+static void number_anew(uint32_t *corner, size_t count,
+                        const uint32_t *number) {
+  for (size_t c = 0; c < count; c++)
+    corner[c] = number[corner[c]];
+}
+
+/* Phases 2 and 3. */
+static bool list_used_points(struct scene *scene, const struct scene *whole) {
+  uint8_t *used = mem_calloc(whole->point.count, sizeof *used);
+  uint32_t *number = mem_alloc(whole->point.count, sizeof *number);
+  bool ok = used != NULL && number != NULL;
+  for (size_t c = 0; ok && c < scene->corner.count; c++)
+    used[scene->corner.item[c]] = 1;
+  for (size_t c = 0; ok && c < scene->wire_corner.count; c++)
+    used[scene->wire_corner.item[c]] = 1;
+  ok = ok && copy_used_points(scene, whole, used, number);
+  if (ok) {
+    number_anew(scene->corner.item, scene->corner.count, number);
+    number_anew(scene->wire_corner.item, scene->wire_corner.count, number);
+  }
+  mem_free(used);
+  mem_free(number);
+  return ok;
+}
+
+/* ---- The part ------------------------------------------------------------ */
+
+recto_status scene_part_init(struct scene_part *part, const struct scene *whole,
+                             const uint8_t *left_out, recto_error *error) {
+  *part = (struct scene_part){.face = NULL};
+  scene_init(&part->scene);
+  if (!copy_faces(part, whole, left_out) || !copy_wires(&part->scene, whole) ||
+      !list_used_points(&part->scene, whole))
+    return error_memory(error);
+  /* Lent, and not freed with the part. */
+  memcpy(&part->scene.group, &whole->group, sizeof part->scene.group);
+  return topology_init(&part->topology, &part->scene, error);
+}
+
+void scene_part_fini(struct scene_part *part) {
+  memset(&part->scene.group, 0, sizeof part->scene.group);
+  scene_fini(&part->scene);
+  topology_fini(&part->topology);
+  mem_free(part->face);
+  part->face = NULL;
+}
+
+/* ---- Its sheet ----------------------------------------------------------- */
+
+/* The whole scene's number of each edge of the part; NULL when memory ran
+ * out. */
+static uint32_t *number_of_edges(const struct scene_part *part,
+                                 const struct scene *whole,
+                                 const struct topology *topology) {
+  uint32_t *number = mem_alloc(part->topology.edge.count, sizeof *number);
+  for (uint32_t f = 0; number != NULL && f < scene_face_count(&part->scene);
+       f++) {
+    uint32_t own = scene_face_start(&part->scene, f),
+             start = scene_face_start(whole, part->face[f]),
+             count = scene_face_corners(&part->scene, f);
+    for (uint32_t c = 0; c < count; c++)
+      number[part->topology.corner_edge[own + c]] =
+          topology->corner_edge[start + c];
+  }
+  return number;
+}
+
+/* Makes the sheet of the part that of the whole. */
+static bool refer_to_whole(struct sheet *sheet, const struct scene_part *part,
+                           const struct scene *whole,
+                           const struct topology *topology) {
+  uint32_t *number = number_of_edges(part, whole, topology);
+  if (number == NULL)
+    return false;
+  for (size_t t = 0; t < sheet->triangle.count; t++)
+    sheet->triangle.item[t].face = part->face[sheet->triangle.item[t].face];
+  for (size_t i = 0; i < sheet->face_error.count; i++)
+    sheet->face_error.item[i].face = part->face[sheet->face_error.item[i].face];
+  for (size_t e = 0; e < sheet->edge.count; e++) {
+    struct sheet_edge *edge = &sheet->edge.item[e];
+    if (edge->source != SHEET_NONE && edge->edge_class != RECTO_EDGE_WIRE)
+      edge->source = number[edge->source];
+  }
+  sheet->scene = whole;
+  sheet->face_group =
+      whole->face_group.count > 0 ? whole->face_group.item : NULL;
+  sheet->topology = topology;
+  mem_free(number);
+  return true;
+}
+
+recto_status scene_part_layout(struct sheet *sheet, struct scene_part *part,
+                               const struct scene *whole,
+                               const struct topology *topology,
+                               const struct camera *camera,
+                               const recto_options *options, bool all_edges,
+                               recto_error *error) {
+  recto_status status = layout_sheet(sheet, &part->scene, &part->topology,
+                                     camera, options, all_edges, error);
+  if (status == RECTO_OK && !refer_to_whole(sheet, part, whole, topology)) {
+    sheet_fini(sheet);
+    status = error_memory(error);
+  }
+  topology_fini(&part->topology);
+  return status;
+}

@@ -1,0 +1,362 @@
+/* hidden_faces.c - finds faces that are certainly hidden before they are
+ * triangulated and projected.
+ *
+ * Phases
+ *   1 estimate from a sample how many faces lie over each other on the page;
+ *     stop where they are few
+ *   2 divide the faces into runs, and list the large ones
+ *   3 lay out the large faces alone, and raise the bounds of an occlusion
+ *     buffer by them, from near to far
+ *   4 test the boxes of runs
+ *   5 restore the runs that are connected to one that is not hidden
+ */
+#include "visibility/hidden_faces.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/poll.h"
+#include "base/sort.h"
+#include "geom/vector.h"
+#include "view/project.h"
+#include "view/scene_part.h"
+#include "visibility/culling/face_runs.h"
+#include "visibility/culling/occlusion_culling.h"
+#include "visibility/culling/space_box.h"
+#include "visibility/culling/vertex_fans.h"
+
+enum {
+  SAMPLES_MAX = 1 << 12, /* faces that estimate the complexity */
+  COMPLEXITY_MIN = 4,    /* a closed convex body has about 3 */
+  BOX_PER_AREA = 4, /* a typical triangle's box has this multiple of its area */
+  LARGE_SHARE = 1 << 10, /* of the scene's square size: the least large face */
+  LARGE_MAX = 1 << 12,   /* as many large faces are laid out */
+  CELLS_FOR = 1 << 16,   /* the cells are those of so many triangles */
+  ROUNDS_MAX = 16        /* of restoring connected runs */
+};
+
+/* What the phases share. */
+struct hiding {
+  const struct scene *scene;
+  const struct topology *topology;
+  const struct camera *camera;
+  const recto_options *options;
+  struct projection projection;
+  struct face_runs runs;
+  struct occlusion_buffer buffer;
+  struct box2 page; /* that of the buffer */
+  struct occlusion_margins margins;
+};
+
+/* ---- 1. A sample --------------------------------------------------------- */
+
+/* The corners of a face, projected to the page at the unit of the grid. */
+static struct box2 box_on_page(const struct hiding *hiding, uint32_t face,
+                               double *area) {
+  const struct scene *scene = hiding->scene;
+  struct box2 box = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
+  struct geom_point first, last;
+  uint32_t start = scene_face_start(scene, face),
+           end = scene_face_start(scene, face + 1);
+  double sum = 0;
+  for (uint32_t c = start; c < end; c++) {
+    const struct scene_point *at = &scene->point.item[scene->corner.item[c]];
+    struct geom_point p =
+        project_point(&hiding->projection, camera_view(hiding->camera, at));
+    box = box2_union(box, box2_of_segment(p, p));
+    if (c > start + 1)
+      sum += (double)geom_orient2d(first, last, p);
+    first = c == start ? p : first;
+    last = p;
+  }
+  *area = 0.5 * fabs(sum);
+  return box;
+}
+
+static double page_area_of(struct box2 box) {
+  return ((double)box.x1 - box.x0 + 1) * ((double)box.y1 - box.y0 + 1);
+}
+
+/* Estimates the mean number of faces over a point of the box of the page, as
+ * occlusion_culling_complexity does. */
+static double estimate_complexity(const struct hiding *hiding) {
+  size_t n = scene_face_count(hiding->scene), stride = n / SAMPLES_MAX + 1;
+  struct box2 page = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
+  double sum = 0;
+  for (size_t f = 0; f < n; f += stride) {
+    double own;
+    struct box2 box = box_on_page(hiding, (uint32_t)f, &own);
+    sum += fmin(page_area_of(box), BOX_PER_AREA * own) * (double)stride;
+    page = box2_union(page, box);
+  }
+  return n > 0 ? sum / page_area_of(page) : 0;
+}
+
+/* ---- 2. Large faces ------------------------------------------------------ */
+
+/* Marks the largest faces, at most LARGE_MAX, as not left out; returns how many
+ * there are. */
+static size_t choose_large(const struct hiding *hiding, double least,
+                           uint8_t *left_out) {
+  const struct large_face *large = hiding->runs.large.item;
+  size_t n = hiding->runs.large.count, count = n;
+  for (; count > LARGE_MAX; least *= 2) {
+    count = 0;
+    for (size_t i = 0; i < n; i++)
+      count += large[i].size >= 2 * least;
+  }
+  for (size_t i = 0; i < n; i++)
+    if (large[i].size >= least)
+      left_out[large[i].face] = 0;
+  return count;
+}
+
+/* ---- 3. The buffer ------------------------------------------------------- */
+
+/* Raises the bounds by the triangles of a sheet, from near to far. */
+static bool raise_bounds(struct hiding *hiding, const struct sheet *sheet) {
+  size_t n = sheet->triangle.count;
+  struct sort_key *order = mem_alloc(n, sizeof *order);
+  for (size_t t = 0; order != NULL && t < n; t++)
+    order[t] = (struct sort_key){
+        (uint64_t)(SHEET_Z_MAX - sheet_nearest_z(sheet, t)), (uint32_t)t};
+  bool ok = order != NULL && sort_keys_alone(order, n) &&
+            occlusion_buffer_init(&hiding->buffer);
+  for (int k = 0; ok && k < OCCLUSION_BANDS; k++) {
+    struct occlusion_band band = occlusion_buffer_band(&hiding->buffer, k);
+    for (size_t i = 0; i < n && band.visits > 0; i++)
+      occlusion_buffer_raise(&hiding->buffer, &band, sheet, order[i].value);
+  }
+  mem_free(order);
+  return ok && vertex_fans_raise(&hiding->buffer, sheet);
+}
+
+/* Lays out the faces that are not left out, and raises the bounds by them. */
+static recto_status fill_buffer(struct hiding *hiding, const uint8_t *left_out,
+                                recto_error *error) {
+  struct scene_part part;
+  struct sheet sheet = {.triangle_flags = NULL};
+  recto_options options = *hiding->options;
+  options.ink.edges = RECTO_EDGES_NONE;
+  recto_status status = scene_part_init(&part, hiding->scene, left_out, error);
+  if (status == RECTO_OK)
+    status = layout_sheet(&sheet, &part.scene, &part.topology, hiding->camera,
+                          &options, true, error);
+  if (status == RECTO_OK) {
+    hiding->page = box2_of_sheet(&sheet);
+    hiding->margins = occlusion_margins_of(&sheet);
+    occlusion_buffer_shape(&hiding->buffer, hiding->page, CELLS_FOR);
+    if (!raise_bounds(hiding, &sheet))
+      status = error_memory(error);
+  }
+  sheet_fini(&sheet);
+  scene_part_fini(&part);
+  return status;
+}
+
+/* ---- 4. Boxes ------------------------------------------------------------ */
+
+/* Is what is in the box hidden in all cells of a row: by its nearest point, or
+ * by the planes of its sides over each cell; or is nothing of it there? */
+static bool is_row_hidden(const struct hiding *hiding,
+                          const struct space_box *box, struct cell_range r,
+                          int y) {
+  const struct triangle_grid *cells = &hiding->buffer.cells;
+  const int32_t *bound =
+      hiding->buffer.bound + (size_t)y * (size_t)cells->columns;
+  double side = (double)(INT64_C(1) << cells->shift),
+         margin = (double)hiding->margins.xy, low = cells->y0 + y * side;
+  int32_t nearest = occlusion_steps_up(box->nearest + hiding->margins.depth);
+  for (int x = r.x0; x <= r.x1; x++) {
+    double left = cells->x0 + x * side;
+    if (bound[x] > nearest)
+      continue;
+    struct box_depths depths =
+        space_box_depths(box, left - margin, low - margin, left + side + margin,
+                         low + side + margin);
+    double high = depths.high + hiding->margins.depth;
+    if (depths.low <= high && bound[x] <= occlusion_steps_up(high))
+      return false;
+  }
+  return true;
+}
+
+static bool is_run_hidden(const struct hiding *hiding,
+                          const struct face_run *run) {
+  struct space_box box;
+  if (!space_box_project(&box, hiding->camera, &hiding->projection, run->low,
+                         run->high))
+    return false;
+  struct box2 page = hiding->page;
+  int64_t margin = hiding->margins.xy, x0 = box.page.x0 - margin,
+          y0 = box.page.y0 - margin, x1 = box.page.x1 + margin,
+          y1 = box.page.y1 + margin;
+  if (x0 < page.x0 || y0 < page.y0 || x1 > page.x1 || y1 > page.y1)
+    return false;
+  struct cell_range r = triangle_grid_cells(
+      &hiding->buffer.cells,
+      (struct box2){(int32_t)x0, (int32_t)y0, (int32_t)x1, (int32_t)y1});
+  bool hidden = occlusion_buffer_hides_in_blocks(
+      &hiding->buffer, r,
+      occlusion_steps_up(box.nearest + hiding->margins.depth));
+  if (hidden)
+    return true;
+  for (int y = r.y0; y <= r.y1; y++)
+    if (!is_row_hidden(hiding, &box, r, y))
+      return false;
+  return true;
+}
+
+/* Tests all runs; returns whether any is hidden. */
+static bool test_runs(struct hiding *hiding) {
+  bool any = false;
+  for (size_t r = 0; r < hiding->runs.run.count; r++) {
+    struct face_run *run = &hiding->runs.run.item[r];
+    run->hidden = is_run_hidden(hiding, run);
+    any |= run->hidden;
+  }
+  return any;
+}
+
+/* ---- 5. Connected runs --------------------------------------------------- */
+
+/* The corners of a run. */
+struct corner_range {
+  uint32_t begin, end;
+};
+
+static struct corner_range corners_of_run(const struct hiding *hiding,
+                                          size_t r) {
+  const struct scene *scene = hiding->scene;
+  return (struct corner_range){
+      scene_face_start(scene, hiding->runs.run.item[r].first),
+      scene_face_start(scene, face_runs_end(&hiding->runs, scene, r))};
+}
+
+static inline uint32_t welded(const struct hiding *hiding, uint32_t corner) {
+  const uint32_t *weld = hiding->topology->weld;
+  uint32_t point = hiding->scene->corner.item[corner];
+  return weld != NULL ? weld[point] : point;
+}
+
+static void mark_run(const struct hiding *hiding, size_t r, uint8_t *marked) {
+  struct corner_range corners = corners_of_run(hiding, r);
+  for (uint32_t c = corners.begin; c < corners.end; c++)
+    marked[welded(hiding, c)] = 1;
+}
+
+static bool has_mark(const struct hiding *hiding, size_t r,
+                     const uint8_t *marked) {
+  struct corner_range corners = corners_of_run(hiding, r);
+  for (uint32_t c = corners.begin; c < corners.end; c++)
+    if (marked[welded(hiding, c)])
+      return true;
+  return false;
+}
+
+/* Restores the hidden runs that have a marked point, in either order; returns
+ * whether there were any. */
+static bool restore_marked(struct hiding *hiding, bool backward,
+                           uint8_t *marked) {
+  size_t n = hiding->runs.run.count;
+  bool any = false;
+  for (size_t i = 0; i < n; i++) {
+    size_t r = backward ? n - 1 - i : i;
+    struct face_run *run = &hiding->runs.run.item[r];
+    if (!run->hidden || !has_mark(hiding, r, marked))
+      continue;
+    run->hidden = false;
+    mark_run(hiding, r, marked);
+    any = true;
+  }
+  return any;
+}
+
+/* Restores the runs that are connected to one that is not hidden.  Returns
+ * false when memory ran out.
+ * *done  gets whether all were found */
+static bool restore_connected(struct hiding *hiding, bool *done) {
+  uint8_t *marked = mem_calloc(hiding->scene->point.count, sizeof *marked);
+  for (size_t r = 0; marked != NULL && r < hiding->runs.run.count; r++)
+    if (!hiding->runs.run.item[r].hidden)
+      mark_run(hiding, r, marked);
+  *done = false;
+  for (int round = 0; marked != NULL && !*done && round < ROUNDS_MAX; round++)
+    *done = !restore_marked(hiding, round % 2 != 0, marked);
+  mem_free(marked);
+  return marked != NULL;
+}
+
+/* ---- All ----------------------------------------------------------------- */
+
+/* Marks the faces of hidden runs, and no others. */
+static size_t mark_left_out(const struct hiding *hiding, uint8_t *left_out) {
+  size_t count = 0;
+  for (size_t r = 0; r < hiding->runs.run.count; r++) {
+    uint32_t first = hiding->runs.run.item[r].first,
+             end = face_runs_end(&hiding->runs, hiding->scene, r);
+    bool hidden = hiding->runs.run.item[r].hidden;
+    memset(left_out + first, hidden, end - first);
+    count += hidden ? end - first : 0;
+  }
+  return count;
+}
+
+/* Phases 2 to 5. */
+static recto_status find_hidden(struct hiding *hiding,
+                                struct hidden_faces *hidden,
+                                recto_error *error) {
+  double size = hiding->camera->size, large = size * size / LARGE_SHARE;
+  size_t faces = scene_face_count(hiding->scene);
+  uint8_t *left_out = mem_alloc(faces, 1);
+  recto_status status = RECTO_OK;
+  bool done;
+  if (!(large > 0))
+    goto end;
+  if (left_out == NULL ||
+      !face_runs_init(&hiding->runs, hiding->scene, large)) {
+    status = error_memory(error);
+    goto end;
+  }
+  memset(left_out, 1, faces);
+  if (choose_large(hiding, large, left_out) == 0)
+    goto end;
+  status = fill_buffer(hiding, left_out, error);
+  if (status != RECTO_OK || !test_runs(hiding))
+    goto end;
+  if (!restore_connected(hiding, &done))
+    status = error_memory(error);
+  else if (done)
+    hidden->count = mark_left_out(hiding, left_out);
+  if (2 * hidden->count < faces)
+    hidden->count = 0;
+end:
+  if (hidden->count > 0)
+    hidden->left_out = left_out;
+  else
+    mem_free(left_out);
+  return status;
+}
+
+recto_status
+hidden_faces_init(struct hidden_faces *hidden, const struct scene *scene,
+                  const struct topology *topology, const struct camera *camera,
+                  const recto_options *options, recto_error *error) {
+  struct hiding hiding = {.scene = scene,
+                          .topology = topology,
+                          .camera = camera,
+                          .options = options,
+                          .projection = projection_of(camera)};
+  *hidden = (struct hidden_faces){.left_out = NULL};
+  if (estimate_complexity(&hiding) < COMPLEXITY_MIN)
+    return RECTO_OK;
+  recto_status status = find_hidden(&hiding, hidden, error);
+  face_runs_fini(&hiding.runs);
+  occlusion_buffer_fini(&hiding.buffer);
+  return status;
+}
+
+void hidden_faces_fini(struct hidden_faces *hidden) {
+  mem_free(hidden->left_out);
+  *hidden = (struct hidden_faces){.left_out = NULL};
+}

@@ -1,0 +1,328 @@
+/* test_hidden_faces.c - faces that are hidden are left out before they are
+ * projected, with all that is connected to them, and no drawing changes. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "api/handle.h"
+#include "base/memory.h"
+#include "tests/scenes/random.h"
+#include "tests/sheet_fixture.h"
+#include "tests/svg_text.h"
+#include "visibility/culling/space_box.h"
+#include "visibility/hidden_faces.h"
+
+enum {
+  A_SIDE = 6, /* parts along each axis of a housing */
+  PARTS = A_SIDE * A_SIDE * A_SIDE,
+  HOUSING = 6 /* faces, the first ones */
+};
+
+/* ---- A housing with parts inside ----------------------------------------- */
+
+/* A unit cube, and small cubes in a lattice, each a group.
+ * top  the height of the uppermost ones */
+static void add_assembly(struct scene *scene, double top) {
+  const double gap[3] = {0.1, 0.1, 1 - top};
+  build_box(scene, vector_of(0, 0, 0), vector_of(1, 1, 1));
+  for (int i = 0; i < PARTS; i++) {
+    int at[3] = {i % A_SIDE, i / A_SIDE % A_SIDE, i / A_SIDE / A_SIDE};
+    double low[3], high[3];
+    char name[16];
+    snprintf(name, sizeof name, "part %d", i);
+    build_group(scene, name);
+    for (int k = 0; k < 3; k++) {
+      double step = (1 - 2 * gap[k]) / (A_SIDE - 0.1);
+      low[k] = gap[k] + at[k] * step;
+      high[k] = at[k] + 1 == A_SIDE ? 1 - gap[k] : low[k] + 0.9 * step;
+    }
+    build_box(scene, vector_of(low[0], low[1], low[2]),
+              vector_of(high[0], high[1], high[2]));
+  }
+}
+
+/* Finds what is left out of a fixture's scene. */
+static struct hidden_faces find_hidden(struct sheet_fixture *fixture) {
+  struct hidden_faces hidden;
+  sheet_fixture_out(fixture, false);
+  assert_int_equal(hidden_faces_init(&hidden, &fixture->scene,
+                                     &fixture->topology, &fixture->camera,
+                                     &fixture->options, NULL),
+                   RECTO_OK);
+  return hidden;
+}
+
+static size_t count_hidden(struct sheet_fixture *fixture) {
+  struct hidden_faces hidden = find_hidden(fixture);
+  size_t count = hidden.count;
+  hidden_faces_fini(&hidden);
+  sheet_fixture_fini(fixture);
+  return count;
+}
+
+static void what_is_in_a_housing_is_left_out(void **state) {
+  (void)state;
+  for (int perspective = 0; perspective <= 1; perspective++) {
+    struct sheet_fixture fixture;
+    sheet_fixture_start(&fixture);
+    fixture.options.camera.fov_deg = perspective ? 50 : 0;
+    add_assembly(&fixture.scene, 0.9);
+    struct hidden_faces hidden = find_hidden(&fixture);
+    assert_int_equal(hidden.count, 6 * PARTS);
+    for (uint32_t f = 0; f < scene_face_count(&fixture.scene); f++)
+      assert_int_equal(hidden.left_out[f] != 0, f >= HOUSING);
+    hidden_faces_fini(&hidden);
+    sheet_fixture_fini(&fixture);
+  }
+}
+
+/* Parts that touch the wall between them and the viewer may be visible. */
+static void contact_is_not_left_out(void **state) {
+  struct sheet_fixture fixture;
+  (void)state;
+  sheet_fixture_start(&fixture);
+  scenes_view_above(&fixture.options);
+  add_assembly(&fixture.scene, 1);
+  struct hidden_faces hidden = find_hidden(&fixture);
+  assert_int_equal(hidden.count, 6 * (PARTS - A_SIDE * A_SIDE));
+  for (uint32_t f = HOUSING; f < scene_face_count(&fixture.scene); f++) {
+    bool touches = (f - HOUSING) / 6 / (A_SIDE * A_SIDE) == A_SIDE - 1;
+    assert_int_equal(hidden.left_out[f] != 0, !touches);
+  }
+  hidden_faces_fini(&hidden);
+  sheet_fixture_fini(&fixture);
+}
+
+/* Each part is joined to the next one by a triangle, and the last one to the
+ * housing. */
+static void what_is_connected_to_something_visible_stays(void **state) {
+  (void)state;
+  for (int joined = 0; joined <= 1; joined++) {
+    struct sheet_fixture fixture;
+    sheet_fixture_start(&fixture);
+    add_assembly(&fixture.scene, 0.9);
+    for (uint32_t part = 1; part < PARTS; part++)
+      build_triangle(&fixture.scene, 8 * part, 8 * part + 6, 8 * part + 8);
+    if (joined)
+      build_triangle(&fixture.scene, 8 * PARTS, 8 * PARTS + 1, 0);
+    size_t count = count_hidden(&fixture);
+    assert_int_equal(count, joined ? 0 : 7 * PARTS - 1);
+  }
+}
+
+/* Few faces over each other are not looked at. */
+static void a_shallow_scene_is_whole(void **state) {
+  struct sheet_fixture fixture;
+  (void)state;
+  sheet_fixture_start(&fixture);
+  build_box(&fixture.scene, vector_of(0, 0, 0), vector_of(1, 1, 1));
+  assert_int_equal(count_hidden(&fixture), 0);
+}
+
+/* ---- Drawings ------------------------------------------------------------ */
+
+/* A number in a drawing's stats. */
+static long stat_of(const recto_drawing *drawing, const char *name) {
+  const char *at = strstr(recto_drawing_stats(drawing), name);
+  assert_non_null(at);
+  return strtol(at + strlen(name) + 2, NULL, 10);
+}
+
+/* A housing, seldom without a wall, with parts at random: most of them inside,
+ * some at its walls, through them, or joined to it. */
+static void write_assembly(FILE *to, struct random *random) {
+  static const int quad[6][4] = {{4, 3, 2, 1}, {5, 6, 7, 8}, {1, 2, 6, 5},
+                                 {2, 3, 7, 6}, {3, 4, 8, 7}, {4, 1, 5, 8}};
+  int parts = random_int(random, 150, 300);
+  bool is_open = random_below(random, 5) == 0, joins = random_below(random, 3);
+  for (int i = 0; i <= parts; i++) {
+    double low[3] = {0, 0, 0}, high[3] = {10, 10, 10};
+    for (int k = 0; i > 0 && k < 3; k++) {
+      double side = random_between(random, 0.5, 2);
+      uint32_t place = random_below(random, 40);
+      low[k] = place == 0   ? 0
+               : place == 1 ? 10 - side
+               : place == 2 ? 9.5
+                            : random_between(random, 0.01, 9.99 - side);
+      high[k] = low[k] + side;
+    }
+    for (int p = 0; p < 8; p++)
+      fprintf(to, "v %.5g %.5g %.5g\n", (p + 1) / 2 % 2 ? high[0] : low[0],
+              p / 2 % 2 ? high[1] : low[1], p / 4 ? high[2] : low[2]);
+    if (random_below(random, 2) == 0)
+      fprintf(to, "g part%d\n", i);
+    for (int q = i == 0 && is_open ? 1 : 0; q < 6; q++)
+      fprintf(to, "f %d %d %d %d\n", 8 * i + quad[q][0], 8 * i + quad[q][1],
+              8 * i + quad[q][2], 8 * i + quad[q][3]);
+    if (i > 0 && joins && random_below(random, 60) == 0)
+      fprintf(to, "f %d %d %d\n", 8 * i + 1, 8 * i + 2,
+              1 + (int)random_below(random, 8));
+  }
+}
+
+static char *draw(const char *text, size_t length, const recto_options *options,
+                  long *left_out) {
+  recto_scene *scene;
+  recto_drawing *drawing;
+  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+  assert_int_equal(
+      recto_scene_read_memory(scene, text, length, "obj", NULL, options, NULL),
+      RECTO_OK);
+  assert_int_equal(recto_scene_render(scene, options, &drawing, NULL),
+                   RECTO_OK);
+  *left_out = stat_of(drawing, "faces_left_out\"");
+  char *output = svg_text_of(drawing, options);
+  assert_non_null(output);
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(scene);
+  return output;
+}
+
+/* Another method solves all faces. */
+static void drawings_do_not_change(void **state) {
+  struct random random = {14};
+  long left_out = 0;
+  (void)state;
+  for (int scene = 0; scene < 40; scene++) {
+    recto_options options;
+    char *text;
+    size_t length;
+    long count[2];
+    FILE *to = open_memstream(&text, &length);
+    assert_non_null(to);
+    write_assembly(to, &random);
+    assert_int_equal(fclose(to), 0);
+    recto_options_init(&options);
+    options.camera.azimuth_deg = random_between(&random, 0, 360);
+    options.camera.elevation_deg = random_between(&random, -90, 90);
+    options.camera.fov_deg = random_below(&random, 2) ? 60 : 0;
+    options.ink.exact = random_below(&random, 2);
+    if (random_below(&random, 2))
+      options.ink.edges = RECTO_EDGES_ALL;
+    char *part = draw(text, length, &options, &count[0]);
+    options.solver.method = RECTO_METHOD_BRUTE;
+    char *whole = draw(text, length, &options, &count[1]);
+    if (strcmp(part, whole) != 0)
+      fail_msg("scene %d is drawn differently", scene);
+    assert_int_equal(count[1], 0);
+    left_out += count[0];
+    free(part);
+    free(whole);
+    free(text);
+  }
+  assert_true(left_out > 10000);
+}
+
+/* Draws while allocation `fails` fails; none for 0. */
+static recto_status draw_with_fault(const recto_scene *scene,
+                                    const recto_options *options,
+                                    unsigned long fails, long *left_out) {
+  recto_drawing *drawing;
+  mem_fail_after(fails);
+  recto_status status = recto_scene_render(scene, options, &drawing, NULL);
+  mem_fail_after(0);
+  if (status == RECTO_OK && fails == 0)
+    *left_out = stat_of(drawing, "faces_left_out\"");
+  recto_drawing_destroy(drawing);
+  return status;
+}
+
+/* Each of the first allocations fails once. */
+static void memory_may_run_out(void **state) {
+  struct random random = {16};
+  recto_options options;
+  recto_scene *scene;
+  char *text;
+  size_t length;
+  long left_out, failures = 0;
+  FILE *to = open_memstream(&text, &length);
+  (void)state;
+  assert_non_null(to);
+  write_assembly(to, &random);
+  assert_int_equal(fclose(to), 0);
+  recto_options_init(&options);
+  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+  assert_int_equal(
+      recto_scene_read_memory(scene, text, length, "obj", NULL, &options, NULL),
+      RECTO_OK);
+  for (unsigned long n = 1; n <= 300; n++) {
+    recto_status status = draw_with_fault(scene, &options, n, NULL);
+    assert_true(status == RECTO_OK || status == RECTO_ERROR_MEMORY);
+    failures += status == RECTO_ERROR_MEMORY;
+  }
+  assert_int_equal(draw_with_fault(scene, &options, 0, &left_out), RECTO_OK);
+  assert_true(left_out > 0 && failures > 100);
+  recto_scene_destroy(scene);
+  free(text);
+}
+
+/* ---- Boxes in space ------------------------------------------------------ */
+
+/* No point of a box is projected outside of its box on the page, or in front of
+ * its bounds of depth there. */
+static void points_of_a_box_are_within_its_bounds(void **state) {
+  struct random random = {15};
+  size_t near = 0, far = 0;
+  (void)state;
+  for (int round = 0; round < 300; round++) {
+    struct sheet_fixture fixture;
+    double low[3], high[3], offset = round % 3 ? 0 : 1e6;
+    sheet_fixture_start(&fixture);
+    fixture.options.camera.azimuth_deg = random_int(&random, 0, 8) * 45;
+    fixture.options.camera.elevation_deg = random_between(&random, -90, 90);
+    fixture.options.camera.fov_deg = round % 2 ? 70 : 0;
+    build_box(&fixture.scene, vector_of(offset, 0, 0),
+              vector_of(offset + 1, 1, 1));
+    sheet_fixture_out(&fixture, false);
+    struct projection projection = projection_of(&fixture.camera);
+    for (int k = 0; k < 3; k++) {
+      low[k] = random_between(&random, 0, 0.8) + (k == 0 ? offset : 0);
+      high[k] = low[k] + random_between(&random, 0, 0.2);
+    }
+    struct space_box box;
+    assert_true(
+        space_box_project(&box, &fixture.camera, &projection, low, high));
+    for (int i = 0; i < 200; i++) {
+      double at[3];
+      for (int k = 0; k < 3; k++) {
+        uint32_t place = random_below(&random, 4);
+        at[k] = place == 0   ? low[k]
+                : place == 1 ? high[k]
+                             : random_between(&random, low[k], high[k]);
+      }
+      const struct scene_point point = {at[0], at[1], at[2]};
+      struct geom_point p =
+          project_point(&projection, camera_view(&fixture.camera, &point));
+      assert_in_range(p.x - box.page.x0, 0, box.page.x1 - box.page.x0);
+      assert_in_range(p.y - box.page.y0, 0, box.page.y1 - box.page.y0);
+      struct box_depths depths =
+          space_box_depths(&box, p.x - 1, p.y - 1, p.x + 1, p.y + 1);
+      assert_true((double)p.z <= depths.high + 1);
+      assert_true((double)p.z >= depths.low - 1);
+      near += (double)p.z > depths.high - 0x1p-12 * (double)SHEET_Z_MAX;
+      far += (double)p.z < depths.low + 0x1p-12 * (double)SHEET_Z_MAX;
+    }
+    sheet_fixture_fini(&fixture);
+  }
+  assert_true(near > 5000 &&
+              far > 5000); /* the bounds are those of the sides */
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(what_is_in_a_housing_is_left_out),
+      cmocka_unit_test(contact_is_not_left_out),
+      cmocka_unit_test(what_is_connected_to_something_visible_stays),
+      cmocka_unit_test(a_shallow_scene_is_whole),
+      cmocka_unit_test(drawings_do_not_change),
+      cmocka_unit_test(memory_may_run_out),
+      cmocka_unit_test(points_of_a_box_are_within_its_bounds),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
