@@ -36,14 +36,15 @@ void curved_triangle_init(struct curved_triangle *t) {
 
 void curved_triangle_point(const struct curved_triangle *t, const double w[3],
                            double at[3]) {
-  for (int k = 0; k < 3; k++) {
-    at[k] = 6 * w[0] * w[1] * w[2] * t->middle[k];
-    for (int i = 0; i < 3; i++) {
-      int j = (i + 1) % 3;
-      at[k] += w[i] * w[i] * w[i] * t->point[i][k] +
-               3 * w[i] * w[j] *
-                   (w[i] * t->control[i][j][k] + w[j] * t->control[j][i][k]);
-    }
+  double inner = 6 * w[0] * w[1] * w[2];
+  for (int k = 0; k < 3; k++)
+    at[k] = inner * t->middle[k];
+  for (int i = 0; i < 3; i++) {
+    int j = i < 2 ? i + 1 : 0;
+    double corner = w[i] * w[i] * w[i], side = 3 * w[i] * w[j];
+    const double *from = t->control[i][j], *to = t->control[j][i];
+    for (int k = 0; k < 3; k++)
+      at[k] += corner * t->point[i][k] + side * (w[i] * from[k] + w[j] * to[k]);
   }
 }
 

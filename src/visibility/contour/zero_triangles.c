@@ -80,8 +80,6 @@ static void place_corners(struct zero_triangle *t) {
     t->curved.straight[k] = edge != SHEET_NONE && facing_is_feature(f, edge);
   }
   curved_triangle_init(&t->curved);
-  for (int k = 0; k < 3; k++)
-    find_middle(t, k);
   find_height(t);
 }
 
@@ -191,6 +189,8 @@ static bool cross_about(struct zero_triangle *t, int alone) {
   int next = geom_next_corner(alone), last = geom_next_corner(next);
   int m = FIRST_MIDDLE + alone, far = FIRST_MIDDLE + next,
       n = FIRST_MIDDLE + last;
+  find_middle(t, alone);
+  find_middle(t, last);
   bool beyond[2] = {t->back[m] == t->back[alone], t->back[n] == t->back[alone]};
   uint32_t node[4];
   if (!node_of_side(t, alone, &node[0]) || !node_of_side(t, last, &node[3]))
@@ -199,6 +199,7 @@ static bool cross_about(struct zero_triangle *t, int alone) {
             at_last[3] = {n, far, last}, in_middle[3] = {m, far, n};
   if (!beyond[0] && !beyond[1])
     return add_segment(t, at_alone, (const uint32_t[2]){node[0], node[3]});
+  find_middle(t, next);
   return add_inner_node(t, m, beyond[0] ? far : n, node[0], &node[1]) &&
          add_inner_node(t, n, beyond[1] ? far : m, node[3], &node[2]) &&
          add_segment(t, beyond[0] ? at_next : at_alone, &node[0]) &&

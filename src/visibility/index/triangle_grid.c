@@ -218,11 +218,8 @@ static bool fill(const struct filling *filling) {
   return ok;
 }
 
-/* Per cell: is it wanted, or the next one in x, in y or in both?  Then one
- * lookup decides for a triangle of two by two cells or less.  NULL when memory
- * ran out. */
-static uint8_t *dilate(const struct triangle_grid *grid,
-                       const uint8_t *wanted) {
+uint8_t *triangle_grid_dilate(const struct triangle_grid *grid,
+                              const uint8_t *wanted) {
   size_t n = triangle_grid_cell_count(grid), columns = (size_t)grid->columns;
   uint8_t *dilated = mem_alloc(n, 1);
   if (dilated == NULL)
@@ -255,7 +252,7 @@ bool triangle_grid_fill(struct triangle_grid *grid, const struct sheet *sheet,
                         const struct footprint *footprint,
                         const uint8_t *wanted) {
   triangle_list subset = {0};
-  uint8_t *dilated = dilate(grid, wanted);
+  uint8_t *dilated = triangle_grid_dilate(grid, wanted);
   bool ok = dilated != NULL && choose_subset(grid, footprint, dilated, &subset);
   mem_free(dilated);
   ok = ok && fill(&(struct filling){.grid = grid,

@@ -43,6 +43,11 @@ USE_RESULT bool triangle_grid_fill(struct triangle_grid *grid,
                                    const struct footprint *footprint,
                                    const uint8_t *wanted);
 
+/* Per cell: is it wanted, or the next one in x, in y or in both?  Then one
+ * lookup decides for two by two cells.  NULL when memory ran out. */
+uint8_t *triangle_grid_dilate(const struct triangle_grid *grid,
+                              const uint8_t *wanted);
+
 /* The number of a cell. */
 static inline size_t triangle_grid_index(const struct triangle_grid *grid,
                                          int x, int y) {
