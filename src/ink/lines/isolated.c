@@ -70,8 +70,9 @@ static bool have_same_ends(const struct graph_segment *a,
   return a->node[0] == b->node[0] && a->node[1] == b->node[1];
 }
 
-/* Leaves those in `segment` that are not isolated. */
-static bool set_apart(struct segment_graph *graph, const uint8_t *found) {
+/* Leaves those in `segment` that are not isolated, and in `found` what it says
+ * of these. */
+static bool set_apart(struct segment_graph *graph, uint8_t *found) {
   struct graph_segments all = graph->segment, others = {NULL, 0, 0};
   struct graph_segment *s = all.item;
   size_t kept = 0;
@@ -79,10 +80,12 @@ static bool set_apart(struct segment_graph *graph, const uint8_t *found) {
   for (size_t i = 0; ok && i < all.count; i++) {
     bool same_after = i + 1 < all.count && have_same_ends(&s[i], &s[i + 1]);
     if (found[i] || same_before || same_after ||
-        has_end_near_segment(graph, &s[i]))
+        has_end_near_segment(graph, &s[i])) {
+      found[others.count] = found[i];
       ok = ARRAY_PUSH(&others, s[i]);
-    else
+    } else {
       s[kept++] = s[i];
+    }
     same_before = same_after;
   }
   all.count = kept;
@@ -105,7 +108,8 @@ recto_status segment_graph_separate_isolated(struct segment_graph *graph,
             parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
                             PARALLEL_ITEMS, search_range, &work) &&
             set_apart(graph, work.found);
-  mem_free(work.found);
+  mem_free(graph->has_near);
+  graph->has_near = work.found;
   return ok ? RECTO_OK : error_memory(error);
 }
 

@@ -166,12 +166,16 @@ recto_status segment_graph_drop_collinear(struct segment_graph *graph,
   if (ok)
     drop_duplicate_runs(&w);
   for (uint32_t i = 0; ok && i < count; i++)
-    ok = poll_at(i) && (w.dropped[i] || nodes_near_segment_visit(&search, i));
+    ok = poll_at(i) &&
+         (w.dropped[i] || (graph->has_near != NULL && !graph->has_near[i]) ||
+          nodes_near_segment_visit(&search, i));
   if (ok && w.member.count)
     ok = replace_clusters(&w);
   else if (ok && w.dropped_count)
     remove_dropped(&w);
   graph->doubled += w.dropped_count;
+  mem_free(graph->has_near);
+  graph->has_near = NULL;
   mem_free(w.dropped);
   mem_free(w.parent);
   ARRAY_FREE(&w.member);

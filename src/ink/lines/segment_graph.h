@@ -69,6 +69,9 @@ struct segment_graph {
   struct graph_segments isolated;
   /* One a node: it is near a segment that does not end there; NULL: unknown. */
   atomic_uchar *near_segment;
+  /* One a segment: whether a search by segment_graph_separate_isolated found
+   * nodes near it; NULL: unknown, since segments have changed. */
+  uint8_t *has_near;
   /* The ends at each node, ascending; end e is node[e & 1] of segment
    * e >> 1. */
   struct number_lists ends;

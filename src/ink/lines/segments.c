@@ -54,6 +54,7 @@ void segment_graph_fini(struct segment_graph *graph) {
   ARRAY_FREE(&graph->segment);
   ARRAY_FREE(&graph->isolated);
   mem_free(graph->near_segment);
+  mem_free(graph->has_near);
   number_lists_fini(&graph->ends);
   mem_free(graph->approximate);
   ARRAY_FREE(&graph->gap_end);

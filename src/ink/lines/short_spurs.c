@@ -286,12 +286,22 @@ static bool find_near_of_range(void *user, struct parallel_range range) {
   return true;
 }
 
-/* Whether a segment is within half a pen of a place. */
+/* Whether a number is within `near` of a range, given by its ends. */
+static bool is_near_span(int32_t a, int32_t b, int32_t at, double near) {
+  double low = a < b ? a : b, high = a < b ? b : a;
+  return low - near <= at && at <= high + near;
+}
+
+/* Whether a segment is within half a pen of a place.  One whose box is farther
+ * away by a grid unit, more than rounding can bring it nearer, is not. */
 static bool is_near_place(const struct spur_search *s, uint32_t segment,
                           struct ink_point at) {
   const uint32_t *node = s->graph->segment.item[segment].node;
   struct ink_point p = s->graph->node.item[node[0]];
   struct ink_point q = s->graph->node.item[node[1]];
+  if (!is_near_span(p.x, q.x, at.x, s->near + 1) ||
+      !is_near_span(p.y, q.y, at.y, s->near + 1))
+    return false;
   double x = (double)q.x - p.x, y = (double)q.y - p.y;
   double px = (double)at.x - p.x, py = (double)at.y - p.y;
   double t = geom_nearest_parameter(x, y, px, py);
