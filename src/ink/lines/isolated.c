@@ -7,7 +7,7 @@
  * Invariants  Nodes have their positions throughout.  Where a segment gets
  *   other ends, its new surroundings are searched
  *   (segment_graph_mark_near_nodes), and isolated segments that have an end
- *   there join the others again (segment_graph_restore_near_isolated). */
+ *   there join the others again (segment_graph_take_isolated). */
 #include "ink/lines/segment_graph.h"
 
 #include <math.h>
@@ -49,7 +49,8 @@ struct isolation {
   struct segment_graph *graph;
   const struct node_rows *rows;
   int32_t near;
-  uint8_t *found; /* one a segment: it has a node near it */
+  uint8_t *found;    /* one a segment: it has a node near it */
+  uint8_t *is_other; /* one a segment: it is not isolated */
 };
 
 static bool search_range(void *user, struct parallel_range range) {
@@ -70,27 +71,33 @@ static bool have_same_ends(const struct graph_segment *a,
   return a->node[0] == b->node[0] && a->node[1] == b->node[1];
 }
 
-/* Leaves those in `segment` that are not isolated, and in `found` what it says
- * of these. */
-static bool set_apart(struct segment_graph *graph, uint8_t *found) {
-  struct graph_segments all = graph->segment, others = {NULL, 0, 0};
-  struct graph_segment *s = all.item;
-  size_t kept = 0;
-  bool same_before = false, ok = true;
-  for (size_t i = 0; ok && i < all.count; i++) {
-    bool same_after = i + 1 < all.count && have_same_ends(&s[i], &s[i + 1]);
-    if (found[i] || same_before || same_after ||
-        has_end_near_segment(graph, &s[i])) {
-      found[others.count] = found[i];
-      ok = ARRAY_PUSH(&others, s[i]);
-    } else {
-      s[kept++] = s[i];
-    }
-    same_before = same_after;
-  }
-  all.count = kept;
-  graph->isolated = all;
+/* Finds which segments of a range are not isolated, of the whole search. */
+static bool find_others_of_range(void *user, struct parallel_range range) {
+  const struct isolation *work = user;
+  const struct graph_segments *all = &work->graph->segment;
+  const struct graph_segment *s = all->item;
+  for (size_t i = range.begin; i < range.end; i++)
+    work->is_other[i] =
+        work->found[i] || has_end_near_segment(work->graph, &s[i]) ||
+        (i > 0 && have_same_ends(&s[i - 1], &s[i])) ||
+        (i + 1 < all->count && have_same_ends(&s[i], &s[i + 1]));
+  return true;
+}
+
+/* Leaves those in `segment` that are not isolated, and in has_near what was
+ * found near these. */
+static bool set_apart(const struct isolation *work) {
+  struct segment_graph *graph = work->graph;
+  struct graph_segments others = {NULL, 0, 0};
+  size_t count = graph->segment.count, kept = 0;
+  bool ok = graph_segments_take(&graph->segment, work->is_other, &others);
+  for (size_t i = 0; i < count; i++)
+    if (work->is_other[i])
+      work->found[kept++] = work->found[i];
+  graph->isolated = graph->segment;
   graph->segment = others;
+  mem_free(graph->has_near);
+  graph->has_near = work->found;
   return ok;
 }
 
@@ -100,31 +107,63 @@ recto_status segment_graph_separate_isolated(struct segment_graph *graph,
                                              recto_error *error) {
   size_t count = graph->segment.count;
   int32_t near = (int32_t)ceil(output_step) + NEAR_MARGIN;
-  struct isolation work = {graph, rows, near, mem_alloc(count, 1)};
+  int workers = parallel_workers(count, PARALLEL_ITEMS);
+  struct isolation work = {graph, rows, near, mem_alloc(count, 1),
+                           mem_alloc(count, 1)};
   mem_free(graph->near_segment);
   graph->near_segment =
       mem_calloc(graph->node.count, sizeof *graph->near_segment);
-  bool ok = work.found != NULL && graph->near_segment != NULL &&
-            parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
-                            PARALLEL_ITEMS, search_range, &work) &&
-            set_apart(graph, work.found);
-  mem_free(graph->has_near);
-  graph->has_near = work.found;
+  bool ok =
+      work.found != NULL && work.is_other != NULL &&
+      graph->near_segment != NULL &&
+      parallel_ranges(workers, count, PARALLEL_ITEMS, search_range, &work) &&
+      parallel_ranges(workers, count, PARALLEL_ITEMS, find_others_of_range,
+                      &work);
+  if (ok)
+    ok = set_apart(&work);
+  else
+    mem_free(work.found);
+  mem_free(work.is_other);
   return ok ? RECTO_OK : error_memory(error);
 }
 
 /* ---- Those that are isolated no more ------------------------------------- */
 
-bool segment_graph_restore_near_isolated(struct segment_graph *graph) {
-  struct graph_segments *isolated = &graph->isolated;
-  size_t kept = 0;
-  bool ok = true;
-  for (size_t i = 0; ok && i < isolated->count; i++)
-    if (has_end_near_segment(graph, &isolated->item[i]))
-      ok = ARRAY_PUSH(&graph->segment, isolated->item[i]);
-    else
-      isolated->item[kept++] = isolated->item[i];
-  isolated->count = kept;
+struct isolated_search {
+  const struct segment_graph *graph;
+  const uint32_t *root; /* see segment_graph_take_isolated */
+  uint8_t *is_taken;    /* one an isolated segment */
+  atomic_bool any;
+};
+
+static bool find_taken_of_range(void *user, struct parallel_range range) {
+  struct isolated_search *search = user;
+  const struct graph_segment *s = search->graph->isolated.item;
+  const uint32_t *root = search->root;
+  bool any = false;
+  for (size_t i = range.begin; i < range.end; i++) {
+    uint32_t a = s[i].node[0], b = s[i].node[1];
+    bool is_taken = root != NULL ? root[a] != a || root[b] != b
+                                 : has_end_near_segment(search->graph, &s[i]);
+    search->is_taken[i] = is_taken;
+    any = any || is_taken;
+  }
+  if (any)
+    atomic_store_explicit(&search->any, true, memory_order_relaxed);
+  return true;
+}
+
+bool segment_graph_take_isolated(struct segment_graph *graph,
+                                 const uint32_t *root,
+                                 struct graph_segments *taken) {
+  size_t count = graph->isolated.count;
+  struct isolated_search search = {graph, root, mem_alloc(count, 1), false};
+  bool ok = search.is_taken != NULL &&
+            parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
+                            PARALLEL_ITEMS, find_taken_of_range, &search);
+  if (ok && search.any)
+    ok = graph_segments_take(&graph->isolated, search.is_taken, taken);
+  mem_free(search.is_taken);
   return ok;
 }
 

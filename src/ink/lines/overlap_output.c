@@ -313,8 +313,8 @@ static bool add_snapped_segment(struct output_overlaps *r,
 static bool rebuild(struct output_overlaps *r, const struct node_rows *rows) {
   struct segment_graph *graph = r->snapping.graph;
   const struct vertex_snapping *snapping = &r->snapping;
-  struct graph_segments *isolated = &graph->isolated;
-  size_t old = graph->segment.count, kept = 0;
+  struct graph_segments taken = {NULL, 0, 0};
+  size_t old = graph->segment.count;
   graph->segment.count = 0;
   for (size_t i = 0; i < old; i++) {
     const struct graph_segment *s = &graph->segment.item[i];
@@ -326,15 +326,13 @@ static bool rebuild(struct output_overlaps *r, const struct node_rows *rows) {
   for (size_t i = 0; i < r->piece.count; i++)
     if (!add_snapped_segment(r, rows, r->piece.item[i]))
       return false;
-  for (size_t i = 0; i < isolated->count; i++)
-    if (!has_moved(snapping, &isolated->item[i]))
-      isolated->item[kept++] = isolated->item[i];
-    else if (!add_snapped_segment(r, rows, isolated->item[i]))
-      return false;
-  isolated->count = kept;
+  bool ok = segment_graph_take_isolated(graph, snapping->root, &taken);
+  for (size_t i = 0; ok && i < taken.count; i++)
+    ok = add_snapped_segment(r, rows, taken.item[i]);
+  ARRAY_FREE(&taken);
   segment_graph_move_gaps(graph, snapping->root);
   size_t count = graph->segment.count;
-  if (!segment_graph_restore_near_isolated(graph))
+  if (!ok || !segment_graph_take_isolated(graph, NULL, &graph->segment))
     return false;
   for (size_t i = count; i < graph->segment.count; i++)
     mark_changed(r, r->next, &graph->segment.item[i]);

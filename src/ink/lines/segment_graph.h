@@ -139,11 +139,13 @@ bool segment_graph_mark_near_nodes(struct segment_graph *graph,
                                    const struct node_rows *rows, int32_t near,
                                    uint32_t segment);
 
-/* Moves isolated segments with an end that is marked in near_segment back to
- * `segment`, which is then no longer sorted.  Returns false when memory ran
- * out. */
-USE_RESULT bool
-segment_graph_restore_near_isolated(struct segment_graph *graph);
+/* Moves isolated segments to the end of `taken`: those with an end that is
+ * marked in near_segment or, where root != NULL, with one that it merges into
+ * another node.  Returns false when memory ran out.
+ * Cost  linear in the isolated segments, in parallel */
+USE_RESULT bool segment_graph_take_isolated(struct segment_graph *graph,
+                                            const uint32_t *root,
+                                            struct graph_segments *taken);
 
 /* Moves all isolated segments back, and indexes the ends. */
 USE_RESULT recto_status
@@ -210,6 +212,13 @@ USE_RESULT bool segment_graph_sort_segments(struct segment_graph *graph);
  * these.  Returns false when memory ran out. */
 USE_RESULT bool graph_segments_merge(struct graph_segments *to,
                                      const struct graph_segments *from);
+
+/* Moves the segments i of `from` with flag[i] == 1 to the end of `taken`, or
+ * drops them where that is NULL; flags are 0 or 1.  Those that are left keep
+ * their order.  Returns false when memory ran out. */
+USE_RESULT bool graph_segments_take(struct graph_segments *from,
+                                    const uint8_t *flag,
+                                    struct graph_segments *taken);
 
 /* Drops the segments i with drop[i] != 0 and indexes the ends anew.  Nodes
  * stay; some may have no ends afterwards. */

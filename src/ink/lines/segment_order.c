@@ -165,19 +165,52 @@ static bool is_after(const struct graph_segment *a,
          (a->node[0] == b->node[0] && a->node[1] > b->node[1]);
 }
 
+/* Of the first `end` sorted segments the first one after another, or `end`: by
+ * steps from there that double, and halving the last. */
+static size_t find_first_after(const struct graph_segment *item, size_t end,
+                               const struct graph_segment *other) {
+  size_t past = end, step = 1, first;
+  for (; step <= past && is_after(&item[past - step], other); step *= 2)
+    past -= step;
+  size_t low = step <= past ? past - step + 1 : 0;
+  LOWER_BOUND(first, low, past, !is_after(&item[first], other));
+  return first;
+}
+
+/* Between two of those that are added, what is there already moves in one
+ * piece. */
 bool graph_segments_merge(struct graph_segments *to,
                           const struct graph_segments *from) {
-  size_t i = to->count, k = from->count;
+  size_t end = to->count, k = from->count;
   if (!ARRAY_RESERVE(to, k))
     return false;
   to->count += k;
   /* From the end, so that what is still to be moved is not overwritten. */
-  while (k > 0) {
-    bool later = i > 0 && is_after(&to->item[i - 1], &from->item[k - 1]);
-    to->item[i + k - 1] = later ? to->item[i - 1] : from->item[k - 1];
-    i -= later;
-    k -= !later;
+  for (; k > 0; k--) {
+    const struct graph_segment *added = &from->item[k - 1];
+    size_t later = find_first_after(to->item, end, added);
+    memmove(&to->item[later + k], &to->item[later],
+            (end - later) * sizeof *to->item);
+    to->item[later + k - 1] = *added;
+    end = later;
   }
+  return true;
+}
+
+bool graph_segments_take(struct graph_segments *from, const uint8_t *flag,
+                         struct graph_segments *taken) {
+  struct graph_segment *item = from->item;
+  size_t kept = 0, end;
+  for (size_t i = 0; i < from->count; i = end + 1) {
+    const uint8_t *next = memchr(flag + i, 1, from->count - i);
+    end = next != NULL ? (size_t)(next - flag) : from->count;
+    if (kept != i)
+      memmove(&item[kept], &item[i], (end - i) * sizeof *item);
+    kept += end - i;
+    if (end < from->count && taken != NULL && !ARRAY_PUSH(taken, item[end]))
+      return false;
+  }
+  from->count = kept;
   return true;
 }
 
