@@ -9,6 +9,7 @@
 #include "scene/crease_marks.h"
 #include "scene/edge_classes.h"
 #include "view/camera_aim.h"
+#include "view/used.h"
 
 void preparation_planes(const struct preparation *preparation,
                         struct cut_plane plane[RECTO_CUT_MAX]) {
@@ -85,6 +86,17 @@ static recto_status store_classes(struct preparation *preparation,
              : error_memory(error);
 }
 
+/* Keeps which points are used, for the camera and the sheet; where some are
+ * welded, they are not the same to both. */
+static recto_status keep_used(struct preparation *preparation,
+                              recto_error *error) {
+  struct topology *topology = &preparation->topology;
+  if (topology->weld != NULL)
+    return RECTO_OK;
+  topology->used = used_points(preparation->scene, NULL);
+  return topology->used != NULL ? RECTO_OK : error_memory(error);
+}
+
 recto_status preparation_init(struct preparation *preparation,
                               const struct scene *scene,
                               const recto_options *options, bool classes,
@@ -124,7 +136,7 @@ recto_status preparation_init(struct preparation *preparation,
   if (status == RECTO_OK &&
       (classes || options->ink.contours == RECTO_CONTOURS_SMOOTH))
     status = store_classes(preparation, options, error);
-  return status;
+  return status == RECTO_OK ? keep_used(preparation, error) : status;
 }
 
 void preparation_fini(struct preparation *preparation) {

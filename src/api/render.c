@@ -158,8 +158,9 @@ static recto_status check_cut_scale(const struct render *render,
 }
 
 static recto_status aim(struct render *render, recto_error *error) {
-  recto_status status = camera_aim(&render->camera, render->prepared->scene,
-                                   &render->scaled, error);
+  recto_status status =
+      camera_aim_at_used(&render->camera, render->prepared->scene,
+                         render->topology.used, &render->scaled, error);
   if (status == RECTO_OK)
     status = check_cut_scale(render, error);
   if (status != RECTO_OK)

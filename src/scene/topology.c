@@ -311,5 +311,6 @@ void topology_fini(struct topology *topology) {
   mem_free(topology->class_masks);
   mem_free(topology->coarse);
   mem_free(topology->crease_mark);
+  mem_free(topology->used);
   memset(topology, 0, sizeof *topology);
 }

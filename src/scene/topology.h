@@ -23,6 +23,8 @@ struct topology {
                       class_masks; NULL: not kept */
   uint8_t *crease_mark; /* one an edge, enum crease_mark: what files say of it;
                            NULL: nothing */
+  uint8_t *used; /* one a point: whether a face or a polyline uses it, owned;
+                    NULL: not kept */
   /* What may be freed once it was laid out, as it is not used later: */
   bool drop_corners; /* corner_edge */
   bool drop_edges;   /* edge */

@@ -228,16 +228,23 @@ static recto_status set_eye(struct aim *aim) {
 
 /* ---- Depths -------------------------------------------------------------- */
 
+/* The depths, and what an orthographic view needs of the same points. */
 static void measure_depth(struct aim *aim) {
+  struct extent extent = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
   aim->d_low = INFINITY;
   aim->d_high = -INFINITY;
   for (size_t p = 0; p < aim->scene->point.count; p++) {
     if (!aim->used[p])
       continue;
-    double d = camera_view(aim->camera, &aim->scene->point.item[p]).d;
-    aim->d_low = min_number(aim->d_low, d);
-    aim->d_high = max_number(aim->d_high, d);
+    struct view_point v = camera_view(aim->camera, &aim->scene->point.item[p]);
+    aim->d_low = min_number(aim->d_low, v.d);
+    aim->d_high = max_number(aim->d_high, v.d);
+    extent.low[0] = min_number(extent.low[0], v.x);
+    extent.high[0] = max_number(extent.high[0], v.x);
+    extent.low[1] = min_number(extent.low[1], v.y);
+    extent.high[1] = max_number(extent.high[1], v.y);
   }
+  aim->extent = extent;
 }
 
 /* The default near plane. */

@@ -28,6 +28,8 @@ static double scale_to_fit(const struct aim *aim, const struct extent *e,
 }
 
 static struct extent extent_of_scene(const struct aim *aim) {
+  if (!aim->camera->perspective && aim->d_low >= aim->camera->near_d)
+    return aim->extent; /* nothing is cut away */
   return extent_of_drawing(aim->camera, aim->scene, aim->used,
                            !aim->camera->perspective);
 }

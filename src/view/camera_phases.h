@@ -3,6 +3,7 @@
 #define VIEW_CAMERA_PHASES_H
 
 #include "view/camera.h"
+#include "view/extent.h"
 
 /* Intermediate results. */
 struct aim {
@@ -21,6 +22,7 @@ struct aim {
   double centre_d;      /*   the depth of the scene's centre */
   double target_d;      /*   the depth of the target */
   double d_low, d_high; /* depth range of the whole scene, not clipped */
+  struct extent extent; /* of an orthographic view: likewise */
 };
 
 /* The margin inside which the drawing is to lie, in mm. */

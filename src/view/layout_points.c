@@ -89,7 +89,11 @@ static recto_status project_points(struct layout *layout, const uint8_t *used) {
 recto_status layout_points(struct layout *layout) {
   size_t points = layout->scene->point.count;
   recto_status status = RECTO_OK;
-  uint8_t *used = used_points(layout->scene, layout->topology->weld);
+  struct topology *topology = layout->topology;
+  uint8_t *own = NULL;
+  if (topology->used == NULL)
+    own = used_points(layout->scene, topology->weld);
+  const uint8_t *used = own != NULL ? own : topology->used;
   layout->outcode = mem_calloc(points, sizeof *layout->outcode);
   if (used == NULL || layout->outcode == NULL) {
     status = error_memory(layout->error);
@@ -108,7 +112,11 @@ recto_status layout_points(struct layout *layout) {
     status = project_points(layout, used);
   }
 end:
-  mem_free(used);
+  mem_free(own);
+  if (topology->drop_edges) {
+    mem_free(topology->used);
+    topology->used = NULL;
+  }
   return status;
 }
 
