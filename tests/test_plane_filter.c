@@ -89,37 +89,39 @@ static void check_bounds(const struct occluder *occluder,
 /* The sign along a part of a segment; whether it is certain. */
 static bool check_sign_between(const struct occluder *occluder,
                                const struct plane_filter *filter,
+                               const struct coarse_plane *coarse,
                                struct geom_point p, struct geom_point q) {
   enum { PARTS = 32 }; /* of the segment: 2^5 times 2^121 fits */
   int t[2] = {(int)(exact_random(&seed) % PARTS), PARTS};
   t[1] = t[0] + 1 + (int)(exact_random(&seed) % (uint64_t)(PARTS - t[0]));
   int sign = plane_filter_contact_sign_between(
       filter, p, q, (double)t[0] / PARTS, (double)t[1] / PARTS);
+  int coarse_sign = coarse_plane_contact_sign_between(
+      coarse, p, q, (double)t[0] / PARTS, (double)t[1] / PARTS);
   for (int k = 0; k < 2; k++) {
     int128 at = occluder_value(occluder, p) * (PARTS - t[k]) +
                 occluder_value(occluder, q) * t[k];
     assert_true(sign == 0 || sign == geom_sign128(at));
+    assert_true(coarse_sign == 0 || coarse_sign == geom_sign128(at));
   }
   return sign != 0;
 }
 
 /* What the coarse plane says of three points; counts what is certain.
  * side  of occluder_side */
-static void check_coarse_plane(const struct sheet *sheet,
+static void check_coarse_plane(const struct coarse_plane *plane,
                                const struct occluder *occluder,
                                const struct geom_point p[3], const int side[3],
                                int certain[2]) {
-  struct occlusion_bound all = occlusion_tolerance_bound_all(sheet);
-  struct coarse_plane plane = coarse_plane_of(&all, occluder->p);
   for (int k = 0; k < 3; k++) {
-    int sign = coarse_plane_contact_sign(&plane, p[k]);
+    int sign = coarse_plane_contact_sign(plane, p[k]);
     assert_true(sign == 0 ||
                 sign == geom_sign128(occluder_value(occluder, p[k])));
     certain[0] += sign != 0;
   }
-  bool may = coarse_plane_may_intersect(&plane, p);
+  bool may = coarse_plane_may_intersect(plane, p);
   assert_true(may || !side_count_of_sides(side));
-  bool straddles = coarse_plane_is_straddled(&plane, p);
+  bool straddles = coarse_plane_is_straddled(plane, p);
   assert_true(!straddles || side[0] * side[1] * side[2] != 0);
   assert_true(!straddles || side[0] != side[1] || side[1] != side[2]);
   certain[1] += !may + straddles;
@@ -133,6 +135,8 @@ static void compare_with_exact(bool perspective, int bits, int depth_bits,
   start(&sheet, perspective, bits, depth_bits);
   occluder_init(&occluder, &sheet, 0);
   struct plane_filter plane = plane_filter_of(&sheet, 0);
+  struct occlusion_bound all = occlusion_tolerance_bound_all(&sheet);
+  struct coarse_plane coarse = coarse_plane_of(&all, occluder.p);
   for (int i = 0; i < 200; i++) {
     struct geom_point p[3];
     int side[3];
@@ -161,9 +165,10 @@ static void compare_with_exact(bool perspective, int bits, int depth_bits,
     assert_true(plane_filter_may_touch(&plane, p) || !touches);
     certain[4] += !plane_filter_may_touch(&plane, p);
     bool differ = side[0] * side[1] < 0;
-    certain[5] += check_sign_between(&occluder, &plane, p[0], p[1]) && differ;
+    certain[5] +=
+        check_sign_between(&occluder, &plane, &coarse, p[0], p[1]) && differ;
     certain[6] += differ;
-    check_coarse_plane(&sheet, &occluder, p, side, certain + 7);
+    check_coarse_plane(&coarse, &occluder, p, side, certain + 7);
   }
   exact_sheet_fini(&sheet);
 }

@@ -92,6 +92,19 @@ static inline int coarse_plane_contact_sign(const struct coarse_plane *plane,
   return (value > -plane->least) - (value < -plane->most);
 }
 
+/* The same sign all along a part of the segment p-q, from parameter `from` to
+ * `to`, in [0, 1] and rounded.  That and interpolation make the value differ by
+ * less than a part of the error bound more, for which most is doubled. */
+static inline int
+coarse_plane_contact_sign_between(const struct coarse_plane *plane,
+                                  struct geom_point p, struct geom_point q,
+                                  double from, double to) {
+  double at_p = coarse_plane_value(plane, p),
+         more = coarse_plane_value(plane, q) - at_p, a = at_p + from * more,
+         b = at_p + to * more, most = 2 * plane->most;
+  return ((a > most) & (b > most)) - ((a < -most) & (b < -most));
+}
+
 /* Is a triangle with these corners certainly on both sides of the plane, no
  * corner in contact with it? */
 static inline bool

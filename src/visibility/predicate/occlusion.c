@@ -364,6 +364,11 @@ bool occlude_edge_by_cached(struct plane_cache *cache, uint32_t triangle,
       at_q = coarse_plane_contact_sign(&plane, q);
   if (at_p == at_q && at_p != 0)
     return at_p < 0;
+  int sign = coarse_plane_contact_sign_between(&plane, p, q,
+                                               ratio_to_double(interval->from),
+                                               ratio_to_double(interval->to));
+  if (sign != 0 && !has_corner_at(&corners, p, q))
+    return sign < 0;
   return decide_depth(sheet, triangle, &corners,
                       plane_cache_get(cache, triangle), p, q, interval, counts);
 }
