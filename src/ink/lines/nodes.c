@@ -11,6 +11,7 @@
  *   tolerance: the later one was compared with the earlier and would have been
  *   merged into it. Nothing moves by more than the tolerance, as a node that
  *   others were merged into stays. */
+#include "base/parallel.h"
 #include "base/poll.h"
 #include "ink/lines/segment_graph.h"
 
@@ -32,7 +33,8 @@ struct unite {
   uint32_t *bucket;     /* number of nodes by bucket of y, then the row of
                            the bucket */
   int32_t x_low, y_low;
-  int shift; /* y - y_low to bucket */
+  int shift;          /* y - y_low to bucket */
+  atomic_size_t dots; /* segments that lost their length */
 };
 
 void node_rows_fini(struct node_rows *rows) {
@@ -202,20 +204,34 @@ static void renumber_nodes(struct unite *u) {
   u->graph->node.count = count;
 }
 
-static void renumber_segments(struct unite *u) {
+static bool renumber_range(void *user, struct parallel_range range) {
+  struct unite *u = user;
+  size_t dots = 0;
+  for (size_t i = range.begin; i < range.end; i++) {
+    struct graph_segment *s = &u->graph->segment.item[i];
+    for (int k = 0; k < 2; k++)
+      s->node[k] = u->renumber[s->node[k]];
+    *s = graph_segment_sorted(*s);
+    dots += s->node[0] == s->node[1];
+  }
+  if (dots > 0)
+    atomic_fetch_add_explicit(&u->dots, dots, memory_order_relaxed);
+  return true;
+}
+
+static bool renumber_segments(struct unite *u) {
   struct segment_graph *graph = u->graph;
-  size_t kept = 0;
-  for (size_t i = 0; i < graph->segment.count; i++) {
+  size_t count = graph->segment.count, kept = 0;
+  bool ok = parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
+                            PARALLEL_ITEMS, renumber_range, u);
+  graph->dots = u->dots;
+  for (size_t i = 0; graph->dots > 0 && i < count; i++) {
     struct graph_segment s = graph->segment.item[i];
-    uint32_t a = u->renumber[s.node[0]], b = u->renumber[s.node[1]];
-    (void)poll_at(i);
-    s.node[0] = a < b ? a : b;
-    s.node[1] = a < b ? b : a;
-    if (a != b)
+    if (s.node[0] != s.node[1])
       graph->segment.item[kept++] = s;
   }
-  graph->dots = graph->segment.count - kept;
-  graph->segment.count = kept;
+  graph->segment.count = count - graph->dots;
+  return ok;
 }
 
 recto_status segment_graph_unite(struct segment_graph *graph,
@@ -242,7 +258,8 @@ recto_status segment_graph_unite(struct segment_graph *graph,
       goto done;
     merge_near_nodes(&u);
     renumber_nodes(&u);
-    renumber_segments(&u);
+    if (!renumber_segments(&u))
+      goto done;
   }
   ok = segment_graph_sort_segments(graph);
 done:
