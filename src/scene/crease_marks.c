@@ -85,11 +85,10 @@ struct end_normals {
 struct mark_search {
   const struct scene *scene;
   const struct topology *topology;
-  struct end_normals
-      *end;         /* one an edge: of its first face; NULL: the scene has
-                              no normals */
-  uint8_t *mark;    /* one an edge: enum crease_mark */
-  double cosine[2]; /* of the lowest and the highest angle that counts */
+  struct end_normals *end; /* one an edge: of its first face */
+  uint8_t *flatness; /* one a face: 0, or enum flatness once it is known */
+  uint8_t *mark;     /* one an edge: enum crease_mark */
+  double cosine[2];  /* of the lowest and the highest angle that counts */
 };
 
 static bool has_two_faces(const struct topology_edge *edge) {
@@ -103,8 +102,10 @@ static bool have_one_normal(uint32_t a, uint32_t b, bool same_way) {
          (same_way && corner_normals_agree(a, corner_normal_opposite(b)));
 }
 
+enum flatness { FLATNESS_BENT = 1, FLATNESS_FLAT };
+
 /* Whether the normals of a face are all that of its plane. */
-static bool is_flat(const struct scene *scene, uint32_t face) {
+static uint8_t find_flatness(const struct scene *scene, uint32_t face) {
   double n[3];
   newell_normal_of_face(scene, face, n);
   uint32_t normal = corner_normal_encode(n[0], n[1], n[2]);
@@ -112,9 +113,15 @@ static bool is_flat(const struct scene *scene, uint32_t face) {
        normal != 0 && c < scene_face_start(scene, face + 1); c++) {
     uint32_t own = corner_normal_of(scene, c);
     if (own == 0 || !have_one_normal(own, normal, true))
-      return false;
+      return FLATNESS_BENT;
   }
-  return true;
+  return FLATNESS_FLAT;
+}
+
+static bool is_flat(const struct mark_search *s, uint32_t face) {
+  if (s->flatness[face] == 0)
+    s->flatness[face] = find_flatness(s->scene, face);
+  return s->flatness[face] == FLATNESS_FLAT;
 }
 
 static uint8_t mark_by_groups(const struct scene *scene,
@@ -143,9 +150,8 @@ static uint8_t mark_by_normals(const struct mark_search *s,
   }
   if (common > 0)
     return common == 2 ? CREASE_MARK_SOFT : CREASE_MARK_NONE;
-  return is_flat(s->scene, edge->first) && is_flat(s->scene, edge->second)
-             ? CREASE_MARK_FLAT
-             : CREASE_MARK_HARD;
+  return is_flat(s, edge->first) && is_flat(s, edge->second) ? CREASE_MARK_FLAT
+                                                             : CREASE_MARK_HARD;
 }
 
 static void read_normals(const struct mark_search *s) {
@@ -172,7 +178,32 @@ static void read_groups(const struct mark_search *s) {
       s->mark[e] = mark_by_groups(s->scene, &s->topology->edge.item[e]);
 }
 
+/* Reads all marks.  Returns false when memory ran out. */
+static bool read_marks(struct mark_search *s) {
+  size_t edges = s->topology->edge.count;
+  if (s->scene->point_normal.count == 0) {
+    read_groups(s);
+    return true;
+  }
+  s->end = mem_calloc(edges, sizeof *s->end);
+  s->flatness = mem_calloc(scene_face_count(s->scene), sizeof *s->flatness);
+  bool ok = s->end != NULL && s->flatness != NULL;
+  if (ok)
+    read_normals(s);
+  mem_free(s->end);
+  mem_free(s->flatness);
+  return ok;
+}
+
 /* ---- Judging ------------------------------------------------------------- */
+
+/* Whether any part may have hard edges and smooth ones. */
+static bool has_both_kinds(const struct mark_search *s) {
+  bool has[CREASE_MARK_COUNT] = {false};
+  for (size_t e = 0; e < s->topology->edge.count; e++)
+    has[s->mark[e]] = true;
+  return has[CREASE_MARK_HARD] && has[CREASE_MARK_SOFT];
+}
 
 /* The cosine of the angle between the faces of an edge; 1: they bend by too
  * little to be marked. */
@@ -274,19 +305,15 @@ bool crease_marks_find(struct topology *topology, const struct scene *scene,
           range.high_deg >= 180 ? -2
                                 : angle_of_degrees(range.high_deg).cosine -
                                       TOLERANCE_CREASE_COSINE}};
-  bool has_normals = scene->point_normal.count > 0;
+  bool by_parts = which != RECTO_CREASE_MARKS_ALL;
   s.mark = mem_calloc(edges, sizeof *s.mark);
-  s.end = has_normals ? mem_calloc(edges, sizeof *s.end) : NULL;
-  bool ok = s.mark != NULL && (!has_normals || s.end != NULL);
-  if (ok && has_normals)
-    read_normals(&s);
-  else if (ok)
-    read_groups(&s);
-  mem_free(s.end);
-  if (ok)
+  bool ok = s.mark != NULL && read_marks(&s);
+  bool may_be = ok && (!by_parts || has_both_kinds(&s));
+  if (may_be)
     drop_by_angle(&s);
-  ok = ok && (which == RECTO_CREASE_MARKS_ALL || drop_by_part(&s));
-  if (ok && settle(&s))
+  if (may_be && by_parts)
+    ok = drop_by_part(&s);
+  if (may_be && ok && settle(&s))
     topology->crease_mark = s.mark;
   else
     mem_free(s.mark);

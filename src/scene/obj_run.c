@@ -228,8 +228,10 @@ static inline const char *read_plain_normal(const struct obj_parser *p,
   at += digits_count(at, &chunk);
   if (*at == '/') {
     int count = digits_count(++at, &chunk);
+    if (count == 0 || count == 8)
+      return NULL;
     uint64_t index = digits_sum(chunk, count) - 1;
-    if (count == 0 || count == 8 || index >= p->normal.count)
+    if (index >= p->normal.count)
       return NULL;
     *normal = p->normal.item[index];
     at += count;
