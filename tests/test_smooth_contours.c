@@ -326,6 +326,40 @@ static void no_part_of_the_outline_is_missing(void **state) {
   recto_scene_destroy(scene);
 }
 
+/* A sheet that ends in a narrow fold, over which no vertex turns away, so that
+ * it has no contour; the fold is an outline above y = 0.3, where a plate behind
+ * it ends. */
+static void an_outline_without_contour_is_its_fold(void **state) {
+  (void)state;
+  const double point[] = {-0.5, -1,   0,  0.5,  -1,  0,  0.5,  1,    0,
+                          -0.5, 1,    0,  0.45, -1,  -1, 0.45, 1,    -1,
+                          0.49, -1,   -1, 0.49, 1,   -1, -1,   -1.2, -2,
+                          1,    -1.2, -2, 1,    0.3, -2, -1,   0.3,  -2};
+  const uint32_t corner[] = {0, 1, 2, 3, 1, 4, 5, 2, 4, 6, 7, 5, 8, 9, 10, 11};
+  const recto_mesh mesh = {.points = point,
+                           .point_count = 12,
+                           .corners = corner,
+                           .corner_count = 16,
+                           .face_size = 4};
+  recto_scene *scene;
+  recto_options options;
+  recto_stroke stroke;
+  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+  assert_int_equal(recto_scene_add_mesh(scene, &mesh, NULL), RECTO_OK);
+  smooth_view(&options, 0);
+  options.camera.azimuth_deg = options.camera.elevation_deg = 0;
+  options.mesh.crease_deg = 180;
+  recto_drawing *drawing = smooth_draw(scene, &options);
+  assert_int_equal(recto_drawing_stroke_count(drawing), 1);
+  assert_true(recto_drawing_stroke(drawing, 0, &stroke));
+  for (size_t i = 0; i < stroke.count; i++) {
+    assert_true(fabs(stroke.points[2 * i] - 130) < 0.001);
+    assert_true(stroke.points[2 * i + 1] > 117.5);
+  }
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(scene);
+}
+
 /* Where the mesh folds over in strips that are narrower than its triangles,
  * contours end, and go on beyond. */
 static void contours_go_on_where_the_mesh_folds_over(void **state) {
@@ -455,6 +489,7 @@ int main(void) {
       cmocka_unit_test(smooth_contours_are_the_same_by_all_methods),
       cmocka_unit_test(bodies_of_few_faces_keep_their_outline),
       cmocka_unit_test(no_part_of_the_outline_is_missing),
+      cmocka_unit_test(an_outline_without_contour_is_its_fold),
       cmocka_unit_test(contours_go_on_where_the_mesh_folds_over),
       cmocka_unit_test(faces_of_an_uneven_surface_end_at_lines),
       cmocka_unit_test(fragments_that_are_turned_over_collapse),

@@ -267,10 +267,10 @@ static struct outline_sample look(struct outline_gaps *g,
        near.any <= near.loose + TOLERANCE_COINCIDENT_UNITS) ||
       page_cover_is_over(&g->cover, beside_sample(of, k), ok))
     return (struct outline_sample){
-        .at = near.on_edge             ? p
-              : at_end                 ? near.loose_at
-              : near.any <= near.loose ? near.at
-                                       : p,
+        .at = near.on_edge                           ? p
+              : at_end                               ? near.loose_at
+              : near.any <= fmin(near.loose, radius) ? near.at
+                                                     : p,
         .point = at_end && !near.on_edge ? near.loose_point : SHEET_NONE,
         .drawn = true,
         /* Neither distance changes by more than the sample moves. */
