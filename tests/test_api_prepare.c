@@ -106,6 +106,57 @@ static void other_options_are_prepared_by_the_render(void **state) {
   recto_scene_destroy(prepared);
 }
 
+/* An octagonal prism whose sides are of one smoothing group. */
+static recto_scene *make_prism(void) {
+  char text[2000], *to = text;
+  for (int i = 0; i < 8; i++)
+    to += sprintf(to, "v %.6f 0 %.6f\nv %.6f 1 %.6f\n", cos(i * M_PI / 4),
+                  sin(i * M_PI / 4), cos(i * M_PI / 4), sin(i * M_PI / 4));
+  to += sprintf(to, "s 1\n");
+  for (int i = 0; i < 8; i++)
+    to += sprintf(to, "f %d %d %d %d\n", 2 * i + 1, 2 * i + 2,
+                  (2 * i + 3) % 16 + 1, (2 * i + 2) % 16 + 1);
+  to += sprintf(to, "s off\nf 1 3 5 7 9 11 13 15\nf 16 14 12 10 8 6 4 2\n");
+  recto_scene *scene;
+  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+  assert_int_equal(recto_scene_read_memory(scene, text, (size_t)(to - text),
+                                           "obj", NULL, NULL, NULL),
+                   RECTO_OK);
+  return scene;
+}
+
+static char *draw_marked(const recto_scene *scene, recto_crease_marks which,
+                         double crease_deg) {
+  recto_options options;
+  recto_drawing *drawing;
+  recto_options_init(&options);
+  options.mesh.crease_marks = which;
+  options.mesh.crease_deg = crease_deg;
+  assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
+                   RECTO_OK);
+  char *text = svg_text_of(drawing, NULL);
+  recto_drawing_destroy(drawing);
+  return text;
+}
+
+static void marks_are_those_of_the_render(void **state) {
+  (void)state;
+  recto_scene *plain = make_prism(), *prepared = make_prism();
+  assert_int_equal(recto_scene_prepare(prepared, NULL, NULL), RECTO_OK);
+  for (int which = 0; which <= RECTO_CREASE_MARKS_ALL; which++)
+    for (double deg = 20; deg <= 30; deg += 10)
+      assert_same_text(draw_marked(plain, which, deg),
+                       draw_marked(prepared, which, deg));
+  char *marked = draw_marked(prepared, RECTO_CREASE_MARKS_AUTO, 30);
+  char *unmarked = draw_marked(prepared, RECTO_CREASE_MARKS_NONE, 30);
+  assert_string_not_equal(marked, unmarked);
+  assert_same_text(unmarked,
+                   draw_marked(prepared, RECTO_CREASE_MARKS_AUTO, 20));
+  free(marked);
+  recto_scene_destroy(plain);
+  recto_scene_destroy(prepared);
+}
+
 static void what_is_added_undoes_the_preparation(void **state) {
   (void)state;
   static const double point[3][3] = {{5, 0, 0}, {6, 0, 0}, {5, 0, 1}};
@@ -220,6 +271,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_prepared_scene_is_drawn_as_one_that_is_not),
       cmocka_unit_test(other_options_are_prepared_by_the_render),
+      cmocka_unit_test(marks_are_those_of_the_render),
       cmocka_unit_test(what_is_added_undoes_the_preparation),
       cmocka_unit_test(several_threads_draw_a_scene_at_once),
       cmocka_unit_test(several_threads_write_a_drawing_at_once),

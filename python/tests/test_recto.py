@@ -102,6 +102,7 @@ def test_options():
         (["--edges=crease,border"], {"edges": ["crease", "border"]}),
         (["--crease=20,40"], {"crease": (20, 40)}),
         (["--crease=20"], {"crease": 20}),
+        (["--crease-marks=none"], {"crease_marks": "none"}),
         (["--hidden=dashed,1"], {"hidden": ("dashed", 1)}),
         (["--sheet=third", "--scale=auto"], {"sheet": "third", "scale": "auto"}),
         (["--views=front,iso:2", "--hidden-in=iso=dashed", "--view-names"],
