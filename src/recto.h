@@ -734,10 +734,10 @@ RECTO_USE_RESULT recto_status recto_scene_add_polyline(recto_scene *scene,
 /* Prepares the scene for several views: welds its corners, finds its edges and
  * decides which of them are borders and creases, as recto_scene_render does it
  * each time for a scene that was not prepared.  Renders with the same `weld`
- * and `coordinate_bits`, and of a scene whose files mark edges as hard or smooth
- * with the same `crease_marks` and `crease_deg`, then share the result, and with
- * the same `crease_deg` the decisions too; those with others do the work
- * themselves.  What is added to the scene later undoes it.
+ * and `coordinate_bits` then share the result, and with the same `crease_deg`
+ * the decisions too; those with others do the work themselves, and so do all
+ * with another `crease_deg` or `crease_marks` of a scene whose files mark
+ * edges.  What is added to the scene later undoes it.
  * Errors   RECTO_ERROR_LIMIT: sizes and distances differ by too much;
  *          RECTO_ERROR_CANCELLED */
 RECTO_USE_RESULT recto_status recto_scene_prepare(recto_scene *scene,
