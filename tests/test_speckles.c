@@ -283,6 +283,24 @@ static void only_lines_that_go_on_are_joined(void **state) {
     assert_int_equal(draw_gap(0.1, 0, 0, others[i], false, false), 2);
 }
 
+/* What closes a gap shorter than a step is no line drawn twice. */
+static void gaps_are_closed_for_all_outputs(void **state) {
+  const double unit_mm[] = {0, 0.001, 0.025, 0.1}, gap[] = {0.01, 0.14};
+  (void)state;
+  for (size_t i = 0; i < 4; i++)
+    for (size_t g = 0; g < 2; g++) {
+      struct ink_fixture k;
+      start(&k);
+      k.options.output.unit_mm = unit_mm[i];
+      ink_fixture_line(&k, 30, 50, 50, 50, CREASE);
+      ink_fixture_line(&k, 50 + gap[g], 50, 70, 55, CREASE);
+      ink_fixture_draw(&k);
+      assert_int_equal(k.drawing.stroke.count, 1);
+      assert_int_equal(k.drawing.counts.drawn_twice, 0);
+      ink_fixture_end(&k);
+    }
+}
+
 /* Of three ends the two nearest ones are joined. */
 static void a_gap_is_closed_once(void **state) {
   struct ink_fixture k;
@@ -576,6 +594,7 @@ int main(void) {
       cmocka_unit_test(with_ids_the_line_decides),
       cmocka_unit_test(gaps_below_half_a_pen_are_closed),
       cmocka_unit_test(only_lines_that_go_on_are_joined),
+      cmocka_unit_test(gaps_are_closed_for_all_outputs),
       cmocka_unit_test(a_gap_is_closed_once),
       cmocka_unit_test(zigzags_must_be_sharper_than_other_lines),
       cmocka_unit_test(lines_of_short_pieces_are_not_drawn),
