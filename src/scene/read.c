@@ -130,7 +130,7 @@ static recto_status read_input(struct scene *scene, const struct reader *reader,
                                     .up_is_stated = reader->states_up};
   memcpy(model.up, reader->up, sizeof model.up);
   if (diagnostics != NULL) {
-    diagnostics->bytes = input->bytes;
+    diagnostics->bytes = diagnostics->poll_at = input->bytes;
     diagnostics->bytes_before = 0;
     diagnostics->byte_count = input->count;
   }
