@@ -35,6 +35,10 @@ unit_tests += %D%/test_planar_subdivision
 %C%_test_planar_subdivision_SOURCES = %D%/test_planar_subdivision.c $(exact_sheet)
 %C%_test_planar_subdivision_CPPFLAGS = $(exact_cppflags)
 %C%_test_planar_subdivision_LDADD = %D%/scenes/libscenes.la $(LDADD)
+unit_tests += %D%/test_dense_edges
+%C%_test_dense_edges_SOURCES = %D%/test_dense_edges.c %D%/sheet_fixture.c \
+  %D%/sheet_fixture.h
+%C%_test_dense_edges_LDADD = %D%/scenes/libscenes.la $(LDADD)
 unit_tests += %D%/test_hidden_faces
 %C%_test_hidden_faces_SOURCES = %D%/test_hidden_faces.c %D%/sheet_fixture.c \
   %D%/sheet_fixture.h

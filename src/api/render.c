@@ -204,13 +204,13 @@ static recto_status project_scene(struct render *render, recto_error *error) {
 static recto_status solve_visibility(struct render *render,
                                      recto_error *error) {
   const recto_options *options = render->options;
-  struct solver_request request = solver_request_of(options);
+  struct solver_request request = solver_request_to_draw(options);
   request.fragments = needs_fragments(render);
-  request.hidden |= (options->results & RECTO_RESULT_EDGES) != 0;
   request.threads = parallel_threads();
-  return method_choose(render->options->solver.method, &render->sheet, &request,
-                       render->report)
-      ->solve(&render->sheet, &request, &render->map, render->report, error);
+  return solver_run(method_choose(options->solver.method, &render->sheet,
+                                  &request, render->report),
+                    &render->sheet, &request, &render->map, render->report,
+                    error);
 }
 
 static recto_status find_invisibility(struct render *render,

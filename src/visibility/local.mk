@@ -1,6 +1,7 @@
 # src/visibility/local.mk - from the sheet to the visible map, a folder a method.
 librecto_core_la_SOURCES += \
   %D%/auto.c \
+  %D%/dense_edges.c %D%/dense_edges.h \
   %D%/hidden_faces.c %D%/hidden_faces.h \
   %D%/map.c %D%/map.h \
   %D%/map_assembly.c %D%/map_assembly.h \

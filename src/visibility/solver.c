@@ -1,6 +1,10 @@
 /* solver.c - the table of visibility methods. */
 #include "visibility/solver.h"
 
+#include <math.h>
+
+#include "visibility/dense_edges.h"
+
 static const struct solver *const table[] = {
     &solver_newell,  &solver_warnock,
     &solver_watkins, &solver_tiles,
@@ -30,6 +34,34 @@ struct solver_request solver_request_of(const recto_options *options) {
       .divide_by_box = options->solver.divide == RECTO_DIVIDE_BOX,
       .subpixels = options->solver.subpixels,
   };
+}
+
+/* Half the width of the finest pen: what ink closes between lines. */
+static double short_gap_of(const recto_options *options) {
+  double finest = options->ink.pen_mm;
+  for (size_t i = 0; i < options->ink.pen_count; i++)
+    if (options->ink.pen[i].width_mm > 0)
+      finest = fmin(finest, options->ink.pen[i].width_mm);
+  return finest / 2 * SHEET_UNITS_PER_MM;
+}
+
+struct solver_request solver_request_to_draw(const recto_options *options) {
+  struct solver_request request = solver_request_of(options);
+  request.hidden |= (options->results & RECTO_RESULT_EDGES) != 0;
+  if (!options->ink.exact && options->ink.min_stroke_mm != 0 &&
+      options->ink.hidden == RECTO_HIDDEN_NONE && options->results == 0 &&
+      options->verify == 0)
+    request.short_gap = short_gap_of(options);
+  return request;
+}
+
+recto_status solver_run(const struct solver *solver, struct sheet *sheet,
+                        const struct solver_request *request, struct map *map,
+                        struct report *report, recto_error *error) {
+  recto_status status = solver->solve(sheet, request, map, report, error);
+  if (status == RECTO_OK)
+    dense_edges_close_all(map, sheet, request->short_gap);
+  return status;
 }
 
 const struct solver *const *solvers(void) { return table; }

@@ -26,11 +26,17 @@ struct solver_request {
    * and splitting.  No option sets it: the charts of doc/accuracy.md show by it
    * what each test adds. */
   int newell_tests;
+  double short_gap; /* between visible parts of an edge that has very many:
+                       grid units; no longer ones are closed (dense_edges.h) */
 };
 
 /* The request that options make of a solver: edges, fragments only where faces
  * are filled, one thread. */
 struct solver_request solver_request_of(const recto_options *options);
+
+/* The same for a whole drawing and its results; where lines are drawn as a pen
+ * shows them, short gaps are closed. */
+struct solver_request solver_request_to_draw(const recto_options *options);
 
 struct solver {
   recto_method method;
@@ -42,6 +48,14 @@ struct solver {
                         const struct solver_request *request, struct map *map,
                         struct report *report, recto_error *error);
 };
+
+/* Solves by one of them; what it makes does not depend on the method where that
+ * is exact.  Errors as of `solve`. */
+USE_RESULT recto_status solver_run(const struct solver *solver,
+                                   struct sheet *sheet,
+                                   const struct solver_request *request,
+                                   struct map *map, struct report *report,
+                                   recto_error *error);
 
 extern const struct solver solver_brute;
 extern const struct solver solver_newell;

@@ -19,6 +19,7 @@
 #include "base/parallel.h"
 #include "base/poll.h"
 #include "base/sort.h"
+#include "visibility/dense_edges.h"
 #include "visibility/culling/potentially_visible.h"
 #include "visibility/pairwise/edge_query.h"
 #include "visibility/pairwise/deferred_triangles.h"
@@ -80,6 +81,16 @@ struct edge_batches {
   struct map *map;          /* one a batch; all share edge_state */
 };
 
+/* Closes short gaps of the edge that was stored last, and frees the places of
+ * its intervals. */
+static void close_last_edge(struct map *map, const struct tiles_work *work) {
+  if (map->mixed.count == 0)
+    return;
+  struct map_mixed *last = &map->mixed.item[map->mixed.count - 1];
+  dense_edges_close(map, last, work->sheet, work->request->short_gap);
+  map->interval.count = (size_t)last->interval + last->count;
+}
+
 static bool solve_batch(void *user, struct parallel_range range) {
   const struct edge_batches *batches = user;
   const struct tiles_work *work = batches->work;
@@ -94,6 +105,7 @@ static bool solve_batch(void *user, struct parallel_range range) {
         !edge_intervals_store(&query->intervals, work->states.edge.item[i],
                               map))
       return false;
+    close_last_edge(map, work);
   }
   return true;
 }
