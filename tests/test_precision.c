@@ -1,5 +1,6 @@
 /* test_precision.c - a file's literals show how far rounding moved its
  * coordinates. */
+#include <float.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
