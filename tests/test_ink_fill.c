@@ -284,6 +284,35 @@ static void fragments_become_fills_with_their_holes(void **state) {
   ink_fixture_end(&k);
 }
 
+/* Fitting fragments to smooth contours may leave them spikes, which seams would
+ * make as wide as themselves. */
+static void fills_have_no_spikes_beside_smooth_contours(void **state) {
+  static const double spiked[] = {50, 95, 50, 85, 10, 80, 10, 10, 90, 10, 95,
+                                  20, 99, 5,  95, 20, 90, 10, 90, 80, 50, 85};
+  static const double line[] = {20, 90, 30, 95, 40, 90, 30, 95};
+  static const double left[] = {10, 80, 10, 10, 90, 10, 90, 80, 50, 85};
+  struct ink_fixture k;
+  (void)state;
+  ink_fixture_start(&k);
+  k.options.ink.fill = RECTO_FILL_PAINT;
+  k.options.ink.contours = RECTO_CONTOURS_SMOOTH;
+  uint32_t face = ink_fixture_face(&k, 0, flat, 4);
+  ink_fixture_fragment(&k, face, INK_FIXTURE_XY(spiked));
+  ink_fixture_fragment(&k, face, INK_FIXTURE_XY(line));
+  ink_fixture_draw(&k);
+  assert_int_equal(k.drawing.fill.count, 1);
+  assert_int_equal(k.drawing.fill.item[0].loops, 1);
+  assert_int_equal(k.drawing.loop.item[0].count, 5);
+  for (uint32_t i = 0; i < 5; i++) {
+    bool found = false;
+    for (uint32_t p = 0; p < 5; p++)
+      found = found || (k.drawing.point.item[p].x == left[2 * i] &&
+                        k.drawing.point.item[p].y == left[2 * i + 1]);
+    assert_true(found);
+  }
+  ink_fixture_end(&k);
+}
+
 static void
 groups_are_painted_in_their_colour_or_one_of_their_own(void **state) {
   struct ink_fixture k;
@@ -806,6 +835,7 @@ int main(void) {
       cmocka_unit_test(digits_of_names_are_no_digits_of_labels),
       cmocka_unit_test(group_without_name_has_a_label),
       cmocka_unit_test(fragments_become_fills_with_their_holes),
+      cmocka_unit_test(fills_have_no_spikes_beside_smooth_contours),
       cmocka_unit_test(groups_are_painted_in_their_colour_or_one_of_their_own),
       cmocka_unit_test(shade_is_by_the_angle_to_the_light),
       cmocka_unit_test(no_two_angles_to_the_light_have_one_shade),

@@ -28,6 +28,7 @@ struct merge {
   const struct map *map;
   const struct drawing_fill *prototype; /* one a fragment, without loops */
   double crease_cosine;
+  bool smooth;      /* fragments were fitted to smooth contours */
   uint32_t *root;   /* of each fragment: its parent in the union-find forest */
   uint8_t *merged;  /* of each fragment: it has removed half-edges */
   uint8_t *removed; /* of each half-edge */
@@ -169,6 +170,8 @@ static bool add_fill(struct merge *merge, const struct sort_key *fragment,
   }
   if (merged && !outline_trace(&merge->outline, paths))
     return false;
+  if (merge->smooth)
+    outline_remove_spikes(paths);
   paths_straighten(paths, 0);
   for (size_t i = 0; i < paths->path.count; i++) {
     const struct ink_path *path = &paths->path.item[i];
@@ -208,6 +211,7 @@ bool merge_fills(struct drawing *drawing, const struct sheet *sheet,
       .map = map,
       .prototype = prototype,
       .crease_cosine = topology_crease_cosine(options->mesh.crease_deg),
+      .smooth = options->ink.contours == RECTO_CONTOURS_SMOOTH,
       .root = union_find_create(map->fragment.count),
       .merged = mem_calloc(map->fragment.count, sizeof *merge.merged),
       .removed = mem_calloc(map->half_edge.count, sizeof *merge.removed)};

@@ -87,3 +87,43 @@ bool outline_trace(struct outline *outline, struct ink_paths *loops) {
       ok = trace_outline_loop(outline, &segment[i], loops);
   return ok;
 }
+
+static bool is_same_point(struct ink_point a, struct ink_point b) {
+  return a.x == b.x && a.y == b.y;
+}
+
+/* Removes the spikes of one loop: those that it has from its first point to its
+ * last one, then those about where it is closed. */
+static void remove_spikes(struct ink_path *path, struct ink_point *point) {
+  uint32_t count = 0, first = 0;
+  for (uint32_t i = 0; i < path->count; i++) {
+    struct ink_point next = point[i];
+    if (count > 1 && is_same_point(point[count - 2], next))
+      count--;
+    else if (count == 0 || !is_same_point(point[count - 1], next))
+      point[count++] = next;
+  }
+  while (count - first > 1) {
+    if (is_same_point(point[first], point[count - 1]))
+      count--;
+    else if (is_same_point(point[first], point[count - 2]))
+      count -= 2;
+    else if (is_same_point(point[first + 1], point[count - 1]))
+      first++;
+    else
+      break;
+  }
+  path->point += first;
+  path->count = count - first;
+}
+
+void outline_remove_spikes(struct ink_paths *loops) {
+  size_t kept = 0;
+  for (size_t i = 0; i < loops->path.count; i++) {
+    struct ink_path path = loops->path.item[i];
+    remove_spikes(&path, loops->point.item + path.point);
+    if (path.count > 2)
+      loops->path.item[kept++] = path;
+  }
+  loops->path.count = kept;
+}

@@ -32,4 +32,8 @@ USE_RESULT bool outline_add_point(struct ink_paths *loops,
  * Cost  n log n */
 USE_RESULT bool outline_trace(struct outline *outline, struct ink_paths *loops);
 
+/* Removes the spikes of loops, where they run to a point and back and have no
+ * area, and loops of which nothing else is left. */
+void outline_remove_spikes(struct ink_paths *loops);
+
 #endif
