@@ -53,7 +53,8 @@ struct doubled_contours {
   uint8_t *is_hidden;   /* the same: some of its cells are hidden */
   uint8_t *is_covering; /* the same: it covers cells that are hidden */
   ARRAY(struct doubled_cell) cell; /* of visible edges, along the curves */
-  uint8_t *degree;                 /* one a point: visible contours' ends there,
+  size_t points;                   /* before edges are divided */
+  uint8_t *degree;                 /* visible contours' ends at each of them,
                                       at most 2 */
 };
 
@@ -284,7 +285,8 @@ static bool choose_runs(struct doubled_contours *d, bool strictly) {
 /* ---- 3 Hide -------------------------------------------------------------- */
 
 static bool count_degrees(struct doubled_contours *d) {
-  d->degree = mem_calloc(d->sheet->point.count, 1);
+  d->points = d->sheet->point.count;
+  d->degree = mem_calloc(d->points, 1);
   if (d->degree == NULL)
     return false;
   for (uint32_t e = d->first; e < d->end; e++)
@@ -311,7 +313,7 @@ static uint32_t loose_end_near(const struct doubled_contours *d, uint32_t edge,
       for (int k = 0; k < 2; k++) {
         uint32_t end = d->sheet->edge.item[e].point[k];
         bool is_near = distance_to(d, end, at) < most;
-        if (is_near && d->degree[end] == 1)
+        if (is_near && end < d->points && d->degree[end] == 1)
           return end;
         near = near || is_near;
       }
