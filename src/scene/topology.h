@@ -19,7 +19,7 @@ struct topology {
   uint8_t *class_masks;  /* of all edges at the angle crease_deg, as of
                             topology_class_masks; NULL: not kept */
   double crease_deg;
-  uint8_t *coarse; /* of all points, as of topology_coarse_parts with
+  uint8_t *coarse;      /* of all points, as of topology_coarse_parts with
                       class_masks; NULL: not kept */
   uint8_t *crease_mark; /* one an edge, enum crease_mark: what files say of it;
                            NULL: nothing */

@@ -226,8 +226,7 @@ static bool add_pieces(struct contour_pieces *c) {
   bool ok = contour_curves_join(c->curves, c->set, c->options.crease_deg) &&
             (c->options.exact ||
              thin_loops_remove(c->curves, c->set, c->sheet, c->topology)) &&
-            contour_cusps_cut(c->curves) &&
-            page_crossings_cut(c->curves) &&
+            contour_cusps_cut(c->curves) && page_crossings_cut(c->curves) &&
             intersection_cuts_add(c->curves, c->sheet, c->map) &&
             contour_cuts_sort(&c->curves->cut) &&
             divided_curves_find(&c->divided) && list_triangles_about(c) &&
