@@ -14,6 +14,9 @@
 
 enum { SAMPLES = 1024, CONTOUR_STEPS = 2048, CONTOUR_MAX = 2 * CONTOUR_STEPS };
 
+/* So fine that no gap between pieces is closed: below half a pen all are. */
+#define PEN_MM 0.05
+
 static const int tessellation[][2] = {{32, 16}, {64, 32}, {256, 128}};
 
 /* A tube about a closed curve, which is nowhere along Z. */
@@ -239,6 +242,7 @@ static void check_tubes(bool exact) {
         recto_options options;
         smooth_view(&options, view);
         options.ink.exact = exact;
+        options.ink.pen_mm = PEN_MM;
         struct smooth_axes axes = smooth_axes_of(&options);
         check_tube(&tubes[i], scene, n, m, &options, &axes, view, 0);
       }

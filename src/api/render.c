@@ -193,7 +193,6 @@ static recto_status project_scene(struct render *render, recto_error *error) {
       !(render->options->results & RECTO_RESULT_FACES) &&
       render->prepared->scene->cut != NULL)
     render->sheet.first_filled = render->prepared->scene->cut->first_face;
-  /* The topology of a fine mesh takes a quarter of all memory. */
   if (!uses_topology(render)) {
     render->sheet.topology = NULL;
     drop_topology(render);
@@ -229,10 +228,9 @@ static recto_status find_invisibility(struct render *render,
 static recto_status add_smooth_contours(struct render *render,
                                         recto_error *error) {
   const recto_options *options = render->options;
-  bool draws_hidden = options->ink.hidden != RECTO_HIDDEN_NONE;
   const struct smooth_contours_options how = {
       .crease_deg = options->mesh.crease_deg,
-      .hidden_max = draws_hidden ? options->ink.hidden_by_max : 0,
+      .hidden_max = options->ink.hidden ? options->ink.hidden_by_max : 0,
       .exact = options->ink.exact || options->ink.min_stroke_mm == 0,
       .intersections = (options->ink.edges & RECTO_EDGE_INTERSECTION) != 0};
   struct smooth_contours_counts counts;
