@@ -121,6 +121,8 @@ static void check_coarse_plane(const struct coarse_plane *plane,
   }
   bool may = coarse_plane_may_intersect(plane, p);
   assert_true(may || !side_count_of_sides(side));
+  bool touches = side[0] == 0 && side[1] == 0 && side[2] == 0;
+  assert_true(coarse_plane_may_touch(plane, p) || !touches);
   bool straddles = coarse_plane_is_straddled(plane, p);
   assert_true(!straddles || side[0] * side[1] * side[2] != 0);
   assert_true(!straddles || side[0] != side[1] || side[1] != side[2]);

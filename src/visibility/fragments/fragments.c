@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/sort.h"
+#include "visibility/predicate/coarse_plane.h"
 #include "visibility/predicate/triangle_pair.h"
 #include "visibility/predicate/plane_filter.h"
 
@@ -58,21 +59,35 @@ void fragments_adopt(struct fragments *whole, struct fragments *part) {
 
 /* ---- Contact: passing pieces on to earlier faces ------------------------- */
 
+/* May the two touch, as their planes with the contact tolerance of each
+ * say? */
+static bool planes_may_touch(const struct sheet *sheet, uint32_t f,
+                             uint32_t g) {
+  struct plane_filter sf = plane_filter_of(sheet, f),
+                      sg = plane_filter_of(sheet, g);
+  return triangles_may_touch(sheet, &sf, f, &sg, g);
+}
+
 /* Finds the earlier triangles of other faces among the candidates that are in
  * contact with this one. */
 static bool find_touching(struct fragments *f, uint32_t triangle,
                           const uint32_t *candidate, size_t count) {
   const struct sheet *sheet = f->sheet;
   struct box2 box = box2_of_triangle(sheet, triangle);
-  struct plane_filter plane = plane_filter_of(sheet, triangle);
+  struct geom_triangle corners = sheet_corners(sheet, triangle);
+  struct occlusion_bound all = occlusion_tolerance_bound_all(sheet);
+  struct coarse_plane coarse = coarse_plane_of(&all, corners.p);
   for (size_t i = 0; i < count; i++) {
     uint32_t g = candidate[i];
     if (g < triangle && !sheet_is_edge_on(sheet, g) &&
         sheet->triangle.item[g].face != sheet->triangle.item[triangle].face &&
         !box2_disjoint(box, box2_of_triangle(sheet, g))) {
       f->counts.contact_pairs++;
-      struct plane_filter other = plane_filter_of(sheet, g);
-      if (!triangles_may_touch(sheet, &plane, triangle, &other, g) ||
+      struct geom_triangle others = sheet_corners(sheet, g);
+      struct coarse_plane other = coarse_plane_of(&all, others.p);
+      if ((!coarse_plane_may_touch(&coarse, others.p) &&
+           !coarse_plane_may_touch(&other, corners.p)) ||
+          !planes_may_touch(sheet, triangle, g) ||
           triangles_disjoint(sheet, triangle, g))
         continue;
       f->counts.contact_exact++;

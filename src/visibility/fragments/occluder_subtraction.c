@@ -34,7 +34,8 @@ bool occluder_subtraction_start(struct occluder_subtraction *subtraction,
   arena_reset(&subtraction->arena);
   subtraction->triangle = triangle;
   subtraction->plane = triangle_plane_of(subtraction->sheet, triangle);
-  subtraction->filter = plane_filter_of(subtraction->sheet, triangle);
+  subtraction->filter =
+      plane_filter_without_contact(subtraction->sheet, triangle);
   subtraction->box = box2_of_triangle(subtraction->sheet, triangle);
   geom_depth_range(subtraction->plane.p, &subtraction->low, &subtraction->high);
   subtraction->covered = subtraction->interpenetrating = false;
@@ -73,7 +74,8 @@ static bool filtered_depth_order(const struct occluder_subtraction *subtraction,
     *depth_order = sides == PLANE_BEHIND ? NEARER_NEVER : NEARER_ALWAYS;
     return true;
   }
-  struct plane_filter plane = plane_filter_of(subtraction->sheet, g);
+  struct plane_filter plane =
+      plane_filter_without_contact(subtraction->sheet, g);
   int others = filtered_plane_sides(&plane, subtraction->plane.p);
   if (others == PLANE_BEHIND || others == PLANE_IN_FRONT) {
     *depth_order = others == PLANE_BEHIND ? NEARER_ALWAYS : NEARER_NEVER;
@@ -181,7 +183,7 @@ coverage_of_crossing(const struct occluder_subtraction *subtraction,
   if (!occluder->crossing_made) {
     int sum = 0, count = (int)piece->count;
     struct plane_filter filter =
-        plane_filter_of(subtraction->sheet, occluder->triangle);
+        plane_filter_without_contact(subtraction->sheet, occluder->triangle);
     for (uint32_t c = 0; c < piece->count; c++)
       sum += plane_filter_compare(&subtraction->filter, &filter,
                                   piece->corner[c].x, piece->corner[c].y);

@@ -92,6 +92,15 @@ static inline int coarse_plane_contact_sign(const struct coarse_plane *plane,
   return (value > -plane->least) - (value < -plane->most);
 }
 
+/* May all three corners be in contact with the plane?  False is certain; it is
+ * true where there is no bound of the tolerance. */
+static inline bool coarse_plane_may_touch(const struct coarse_plane *plane,
+                                          const struct geom_point corner[3]) {
+  return !(fabs(coarse_plane_value(plane, corner[0])) > plane->most ||
+           fabs(coarse_plane_value(plane, corner[1])) > plane->most ||
+           fabs(coarse_plane_value(plane, corner[2])) > plane->most);
+}
+
 /* The same sign all along a part of the segment p-q, from parameter `from` to
  * `to`, in [0, 1] and rounded.  That and interpolation make the value differ by
  * less than a part of the error bound more, for which most is doubled. */

@@ -29,44 +29,51 @@
 /* The unit of T(p), which has 16 fraction bits. */
 #define T_UNIT 0x1p-16
 
-struct plane_filter plane_filter_of(const struct sheet *sheet,
-                                    uint32_t triangle) {
-  const struct camera *camera = &sheet->camera;
+struct plane_filter plane_filter_without_contact(const struct sheet *sheet,
+                                                 uint32_t triangle) {
   const struct geom_triangle corners = sheet_corners(sheet, triangle);
   struct geom_point a = corners.p[0], b = corners.p[1], c = corners.p[2];
   double ux = (double)b.x - a.x, uy = (double)b.y - a.y,
          uz = (double)(b.z - a.z), vx = (double)c.x - a.x,
          vy = (double)c.y - a.y, vz = (double)(c.z - a.z);
-  const double n[3] = {uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx},
-               m[3] = {fabs(uy * vz) + fabs(uz * vy),
-                       fabs(uz * vx) + fabs(ux * vz),
-                       fabs(ux * vy) + fabs(uy * vx)};
+  return (struct plane_filter){
+      .x = a.x,
+      .y = a.y,
+      .z = (double)a.z,
+      .nx = uy * vz - uz * vy,
+      .ny = uz * vx - ux * vz,
+      .nz = ux * vy - uy * vx,
+      .ex = ERROR_BOUND * (fabs(uy * vz) + fabs(uz * vy)),
+      .ey = ERROR_BOUND * (fabs(uz * vx) + fabs(ux * vz)),
+      .ez = ERROR_BOUND * (fabs(ux * vy) + fabs(uy * vx)),
+      .t_error = INFINITY};
+}
+
+struct plane_filter plane_filter_of(const struct sheet *sheet,
+                                    uint32_t triangle) {
+  const struct camera *camera = &sheet->camera;
+  struct plane_filter plane = plane_filter_without_contact(sheet, triangle);
+  const double n[3] = {plane.nx, plane.ny, plane.nz},
+               m[3] = {plane.ex / ERROR_BOUND, plane.ey / ERROR_BOUND,
+                       plane.ez / ERROR_BOUND}; /* exact: a power of two */
+  struct geom_point a =
+      sheet->point.item[sheet->triangle.item[triangle].point[0]];
   struct contact_length contact = contact_length_of(sheet, triangle, a, n, m);
   double grid = contact_grid_units(sheet), by_near = 1, by_z = 0;
   if (camera->perspective) {
     by_near = 1 / camera->d_max;
     by_z = 1 / sheet->z_scale;
   }
-  struct plane_filter plane = {
-      .x = a.x,
-      .y = a.y,
-      .z = (double)a.z,
-      .nx = n[0],
-      .ny = n[1],
-      .nz = n[2],
-      .ex = ERROR_BOUND * m[0],
-      .ey = ERROR_BOUND * m[1],
-      .ez = ERROR_BOUND * m[2],
-      .t0 = (fabs(n[0]) + fabs(n[1]) + fabs(n[2])) * grid +
-            contact.length * by_near,
-      .t1 = contact.length * by_z,
-      .t0_more = T_UNIT,
-      .t1_more = camera->perspective ? T_UNIT : 0,
-      .t_error = ERROR_BOUND *
-                 ((m[0] + m[1] + m[2]) * grid +
-                  contact.most * (by_near + by_z * (double)SHEET_Z_MAX))};
   if (!(contact.most * by_near < T0_LARGE && contact.most * by_z < T1_LARGE))
-    plane.t_error = INFINITY;
+    return plane;
+  plane.t0 =
+      (fabs(n[0]) + fabs(n[1]) + fabs(n[2])) * grid + contact.length * by_near;
+  plane.t1 = contact.length * by_z;
+  plane.t0_more = T_UNIT;
+  plane.t1_more = camera->perspective ? T_UNIT : 0;
+  plane.t_error =
+      ERROR_BOUND * ((m[0] + m[1] + m[2]) * grid +
+                     contact.most * (by_near + by_z * (double)SHEET_Z_MAX));
   return plane;
 }
 

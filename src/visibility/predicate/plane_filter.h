@@ -37,6 +37,10 @@ struct plane_filter {
 struct plane_filter plane_filter_of(const struct sheet *sheet,
                                     uint32_t triangle);
 
+/* The same for what asks for no contact: it takes a tenth of the time. */
+struct plane_filter plane_filter_without_contact(const struct sheet *sheet,
+                                                 uint32_t triangle);
+
 /* An upper bound of the contact tolerance as a difference of depth; INFINITY
  * where there is none. */
 double plane_filter_thickness(const struct plane_filter *plane);
