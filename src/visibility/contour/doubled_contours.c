@@ -106,7 +106,7 @@ static bool list_visible_contours(struct doubled_contours *d) {
         d->along[e - d->first] +
         hypot((double)s.q.x - s.p.x, (double)s.q.y - s.p.y);
     if (d->map->edge_state[e] != MAP_HIDDEN &&
-        !segment_grid_add(&d->grid, s, e, false))
+        !segment_grid_add(&d->grid, s, e))
       return false;
   }
   d->grid.contours = d->grid.segment.count;

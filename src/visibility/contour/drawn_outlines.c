@@ -19,7 +19,7 @@ bool drawn_outlines_list(struct drawn_outlines *d) {
     if (d->map->edge_state[e] == MAP_HIDDEN || !sheet_edge_is_drawn(sheet, e) ||
         (e < d->first && (edge->edge_class & features) != 0))
       continue;
-    if (!segment_grid_add(&d->grid, sheet_ends(sheet, edge->point), e, false))
+    if (!segment_grid_add(&d->grid, sheet_ends(sheet, edge->point), e))
       return false;
   }
   d->grid.contours = d->grid.segment.count;

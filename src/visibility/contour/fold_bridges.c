@@ -117,12 +117,12 @@ static bool make_grid(struct fold_bridges *b) {
     return true;
   for (uint32_t e = b->in->first; e < b->edges; e++)
     if (is_visible_contour(b, e) &&
-        !segment_grid_add(
-            &b->grid, sheet_ends(sheet, sheet->edge.item[e].point), e, false))
+        !segment_grid_add(&b->grid,
+                          sheet_ends(sheet, sheet->edge.item[e].point), e))
       return false;
   for (size_t i = 0; i < b->in->set->outline.count; i++)
     if (!segment_grid_add(&b->grid, b->in->set->outline.item[i].image,
-                          b->edges + (uint32_t)i, false))
+                          b->edges + (uint32_t)i))
       return false;
   b->grid.contours = b->grid.segment.count;
   return segment_grid_make(&b->grid);

@@ -129,7 +129,7 @@ static bool add_curves(struct intersection_cuts *c) {
         !segment_grid_add(
             &c->grid,
             (struct geom_segment){image_on_mesh(c, i), image_on_mesh(c, i + 1)},
-            i, false))
+            i))
       return false;
   c->grid.contours = c->grid.segment.count;
   return c->grid.contours == 0 || segment_grid_make(&c->grid);

@@ -31,14 +31,14 @@ static bool list_drawn_lines(struct line_ends *l) {
   const struct sheet *sheet = l->sheet;
   for (uint32_t e = l->first; e < sheet->edge.count; e++)
     if (l->map->edge_state[e] == MAP_VISIBLE &&
-        !segment_grid_add(
-            &l->grid, sheet_ends(sheet, sheet->edge.item[e].point), e, false))
+        !segment_grid_add(&l->grid,
+                          sheet_ends(sheet, sheet->edge.item[e].point), e))
       return false;
   l->grid.contours = l->grid.segment.count;
   for (uint32_t e = 0; e < l->first; e++)
     if (l->map->edge_state[e] != MAP_HIDDEN && sheet_edge_is_drawn(sheet, e) &&
-        !segment_grid_add(
-            &l->grid, sheet_ends(sheet, sheet->edge.item[e].point), e, false))
+        !segment_grid_add(&l->grid,
+                          sheet_ends(sheet, sheet->edge.item[e].point), e))
       return false;
   return true;
 }

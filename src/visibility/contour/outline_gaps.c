@@ -61,7 +61,7 @@ static bool list_drawn(struct outline_gaps *g) {
       if (g->in->map->edge_state[e] == MAP_HIDDEN ||
           !sheet_edge_is_drawn(sheet, e))
         continue;
-      if (!segment_grid_add(&g->grid, sheet_ends(sheet, point), e, false))
+      if (!segment_grid_add(&g->grid, sheet_ends(sheet, point), e))
         return false;
       g->grid.contours = g->grid.segment.count;
       for (int k = 0; i == 0 && k < 2; k++) {

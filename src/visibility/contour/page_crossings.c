@@ -15,11 +15,11 @@ static bool add_segments(struct segment_grid *grid,
             grid,
             (struct geom_segment){contour_curves_node(curves, i)->page,
                                   contour_curves_node(curves, i + 1)->page},
-            i, false))
+            i))
       return false;
   grid->contours = grid->segment.count;
   for (size_t i = 0; i < curves->set->border.count; i++)
-    if (!segment_grid_add(grid, curves->set->border.item[i], SHEET_NONE, false))
+    if (!segment_grid_add(grid, curves->set->border.item[i], SHEET_NONE))
       return false;
   return true;
 }

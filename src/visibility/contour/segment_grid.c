@@ -2,8 +2,8 @@
 #include "visibility/contour/segment_grid.h"
 
 bool segment_grid_add(struct segment_grid *grid, struct geom_segment segment,
-                      uint32_t owner, bool touches) {
-  struct page_segment made = {segment.p, segment.q, owner, touches};
+                      uint32_t owner) {
+  struct page_segment made = {segment.p, segment.q, owner};
   return (made.p.x == made.q.x && made.p.y == made.q.y) ||
          ARRAY_PUSH(&grid->segment, made);
 }

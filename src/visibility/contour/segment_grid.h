@@ -8,7 +8,6 @@
 struct page_segment {
   struct geom_point p, q;
   uint32_t owner; /* the caller's number; SHEET_NONE: a border */
-  bool touches; /* an intersection: it cuts what it crosses at its own depth */
 };
 
 struct segment_grid {
@@ -21,8 +20,7 @@ struct segment_grid {
 /* Adds a segment, unless it is a point on the page.  Returns false when memory
  * ran out. */
 USE_RESULT bool segment_grid_add(struct segment_grid *grid,
-                                 struct geom_segment segment, uint32_t owner,
-                                 bool touches);
+                                 struct geom_segment segment, uint32_t owner);
 
 /* Makes cells in the box of the contours, about as many as segments, and lists
  * the segments.  Returns false when memory ran out. */
