@@ -289,10 +289,11 @@ static recto_status drop_short_spurs(struct ink *ink,
   if ((ink->options->ink.edges & RECTO_EDGES_DEFAULT) != RECTO_EDGES_DEFAULT ||
       !solver_is_exact(ink->options))
     return RECTO_OK;
+  bool smooth = ink->options->ink.contours == RECTO_CONTOURS_SMOOTH;
   uint8_t *drop = mem_calloc(graph->segment.count, 1);
-  bool ok = drop != NULL &&
-            segment_graph_find_short_spurs(graph, rows, ink->sheet, ink->pens,
-                                           tidy_step(ink->options), drop);
+  bool ok = drop != NULL && segment_graph_find_short_spurs(
+                                graph, rows, ink->sheet, ink->pens,
+                                tidy_step(ink->options), smooth, drop);
   recto_status status =
       ok ? drop_marked(ink, graph, drop, error) : error_memory(error);
   mem_free(drop);

@@ -1,5 +1,5 @@
 /* short_spurs.c - finds the short silhouettes within the picture that lead
- * nowhere, and short creases that touch nothing.
+ * nowhere; and beside smooth contours short creases that touch nothing.
  *
  * Where a mesh is rough its surface folds over itself by next to nothing: each
  * fold is a silhouette, of which visibility leaves a tick beside the outline,
@@ -47,7 +47,8 @@ struct spur_search {
   const struct segment_graph *graph;
   const struct sheet *sheet;
   const struct pens *pens;
-  double step; /* see segment_graph_find_short_spurs */
+  double step;  /* see segment_graph_find_short_spurs */
+  bool creases; /* the same */
   ARRAY(struct spur) spur;
   uint32_t *of_segment;    /* the spur of each, plus one; 0: it is of none */
   ARRAY(uint32_t) segment; /* those of spurs */
@@ -70,11 +71,12 @@ static uint32_t ends_at(const struct spur_search *s, uint32_t node) {
   return s->graph->ends.start[node + 1] - s->graph->ends.start[node];
 }
 
-/* The class of a visible silhouette or crease; 0: the segment is none. */
-static unsigned spur_class(const struct graph_segment *segment) {
+/* The class of a visible segment of which a spur may be; 0: of none. */
+static unsigned spur_class(const struct spur_search *s, uint32_t index) {
+  const struct graph_segment *segment = &s->graph->segment.item[index];
   unsigned edge_class = segment->style_key & RECTO_EDGES_ALL;
-  bool may_be =
-      edge_class == RECTO_EDGE_SILHOUETTE || edge_class == RECTO_EDGE_CREASE;
+  bool may_be = edge_class == RECTO_EDGE_SILHOUETTE ||
+                (s->creases && edge_class == RECTO_EDGE_CREASE);
   return may_be && !graph_segment_is_hidden(segment) ? edge_class : 0;
 }
 
@@ -111,8 +113,7 @@ static uint32_t next_end(const struct spur_search *s, uint32_t end) {
   if (ends_at(s, node) != 2)
     return SEGMENT_GRAPH_NONE;
   uint32_t next = two[two[0] == end];
-  return spur_class(&graph->segment.item[next >> 1]) ==
-                 spur_class(&graph->segment.item[end >> 1])
+  return spur_class(s, next >> 1) == spur_class(s, end >> 1)
              ? next
              : SEGMENT_GRAPH_NONE;
 }
@@ -122,7 +123,7 @@ static uint32_t next_end(const struct spur_search *s, uint32_t end) {
 static uint32_t walk(const struct spur_search *s, uint32_t end, bool *is_long) {
   const struct graph_segment *first = &s->graph->segment.item[end >> 1];
   uint32_t group = s->sheet->edge.item[first->edge].group;
-  uint32_t pen = pens_of_line(s->pens, spur_class(first), group);
+  uint32_t pen = pens_of_line(s->pens, spur_class(s, end >> 1), group);
   double length = 0;
   for (uint32_t next = end; next != SEGMENT_GRAPH_NONE;
        next = next_end(s, end)) {
@@ -143,8 +144,7 @@ static bool add_spur(struct spur_search *s, uint32_t end) {
   bool both = ends_at(s, spur_node(s, last)) == 1;
   if (both && (last < end || is_cut_off(s, last)))
     return true; /* found from there, or cut off */
-  bool is_crease =
-      spur_class(&s->graph->segment.item[end >> 1]) == RECTO_EDGE_CREASE;
+  bool is_crease = spur_class(s, end >> 1) == RECTO_EDGE_CREASE;
   if (is_crease && (is_long || !both))
     return true;
   struct spur spur = {.end = {end, both ? last : SEGMENT_GRAPH_NONE},
@@ -160,7 +160,7 @@ static bool find_spurs(struct spur_search *s) {
     if (ends_at(s, (uint32_t)n) != 1) /* there are nodes without any */
       continue;
     uint32_t end = graph->ends.item[graph->ends.start[n]];
-    if (spur_class(&graph->segment.item[end >> 1]) != 0 && !add_spur(s, end))
+    if (spur_class(s, end >> 1) != 0 && !add_spur(s, end))
       return false;
   }
   return true;
@@ -401,9 +401,12 @@ bool segment_graph_find_short_spurs(const struct segment_graph *graph,
                                     const struct node_rows *rows,
                                     const struct sheet *sheet,
                                     const struct pens *pens, double step,
-                                    uint8_t *drop) {
-  struct spur_search s = {
-      .graph = graph, .sheet = sheet, .pens = pens, .step = step};
+                                    bool creases, uint8_t *drop) {
+  struct spur_search s = {.graph = graph,
+                          .sheet = sheet,
+                          .pens = pens,
+                          .step = step,
+                          .creases = creases};
   for (uint32_t pen = 0; pen < pens->count; pen++)
     s.near = fmax(s.near, pens_width_mm(pens, pen) / 2 * SHEET_UNITS_PER_MM);
   bool ok = find_spurs(&s);
