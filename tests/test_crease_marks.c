@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "scene/corner_normals.h"
 #include "scene/crease_marks.h"
 #include "scene/edge_classes.h"
 #include "tests/memory_faults.h"
@@ -299,6 +300,27 @@ static void normals_of_one_a_point_take_four_bytes_a_point(void **state) {
   reading_fini(&r);
 }
 
+/* Points that come after a face with normals have room for their own. */
+static void each_object_of_a_file_has_its_normals(void **state) {
+  (void)state;
+  enum { OBJECTS = 200 };
+  static char text[ROOM];
+  char *to = text;
+  struct reading r;
+  for (int i = 0; i < OBJECTS; i++)
+    to += sprintf(to,
+                  "o part%d\nv 0 0 %d\nv 1 0 %d\nv 0 1 %d\nvn 0 0 1\n"
+                  "f -3//-1 -2//-1 -1//-1\n",
+                  i, i, i, i);
+  reading_of(&r, &reader_obj, text);
+  assert_int_equal(r.status, RECTO_OK);
+  assert_int_equal(r.scene.point_normal.count, 3 * OBJECTS);
+  for (uint32_t c = 0; c < 3 * OBJECTS; c++)
+    assert_int_equal(corner_normal_of(&r.scene, c),
+                     corner_normal_encode(0, 0, 1));
+  reading_fini(&r);
+}
+
 /* ---- Classes ------------------------------------------------------------- */
 
 static void marks_decide_the_classes_of_edges(void **state) {
@@ -360,6 +382,7 @@ int main(void) {
       cmocka_unit_test(what_cannot_be_read_is_told_and_the_face_drawn),
       cmocka_unit_test(a_repeated_corner_takes_the_normals_of_its_face),
       cmocka_unit_test(normals_of_one_a_point_take_four_bytes_a_point),
+      cmocka_unit_test(each_object_of_a_file_has_its_normals),
       cmocka_unit_test(marks_decide_the_classes_of_edges),
       cmocka_unit_test(marks_run_out_of_memory),
   };

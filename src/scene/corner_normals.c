@@ -111,6 +111,9 @@ bool corner_normals_add(struct scene *scene, size_t first,
       (normal == NULL || !begin_normals(scene, first)))
     return normal == NULL;
   if (!scene->lists_normals) {
+    /* Points may have come since the last face with normals. */
+    if (normal != NULL && !list_point_normals(scene))
+      return false;
     if (normal != NULL && take_point_normals(scene, first, normal))
       return true;
     if (!list_corner_normals(scene, first))
