@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <sys/types.h>
 
-enum { PARALLEL_READ_PART = 1 << 20 }; /* bytes that a thread reads at once */
+enum { PARALLEL_READ_PART = 1 << 18 }; /* bytes that a thread reads at once */
 
 /* Whether the call may use several threads, and each has a part to read. */
 bool parallel_read_is_worth(size_t count);

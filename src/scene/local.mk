@@ -20,6 +20,7 @@ librecto_core_la_SOURCES += \
   %D%/obj_blocks.c %D%/obj_blocks.h \
   %D%/obj_marks.c \
   %D%/obj_parser.c %D%/obj_parser.h \
+  %D%/obj_plain.c %D%/obj_plain.h \
   %D%/obj_run.c \
   %D%/obj_triangles.c \
   %D%/ply_colour.c %D%/ply_colour.h \

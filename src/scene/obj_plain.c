@@ -1,0 +1,270 @@
+/* obj_plain.c - plain points and faces of an OBJ file: "v x y z" and "f a b c"
+ * that are like those before them, read without the tests that only others
+ * need. */
+#include "scene/obj_plain.h"
+
+#include <math.h>
+
+#include "base/number.h"
+#include "scene/corner_normals.h"
+#include "scene/exact.h"
+
+#if DIGITS_CHUNKS
+
+enum { PLAIN_ROOM = OBJ_PLAIN_ROOM };
+
+/* Is there a statement of that letter, with room to look at? */
+static inline bool has_short_statement(const struct obj_parser *p,
+                                       const struct obj_run *run,
+                                       char keyword) {
+  return run->count < run->most && run->at < run->end &&
+         p->end - run->at > PLAIN_ROOM && run->at[0] == keyword &&
+         run->at[1] == ' ';
+}
+
+/* ---- Points -------------------------------------------------------------- */
+
+/* Reads a coordinate of a statement; NULL where it is no finite number, or
+ * where those before it were too long. */
+static inline const char *read_coordinate(const struct obj_parser *p,
+                                          const char *start, const char *at,
+                                          double *value) {
+  if (at - start > PLAIN_ROOM / 2)
+    return NULL;
+  const char *past = number_parse_plain(at, value);
+  if (past != NULL && *past <= ' ')
+    return past;
+  past = number_parse_double(at, p->end, value);
+  return past != NULL && isfinite(*value) ? past : NULL;
+}
+
+/* Reads "v x y z" to its end; NULL where it is something else. */
+static inline const char *read_plain_point(const struct obj_parser *p,
+                                           const char *start,
+                                           struct scene_point *point) {
+  const char *at = read_coordinate(p, start, start + 2, &point->x);
+  if (at == NULL || *at != ' ')
+    return NULL;
+  at = read_coordinate(p, start, at + 1, &point->y);
+  if (at == NULL || *at != ' ')
+    return NULL;
+  at = read_coordinate(p, start, at + 1, &point->z);
+  return at != NULL && *at == '\n' ? at + 1 : NULL;
+}
+
+/* The number of the point that is sampled next, from `number` on. */
+static size_t next_sampled(const struct obj_parser *p, size_t number) {
+  size_t next = p->sample.next > p->seen ? p->sample.next : p->seen;
+  while (next < number)
+    next = precision_sampled_after(next);
+  return next;
+}
+
+/* Reads the points of a run; false when memory ran out. */
+static bool read_points(const struct obj_parser *p, struct obj_run *run) {
+  struct scene_point *point =
+      p->scene->point.item + p->scene->point.count + run->before;
+  size_t first = p->seen + run->before, sampled = next_sampled(p, first);
+  for (; has_short_statement(p, run, 'v'); run->count++) {
+    const char *past = read_plain_point(p, run->at, &point[run->count]);
+    if (past == NULL)
+      break;
+    if (first + run->count == sampled) {
+      if (!ARRAY_PUSH(&run->sampled, run->at))
+        return false;
+      sampled = precision_sampled_after(sampled);
+    }
+    run->at = past;
+  }
+  return true;
+}
+
+/* Looks at the numbers of "v x y z", which are plain. */
+static void sample_point(struct obj_parser *p, const char *at,
+                         const struct scene_point *point) {
+  const double xyz[3] = {point->x, point->y, point->z};
+  at += 2;
+  for (int k = 0; k < 3; k++) {
+    const char *start = at;
+    while (*at > ' ')
+      at++;
+    precision_add_literal(&p->sample, start, at++, xyz[k]);
+  }
+}
+
+static bool add_points(struct obj_parser *p, const struct obj_run *run) {
+  const struct scene_point *point =
+      p->scene->point.item + p->scene->point.count;
+  for (size_t i = 0; i < run->sampled.count; i++) {
+    size_t number = next_sampled(p, p->seen);
+    (void)precision_is_sampled(&p->sample, number);
+    sample_point(p, run->sampled.item[i], &point[number - p->seen]);
+  }
+  p->seen += run->count;
+  p->scene->point.count += run->count;
+  return true;
+}
+
+static bool reserve_points(struct obj_parser *p, size_t count) {
+  return ARRAY_RESERVE(&p->scene->point, count);
+}
+
+/* ---- Faces --------------------------------------------------------------- */
+
+/* Reads " index" or " index/other/other" of up to seven digits, of a point
+ * seen so far; NULL where it is something else. */
+static inline const char *read_plain_index(const struct obj_parser *p,
+                                           const char *at, uint32_t *point) {
+  uint64_t chunk;
+  if (*at != ' ')
+    return NULL;
+  int count = digits_count(++at, &chunk);
+  if (count == 0 || count == 8)
+    return NULL;
+  uint64_t index = digits_sum(chunk, count) - 1;
+  if (index >= p->seen)
+    return NULL;
+  *point = (uint32_t)(p->first + index);
+  return at[count] == '/' ? obj_skip_other_indices(at + count) : at + count;
+}
+
+/* Reads "f a b c" to its end; NULL where it is something else. */
+static inline const char *read_plain_face(const struct obj_parser *p,
+                                          const char *start,
+                                          uint32_t corner[3]) {
+  const char *at = start + 1;
+  for (int k = 0; k < 3; k++) {
+    at = read_plain_index(p, at, &corner[k]);
+    if (at == NULL || at - start > PLAIN_ROOM / 2)
+      return NULL;
+  }
+  return *at == '\n' ? at + 1 : NULL;
+}
+
+/* Reads the faces of a run.  Their points lie anywhere in memory: those of a
+ * face are looked at when some more were read, and they have been fetched. */
+static void read_corners_of_faces(const struct obj_parser *p,
+                                  struct obj_run *run) {
+  struct scene *scene = p->scene;
+  size_t corners = scene->corner.count + 3 * run->before, read = 0;
+  uint32_t *corner = scene->corner.item + corners;
+  size_t face = scene->face_count + run->before;
+  uint32_t *start =
+      scene->face_start.count > 0 ? scene->face_start.item + face + 1 : NULL;
+  uint32_t *group =
+      scene->face_group.count > 0 ? scene->face_group.item + face : NULL;
+  const char *begin[MEM_PREFETCH_AHEAD]; /* of faces, by number */
+  bool goes_on = true;
+  do {
+    begin[read % MEM_PREFETCH_AHEAD] = run->at;
+    const char *past =
+        goes_on && read < run->most && has_short_statement(p, run, 'f')
+            ? read_plain_face(p, run->at, &corner[3 * read])
+            : NULL;
+    goes_on = past != NULL;
+    for (int k = 0; goes_on && k < 3; k++)
+      MEM_PREFETCH(&scene->point.item[corner[3 * read + (size_t)k]]);
+    read += goes_on;
+    run->at = goes_on ? past : run->at;
+    if (goes_on && read - run->count < MEM_PREFETCH_AHEAD)
+      continue;
+    if (run->count == read ||
+        !obj_is_surely_bent(scene, &corner[3 * run->count]))
+      break;
+    if (start != NULL)
+      start[run->count] = (uint32_t)(corners + 3 * (run->count + 1));
+    if (group != NULL)
+      group[run->count] = scene->current_group;
+    run->count++;
+  } while (true);
+  if (run->count < read)
+    run->at = begin[run->count % MEM_PREFETCH_AHEAD];
+}
+
+static bool wants_normals(const struct obj_parser *p) {
+  return p->scene->needs_crease_marks && p->normal.count > 0;
+}
+
+/* Reads the normal of the corner at a place, whose point was read: indices of
+ * up to seven digits, of a normal that is there.  Returns where it ends; NULL
+ * where it is something else.
+ * normal  gets 0 where there is no index */
+static inline const char *read_plain_normal(const struct obj_parser *p,
+                                            const char *at, uint32_t *normal) {
+  uint64_t chunk;
+  *normal = 0;
+  at += digits_count(at, &chunk);
+  if (*at != '/')
+    return at;
+  at++;
+  at += digits_count(at, &chunk);
+  if (*at == '/') {
+    int count = digits_count(++at, &chunk);
+    if (count == 0 || count == 8)
+      return NULL;
+    uint64_t index = digits_sum(chunk, count) - 1;
+    if (index >= p->normal.count)
+      return NULL;
+    *normal = p->normal.item[index];
+    at += count;
+  }
+  return *at == ' ' || *at == '\n' ? at : NULL;
+}
+
+/* Reads the normals of the faces of a run, which begins at `at`; the run ends
+ * before the first face with one that is not plain. */
+static void read_normals_of_faces(const struct obj_parser *p,
+                                  struct obj_run *run, const char *at) {
+  uint32_t *normal = p->run_normal.item + 3 * run->before;
+  uint32_t any = 0;
+  for (size_t f = 0; f < run->count; f++, at++) {
+    const char *start = at++;
+    for (int k = 0; k < 3; k++, any |= *normal++) {
+      at = read_plain_normal(p, at + 1, normal);
+      if (at == NULL) {
+        run->count = f;
+        run->at = start;
+        run->has_normals = any != 0;
+        return;
+      }
+    }
+  }
+  run->has_normals = any != 0;
+}
+
+static bool read_faces(const struct obj_parser *p, struct obj_run *run) {
+  const char *start = run->at;
+  read_corners_of_faces(p, run);
+  if (wants_normals(p))
+    read_normals_of_faces(p, run, start);
+  return true;
+}
+
+static bool add_run_faces(struct obj_parser *p, const struct obj_run *run) {
+  struct scene *scene = p->scene;
+  size_t first = scene->corner.count;
+  scene->corner.count += 3 * run->count;
+  scene->face_count += (uint32_t)run->count;
+  if (scene->face_start.count > 0)
+    scene->face_start.count += run->count;
+  if (scene->face_group.count > 0)
+    scene->face_group.count += run->count;
+  return !scene->needs_crease_marks ||
+         corner_normals_add(
+             scene, first,
+             run->has_normals ? p->run_normal.item + 3 * run->before : NULL);
+}
+
+static bool reserve_faces(struct obj_parser *p, size_t count) {
+  struct scene *scene = p->scene;
+  return (scene->current_group == 0 || scene_list_groups(scene)) &&
+         scene_reserve_faces(scene, count, 3 * count) &&
+         (!wants_normals(p) || ARRAY_RESERVE(&p->run_normal, 3 * count));
+}
+
+const struct obj_run_kind obj_plain_points = {reserve_points, read_points,
+                                              add_points},
+                          obj_plain_faces = {reserve_faces, read_faces,
+                                             add_run_faces};
+
+#endif

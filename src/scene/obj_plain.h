@@ -1,0 +1,33 @@
+/* obj_plain.h - plain points and faces of an OBJ file, and what differs between
+ * them. */
+#ifndef SCENE_OBJ_PLAIN_H
+#define SCENE_OBJ_PLAIN_H
+
+#include "scene/obj_parser.h"
+
+enum {
+  OBJ_PLAIN_ROOM = 128 /* bytes, more than a plain statement has */
+};
+
+/* A run of plain statements of one kind, or a part of one. */
+struct obj_run {
+  const char *at, *end; /* where the next one begins, and where it ends */
+  size_t most, count;   /* how many it may have, and has */
+  size_t before;        /* how many the parts before it may have */
+  bool has_normals;     /* a corner of its faces has one */
+  ARRAY(const char *) sampled; /* points whose numbers are looked at */
+};
+
+struct obj_run_kind {
+  /* Makes room for so many; false when memory ran out. */
+  bool (*reserve)(struct obj_parser *p, size_t count);
+  /* Reads a run up to its end, or to what is not plain; false when memory ran
+   * out.  Runs may be read by several threads at once. */
+  bool (*read)(const struct obj_parser *p, struct obj_run *run);
+  /* Adds what was read to the scene; false when memory ran out. */
+  bool (*add)(struct obj_parser *p, const struct obj_run *run);
+};
+
+extern const struct obj_run_kind obj_plain_points, obj_plain_faces;
+
+#endif
