@@ -1,9 +1,8 @@
 /* test_parallel.c - a loop is done by as many threads as can be had. */
-#define _GNU_SOURCE /* RTLD_NEXT, sched_getaffinity */
+#define _GNU_SOURCE /* RTLD_NEXT */
 #include <dlfcn.h>
 #include <errno.h>
 #include <pthread.h>
-#include <sched.h>
 #include <setjmp.h>
 #include <signal.h>
 #include <stdarg.h>
@@ -116,30 +115,6 @@ static void a_forked_process_has_threads_too(void **state) {
   assert_int_equal(waitpid(child, &status, 0), child);
   assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 0);
 }
-
-#ifdef __linux__
-static void store_processors(void *user, bool is_caller) {
-  cpu_set_t *set = user;
-  if (!is_caller)
-    assert_int_equal(sched_getaffinity(0, sizeof *set, set), 0);
-}
-
-static void threads_start_on_other_processors_than_the_caller(void **state) {
-  cpu_set_t own, others;
-  (void)state;
-  assert_int_equal(sched_getaffinity(0, sizeof own, &own), 0);
-  int processors = CPU_COUNT(&own);
-  if (processors == 1)
-    skip();
-  parallel_run(2, store_processors, &others);
-  assert_int_equal(CPU_COUNT(&others), processors - 1);
-  CPU_AND(&others, &others, &own);
-  assert_int_equal(CPU_COUNT(&others), processors - 1);
-  /* The caller's own are what they were. */
-  assert_int_equal(sched_getaffinity(0, sizeof others, &others), 0);
-  assert_true(CPU_EQUAL(&own, &others));
-}
-#endif
 
 static void there_is_a_processor(void **state) {
   (void)state;
@@ -333,10 +308,6 @@ int main(void) {
       cmocka_unit_test_setup(one_thread_starts_no_other, reset),
       cmocka_unit_test_setup(threads_that_cannot_start_are_done_without, reset),
       cmocka_unit_test_setup(a_forked_process_has_threads_too, reset),
-#ifdef __linux__
-      cmocka_unit_test_setup(threads_start_on_other_processors_than_the_caller,
-                             reset),
-#endif
       cmocka_unit_test_setup(there_is_a_processor, reset),
       cmocka_unit_test_setup(ranges_are_done_once_by_any_number_of_threads,
                              reset),

@@ -4,7 +4,7 @@
  * a fork could break, no environment variable is read, no thread spins.  Where
  * pthread_create fails, the work is done by the threads that are there. */
 #ifdef __linux__
-#define _GNU_SOURCE /* sched_getcpu, pthread_attr_setaffinity_np */
+#define _GNU_SOURCE /* sched_getaffinity */
 #endif
 #include "base/parallel.h"
 
@@ -29,49 +29,18 @@ static void *start_worker(void *argument) {
   return NULL;
 }
 
-/* Lets threads start on other processors than the caller's.  A scheduler that
- * takes a halted virtual processor for one in use starts them on the caller's,
- * where they wait until it balances its queues: 1 ms, up to 4
- * (doc/decisions/0038). */
-static void start_elsewhere(pthread_attr_t *attributes) {
-#ifdef __linux__
-  cpu_set_t set;
-  int own = sched_getcpu();
-  if (own < 0 || sched_getaffinity(0, sizeof set, &set) != 0)
-    return;
-  CPU_CLR((size_t)own, &set);
-  if (CPU_COUNT(&set) > 0)
-    (void)pthread_attr_setaffinity_np(attributes, sizeof set, &set);
-#else
-  (void)attributes;
-#endif
-}
-
-static bool start_other(pthread_t *thread, const pthread_attr_t *attributes,
-                        struct others *others) {
-  return pthread_create(thread, attributes, start_worker, others) == 0;
-}
-
 /* Starts up to `wanted` threads; returns how many there are.  They inherit a
  * mask that blocks all signals, so that the host's handlers run in the host's
  * own threads. */
 static int start_others(pthread_t *thread, int wanted, struct others *others) {
   sigset_t all, before;
-  pthread_attr_t attributes;
   int count = 0;
-  if (pthread_attr_init(&attributes) != 0)
+  if (sigfillset(&all) != 0 || pthread_sigmask(SIG_SETMASK, &all, &before) != 0)
     return 0;
-  if (sigfillset(&all) == 0 &&
-      pthread_sigmask(SIG_SETMASK, &all, &before) == 0) {
-    start_elsewhere(&attributes);
-    /* The processors may have changed since. */
-    while (count < wanted &&
-           (start_other(&thread[count], &attributes, others) ||
-            start_other(&thread[count], NULL, others)))
-      count++;
-    (void)pthread_sigmask(SIG_SETMASK, &before, NULL);
-  }
-  (void)pthread_attr_destroy(&attributes);
+  while (count < wanted &&
+         pthread_create(&thread[count], NULL, start_worker, others) == 0)
+    count++;
+  (void)pthread_sigmask(SIG_SETMASK, &before, NULL);
   return count;
 }
 

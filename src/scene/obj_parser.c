@@ -46,16 +46,21 @@ void obj_finish_statement(struct obj_parser *p) {
 }
 
 size_t obj_count_lines(const char *at, const char *end) {
-  enum { COUNTED = 128 }; /* bytes at once, whose sum is a byte */
+  enum { COLUMNS = 32, ROWS = UINT8_MAX }; /* whose sums are bytes */
   size_t all = 0;
-  for (; at < end; at += COUNTED) {
-    int bytes = end - at < COUNTED ? (int)(end - at) : COUNTED;
-    uint8_t lines = 0;
-#pragma omp simd reduction(+ : lines)
-    for (int k = 0; k < bytes; k++)
-      lines = (uint8_t)(lines + (at[k] == '\n'));
-    all += lines;
+  while (end - at >= COLUMNS) {
+    uint8_t lines[COLUMNS] = {0};
+    size_t rows = (size_t)(end - at) / COLUMNS;
+    rows = rows < ROWS ? rows : ROWS;
+    for (size_t r = 0; r < rows; r++, at += COLUMNS)
+#pragma omp simd
+      for (int k = 0; k < COLUMNS; k++)
+        lines[k] = (uint8_t)(lines[k] + (at[k] == '\n'));
+    for (int k = 0; k < COLUMNS; k++)
+      all += lines[k];
   }
+  for (; at < end; at++)
+    all += *at == '\n';
   return all;
 }
 
