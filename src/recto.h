@@ -787,7 +787,8 @@ RECTO_USE_RESULT recto_status recto_scene_read_for_parts(
  *         parts could not be joined to the same drawing: with approximate
  *         methods, smooth contours, cuts, sheets, results or verification, in a
  *         view that the page or the near plane clips, of a scene of extreme
- *         size, and where welding might join corners; RECTO_ERROR_IO */
+ *         size, in which marks of creases count, and where welding might join
+ *         corners; RECTO_ERROR_IO */
 RECTO_USE_RESULT recto_status recto_scene_write_part(
     const recto_scene *scene, const recto_options *options, unsigned number,
     unsigned count, const char *path, recto_error *error);

@@ -128,10 +128,12 @@ refuses() { # WHAT OPTION...
 }
 claim "smooth contours are refused in parts" \
   refuses "smooth contours" --contours smooth
-marked() { # OPTION... - a roof whose ridge smoothing groups mark as hard
-  printf 'v %s\n' "0 0 0" "4 0 0" "4 1 2" "0 1 2" "4 0 4" "0 0 4" "8 0 0" \
-    "8 1 2" "8 0 4" >marked.obj
-  printf '%s\n' "s 1" "f 1 4 3 2" "f 2 3 8 7" "s 2" "f 4 6 5 3" "f 3 5 9 8" \
+marked() { # OPTION... - a vault whose ridge smoothing groups mark as hard
+  local i
+  for i in "0 0" "1 1" "2 1.3" "3 1" "4 0"; do
+    printf 'v %s\n' "0 $i" "4 $i"
+  done >marked.obj
+  printf '%s\n' "s 1" "f 1 2 4 3" "f 3 4 6 5" "s 2" "f 5 6 8 7" "f 7 8 10 9" \
     >>marked.obj
   "$recto" marked.obj -q --part 1/2 -o marked-1.recto "$@" 2>err
 }
@@ -140,14 +142,42 @@ refuses_marks() {
     grep -q "smoothing groups that mark hard edges.*--crease-marks none" err
 }
 claim "marks of hard edges are refused in parts" refuses_marks
-joins_unmarked() {
-  marked --crease-marks none &&
-    "$recto" marked.obj -q --part 2/2 -o marked-2.recto --crease-marks none &&
-    "$recto" marked.obj -q --crease-marks none -o whole-marked.svg &&
-    "$recto" --join marked-?.recto -q -o joined-marked.svg &&
-    cmp whole-marked.svg joined-marked.svg
+joins_model() { # MODEL OPTION... - by parts, and by a plan
+  local i
+  "$recto" "$1" -q "${@:2}" -o whole-model.svg &&
+    "$recto" "$1" -q --plan 2 "${@:2}" -o model.plan || return 1
+  for i in 1 2; do
+    "$recto" "$1" -q --part $i/2 "${@:2}" -o model-$i.recto &&
+      "$recto" --parts-plan model.plan -q --part $i/2 -o planned.recto &&
+      cmp model-$i.recto planned.recto || return 1
+  done
+  "$recto" --join model-?.recto -q -o joined-model.svg &&
+    cmp whole-model.svg joined-model.svg
 }
-claim "without them such a model is drawn in parts" joins_unmarked
+marked
+claim "without them such a model is drawn in parts" \
+  joins_model marked.obj --crease-marks none
+seam() { # NORMAL... - of which two are at points at one place
+  printf 'v %s\n' "0 0 0" "2 0 0" "2 2 1" "0 2 1" "0 2 1" "2 2 1" "2 4 0" "0 4 0"
+  printf 'vn %s\n' "$@"
+  printf 'f %s\n' "1//1 2//1 3//2 4//2" "5//2 6//3 7//3 8//3"
+}
+seam "0 -1 2" "0 0 1" "0 1 2" >seam.obj
+claim "marks of which none counts are not refused" \
+  joins_model seam.obj
+joins_held() { # as what is compressed is not read in passes
+  gzip -c seam.obj >held.obj.gz && joins_model held.obj.gz
+}
+claim "nor where the model is held" joins_held
+all_smooth() { # a cube of one group
+  printf 'v %s\n' "0 0 0" "4 0 0" "4 4 0" "0 4 0" "0 0 4" "4 0 4" "4 4 4" "0 4 4"
+  printf '%s\n' "s 1" "f 1 4 3 2" "f 5 6 7 8" "f 1 2 6 5" "f 2 3 7 6" \
+    "f 3 4 8 7" "f 4 1 5 8"
+}
+all_smooth >smooth.obj
+claim "one group is not refused" joins_model smooth.obj
+claim "it is where all marks count" \
+  says "mark hard edges" smooth.obj --part 1/2 --crease-marks all
 claim "cuts are refused in parts" refuses cuts --cut 1,0,0,0
 claim "sheets are refused in parts" refuses "sheets of several views" --sheet first
 claim "the judge is refused in parts" refuses verification --verify

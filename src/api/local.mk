@@ -23,6 +23,7 @@ librecto_core_la_SOURCES += \
   %D%/part.c \
   %D%/part_check.c %D%/part_check.h \
   %D%/part_solve.c %D%/part_solve.h \
+  %D%/part_marks.c %D%/part_marks.h \
   %D%/part_survey.c %D%/part_survey.h \
   %D%/part_tones.c %D%/part_tones.h \
   %D%/plan.c \

@@ -13,11 +13,11 @@
 #include <string.h>
 
 #include "api/part_check.h"
+#include "api/part_marks.h"
 #include "api/part_tones.h"
 #include "base/hash.h"
 #include "ink/tone.h"
 #include "parts/part_common.h"
-#include "scene/crease_marks.h"
 #include "scene/weld_near.h"
 #include "view/camera_aim.h"
 #include "view/project.h"
@@ -258,11 +258,12 @@ static recto_status guess_and_pick(struct part_survey *survey, uint8_t *used,
 /* Which marks of creases count, only the whole model decides. */
 static recto_status refuse_marks(const struct part_survey *survey,
                                  recto_error *error) {
-  bool found = false;
-  if (survey->options->mesh.crease_marks != RECTO_CREASE_MARKS_NONE &&
-      !crease_marks_exist(survey->pick.source.scene, &found))
-    return error_memory(error);
-  return found ? error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
+  bool count;
+  recto_status status = part_marks_count(survey->model, &survey->pick.source,
+                                         survey->options, &count, error);
+  if (status != RECTO_OK)
+    return status;
+  return count ? error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
                            "the model has normals or smoothing groups that "
                            "mark hard edges, which drawings in parts have "
                            "not: --crease-marks none leaves them out")

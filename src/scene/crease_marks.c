@@ -54,11 +54,19 @@ static bool may_count(const struct scene *scene,
          smoothing_has_several(&scene->smoothing);
 }
 
-bool crease_marks_exist(const struct scene *scene, bool *found) {
-  *found = scene->corner_normal.count > 0 || scene->has_several_normals ||
-           (scene->is_read_in_passes && scene->smoothing.has_several) ||
-           smoothing_has_several(&scene->smoothing);
-  if (*found || scene->point_normal.count == 0)
+bool crease_marks_exist(const struct scene *scene, recto_crease_marks which,
+                        bool *found) {
+  bool has_normals = scene->point_normal.count > 0;
+  *found = false;
+  if (which == RECTO_CREASE_MARKS_NONE)
+    return true;
+  if (which == RECTO_CREASE_MARKS_ALL)
+    *found = has_normals || scene->smoothing.range.count > 0;
+  else
+    *found = scene->corner_normal.count > 0 || scene->has_several_normals ||
+             (scene->is_read_in_passes && scene->smoothing.has_several) ||
+             smoothing_has_several(&scene->smoothing);
+  if (*found || !has_normals)
     return true;
   /* Points at one position are one point. */
   uint32_t *weld = NULL;

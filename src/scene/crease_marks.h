@@ -19,10 +19,12 @@ struct crease_mark_range {
 struct crease_mark_range crease_mark_range_of(recto_crease_marks which,
                                               double crease_deg);
 
-/* Whether the files of a scene mark edges.  Of one whose faces are read in
- * passes, after a pass.  Returns false when memory ran out.
+/* Whether marks may count in a scene, without its edges: where they do, it is
+ * so, but not the reverse.  Of a scene whose faces are read in passes, after a
+ * pass.  Returns false when memory ran out.
  * found  gets the answer */
-USE_RESULT bool crease_marks_exist(const struct scene *scene, bool *found);
+USE_RESULT bool crease_marks_exist(const struct scene *scene,
+                                   recto_crease_marks which, bool *found);
 
 /* Sets topology->crease_mark: of an edge that bends by more than a degree,
  * whose two faces have normals at its ends, both of the same or both of

@@ -1,0 +1,38 @@
+/* part_marks.c - finds whether marks of creases count in a model. */
+#include "api/part_marks.h"
+
+#include "scene/crease_marks.h"
+#include "scene/read.h"
+
+/* Reads a model as a whole; what is wrong with it has been told. */
+static recto_status read_whole(const recto_scene *model, struct scene *whole,
+                               recto_error *error) {
+  struct diagnostics silent = {.file = model->path};
+  whole->needs_crease_marks = true;
+  return scene_read(whole, model->path, model->format, &silent, error);
+}
+
+recto_status part_marks_count(const recto_scene *model,
+                              const struct face_source *source,
+                              const recto_options *options, bool *count,
+                              recto_error *error) {
+  bool may_count = false;
+  *count = false;
+  if (!crease_marks_exist(source->scene, options->mesh.crease_marks,
+                          &may_count))
+    return error_memory(error);
+  if (!may_count)
+    return RECTO_OK;
+  struct scene whole;
+  struct preparation preparation = {.weld = 0};
+  bool is_held = source->passes == NULL;
+  scene_init(&whole);
+  recto_status status = is_held ? RECTO_OK : read_whole(model, &whole, error);
+  if (status == RECTO_OK)
+    status = preparation_init(&preparation, is_held ? source->scene : &whole,
+                              options, false, error);
+  *count = preparation.topology.crease_mark != NULL;
+  preparation_fini(&preparation);
+  scene_fini(&whole);
+  return status;
+}
