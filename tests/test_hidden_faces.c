@@ -125,6 +125,24 @@ static void a_shallow_scene_is_whole(void **state) {
   assert_int_equal(count_hidden(&fixture), 0);
 }
 
+/* Nor are faces of about one size: they are culled as triangles.  A square
+ * hides a stack of smaller ones. */
+static void faces_of_one_size_are_whole(void **state) {
+  (void)state;
+  for (int small = 0; small <= 1; small++) {
+    struct sheet_fixture fixture;
+    const int count = 400;
+    sheet_fixture_start(&fixture);
+    scenes_view_above(&fixture.options);
+    for (int i = 0; i < count; i++) {
+      double size = i == 0 ? 1 : small ? 0.2 : 0.9, low = 0.5 - size / 2;
+      build_parallelogram(&fixture.scene, vector_of(low, low, -0.001 * i),
+                          vector_of(size, 0, 0), vector_of(0, size, 0));
+    }
+    assert_int_equal(count_hidden(&fixture), small ? count - 1 : 0);
+  }
+}
+
 /* ---- Drawings ------------------------------------------------------------ */
 
 /* A number in a drawing's stats. */
@@ -320,6 +338,7 @@ int main(void) {
       cmocka_unit_test(contact_is_not_left_out),
       cmocka_unit_test(what_is_connected_to_something_visible_stays),
       cmocka_unit_test(a_shallow_scene_is_whole),
+      cmocka_unit_test(faces_of_one_size_are_whole),
       cmocka_unit_test(drawings_do_not_change),
       cmocka_unit_test(memory_may_run_out),
       cmocka_unit_test(points_of_a_box_are_within_its_bounds),

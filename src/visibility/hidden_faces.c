@@ -4,7 +4,8 @@
  * Phases
  *   1 estimate from a sample how many faces lie over each other on the page;
  *     stop where they are few
- *   2 divide the faces into runs, and list the large ones
+ *   2 divide the faces into runs, and list the large ones; stop where many are
+ *     about as large as the largest, as triangles at random are
  *   3 lay out the large faces alone, and raise the bounds of an occlusion
  *     buffer by them, from near to far
  *   4 test the boxes of runs
@@ -32,6 +33,8 @@ enum {
   LARGE_SHARE = 1 << 10, /* of the scene's square size: the least large face */
   LARGE_MAX = 1 << 12,   /* as many large faces are laid out */
   CELLS_FOR = 1 << 16,   /* the cells are those of so many triangles */
+  LIKE_LARGEST = 16,     /* one part of so many of the largest face's size */
+  SHARE_MAX = 4,         /* one part of so many of all faces are that large */
   ROUNDS_MAX = 16        /* of restoring connected runs */
 };
 
@@ -93,6 +96,18 @@ static double estimate_complexity(const struct hiding *hiding) {
 }
 
 /* ---- 2. Large faces ------------------------------------------------------ */
+
+/* Counts the faces that are about as large as the largest one. */
+static size_t count_like_largest(const struct face_runs *runs) {
+  const struct large_face *large = runs->large.item;
+  double most = 0;
+  size_t count = 0;
+  for (size_t i = 0; i < runs->large.count; i++)
+    most = fmax(most, large[i].size);
+  for (size_t i = 0; i < runs->large.count; i++)
+    count += LIKE_LARGEST * large[i].size >= most;
+  return count;
+}
 
 /* Marks the largest faces, at most LARGE_MAX, as not left out; returns how many
  * there are. */
@@ -318,6 +333,8 @@ static recto_status find_hidden(struct hiding *hiding,
     status = error_memory(error);
     goto end;
   }
+  if (SHARE_MAX * count_like_largest(&hiding->runs) > faces)
+    goto end;
   memset(left_out, 1, faces);
   if (choose_large(hiding, large, left_out) == 0)
     goto end;
