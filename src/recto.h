@@ -777,7 +777,8 @@ RECTO_USE_RESULT recto_status recto_scene_read_for_parts(
  * have about as many points each.  Of the options for ink those say what is
  * solved that choose what is drawn: edges, hidden, hidden_by_max, fill, ids,
  * and for hatching by tone light, ambient, fill_light and pen_mm: to find the
- * tones the model is held.
+ * tones the model is held, and so it is to find which marks of creases count,
+ * where a file may have such.
  * `output.format` is that of the joined drawing, as its margin may depend on
  * it.
  * number  from 1 to `count`
@@ -787,8 +788,7 @@ RECTO_USE_RESULT recto_status recto_scene_read_for_parts(
  *         parts could not be joined to the same drawing: with approximate
  *         methods, smooth contours, cuts, sheets, results or verification, in a
  *         view that the page or the near plane clips, of a scene of extreme
- *         size, in which marks of creases count, and where welding might join
- *         corners; RECTO_ERROR_IO */
+ *         size, and where welding might join corners; RECTO_ERROR_IO */
 RECTO_USE_RESULT recto_status recto_scene_write_part(
     const recto_scene *scene, const recto_options *options, unsigned number,
     unsigned count, const char *path, recto_error *error);

@@ -128,56 +128,6 @@ refuses() { # WHAT OPTION...
 }
 claim "smooth contours are refused in parts" \
   refuses "smooth contours" --contours smooth
-marked() { # OPTION... - a vault whose ridge smoothing groups mark as hard
-  local i
-  for i in "0 0" "1 1" "2 1.3" "3 1" "4 0"; do
-    printf 'v %s\n' "0 $i" "4 $i"
-  done >marked.obj
-  printf '%s\n' "s 1" "f 1 2 4 3" "f 3 4 6 5" "s 2" "f 5 6 8 7" "f 7 8 10 9" \
-    >>marked.obj
-  "$recto" marked.obj -q --part 1/2 -o marked-1.recto "$@" 2>err
-}
-refuses_marks() {
-  ! marked &&
-    grep -q "smoothing groups that mark hard edges.*--crease-marks none" err
-}
-claim "marks of hard edges are refused in parts" refuses_marks
-joins_model() { # MODEL OPTION... - by parts, and by a plan
-  local i
-  "$recto" "$1" -q "${@:2}" -o whole-model.svg &&
-    "$recto" "$1" -q --plan 2 "${@:2}" -o model.plan || return 1
-  for i in 1 2; do
-    "$recto" "$1" -q --part $i/2 "${@:2}" -o model-$i.recto &&
-      "$recto" --parts-plan model.plan -q --part $i/2 -o planned.recto &&
-      cmp model-$i.recto planned.recto || return 1
-  done
-  "$recto" --join model-?.recto -q -o joined-model.svg &&
-    cmp whole-model.svg joined-model.svg
-}
-marked
-claim "without them such a model is drawn in parts" \
-  joins_model marked.obj --crease-marks none
-seam() { # NORMAL... - of which two are at points at one place
-  printf 'v %s\n' "0 0 0" "2 0 0" "2 2 1" "0 2 1" "0 2 1" "2 2 1" "2 4 0" "0 4 0"
-  printf 'vn %s\n' "$@"
-  printf 'f %s\n' "1//1 2//1 3//2 4//2" "5//2 6//3 7//3 8//3"
-}
-seam "0 -1 2" "0 0 1" "0 1 2" >seam.obj
-claim "marks of which none counts are not refused" \
-  joins_model seam.obj
-joins_held() { # as what is compressed is not read in passes
-  gzip -c seam.obj >held.obj.gz && joins_model held.obj.gz
-}
-claim "nor where the model is held" joins_held
-all_smooth() { # a cube of one group
-  printf 'v %s\n' "0 0 0" "4 0 0" "4 4 0" "0 4 0" "0 0 4" "4 0 4" "4 4 4" "0 4 4"
-  printf '%s\n' "s 1" "f 1 4 3 2" "f 5 6 7 8" "f 1 2 6 5" "f 2 3 7 6" \
-    "f 3 4 8 7" "f 4 1 5 8"
-}
-all_smooth >smooth.obj
-claim "one group is not refused" joins_model smooth.obj
-claim "it is where all marks count" \
-  says "mark hard edges" smooth.obj --part 1/2 --crease-marks all
 claim "cuts are refused in parts" refuses cuts --cut 1,0,0,0
 claim "sheets are refused in parts" refuses "sheets of several views" --sheet first
 claim "the judge is refused in parts" refuses verification --verify
@@ -209,6 +159,91 @@ claim "parts for a plotter have the margin that it needs" plots
 claim "parts with narrower margins are refused by a plotter" \
   says "p-1.recto: the plotter needs a margin of 16 mm" --join p-?.recto \
   --device hp7475a --format hpgl
+
+# ---- Marks of creases -------------------------------------------------------
+
+joins_models() { # MODEL... -- OPTION... - by parts, which a plan makes too
+  local i models=()
+  while test "$1" != --; do
+    models+=("$1") && shift
+  done
+  shift
+  "$recto" "${models[@]}" -q "$@" -o whole-model.svg &&
+    "$recto" "${models[@]}" -q --plan 3 "$@" -o model.plan || return 1
+  for i in 1 2 3; do
+    "$recto" "${models[@]}" -q --part $i/3 "$@" -o model-$i.recto &&
+      "$recto" --parts-plan model.plan -q --part $i/3 -o planned.recto &&
+      cmp model-$i.recto planned.recto || return 1
+  done
+  "$recto" --join model-?.recto -q "$@" -o joined-model.svg &&
+    cmp whole-model.svg joined-model.svg
+}
+marked() { # SEED - bumpy ground in patches, by normals and by groups
+  awk -v seed="$1" '
+    function random(below) {
+      seed = (seed * 1103 + 12345) % 65536
+      return int(seed / 64) % below
+    }
+    BEGIN {
+      side = 10
+      for (i = 0; i < side * side; i++)
+        print "v", i % side, int(i / side), random(60) / 100
+      for (i = 0; i < 40; i++)
+        print "vn", (random(100) - 50) / 80, (random(100) - 50) / 80, 1
+      for (i = 0; i < (side - 1) * side; i++) {
+        if (i % side == side - 1)
+          continue
+        a = i + 1
+        group = 1 + int(i / side / 3) * 4 + int(i % side / 4)
+        n = i % 11 == 0 ? 1 + random(40) : 1 + group * 2
+        print "s", i % 13 == 0 ? "off" : group
+        print "g", i % 3
+        if (i % 4 == 0)
+          print "f", a "//" n, a + 1 "//" n, a + side + 1 "//" n
+        else
+          print "f", a, a + 1, a + side + 1
+        print "f", a, a + side + 1, a + side
+        if (i % 17 == 0)
+          print "f", a, a, a + 1
+      }
+    }'
+}
+marked 1 >marked.obj && marked 2 >other.obj
+draws_marks() { # OPTION...
+  joins_models marked.obj -- "$@" && mv whole-model.svg marks.svg &&
+    joins_models marked.obj -- "$@" --crease-marks none &&
+    ! cmp -s whole-model.svg marks.svg
+}
+claim "marks of creases are those of the whole" draws_marks
+claim "and where all count, behind others too" \
+  draws_marks --crease-marks all --hidden=2 --edges all --azimuth 20
+claim "and with a second angle" draws_marks --crease 8,40 --exact
+claim "and of fills with ids" draws_marks --fill shade --ids --fov 40
+claim "and of tones" draws_marks --fill hatch --light=-1,2,1
+claim "and of several models" joins_models marked.obj other.obj -- --ids
+joins_held() { # as what is compressed is not read in passes
+  gzip -c marked.obj >held.obj.gz && joins_models held.obj.gz --
+}
+claim "and of one that is held" joins_held
+"$recto" marked.obj -q --crease-marks none --part 1/3 -o unmarked.recto
+claim "parts without them are of another drawing" \
+  says "unmarked.recto: the part belongs to another drawing than model-2.recto" \
+  --join model-2.recto unmarked.recto model-3.recto
+seam() { # NORMAL... - of which two are at points at one place
+  printf 'v %s\n' "0 0 0" "2 0 0" "2 2 1" "0 2 1" "0 2 1" "2 2 1" "2 4 0" "0 4 0"
+  printf 'vn %s\n' "$@"
+  printf 'f %s\n' "1//1 2//1 3//2 4//2" "5//2 6//3 7//3 8//3"
+}
+seam "0 -1 2" "0 0 1" "0 1 2" >seam.obj
+claim "where none counts there are none" joins_models seam.obj --
+all_smooth() { # a cube of one group
+  printf 'v %s\n' "0 0 0" "4 0 0" "4 4 0" "0 4 0" "0 0 4" "4 0 4" "4 4 4" "0 4 4"
+  printf '%s\n' "s 1" "f 1 4 3 2" "f 5 6 7 8" "f 1 2 6 5" "f 2 3 7 6" \
+    "f 3 4 8 7" "f 4 1 5 8"
+}
+all_smooth >smooth.obj
+claim "one group counts where all marks do" \
+  joins_models smooth.obj -- --crease-marks all --hidden dashed
 
 # ---- Parts that are there ---------------------------------------------------
 

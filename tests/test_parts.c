@@ -186,6 +186,41 @@ static void joined_parts_are_the_drawing(void **state) {
   assert_true(compared >= 20);
 }
 
+/* Uneven ground in patches, of smoothing groups of their own: creases by marks
+ * between the patches, and none within. */
+static recto_scene *make_marked(recto_options *options) {
+  enum { SIDE = 8, PATCH = 3 };
+  recto_scene *scene;
+  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+  recto_options_init(options);
+  struct scene *ground = &scene->scene;
+  for (int i = 0; i < SIDE * SIDE; i++)
+    build_point(ground, i % SIDE, i / SIDE, 0.1 * (i * i * 7 % 6));
+  for (uint32_t i = 0; i < SIDE * (SIDE - 1); i++) {
+    uint32_t group = SMOOTHING_GROUPS + i / SIDE / PATCH * SIDE;
+    if (i % SIDE == SIDE - 1)
+      continue;
+    assert_true(smoothing_set(&ground->smoothing, scene_face_count(ground),
+                              group + i % SIDE / PATCH));
+    build_triangle(ground, i, i + 1, i + SIDE + 1);
+    build_triangle(ground, i, i + SIDE + 1, i + SIDE);
+  }
+  return scene;
+}
+
+static void parts_have_the_marks_of_creases(void **state) {
+  recto_options options;
+  recto_scene *scene = make_marked(&options);
+  for (int mode = 0; mode < MODES; mode++) {
+    set_mode(&options, mode);
+    for (int marks = 0; marks < 3; marks++) {
+      options.mesh.crease_marks = (recto_crease_marks)marks;
+      assert_true(compare_parts(state, scene, &options, 3, "marked", true));
+    }
+  }
+  recto_scene_destroy(scene);
+}
+
 /* ---- Files that are refused ---------------------------------------------- */
 
 /* A scene of crossed boxes in two parts. */
@@ -211,6 +246,28 @@ static recto_error join_two(const char *a, const char *b) {
 }
 
 static char *copy_path(const char *path) { return mem_copy_text(path); }
+
+static void parts_of_other_marks_are_named(void **state) {
+  recto_options options;
+  recto_scene *scene = make_marked(&options);
+  assert_int_equal(write_parts(state, scene, &options, 2, NULL), RECTO_OK);
+  char *first = copy_path(part_path(state, 1, 2));
+  char *other = copy_path(temporary_path(state, "other.recto"));
+  /* None, and those of other groups. */
+  for (int i = 0; i < 2; i++) {
+    struct smoothing_groups *own = &scene->scene.smoothing;
+    options.mesh.crease_marks =
+        i == 0 ? RECTO_CREASE_MARKS_NONE : RECTO_CREASE_MARKS_AUTO;
+    own->range.item[1].first_face += i == 1;
+    assert_int_equal(recto_scene_write_part(scene, &options, 2, 2, other, NULL),
+                     RECTO_OK);
+    recto_error error = join_two(first, other);
+    assert_non_null(strstr(error.text, "belongs to another drawing"));
+  }
+  mem_free(first);
+  mem_free(other);
+  recto_scene_destroy(scene);
+}
 
 static void missing_and_double_parts_are_named(void **state) {
   recto_options options;
@@ -525,6 +582,11 @@ static void what_runs_out_of_memory_says_so(void **state) {
   run.options.mesh.crease_start_deg = 60;
   fail_allocations(write_one, &run);
   fail_allocations(join_one, &run);
+  recto_scene_destroy(scene);
+  run.scene = scene = make_marked(&run.options);
+  run.options.solver.threads = 1;
+  fail_allocations(write_one, &run);
+  fail_allocations(join_one, &run);
   mem_free(path);
   recto_scene_destroy(scene);
 }
@@ -535,6 +597,8 @@ static void what_runs_out_of_memory_says_so(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       IN_FOLDER(joined_parts_are_the_drawing),
+      IN_FOLDER(parts_have_the_marks_of_creases),
+      IN_FOLDER(parts_of_other_marks_are_named),
       IN_FOLDER(missing_and_double_parts_are_named),
       IN_FOLDER(foreign_parts_are_named),
       IN_FOLDER(damaged_parts_are_named),

@@ -29,10 +29,18 @@ static recto_status keep_part(struct part_work *work, recto_error *error) {
   struct part_solve *solve = &work->solve;
   recto_status status =
       part_scene_make(&solve->scene, &survey->pick, &survey->request, error);
+  if (status == RECTO_OK && survey->common.has_marks) {
+    struct part_scene *part = &solve->scene;
+    part->crease_mark =
+        side_marks_select(&survey->marks, &part->scene, part->face_number);
+    if (part->crease_mark == NULL)
+      status = error_memory(error);
+  }
   if (status == RECTO_OK && survey->common.has_tones &&
       scene_face_count(&solve->scene.scene) > 0)
     status = part_tones_find(&solve->tones, &solve->scene, &survey->pick.source,
-                             &survey->camera, survey->options, error);
+                             &survey->marks, &survey->camera, survey->options,
+                             error);
   part_survey_drop_model(survey);
   solve->options = survey->options;
   solve->weld = survey->weld;

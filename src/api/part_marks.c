@@ -1,4 +1,4 @@
-/* part_marks.c - finds whether marks of creases count in a model. */
+/* part_marks.c - finds the marks of creases that count in a model. */
 #include "api/part_marks.h"
 
 #include "scene/crease_marks.h"
@@ -12,12 +12,10 @@ static recto_status read_whole(const recto_scene *model, struct scene *whole,
   return scene_read(whole, model->path, model->format, &silent, error);
 }
 
-recto_status part_marks_count(const recto_scene *model,
-                              const struct face_source *source,
-                              const recto_options *options, bool *count,
-                              recto_error *error) {
+recto_status part_marks_find(struct side_marks *marks, const recto_scene *model,
+                             const struct face_source *source,
+                             const recto_options *options, recto_error *error) {
   bool may_count = false;
-  *count = false;
   if (!crease_marks_exist(source->scene, options->mesh.crease_marks,
                           &may_count))
     return error_memory(error);
@@ -31,7 +29,9 @@ recto_status part_marks_count(const recto_scene *model,
   if (status == RECTO_OK)
     status = preparation_init(&preparation, is_held ? source->scene : &whole,
                               options, false, error);
-  *count = preparation.topology.crease_mark != NULL;
+  if (status == RECTO_OK &&
+      !side_marks_list(marks, preparation.scene, &preparation.topology))
+    status = error_memory(error);
   preparation_fini(&preparation);
   scene_fini(&whole);
   return status;

@@ -13,6 +13,7 @@
 #include "parts/part_collect.h"
 #include "parts/part_common.h"
 #include "parts/part_file.h"
+#include "parts/side_marks.h"
 #include "view/layout.h"
 #include "visibility/quantitative_invisibility.h"
 #include "visibility/solver.h"
@@ -23,6 +24,10 @@ static recto_status find_part_edges(struct part_solve *work,
   bool may_weld = false;
   recto_status status =
       topology_init(&work->topology, &work->scene.scene, error);
+  if (status == RECTO_OK &&
+      !side_marks_apply(work->scene.crease_mark, &work->topology,
+                        &work->scene.scene))
+    status = error_memory(error);
   if (status == RECTO_OK && !part_scene_may_weld(&work->scene, &work->topology,
                                                  work->weld, &may_weld))
     status = error_memory(error);

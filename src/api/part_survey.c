@@ -6,6 +6,7 @@
  *   pick    faces, in a pass over the model: of one that is not held, only this
  *           tells which points are used: where others than were taken for it,
  *           the camera is aimed again
+ *   marks   of creases that count
  *   common  what all parts of the drawing have */
 #include "api/part_survey.h"
 
@@ -77,6 +78,7 @@ static recto_status make_common(struct part_survey *survey,
   common->has_tones = part_tones_are_wanted(o);
   if (common->has_tones)
     tones_set_light(common->light, &survey->camera, o);
+  common->has_marks = survey->marks.side.count > 0;
   common->crease_deg = o->mesh.crease_deg;
   common->crease_start_deg = o->mesh.crease_start_deg;
   common->camera = survey->camera;
@@ -91,6 +93,8 @@ static recto_status make_common(struct part_survey *survey,
   recto_status status = part_common_checksum(common, &sum, error);
   common->id = hash_add(hash_model(&survey->pick), sum);
   common->id = hash_add_double(common->id, o->mesh.weld);
+  for (size_t i = 0; i < survey->marks.side.count; i++)
+    common->id = hash_add(common->id, survey->marks.side.item[i]);
   return status;
 }
 
@@ -255,21 +259,6 @@ static recto_status guess_and_pick(struct part_survey *survey, uint8_t *used,
              : aim_and_pick(survey, used, error);
 }
 
-/* Which marks of creases count, only the whole model decides. */
-static recto_status refuse_marks(const struct part_survey *survey,
-                                 recto_error *error) {
-  bool count;
-  recto_status status = part_marks_count(survey->model, &survey->pick.source,
-                                         survey->options, &count, error);
-  if (status != RECTO_OK)
-    return status;
-  return count ? error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
-                           "the model has normals or smoothing groups that "
-                           "mark hard edges, which drawings in parts have "
-                           "not: --crease-marks none leaves them out")
-               : RECTO_OK;
-}
-
 recto_status part_survey_run(struct part_survey *survey, recto_error *error) {
   recto_status status = open_model(survey, error);
   survey->pick.counts_groups = survey->options->ink.ids;
@@ -286,7 +275,8 @@ recto_status part_survey_run(struct part_survey *survey, recto_error *error) {
                    : guess_and_pick(survey, used, error);
   mem_free(used);
   if (status == RECTO_OK)
-    status = refuse_marks(survey, error);
+    status = part_marks_find(&survey->marks, survey->model,
+                             &survey->pick.source, survey->options, error);
   return status == RECTO_OK ? make_common(survey, error) : status;
 }
 
@@ -294,6 +284,7 @@ void part_survey_drop_model(struct part_survey *survey) {
   read_passes_close(survey->pick.source.passes);
   survey->pick.source.passes = NULL;
   ARRAY_FREE(&survey->read.point);
+  ARRAY_FREE(&survey->marks.side);
   face_pick_fini(&survey->pick);
 }
 

@@ -4,6 +4,7 @@
 
 #include "api/handle.h"
 #include "parts/part_scene.h"
+#include "parts/side_marks.h"
 
 /* Zero-initialised but for the model, the options, and common.parts it is to be
  * run. */
@@ -20,6 +21,7 @@ struct part_survey {
   struct part_window window;         /* of a part, and */
   struct part_scene_request request; /*   what it asks for */
   double weld;                       /* the most that welding could join */
+  struct side_marks marks;           /* of creases that count in the model */
   struct part_common common;
 };
 

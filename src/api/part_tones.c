@@ -33,11 +33,14 @@ static void select_tones(struct part_tones *to, const struct part_scene *part,
 }
 
 recto_status part_tones_of_whole(struct tones *tones, const struct scene *whole,
+                                 const uint8_t *mark,
                                  const struct camera *camera,
                                  const recto_options *options,
                                  recto_error *error) {
   struct topology topology = {.corner_edge = NULL};
   recto_status status = topology_init(&topology, whole, error);
+  if (status == RECTO_OK && !side_marks_apply(mark, &topology, whole))
+    status = error_memory(error);
   const struct sheet sheet = {.camera = *camera, .topology = &topology};
   if (status == RECTO_OK && !tones_init(tones, &sheet, whole, options))
     status = error_memory(error);
@@ -48,6 +51,7 @@ recto_status part_tones_of_whole(struct tones *tones, const struct scene *whole,
 recto_status part_tones_find(struct part_tones *tones,
                              const struct part_scene *part,
                              const struct face_source *source,
+                             const struct side_marks *marks,
                              const struct camera *camera,
                              const recto_options *options, recto_error *error) {
   const struct scene *scene = &part->scene;
@@ -60,7 +64,12 @@ recto_status part_tones_find(struct part_tones *tones,
                             : error_memory(error);
   if (status == RECTO_OK) {
     const struct scene whole = face_pick_scene(&all);
-    status = part_tones_of_whole(&of_whole, &whole, camera, options, error);
+    uint8_t *mark =
+        side_marks_select(marks, &whole, all.picked.face_number.item);
+    status = mark != NULL ? part_tones_of_whole(&of_whole, &whole, mark, camera,
+                                                options, error)
+                          : error_memory(error);
+    mem_free(mark);
   }
   if (status == RECTO_OK)
     select_tones(tones, part, &of_whole, &all.picked);

@@ -23,6 +23,7 @@
 struct plan_making {
   struct part_survey survey;
   struct scene whole; /* all that was picked; borrowed */
+  uint8_t *mark;      /* of creases, as of side_marks_select; NULL: none */
   struct tones tones;
   struct plan_window *window; /* of each part */
   uint32_t count;
@@ -34,6 +35,7 @@ static void plan_making_fini(struct plan_making *making) {
     ARRAY_FREE(&making->window[w].wire);
   }
   mem_free(making->window);
+  mem_free(making->mark);
   tones_fini(&making->tones);
   part_survey_fini(&making->survey);
 }
@@ -67,7 +69,8 @@ static recto_status write_sections(struct plan_making *making,
   struct plan_section_maker maker = {.all = &making->survey.pick.picked,
                                      .scene = &making->whole,
                                      .tone = making->tones.corner,
-                                     .uniform = making->tones.uniform};
+                                     .uniform = making->tones.uniform,
+                                     .mark = making->mark};
   recto_status status = RECTO_OK;
   for (uint32_t w = 0; status == RECTO_OK && w < making->count &&
                        stream_status(writer->bytes.stream) == RECTO_OK;
@@ -124,8 +127,15 @@ static recto_status make_plan(struct plan_making *making, const char *path,
   making->whole = face_pick_scene(&survey->pick);
   read_passes_close(survey->pick.source.passes);
   survey->pick.source.passes = NULL;
+  if (survey->common.has_marks) {
+    making->mark = side_marks_select(&survey->marks, &making->whole,
+                                     survey->pick.picked.face_number.item);
+    if (making->mark == NULL)
+      return error_memory(error);
+  }
+  ARRAY_FREE(&survey->marks.side);
   if (survey->common.has_tones)
-    status = part_tones_of_whole(&making->tones, &making->whole,
+    status = part_tones_of_whole(&making->tones, &making->whole, making->mark,
                                  &survey->camera, survey->options, error);
   if (status == RECTO_OK)
     status = list_windows(making, error);

@@ -28,5 +28,6 @@ librecto_core_la_SOURCES += \
   %D%/plan_section_check.c \
   %D%/plan_section_make.c \
   %D%/ring_corners.c %D%/ring_corners.h \
+  %D%/side_marks.c %D%/side_marks.h \
   %D%/unread_edges.c %D%/unread_edges.h \
   %D%/window_grid.c %D%/window_grid.h

@@ -19,6 +19,7 @@ void part_fini(struct part *part) {
   ARRAY_FREE(&part->wire);
   ARRAY_FREE(&part->corner);
   ARRAY_FREE(&part->tone);
+  ARRAY_FREE(&part->mark);
   ARRAY_FREE(&part->interval);
   ARRAY_FREE(&part->over_limit);
   ARRAY_FREE(&part->edge);

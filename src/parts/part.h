@@ -35,6 +35,7 @@ struct part_common {
   bool has_ids;             /* numbers within groups are known */
   bool has_tones;           /* those of tone hatching are known, */
   double light[PART_LIGHT]; /* for this light */
+  bool has_marks; /* marks of creases count: those of faces' sides are known */
   double crease_deg, crease_start_deg; /* as in recto_mesh_options */
   struct camera camera;
   /* For the description of the drawing: */
@@ -55,7 +56,7 @@ struct part_element {
   uint32_t number, group;
   uint32_t in_group;      /* its number among those of the group: with ids */
   uint32_t corner, count; /* its numbers of points: in part.corner; of a face
-                             with tones also in part.tone */
+                             with tones or marks also in part.tone, part.mark */
   uint8_t uniform;        /* its tone is that of its first corner */
 };
 
@@ -155,6 +156,7 @@ struct part {
   ARRAY(struct part_element) wire;
   ARRAY(uint32_t) corner; /* those of faces, then those of polylines */
   ARRAY(float) tone;
+  ARRAY(uint8_t) mark; /* of the sides from corners: enum crease_mark */
   ARRAY(struct map_interval) interval;
   ARRAY(struct map_interval) over_limit;
   ARRAY(struct part_edge) edge;

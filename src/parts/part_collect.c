@@ -334,6 +334,16 @@ static bool store_tones(struct collection *c, uint32_t face,
   return true;
 }
 
+static bool store_marks(struct collection *c, uint32_t face) {
+  const struct scene *scene = &c->from->scene->scene;
+  const uint8_t *mark = c->from->scene->crease_mark;
+  for (uint32_t i = scene_face_start(scene, face);
+       mark != NULL && i < scene_face_start(scene, face + 1); i++)
+    if (!ARRAY_PUSH(&c->part->mark, mark[i]))
+      return false;
+  return true;
+}
+
 static uint32_t number_in_group(const uint32_t *number, uint32_t element) {
   return number != NULL ? number[element] : 0;
 }
@@ -345,6 +355,8 @@ static bool reserve_elements(struct collection *c) {
   return ARRAY_RESERVE(&part->face, scene_face_count(scene)) &&
          ARRAY_RESERVE(&part->corner, corners + scene->wire_corner.count) &&
          (c->from->tone == NULL || ARRAY_RESERVE(&part->tone, corners)) &&
+         (c->from->scene->crease_mark == NULL ||
+          ARRAY_RESERVE(&part->mark, corners)) &&
          ARRAY_RESERVE(&part->point, scene->point.count);
 }
 
@@ -362,7 +374,8 @@ static bool collect_elements(struct collection *c) {
         .in_group = number_in_group(c->from->scene->face_in_group, f),
         .count = scene_face_start(scene, f + 1) - start};
     if (!(store_element(c, scene->corner.item + start, &face, true) &&
-          store_tones(c, f, &face) && ARRAY_PUSH(&part->face, face)))
+          store_tones(c, f, &face) && store_marks(c, f) &&
+          ARRAY_PUSH(&part->face, face)))
       return false;
   }
   for (uint32_t w = 0; w < scene_wire_count(scene); w++) {

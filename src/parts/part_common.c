@@ -92,6 +92,7 @@ void part_common_code(struct byte_codec *codec, struct part_common *common) {
   byte_codec_bool(codec, &common->has_tones);
   if (common->has_tones)
     byte_codec_doubles(codec, common->light, PART_LIGHT);
+  byte_codec_bool(codec, &common->has_marks);
   byte_codec_doubles(codec, &common->crease_deg, 1);
   byte_codec_doubles(codec, &common->crease_start_deg, 1);
   code_camera(codec, &common->camera);

@@ -5,10 +5,11 @@
 #include <string.h>
 
 #include "parts/part_common.h"
+#include "scene/crease_marks.h"
 #include "scene/limit.h"
 
 static const unsigned char magic[8] = {'r', 'e', 'c', 't', 'o', 'p', 't', '\n'};
-enum { FORMAT_VERSION = 3, SUM_SIZE = 8, HEAD_SIZE = 8 + 4 + 8 };
+enum { FORMAT_VERSION = 4, SUM_SIZE = 8, HEAD_SIZE = 8 + 4 + 8 };
 
 /* Sizes of items, at least, in bytes. */
 enum {
@@ -104,10 +105,24 @@ static void code_tones(struct byte_codec *codec, struct part *part,
   }
 }
 
+/* The marks of the sides likewise. */
+static void code_marks(struct byte_codec *codec, struct part *part,
+                       const struct part_element *face) {
+  uint32_t sides = part->common.has_marks ? face->count : 0;
+  for (uint32_t i = 0; i < sides && !codec->failed; i++) {
+    uint8_t mark = codec->writes ? part->mark.item[face->corner + i] : 0;
+    byte_codec_u8(codec, &mark);
+    byte_codec_require(codec, mark <= CREASE_MARK_SOFT);
+    if (!codec->writes && !ARRAY_PUSH(&part->mark, mark))
+      codec->failed = codec->out_of_memory = true;
+  }
+}
+
 static void code_face(struct byte_codec *codec, struct part *part,
                       struct part_element *face, bool is_first) {
   code_element(codec, part, face, is_first, 3);
   code_tones(codec, part, face);
+  code_marks(codec, part, face);
 }
 
 static void code_elements(struct byte_codec *codec, struct part *part) {
@@ -341,8 +356,9 @@ static size_t estimate_size(const struct part *part) {
   return part->point.count * POINT_SIZE +
          (part->face.count + part->wire.count) * (ELEMENT_SIZE + NUMBER_SIZE) +
          part->corner.count * NUMBER_SIZE + part->tone.count * sizeof(float) +
-         part->interval.count * INTERVAL_SIZE + part->edge.count * EDGE_SIZE +
-         part->crossing.count * CROSSING_SIZE + part->run.count * RUN_SIZE +
+         part->mark.count + part->interval.count * INTERVAL_SIZE +
+         part->edge.count * EDGE_SIZE + part->crossing.count * CROSSING_SIZE +
+         part->run.count * RUN_SIZE +
          (part->fragment.count * 2 + part->loop.count) * NUMBER_SIZE +
          part->fragment_corner.count * (PLACE_SIZE + ALONG_SIZE_MAX);
 }

@@ -13,6 +13,7 @@
 #include "base/poll.h"
 #include "base/sort.h"
 #include "parts/part_join_phases.h"
+#include "parts/side_marks.h"
 #include "view/layout.h"
 #include "visibility/map_assembly.h"
 
@@ -198,6 +199,10 @@ static recto_status make_join(struct join_work *work,
   ARRAY_FREE(&join->all.corner);
   if (status == RECTO_OK)
     status = topology_init_welded(&join->topology, &join->scene, work->error);
+  if (status == RECTO_OK &&
+      !side_marks_apply(join->all.mark.item, &join->topology, &join->scene))
+    status = error_memory(work->error);
+  ARRAY_FREE(&join->all.mark);
   if (status == RECTO_OK)
     status = layout_sheet(&join->sheet, &join->scene, &join->topology,
                           &join->all.common.camera, &unclassified, true,

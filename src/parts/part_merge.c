@@ -21,7 +21,8 @@ static bool is_same_drawing(const struct part_common *a,
          a->has_fragments == b->has_fragments &&
          a->has_hidden == b->has_hidden &&
          a->hidden_by_max == b->hidden_by_max && a->has_ids == b->has_ids &&
-         a->has_tones == b->has_tones && a->group.count == b->group.count;
+         a->has_tones == b->has_tones && a->has_marks == b->has_marks &&
+         a->group.count == b->group.count;
 }
 
 static recto_status report_missing(const struct part *part, size_t count,
@@ -184,7 +185,10 @@ static bool same_element(const struct part *p, const struct part_element *a,
          a->uniform == b->uniform &&
          (wires || !q->common.has_tones ||
           memcmp(p->tone.item + a->corner, q->tone.item + b->corner,
-                 a->count * sizeof *p->tone.item) == 0);
+                 a->count * sizeof *p->tone.item) == 0) &&
+         (wires || !q->common.has_marks ||
+          memcmp(p->mark.item + a->corner, q->mark.item + b->corner,
+                 a->count) == 0);
 }
 
 /* The elements of a part: its faces, or its polylines. */
@@ -202,16 +206,18 @@ static struct elements elements_of(const struct part *part, bool wires) {
 /* Makes room for the elements of all parts. */
 static bool have_room_for_elements(struct merge_work *work, bool wires) {
   struct part *all = work->all;
-  size_t count = merge_order_count(&work->order), corners = 0, tones = 0;
+  size_t count = merge_order_count(&work->order), corners = 0, tones = 0,
+         marks = 0;
   for (size_t p = 0; p < work->parts; p++) {
     corners += work->part[p].corner.count; /* of polylines too */
     tones += work->part[p].tone.count;
+    marks += work->part[p].mark.count;
   }
   if (wires)
     return ARRAY_RESERVE(&all->wire, count);
   return ARRAY_RESERVE(&all->face, count) &&
          ARRAY_RESERVE(&all->corner, corners) &&
-         ARRAY_RESERVE(&all->tone, tones);
+         ARRAY_RESERVE(&all->tone, tones) && ARRAY_RESERVE(&all->mark, marks);
 }
 
 static void add_merged_element(struct part *all, const struct part *from,
@@ -223,6 +229,8 @@ static void add_merged_element(struct part *all, const struct part *from,
         from->corner.item[element->corner + i];
   for (uint32_t i = 0; !wires && from->common.has_tones && i < own.count; i++)
     all->tone.item[all->tone.count++] = from->tone.item[element->corner + i];
+  for (uint32_t i = 0; !wires && from->common.has_marks && i < own.count; i++)
+    all->mark.item[all->mark.count++] = from->mark.item[element->corner + i];
   if (wires)
     all->wire.item[all->wire.count++] = own;
   else
@@ -524,6 +532,7 @@ static recto_status merge_lists(struct merge_work *work) {
   FREE_LISTS(work, wire);
   FREE_LISTS(work, corner);
   FREE_LISTS(work, tone);
+  FREE_LISTS(work, mark);
   status = merge_edges(work);
   FREE_LISTS(work, edge);
   if (status == RECTO_OK)

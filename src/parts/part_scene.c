@@ -397,5 +397,6 @@ void part_scene_fini(struct part_scene *part) {
   mem_free(part->wire_in_group);
   mem_free(part->place);
   mem_free(part->is_kept);
+  mem_free(part->crease_mark);
   *part = (struct part_scene){.point_number = NULL};
 }

@@ -22,6 +22,8 @@ struct part_scene {
   struct page_place *place; /* of each point; by a plan NULL where they are not
                                needed */
   uint8_t *is_kept;         /* one a face: 0: it is only of the ring */
+  uint8_t *crease_mark;     /* one a corner, as of side_marks_select; NULL: none
+                               counts, or they were not looked up yet */
 };
 
 struct part_scene_request {

@@ -12,7 +12,7 @@ static const unsigned char head_magic[8] = {'r', 'e', 'c', 't',
 static const unsigned char end_magic[8] = {'\n', 'r', 'e', 'c',
                                            't',  'o', 'p', 'l'};
 enum {
-  PLAN_VERSION = 1,
+  PLAN_VERSION = 2,
   HEAD_BYTES = PLAN_BLOCK,
   END_BYTES = 8 + 8 + 8, /* size of the list, its checksum, magic */
   PLACE_SIZE = 24
@@ -20,6 +20,7 @@ enum {
 
 static struct plan_section_form form_of(const struct part_common *common) {
   return (struct plan_section_form){common->has_ids, common->has_tones,
+                                    common->has_marks,
                                     (uint32_t)common->group.count};
 }
 

@@ -88,7 +88,8 @@ static void take_arrays(struct section_work *work, array_fn *take,
   const struct section_counts *n = &work->counts;
   struct part_scene *part = &work->section->part;
   struct scene *scene = &part->scene;
-  uint64_t with_ids = work->form->has_ids, with_tones = work->form->has_tones;
+  uint64_t with_ids = work->form->has_ids, with_tones = work->form->has_tones,
+           with_marks = work->form->has_marks;
   take(work, part->point_number, n->points, 4, sum);
   take(work, scene->point.item, 3 * n->points, 8, sum);
   take(work, work->first_point, n->ranges, 4, sum);
@@ -104,6 +105,7 @@ static void take_arrays(struct section_work *work, array_fn *take,
   take(work, part->face_in_group, with_ids * n->faces, 4, sum);
   take(work, work->section->tone, with_tones * n->corners, 4, sum);
   take(work, work->section->uniform, with_tones * n->faces, 1, sum);
+  take(work, part->crease_mark, with_marks * n->corners, 1, sum);
   take(work, part->wire_number, n->wires, 4, sum);
   take(work, scene->wire_start.item, starts_of(n->wires), 4, sum);
   take(work, scene->wire_corner.item, n->wire_corners, 4, sum);
@@ -134,6 +136,13 @@ static bool make_room_for_wires(struct section_work *work) {
          MAKE_ROOM(&scene->wire_start, 4, starts_of(n->wires)) &&
          MAKE_ROOM(&scene->wire_corner, 4, n->wire_corners) &&
          MAKE_ROOM(&scene->wire_group, 4, n->wires);
+}
+
+static bool make_room_for_marks(struct section_work *work) {
+  struct part_scene *part = &work->section->part;
+  if (work->form->has_marks)
+    part->crease_mark = make_room(work->counts.corners, 1);
+  return !work->form->has_marks || part->crease_mark != NULL;
 }
 
 static bool make_room_for_tones(struct section_work *work) {
@@ -170,7 +179,8 @@ static bool make_room_for_section(struct section_work *work) {
          (n->are_triangles ||
           MAKE_ROOM(&scene->face_start, 4, starts_of(n->faces))) &&
          MAKE_ROOM(&scene->corner, 4, n->corners) &&
-         make_room_for_wires(work) && make_room_for_tones(work);
+         make_room_for_wires(work) && make_room_for_tones(work) &&
+         make_room_for_marks(work);
 }
 
 /* ---- What is stored in another form -------------------------------------- */

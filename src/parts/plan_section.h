@@ -19,7 +19,7 @@ struct plan_section {
 
 /* What is common to the sections of a plan. */
 struct plan_section_form {
-  bool has_ids, has_tones;
+  bool has_ids, has_tones, has_marks;
   uint32_t groups; /* how many there are */
 };
 
@@ -32,6 +32,7 @@ struct plan_section_maker {
   const struct scene *scene; /* these, with points and precisions */
   const float *tone;         /* of each corner; NULL: none */
   const bool *uniform;       /* likewise of each face */
+  const uint8_t *mark;       /* as of side_marks_select; NULL: none counts */
   /* private, of each point: */
   uint32_t *local; /* its number in the section */
   uint64_t *used;  /* a bit: it has one */

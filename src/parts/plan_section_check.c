@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "parts/plan_section.h"
+#include "scene/crease_marks.h"
 #include "scene/exact.h"
 #include "scene/limit.h"
 
@@ -124,6 +125,13 @@ static bool tones_are_valid(const struct plan_section *section) {
   return ok;
 }
 
+static bool marks_are_valid(const struct part_scene *part) {
+  bool ok = true;
+  for (size_t c = 0; c < part->scene.corner.count; c++)
+    ok &= part->crease_mark[c] <= CREASE_MARK_SOFT;
+  return ok;
+}
+
 static bool lists_are_valid(const struct plan_section *section,
                             const struct plan_section_form *form) {
   const struct part_scene *part = &section->part;
@@ -146,7 +154,8 @@ static bool lists_are_valid(const struct plan_section *section,
          are_below(scene->wire_corner.item, scene->wire_corner.count,
                    scene->point.count) &&
          are_below(scene->wire_group.item, wires, form->groups) &&
-         (!form->has_tones || tones_are_valid(section));
+         (!form->has_tones || tones_are_valid(section)) &&
+         (!form->has_marks || marks_are_valid(part));
 }
 
 recto_status plan_section_check(const struct plan_section *section,

@@ -126,6 +126,8 @@ static bool add_window_face(struct plan_section *section,
            count * sizeof *section->tone);
     section->uniform[own] = maker->uniform[face];
   }
+  if (maker->mark != NULL)
+    memcpy(part->crease_mark + corner, maker->mark + start, count);
   part->is_kept[own] = (listed & PLAN_KEPT) != 0;
   part->face_number[own] = maker->all->face_number.item[face];
   if (part->face_in_group != NULL)
@@ -153,7 +155,10 @@ static bool add_window_faces(struct plan_section *section,
     section->tone = mem_alloc(corners, sizeof *section->tone);
     section->uniform = mem_alloc(faces, 1);
   }
+  if (maker->mark != NULL)
+    part->crease_mark = mem_alloc(corners, sizeof *part->crease_mark);
   if (part->face_number == NULL || part->is_kept == NULL ||
+      (maker->mark != NULL && part->crease_mark == NULL) ||
       (has_numbers_in_groups(maker) && part->face_in_group == NULL) ||
       (maker->tone != NULL &&
        (section->tone == NULL || section->uniform == NULL)) ||
