@@ -103,10 +103,11 @@ static void check_triangles(const struct sheet_fixture *fixture) {
     int64_t area = area_of(sheet, t);
     assert_true(area >= 0);
     assert_int_equal(sheet_is_edge_on(sheet, t), area == 0);
+    const uint32_t *side = sheet_triangle_sides(sheet, t);
     for (int k = 0; k < 3; k++)
       assert_true(!sheet_is_inner_side(sheet, (uint32_t)t, k) ||
-                  one->side[k] == SHEET_NONE ||
-                  sheet->edge.item[one->side[k]].source == SHEET_NONE);
+                  side[k] == SHEET_NONE ||
+                  sheet->edge.item[side[k]].source == SHEET_NONE);
     assert_int_not_equal(sheet->triangle_flags[t] &
                              (SHEET_PIECE | SHEET_FIRST_PIECE),
                          SHEET_FIRST_PIECE);
@@ -182,15 +183,16 @@ static void check_sides(const struct sheet_fixture *fixture) {
   uint8_t *uses = calloc(sheet->edge.count + 1, 1);
   for (size_t t = 0; t < sheet->triangle.count; t++)
     for (int k = 0; k < 3; k++) {
-      const struct sheet_triangle *one = &sheet->triangle.item[t];
-      if (one->side[k] == SHEET_NONE)
+      const uint32_t *point = sheet->triangle.item[t].point;
+      uint32_t side = sheet_triangle_sides(sheet, t)[k];
+      if (side == SHEET_NONE)
         continue;
-      assert_true(one->side[k] < sheet->edge.count);
-      const struct sheet_edge *edge = &sheet->edge.item[one->side[k]];
-      uint32_t a = one->point[k], b = one->point[(k + 1) % 3];
+      assert_true(side < sheet->edge.count);
+      const struct sheet_edge *edge = &sheet->edge.item[side];
+      uint32_t a = point[k], b = point[(k + 1) % 3];
       assert_true((edge->point[0] == a && edge->point[1] == b) ||
                   (edge->point[0] == b && edge->point[1] == a));
-      uint8_t *known = &uses[one->side[k]];
+      uint8_t *known = &uses[side];
       if (*known > 0 && edge->triangle[*known - 1] == t)
         continue; /* a spike has it twice */
       if (*known < 2)
@@ -227,14 +229,14 @@ static struct side *list_sides(const struct sheet *sheet) {
     for (size_t k = 0; k < 3; k++) {
       const struct sheet_triangle *one = &sheet->triangle.item[t];
       uint32_t a = one->point[k], b = one->point[(k + 1) % 3];
+      uint32_t edge = sheet_triangle_sides(sheet, t)[k];
       bool edge_on = sheet_is_edge_on(sheet, t);
-      side[3 * t + k] = (struct side){a < b ? a : b, a < b ? b : a,
-                                      one->side[k] == SHEET_NONE
-                                          ? UINT64_C(1) << 32 | one->face
-                                          : one->side[k],
-                                      edge_on ? 0
-                                      : a < b ? 1
-                                              : -1};
+      side[3 * t + k] = (struct side){
+          a < b ? a : b, a < b ? b : a,
+          edge == SHEET_NONE ? UINT64_C(1) << 32 | one->face : edge,
+          edge_on ? 0
+          : a < b ? 1
+                  : -1};
     }
   qsort(side, 3 * sheet->triangle.count, sizeof *side, compare_sides);
   return side;

@@ -32,8 +32,7 @@ static void add_fan(struct sheet *sheet, bool turned) {
     assert_true(ARRAY_PUSH(&sheet->point, p));
   }
   for (uint32_t t = 0; t < 6; t++) {
-    struct sheet_triangle f = {.side = {SHEET_NONE, SHEET_NONE, SHEET_NONE},
-                               .face = t};
+    struct sheet_triangle f = {.face = t};
     for (int k = 0; k < 3; k++)
       f.point[k] = triangle[t][k];
     assert_true(ARRAY_PUSH(&sheet->triangle, f));

@@ -157,13 +157,11 @@ static void add_grid(struct sheet *sheet, int n) {
     for (int j = 0; j < n; j++) {
       uint32_t a = (uint32_t)(i * (n + 1) + j), b = a + 1;
       uint32_t c = b + (uint32_t)n + 1, d = a + (uint32_t)n + 1;
-      struct sheet_triangle t = {
-          {a, b, c}, {SHEET_NONE, SHEET_NONE, SHEET_NONE}, 0};
-      struct sheet_triangle u = {
-          {a, c, d}, {SHEET_NONE, SHEET_NONE, SHEET_NONE}, 0};
+      struct sheet_triangle t = {{a, b, c}, 0}, u = {{a, c, d}, 0};
       assert_true(ARRAY_PUSH(&sheet->triangle, t));
       assert_true(ARRAY_PUSH(&sheet->triangle, u));
     }
+  assert_true(sheet_find_sides(sheet));
   sheet->triangle_flags = mem_calloc(sheet->triangle.count, 1);
 }
 

@@ -192,9 +192,10 @@ static void tilt(struct sheet *sheet) {
       uint32_t swap = at->point[1];
       at->point[1] = at->point[2];
       at->point[2] = swap;
-      swap = at->side[0];
-      at->side[0] = at->side[2];
-      at->side[2] = swap;
+      uint32_t *side = sheet->sides.item[t].edge;
+      swap = side[0];
+      side[0] = side[2];
+      side[2] = swap;
     }
   }
 }

@@ -21,7 +21,8 @@ static bool side_of(const struct sheet *sheet, uint32_t number,
   bool forward = p.x < q.x || (p.x == q.x && p.y < q.y);
   end[0] = forward ? p : q;
   end[1] = forward ? q : p;
-  return t->side[k] != SHEET_NONE && !sheet_is_edge_on(sheet, number / 3);
+  return sheet_triangle_sides(sheet, number / 3)[k] != SHEET_NONE &&
+         !sheet_is_edge_on(sheet, number / 3);
 }
 
 static bool is_lower(struct geom_point p, struct geom_point q) {

@@ -306,12 +306,14 @@ static void check_part_triangles(const struct sheet *whole,
     assert_int_equal(part->triangle[n], t);
     assert_int_equal(sheet->triangle_flags[n], whole->triangle_flags[t]);
     const struct sheet_triangle *a = &whole->triangle.item[t],
-                                *b = &sheet->triangle.item[n++];
+                                *b = &sheet->triangle.item[n];
+    const uint32_t *a_side = sheet_triangle_sides(whole, t),
+                   *b_side = sheet_triangle_sides(sheet, n++);
     for (int k = 0; k < 3; k++) {
       assert_same_point(whole, a->point[k], sheet, b->point[k]);
-      assert_int_equal(b->side[k] != SHEET_NONE ? part->edge[b->side[k]]
-                                                : SHEET_NONE,
-                       a->side[k]);
+      assert_int_equal(b_side[k] != SHEET_NONE ? part->edge[b_side[k]]
+                                               : SHEET_NONE,
+                       a_side[k]);
       if (is_culled_beyond(whole, culling, t, k)) {
         torn++;
         assert_true(is_contour(sheet, b->point[k], b->point[(k + 1) % 3]));

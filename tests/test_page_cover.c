@@ -28,8 +28,7 @@ static void make_triangles(struct sheet *sheet, uint64_t *r) {
   sheet->triangle_flags = mem_calloc(TRIANGLES, 1);
   assert_non_null(sheet->triangle_flags);
   for (uint32_t t = 0; t < TRIANGLES; t++) {
-    struct sheet_triangle made = {
-        {3 * t, 3 * t + 1, 3 * t + 2}, {SHEET_NONE, SHEET_NONE, SHEET_NONE}, t};
+    struct sheet_triangle made = {{3 * t, 3 * t + 1, 3 * t + 2}, t};
     struct geom_point p[3] = {random_point(r, 0, SPAN)};
     int32_t size = SPAN >> exact_random_below(r, 8);
     for (int k = 1; k < 3; k++) {

@@ -31,6 +31,51 @@ static void the_scenes_keep_every_invariant(void **state) {
     }
 }
 
+/* Lays the scene out again as for drawings that need no sides; returns whether
+ * these were left out.  Found afterwards, they are the same. */
+static bool check_sides_left_out(const struct sheet_fixture *fixture) {
+  const struct sheet *made = &fixture->sheet;
+  struct topology topology;
+  struct sheet sheet;
+  assert_int_equal(topology_init(&topology, &fixture->scene, NULL), RECTO_OK);
+  topology.drop_corners = topology.drop_edges = true;
+  assert_int_equal(layout_sheet(&sheet, &fixture->scene, &topology,
+                                &fixture->camera, &fixture->options,
+                                fixture->all_edges, NULL),
+                   RECTO_OK);
+  bool are_left_out = sheet.sides.count < sheet.triangle.count;
+  assert_true(sheet_find_sides(&sheet));
+  assert_int_equal(sheet.triangle.count, made->triangle.count);
+  for (size_t t = 0; t < sheet.triangle.count; t++) {
+    assert_memory_equal(&sheet.triangle.item[t], &made->triangle.item[t],
+                        sizeof *sheet.triangle.item);
+    assert_memory_equal(&sheet.sides.item[t], &made->sides.item[t],
+                        sizeof *sheet.sides.item);
+  }
+  assert_int_equal(sheet.edge.count, made->edge.count);
+  for (size_t e = 0; e < sheet.edge.count; e++)
+    assert_memory_equal(&sheet.edge.item[e], &made->edge.item[e],
+                        sizeof *sheet.edge.item);
+  sheet_fini(&sheet);
+  topology_fini(&topology);
+  return are_left_out;
+}
+
+static void sides_that_are_left_out_are_found(void **state) {
+  (void)state;
+  int left_out = 0;
+  for (const struct scenes_entry *entry = scene_list; entry->name; entry++)
+    for (int all_edges = 0; all_edges < 2; all_edges++) {
+      struct sheet_fixture fixture;
+      sheet_fixture_start(&fixture);
+      entry->fill(&fixture.scene, &fixture.options);
+      sheet_fixture_out(&fixture, all_edges);
+      left_out += check_sides_left_out(&fixture);
+      sheet_fixture_fini(&fixture);
+    }
+  assert_true(left_out > 10);
+}
+
 static bool is_in_view(const struct sheet_fixture *fixture) {
   struct camera camera;
   return camera_aim(&camera, &fixture->scene, &fixture->options, NULL) ==
@@ -782,7 +827,7 @@ static void diagonals_are_no_edges(void **state) {
   size_t without = 0;
   for (size_t t = 0; t < 2; t++)
     for (int k = 0; k < 3; k++)
-      without += fixture.sheet.triangle.item[t].side[k] == SHEET_NONE;
+      without += fixture.sheet.sides.item[t].edge[k] == SHEET_NONE;
   assert_int_equal(without, 2);
   sheet_fixture_fini(&fixture);
 }
@@ -889,6 +934,7 @@ static void every_failed_allocation_is_reported(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_scenes_keep_every_invariant),
+      cmocka_unit_test(sides_that_are_left_out_are_found),
       cmocka_unit_test(random_scenes_keep_every_invariant),
       cmocka_unit_test(clipped_scenes_keep_every_invariant),
       cmocka_unit_test(edges_of_a_point_that_are_cut_in_one_place_share_it),

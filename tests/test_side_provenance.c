@@ -220,8 +220,8 @@ static void a_side_without_an_edge_is_a_cut(void **state) {
     uint32_t gone = edge_between(&s.sheet, 8, 16, 8, 0);
     for (size_t t = 0; t < s.sheet.triangle.count; t++)
       for (int k = 0; k < 3; k++)
-        if (s.sheet.triangle.item[t].side[k] == gone)
-          s.sheet.triangle.item[t].side[k] = SHEET_NONE;
+        if (s.sheet.sides.item[t].edge[k] == gone)
+          s.sheet.sides.item[t].edge[k] = SHEET_NONE;
     exact_solve(exact[m], &s.sheet, &s.map, NULL);
     assert_label(&s.map, 0, 8, 0, MAP_SIDE_CLIP, SHEET_NONE);
     assert_label(&s.map, 1, 8, 16, MAP_SIDE_CLIP, SHEET_NONE);

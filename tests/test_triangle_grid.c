@@ -34,8 +34,7 @@ static void make_triangles(struct sheet *sheet, enum triangle_mix kind,
                            uint32_t count, uint64_t *r) {
   exact_sheet_init(sheet);
   for (uint32_t t = 0; t < count; t++) {
-    struct sheet_triangle triangle = {
-        {3 * t, 3 * t + 1, 3 * t + 2}, {SHEET_NONE, SHEET_NONE, SHEET_NONE}, t};
+    struct sheet_triangle triangle = {{3 * t, 3 * t + 1, 3 * t + 2}, t};
     int32_t x = draw(r, 0, XY_MAX), y = draw(r, 0, XY_MAX), reach = XY_MAX / 64;
     if (kind == MIX_LONG)
       reach = XY_MAX;

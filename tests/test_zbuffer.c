@@ -284,12 +284,12 @@ static void near_sheets(struct sheet *sheet, int64_t z, int64_t gap) {
   }
   for (size_t t = 0; t < 2; t++) {
     struct sheet_triangle copy = sheet->triangle.item[t];
-    for (int k = 0; k < 3; k++) {
+    struct sheet_sides none = {{SHEET_NONE, SHEET_NONE, SHEET_NONE}};
+    for (int k = 0; k < 3; k++)
       copy.point[k] += 4;
-      copy.side[k] = SHEET_NONE;
-    }
     copy.face = 1;
     assert_true(ARRAY_PUSH(&sheet->triangle, copy));
+    assert_true(ARRAY_PUSH(&sheet->sides, none));
   }
   sheet->triangle_flags = mem_resize(sheet->triangle_flags, 4, 1);
   memset(sheet->triangle_flags, 0, 4);

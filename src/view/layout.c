@@ -66,7 +66,7 @@ static recto_status run_phases(struct layout *layout) {
   if (status == RECTO_OK)
     status = layout_triangles(layout);
   bool late = layout->face_range != NULL;
-  if (!late && layout->topology->drop_corners)
+  if ((!late || layout->leaves_out_sides) && layout->topology->drop_corners)
     topology_drop_corners(layout->topology);
   if (status == RECTO_OK)
     status = layout_edges(layout);

@@ -43,6 +43,7 @@ layout_record_triangle_side(struct layout *layout,
 struct layout_triangle_sink {
   const struct geom_point *point;
   struct sheet_triangle *triangle; /* the next one */
+  struct sheet_sides *sides;
   uint8_t *flags;
   size_t remaining;
 };
@@ -50,18 +51,21 @@ struct layout_triangle_sink {
 static inline struct layout_triangle_sink
 layout_sink_of(const struct layout *layout) {
   const struct sheet *sheet = layout->sheet;
-  size_t capacity = sheet->triangle.capacity - sheet->triangle.count;
-  size_t flags_capacity = layout->flags.capacity - layout->flags.count;
+  size_t count = sheet->triangle.count, capacity = sheet->triangle.capacity;
+  if (sheet->sides.capacity < capacity)
+    capacity = sheet->sides.capacity;
+  if (layout->flags.capacity < capacity)
+    capacity = layout->flags.capacity;
   return (struct layout_triangle_sink){
-      sheet->point.item, sheet->triangle.item + sheet->triangle.count,
-      layout->flags.item + layout->flags.count,
-      capacity < flags_capacity ? capacity : flags_capacity};
+      sheet->point.item, sheet->triangle.item + count,
+      sheet->sides.item + count, layout->flags.item + count, capacity - count};
 }
 
 static inline void layout_sink_close(struct layout *layout,
                                      const struct layout_triangle_sink *sink) {
   layout->sheet->triangle.count =
       (size_t)(sink->triangle - layout->sheet->triangle.item);
+  layout->sheet->sides.count = layout->sheet->triangle.count;
   layout->flags.count = layout->sheet->triangle.count;
 }
 
@@ -73,7 +77,8 @@ static inline int64_t layout_sink_triangle(struct layout_triangle_sink *sink,
                                            const uint32_t side[3]) {
   int64_t area = geom_orient2d(sink->point[point[0]], sink->point[point[1]],
                                sink->point[point[2]]);
-  *sink->triangle++ = layout_oriented_triangle(point, side, face, area < 0);
+  *sink->triangle++ = layout_oriented_triangle(point, face, area < 0);
+  *sink->sides++ = layout_oriented_sides(side, area < 0);
   *sink->flags++ = layout_flags_of_area(area);
   sink->remaining--;
   return area;
@@ -91,6 +96,7 @@ static inline int64_t layout_add_triangle(struct layout *layout, uint32_t face,
 /* Reserves capacity for more triangles. */
 static inline bool layout_reserve(struct layout *layout, size_t extra) {
   return ARRAY_RESERVE(&layout->sheet->triangle, extra) &&
+         ARRAY_RESERVE(&layout->sheet->sides, extra) &&
          ARRAY_RESERVE(&layout->flags, extra);
 }
 

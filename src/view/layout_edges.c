@@ -218,14 +218,19 @@ static bool make_edges_of_range(void *user, struct parallel_range range) {
   for (size_t w = range.begin / 64; 64 * w < range.end; w++)
     for (uint64_t left = layout->ids.bits[w]; left != 0; left &= left - 1) {
       uint32_t e = (uint32_t)(64 * w) + (uint32_t)__builtin_ctzll(left);
-      uint32_t first = layout->topology->edge.item[e].first;
+      const struct topology_edge *edge = &layout->topology->edge.item[e];
       unsigned edge_class =
           layout->class_masks != NULL ? layout->class_masks[e] : 0;
       struct layout_clipped ends;
       if (find_end_points(layout, e, &ends) != RECTO_OK)
         return false;
-      *to++ = sheet_edge_of(ends, e, scene_face_group(layout->scene, first),
-                            edge_class, 0);
+      *to = sheet_edge_of(ends, e, scene_face_group(layout->scene, edge->first),
+                          edge_class, 0);
+      if (layout->leaves_out_sides) {
+        to->triangle[0] = edge->first;
+        to->triangle[1] = edge->uses > 1 ? edge->second : SHEET_NONE;
+      }
+      to++;
     }
   return true;
 }
@@ -300,7 +305,7 @@ static bool link_sides_of_range(void *user, struct parallel_range range) {
   uint32_t first_fold = (uint32_t)(sheet->edge.count - layout->fold.count);
   uint32_t own = first_own_edge(work, range.begin);
   for (size_t t = range.begin; t < range.end; t++) {
-    uint32_t *side = sheet->triangle.item[t].side;
+    uint32_t *side = sheet->sides.item[t].edge;
     for (int k = 0; k < 3; k++) {
       bool is_edge = side[k] < edges;
       bool is_late = !is_edge || side[k] < own;

@@ -171,6 +171,7 @@ bool layout_orient_all_faces(struct layout *layout) {
   }
   layout->flags.count = kept;
   layout->sheet->empty += faces - kept;
+  layout->leaves_out_sides = layout->topology->drop_corners && kept == faces;
   return ok;
 }
 
@@ -204,6 +205,7 @@ static bool make_triangles_of_range(void *user, struct parallel_range faces) {
   struct face_range *range = range_of(layout, faces.begin);
   struct sheet_edge *edge = layout->sheet->edge.item;
   struct sheet_triangle *triangle = layout->sheet->triangle.item;
+  struct sheet_sides *sides = layout->sheet->sides.item;
   const uint8_t *flags = layout->flags.item;
   uint32_t t = range->first;
   for (size_t f = faces.begin; f < faces.end; f++) {
@@ -217,8 +219,9 @@ static bool make_triangles_of_range(void *user, struct parallel_range faces) {
           !link_side(range, edge, e >= range->first_edge, side[k], t))
         return false;
     }
-    triangle[t] = layout_oriented_triangle(point, side, (uint32_t)f,
-                                           flags[t] & SHEET_FLIPPED);
+    bool flip = flags[t] & SHEET_FLIPPED;
+    triangle[t] = layout_oriented_triangle(point, (uint32_t)f, flip);
+    sides[t] = layout_oriented_sides(side, flip);
     t++;
   }
   return true;
@@ -231,15 +234,37 @@ static void link_late_sides(struct layout *layout, struct face_range *range) {
   }
 }
 
+/* The same where each face is a triangle and its sides are left out. */
+static bool make_bare_triangles_of_range(void *user,
+                                         struct parallel_range faces) {
+  const struct layout *layout = user;
+  const struct face_loop loop = face_loop_of(layout);
+  struct sheet_triangle *triangle = layout->sheet->triangle.item;
+  const uint8_t *flags = layout->flags.item;
+  for (size_t f = faces.begin; f < faces.end; f++) {
+    uint32_t corner[3], point[3];
+    if (find_face_points(&loop, f, corner, point)) /* always */
+      triangle[f] = layout_oriented_triangle(point, (uint32_t)f,
+                                             flags[f] & SHEET_FLIPPED);
+  }
+  return true;
+}
+
 bool layout_make_all_triangles(struct layout *layout) {
   struct sheet *sheet = layout->sheet;
   size_t faces = scene_face_count(layout->scene);
+  bool bare = layout->leaves_out_sides;
   move_flags(layout);
-  if (!ARRAY_RESERVE(&sheet->triangle, layout->flags.count) ||
-      !parallel_ranges(parallel_workers(faces, PARALLEL_ITEMS), faces,
-                       PARALLEL_ITEMS, make_triangles_of_range, layout))
+  size_t count = layout->flags.count;
+  if (!ARRAY_RESERVE(&sheet->triangle, count) ||
+      (!bare && !ARRAY_RESERVE(&sheet->sides, count)) ||
+      !parallel_ranges(
+          parallel_workers(faces, PARALLEL_ITEMS), faces, PARALLEL_ITEMS,
+          bare ? make_bare_triangles_of_range : make_triangles_of_range,
+          layout))
     return false;
-  sheet->triangle.count = layout->flags.count;
+  sheet->triangle.count = count;
+  sheet->sides.count = bare ? 0 : count;
   for (size_t i = 0; i < count_ranges(layout); i++)
     link_late_sides(layout, &layout->face_range[i]);
   return true;

@@ -14,7 +14,8 @@
  *   edges      classifies the edges and makes sheet edges of those needed, then
  *              of the folds.
  *   link       makes the triangles' sides refer to sheet edges; or makes the
- *              triangles, where they were left out before.
+ *              triangles, where they were left out before, without their sides
+ *              where nobody may need these.
  *   wires      makes edges of polylines.
  * Invariants
  *   A topology edge is clipped once, when a phase first needs it, from its
@@ -92,16 +93,20 @@ static inline bool layout_flags_are_two_sided(uint8_t first, uint8_t second,
          (first & ~SHEET_FLIPPED) == 0;
 }
 
-/* The triangle of three points and the sides after them.
+/* The triangle of three points.
  * flip  whether they run clockwise on the page */
 static inline struct sheet_triangle
-layout_oriented_triangle(const uint32_t point[3], const uint32_t side[3],
-                         uint32_t face, bool flip) {
+layout_oriented_triangle(const uint32_t point[3], uint32_t face, bool flip) {
   /* Written so that nothing is looked up in memory. */
   return (struct sheet_triangle){
-      {point[0], flip ? point[2] : point[1], flip ? point[1] : point[2]},
-      {flip ? side[2] : side[0], side[1], flip ? side[0] : side[2]},
-      face};
+      {point[0], flip ? point[2] : point[1], flip ? point[1] : point[2]}, face};
+}
+
+/* The sides after these points. */
+static inline struct sheet_sides layout_oriented_sides(const uint32_t side[3],
+                                                       bool flip) {
+  return (struct sheet_sides){
+      {flip ? side[2] : side[0], side[1], flip ? side[0] : side[2]}};
 }
 
 /* The classes that an edge has by its faces. */
@@ -186,6 +191,8 @@ struct layout {
   struct layout_edge_ids ids;
   struct face_range *face_range; /* of layout_face_ranges.h; NULL: triangles are
                                     there before the edges */
+  bool leaves_out_sides; /* triangles are numbered as faces, and their sides are
+                            not made: edges refer to the faces at once */
   /* Topology edge -> clipped; SHEET_NONE: not yet clipped; NULL until the first
    * is. */
   uint32_t *edge_clipped;

@@ -108,7 +108,7 @@ static recto_status add_folds(struct layout *layout, uint32_t face,
   }
   for (size_t t = first; t < sheet->triangle.count; t++)
     for (int k = 0; k < 3; k++) {
-      uint32_t *side = &sheet->triangle.item[t].side[k];
+      uint32_t *side = &sheet->sides.item[t].edge[k];
       if (*side < named || *side == SHEET_NONE)
         continue;
       uint32_t fold = layout->diagonal.item[*side - named].fold;

@@ -24,4 +24,5 @@ librecto_core_la_SOURCES += \
   %D%/rescale.c %D%/rescale.h \
   %D%/scene_part.c %D%/scene_part.h \
   %D%/sheet.c %D%/sheet.h \
+  %D%/sheet_sides.c \
   %D%/used.c %D%/used.h

@@ -23,6 +23,7 @@ bool sheet_drop_triangles(struct sheet *sheet) {
     return false;
   sheet->triangles_dropped = true;
   ARRAY_FREE(&sheet->triangle);
+  ARRAY_FREE(&sheet->sides);
   mem_free(sheet->triangle_flags);
   mem_free(sheet->triangle_error);
   sheet->triangle_flags = NULL;
@@ -39,6 +40,7 @@ size_t sheet_count_requested(const struct sheet *sheet) {
 void sheet_fini(struct sheet *sheet) {
   ARRAY_FREE(&sheet->point);
   ARRAY_FREE(&sheet->triangle);
+  ARRAY_FREE(&sheet->sides);
   ARRAY_FREE(&sheet->edge);
   ARRAY_FREE(&sheet->contour);
   ARRAY_FREE(&sheet->face_error);

@@ -39,10 +39,13 @@
 /* Side k of a triangle runs from point[k] to point[(k + 1) % 3]. */
 struct sheet_triangle {
   uint32_t point[3];
-  uint32_t side[3]; /* the sheet edge of each side; SHEET_NONE: one that
-                       clipping made, or a diagonal that is no silhouette;
-                       neither is ever drawn */
-  uint32_t face;    /* scene face */
+  uint32_t face; /* scene face */
+};
+
+/* The sheet edge of each side of a triangle; SHEET_NONE: one that clipping
+ * made, or a diagonal that is no silhouette; neither is ever drawn. */
+struct sheet_sides {
+  uint32_t edge[3];
 };
 
 enum {
@@ -84,7 +87,9 @@ struct sheet {
   size_t vertex_count; /* the first points are those of the scene; clipping and
                           intersections add others */
   ARRAY(struct sheet_triangle) triangle;
-  uint8_t *triangle_flags;   /* one a triangle */
+  ARRAY(struct sheet_sides) sides; /* one a triangle; none where they were left
+                                      out: sheet_find_sides */
+  uint8_t *triangle_flags;         /* one a triangle */
   bool triangles_dropped;    /* the triangles were freed: edge.triangle then has
                               scene faces instead */
   const struct scene *scene; /* borrowed, not owned; for the precision of its
@@ -130,6 +135,17 @@ size_t sheet_count_requested(const struct sheet *sheet);
  * still needed (sheet_edge_face).  Returns false when the caller cancelled; the
  * edges may then not be used any more. */
 USE_RESULT bool sheet_drop_triangles(struct sheet *sheet);
+
+/* Finds the sides of the triangles, where they were left out because few
+ * drawings need them.  Returns false when memory ran out or the caller
+ * cancelled. */
+USE_RESULT bool sheet_find_sides(struct sheet *sheet);
+
+/* The edges of a triangle's sides, which are known. */
+static inline const uint32_t *sheet_triangle_sides(const struct sheet *sheet,
+                                                   size_t triangle) {
+  return sheet->sides.item[triangle].edge;
+}
 
 /* Whether two triangles are of one face, or of parts of one that a cut left:
  * a face does not pierce itself. */

@@ -58,6 +58,9 @@ struct solver_request solver_request_to_draw(const recto_options *options) {
 recto_status solver_run(const struct solver *solver, struct sheet *sheet,
                         const struct solver_request *request, struct map *map,
                         struct report *report, recto_error *error) {
+  bool needs_sides = solver->method != RECTO_METHOD_TILES || request->fragments;
+  if (needs_sides && !sheet_find_sides(sheet))
+    return error_memory(error);
   recto_status status = solver->solve(sheet, request, map, report, error);
   if (status == RECTO_OK)
     dense_edges_close_all(map, sheet, request->short_gap);

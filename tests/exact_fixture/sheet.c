@@ -22,6 +22,7 @@ void exact_sheet_init(struct sheet *sheet) {
 void exact_sheet_fini(struct sheet *sheet) {
   ARRAY_FREE(&sheet->point);
   ARRAY_FREE(&sheet->triangle);
+  ARRAY_FREE(&sheet->sides);
   ARRAY_FREE(&sheet->edge);
   ARRAY_FREE(&sheet->contour);
   mem_free(sheet->triangle_flags);
@@ -60,16 +61,18 @@ static uint32_t add_edge(struct sheet *sheet, uint32_t a, uint32_t b,
 static void add_triangle(struct sheet *sheet, const uint32_t p[3],
                          const bool own[3], uint32_t face) {
   struct sheet_triangle t = {.face = face};
+  struct sheet_sides sides;
   uint32_t id = (uint32_t)sheet->triangle.count;
   const struct geom_point *q = sheet->point.item;
   int64_t area = geom_orient2d(q[p[0]], q[p[1]], q[p[2]]);
   for (int k = 0; k < 3; k++) {
     int from = area < 0 ? (3 - k) % 3 : k, side = area < 0 ? 2 - k : k;
     t.point[k] = p[from];
-    t.side[k] = own[side] ? add_edge(sheet, p[side], p[(side + 1) % 3], id)
-                          : SHEET_NONE;
+    sides.edge[k] = own[side] ? add_edge(sheet, p[side], p[(side + 1) % 3], id)
+                              : SHEET_NONE;
   }
   assert_true(ARRAY_PUSH(&sheet->triangle, t));
+  assert_true(ARRAY_PUSH(&sheet->sides, sides));
   sheet->triangle_flags =
       mem_resize(sheet->triangle_flags, sheet->triangle.count, 1);
   sheet->triangle_flags[id] = (uint8_t)(area == 0  ? SHEET_EDGE_ON
@@ -164,6 +167,7 @@ recto_status exact_solve_as(const struct solver *solver,
   recto_error error;
   map_init(map);
   find_contours(sheet);
+  assert_true(sheet_find_sides(sheet));
   return solver->solve(sheet, request, map, report, &error);
 }
 

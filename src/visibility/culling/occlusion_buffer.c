@@ -150,7 +150,7 @@ static struct neighbour find_neighbour(const struct sheet *sheet, uint32_t t,
                                        int k) {
   const struct sheet_triangle *triangle = &sheet->triangle.item[t];
   uint32_t p = triangle->point[k], q = triangle->point[geom_next_corner(k)],
-           edge = triangle->side[k];
+           edge = sheet_triangle_sides(sheet, t)[k];
   uint32_t candidate[2] = {t - 1, t + 1}; /* a face's triangles follow */
   if (edge != SHEET_NONE)
     memcpy(candidate, sheet->edge.item[edge].triangle, sizeof candidate);

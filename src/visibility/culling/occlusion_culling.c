@@ -136,13 +136,14 @@ struct occlusion_margins occlusion_margins_of(const struct sheet *sheet) {
 
 /* Tests the candidates, if large triangles cover enough.  Returns false when
  * memory ran out or the caller cancelled. */
-static bool cull_triangles(struct culling_work *work) {
-  size_t n = work->sheet->triangle.count;
+static bool cull_triangles(struct culling_work *work, struct sheet *sheet) {
+  size_t n = sheet->triangle.count;
   bool ok = list_candidates(work);
   if (ok && work->candidate != NULL) {
     work->culled = mem_alloc(n, 1);
     work->count = n;
-    ok = work->culled != NULL && occlusion_buffer_init(work->buffer);
+    ok = work->culled != NULL && sheet_find_sides(sheet) &&
+         occlusion_buffer_init(work->buffer);
     if (ok)
       memset(work->culled, 1, n);
     ok = ok && culling_bands_test(work);
@@ -154,7 +155,7 @@ static bool cull_triangles(struct culling_work *work) {
 }
 
 bool occlusion_culling_init(struct occlusion_culling *culling,
-                            const struct sheet *sheet, bool fragments) {
+                            struct sheet *sheet, bool fragments) {
   struct culling_work work = {.sheet = sheet,
                               .buffer = &culling->buffer,
                               .fragments = fragments,
@@ -170,7 +171,7 @@ bool occlusion_culling_init(struct occlusion_culling *culling,
   work.xy_margin = culling->xy_margin = margins.xy;
   work.margin = culling->margin = margins.depth;
   work.workers = parallel_workers(n, PARALLEL_ITEMS);
-  bool ok = cull_triangles(&work);
+  bool ok = cull_triangles(&work, sheet);
   culling->culled = work.culled;
   culling->count = work.count;
   if (4 * culling->count < n)

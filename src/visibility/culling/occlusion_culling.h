@@ -57,14 +57,13 @@ struct occlusion_culling {
  * those that are not in the sheet. */
 struct occlusion_margins occlusion_margins_of(const struct sheet *sheet);
 
-/* Culls the triangles of the sheet, or, if that would not be worth while or
- * would leave more than three quarters of them, none.
+/* Culls the triangles of the sheet, whose sides it finds, or, if that would not
+ * be worth while or would leave more than three quarters of them, none.
  * fragments  whether faces will be solved, so that contact matters
  * Returns false when memory ran out or the caller cancelled; end with
  * occlusion_culling_fini either way. */
 USE_RESULT bool occlusion_culling_init(struct occlusion_culling *culling,
-                                       const struct sheet *sheet,
-                                       bool fragments);
+                                       struct sheet *sheet, bool fragments);
 void occlusion_culling_fini(struct occlusion_culling *culling);
 
 /* Estimates the depth complexity: the mean number of triangles over a point of

@@ -41,7 +41,8 @@ static bool list_triangles(struct potentially_visible *part,
   size_t left = whole->triangle.count - numbering->culling->count;
   sheet->triangle_flags = mem_alloc(left, 1);
   part->triangle = mem_alloc(left, sizeof *part->triangle);
-  if (!ARRAY_RESERVE(&sheet->triangle, left) || sheet->triangle_flags == NULL ||
+  if (!ARRAY_RESERVE(&sheet->triangle, left) ||
+      !ARRAY_RESERVE(&sheet->sides, left) || sheet->triangle_flags == NULL ||
       part->triangle == NULL)
     return false;
   uint8_t first = 0; /* of the pieces of a triangle that are left */
@@ -53,15 +54,17 @@ static bool list_triangles(struct potentially_visible *part,
       continue;
     const struct sheet_triangle *triangle = &whole->triangle.item[t];
     size_t n = sheet->triangle.count++;
+    const uint32_t *side = sheet_triangle_sides(whole, t);
     sheet->triangle.item[n] = *triangle;
+    sheet->sides.item[n] = whole->sides.item[t];
     sheet->triangle_flags[n] = whole->triangle_flags[t] | first;
     first = 0;
     part->triangle[n] = t;
     numbering->triangle[t] = (uint32_t)n + 1;
     for (int k = 0; k < 3; k++) {
       numbering->point[triangle->point[k]] = 1;
-      if (triangle->side[k] != SHEET_NONE)
-        numbering->edge[triangle->side[k]] = 1;
+      if (side[k] != SHEET_NONE)
+        numbering->edge[side[k]] = 1;
     }
   }
   return true;
@@ -141,9 +144,11 @@ static bool list_inner_sides(const struct potentially_visible *part,
   bool ok = true;
   for (size_t n = 0; ok && n < part->sheet.triangle.count; n++) {
     const struct sheet_triangle *own = &triangle[part->triangle[n]];
+    const uint32_t *edge =
+        sheet_triangle_sides(numbering->whole, part->triangle[n]);
     ok = poll_at(n);
     for (int k = 0; ok && k < 3; k++)
-      if (own->side[k] == SHEET_NONE) {
+      if (edge[k] == SHEET_NONE) {
         const struct sort_key side = {
             sort_pair_key(own->point[k], own->point[geom_next_corner(k)]), 0};
         ok = ARRAY_PUSH(sides, side);
@@ -181,11 +186,11 @@ static bool list_contours(struct potentially_visible *part,
                      whole->contour.item[i].point[1]);
   for (size_t n = 0; ok && n < part->sheet.triangle.count; n++) {
     const struct sheet_triangle *own = &whole->triangle.item[part->triangle[n]];
+    const uint32_t *side = sheet_triangle_sides(whole, part->triangle[n]);
     ok = poll_at(n);
     for (int k = 0; ok && k < 3; k++) {
-      const uint32_t *beside = own->side[k] != SHEET_NONE
-                                   ? whole->edge.item[own->side[k]].triangle
-                                   : NULL;
+      const uint32_t *beside =
+          side[k] != SHEET_NONE ? whole->edge.item[side[k]].triangle : NULL;
       if (beside != NULL && (is_triangle_culled(numbering, beside[0]) ||
                              is_triangle_culled(numbering, beside[1])))
         ok = add_contour(part, numbering, own->point[k],
@@ -205,11 +210,12 @@ static void renumber(struct potentially_visible *part,
       *point = numbering->point[*point] - 1;
     }
   for (size_t t = 0; t < part->sheet.triangle.count; t++) {
-    struct sheet_triangle *triangle = &part->sheet.triangle.item[t];
+    uint32_t *point = part->sheet.triangle.item[t].point,
+             *side = part->sheet.sides.item[t].edge;
     for (int k = 0; k < 3; k++) {
-      triangle->point[k] = numbering->point[triangle->point[k]] - 1;
-      if (triangle->side[k] != SHEET_NONE)
-        triangle->side[k] = numbering->edge[triangle->side[k]] - 1;
+      point[k] = numbering->point[point[k]] - 1;
+      if (side[k] != SHEET_NONE)
+        side[k] = numbering->edge[side[k]] - 1;
     }
   }
 }
@@ -228,6 +234,7 @@ bool potentially_visible_init(struct potentially_visible *part,
   part->sheet.triangle_error = NULL;
   memset(&part->sheet.point, 0, sizeof part->sheet.point);
   memset(&part->sheet.triangle, 0, sizeof part->sheet.triangle);
+  memset(&part->sheet.sides, 0, sizeof part->sheet.sides);
   memset(&part->sheet.edge, 0, sizeof part->sheet.edge);
   memset(&part->sheet.contour, 0, sizeof part->sheet.contour);
   bool ok = numbering.point != NULL && numbering.triangle != NULL &&
@@ -247,6 +254,7 @@ void potentially_visible_fini(struct potentially_visible *part) {
   /* The rest of its sheet is the whole one's. */
   ARRAY_FREE(&part->sheet.point);
   ARRAY_FREE(&part->sheet.triangle);
+  ARRAY_FREE(&part->sheet.sides);
   ARRAY_FREE(&part->sheet.edge);
   ARRAY_FREE(&part->sheet.contour);
   mem_free(part->sheet.triangle_flags);

@@ -81,11 +81,13 @@ static bool store_region(struct face_union *work) {
 
 /* Appends the sides of a triangle except `skip`, starting with the one after
  * it.  Returns how many. */
-static uint32_t append_sides(const struct sheet_triangle *t, int skip,
-                             struct outline_side *side) {
+static uint32_t append_sides(const struct sheet *sheet, uint32_t triangle,
+                             int skip, struct outline_side *side) {
+  const uint32_t *point = sheet->triangle.item[triangle].point,
+                 *edge = sheet_triangle_sides(sheet, triangle);
   for (int k = 1; k < 3; k++)
-    side[k - 1] = (struct outline_side){t->point[(skip + k) % 3],
-                                        t->side[(skip + k) % 3]};
+    side[k - 1] =
+        (struct outline_side){point[(skip + k) % 3], edge[(skip + k) % 3]};
   return 2;
 }
 
@@ -93,21 +95,25 @@ static uint32_t append_sides(const struct sheet_triangle *t, int skip,
  * diagonal.  Returns the number of sides; 0 for any other face. */
 static uint32_t list_face_sides(const struct face_union *work,
                                 struct outline_side side[4]) {
-  const struct sheet_triangle *all = work->fragments->sheet->triangle.item,
-                              *a = &all[work->own.item[0]], *b;
+  const struct sheet *sheet = work->fragments->sheet;
+  uint32_t a = work->own.item[0];
+  const uint32_t *p = sheet->triangle.item[a].point,
+                 *p_edge = sheet_triangle_sides(sheet, a);
   if (work->own.count == 1) {
-    side[0] = (struct outline_side){a->point[0], a->side[0]};
-    return 1 + append_sides(a, 0, side + 1);
+    side[0] = (struct outline_side){p[0], p_edge[0]};
+    return 1 + append_sides(sheet, a, 0, side + 1);
   }
   if (work->own.count != 2)
     return 0;
-  b = &all[work->own.item[1]];
+  uint32_t b = work->own.item[1];
+  const uint32_t *q = sheet->triangle.item[b].point,
+                 *q_edge = sheet_triangle_sides(sheet, b);
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
-      if (a->side[i] == SHEET_NONE && b->side[j] == SHEET_NONE &&
-          a->point[i] == b->point[geom_next_corner(j)] &&
-          a->point[geom_next_corner(i)] == b->point[j])
-        return append_sides(a, i, side) + append_sides(b, j, side + 2);
+      if (p_edge[i] == SHEET_NONE && q_edge[j] == SHEET_NONE &&
+          p[i] == q[geom_next_corner(j)] && p[geom_next_corner(i)] == q[j])
+        return append_sides(sheet, a, i, side) +
+               append_sides(sheet, b, j, side + 2);
   return 0;
 }
 

@@ -33,7 +33,8 @@ static bool is_edge(const struct sheet *sheet, uint32_t t, int k,
   const struct sheet_triangle *triangle = &sheet->triangle.item[t];
   end[0] = sheet->point.item[triangle->point[k]];
   end[1] = sheet->point.item[triangle->point[geom_next_corner(k)]];
-  return triangle->side[k] != SHEET_NONE && !sheet_is_edge_on(sheet, t);
+  return sheet_triangle_sides(sheet, t)[k] != SHEET_NONE &&
+         !sheet_is_edge_on(sheet, t);
 }
 
 /* Chooses the smallest cells that keep to the limit on the entries. */

@@ -52,7 +52,7 @@ static bool overlaps_side(const struct sheet *sheet, uint32_t triangle,
 /* The lowest edge of a triangle that overlaps the segment; SHEET_NONE. */
 static uint32_t edge_along(const struct sheet *sheet, uint32_t triangle,
                            const struct boundary_segment *s) {
-  const uint32_t *side = sheet->triangle.item[triangle].side;
+  const uint32_t *side = sheet_triangle_sides(sheet, triangle);
   uint32_t best = SHEET_NONE;
   struct geom_corner from, to;
   for (uint32_t k = 0; k < 3; k++)
@@ -200,11 +200,11 @@ static uint32_t edge_found(const struct provenance_query *q, bool own) {
   struct geom_corner from, to;
   for (size_t i = 0; i < q->side_count; i++) {
     uint32_t g = q->side[i] / 3, k = q->side[i] % 3;
-    const struct sheet_triangle *triangle = &q->sheet->triangle.item[g];
-    if (triangle->side[k] < id && (triangle->face == q->face) == own &&
+    uint32_t edge = sheet_triangle_sides(q->sheet, g)[k];
+    if (edge < id && (q->sheet->triangle.item[g].face == q->face) == own &&
         overlaps_side(q->sheet, g, k, &q->segment, &from, &to) &&
         (own || is_nearer_than_own(q, g, &from, &to)))
-      id = triangle->side[k];
+      id = edge;
   }
   return id;
 }

@@ -252,8 +252,8 @@ static int compare_triangles(const void *a, const void *b, void *user) {
  * duplicate must not lose that one. */
 static bool has_first_edges(const struct sheet *sheet, uint32_t first,
                             uint32_t duplicate) {
-  const uint32_t *s = sheet->triangle.item[first].side,
-                 *t = sheet->triangle.item[duplicate].side;
+  const uint32_t *s = sheet_triangle_sides(sheet, first),
+                 *t = sheet_triangle_sides(sheet, duplicate);
   return s[0] <= t[0] && s[1] <= t[1] && s[2] <= t[2];
 }
 
@@ -294,8 +294,11 @@ static bool find_duplicates(struct duplicate_finder *f) {
 
 bool duplicate_triangles_find(const struct sheet *sheet, uint8_t **left_out) {
   size_t n = sheet->triangle.count;
-  struct duplicate_finder f = {.sheet = sheet};
-  bool ok = false;
+  struct sheet with_sides = *sheet;
+  struct duplicate_finder f = {.sheet = &with_sides};
+  bool has_sides = sheet->sides.count == n, ok = false;
+  if (!has_sides)
+    memset(&with_sides.sides, 0, sizeof with_sides.sides);
   f.class = mem_alloc(n, sizeof *f.class);
   f.size = mem_calloc(n, sizeof *f.size);
   f.marked = mem_calloc(sheet->point.count, sizeof *f.marked);
@@ -304,8 +307,11 @@ bool duplicate_triangles_find(const struct sheet *sheet, uint8_t **left_out) {
   if (f.class != NULL && f.size != NULL && f.marked != NULL &&
       f.edge_class != NULL && f.left_out != NULL) {
     memset(f.edge_class, 0xff, 3 * n * sizeof *f.edge_class);
-    ok = find_classes(&f) && find_edge_classes(&f) && find_duplicates(&f);
+    ok = sheet_find_sides(&with_sides) && find_classes(&f) &&
+         find_edge_classes(&f) && find_duplicates(&f);
   }
+  if (!has_sides)
+    ARRAY_FREE(&with_sides.sides);
   mem_free(f.class);
   mem_free(f.size);
   mem_free(f.marked);

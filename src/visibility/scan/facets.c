@@ -34,12 +34,13 @@ static bool list_diagonals(struct facet_joining *joining) {
   }
   joining->diagonals = 0;
   for (uint32_t t = joining->first; t < joining->past; t++) {
-    const struct sheet_triangle *triangle = &sheet->triangle.item[t];
+    const uint32_t *point = sheet->triangle.item[t].point,
+                   *side = sheet_triangle_sides(sheet, t);
     for (uint32_t k = 0; k < 3; k++)
-      if (triangle->side[k] == SHEET_NONE)
-        joining->diagonal[joining->diagonals++] = (struct sort_key){
-            sort_pair_key(triangle->point[k], triangle->point[next_of(k, 3)]),
-            3 * (t - joining->first) + k};
+      if (side[k] == SHEET_NONE)
+        joining->diagonal[joining->diagonals++] =
+            (struct sort_key){sort_pair_key(point[k], point[next_of(k, 3)]),
+                              3 * (t - joining->first) + k};
   }
   sort_keys(joining->diagonal, joining->diagonal + joining->capacity,
             joining->diagonals);
@@ -95,6 +96,7 @@ static bool join_across(struct facet_joining *joining,
     uint32_t t = joining->first + joining->diagonal[i].value / 3;
     uint32_t at = joining->diagonal[i].value % 3, past = next_of(at, 3);
     const struct sheet_triangle *other = &sheet->triangle.item[t];
+    const uint32_t *side = sheet_triangle_sides(sheet, t);
     uint32_t shared_vertex = other->point[next_of(past, 3)];
     uint32_t tail = joining->count - k - 1;
     if (other->point[at] != v || joining->facets->part[t] != SHEET_NONE ||
@@ -107,8 +109,8 @@ static bool join_across(struct facet_joining *joining,
     memmove(joining->side + k + 2, joining->side + k + 1,
             tail * sizeof *joining->side);
     joining->corner[k + 1] = shared_vertex;
-    joining->side[k] = other->side[past];
-    joining->side[k + 1] = other->side[next_of(past, 3)];
+    joining->side[k] = side[past];
+    joining->side[k + 1] = side[next_of(past, 3)];
     joining->count++;
     joining->facets->part[t] = (uint32_t)joining->facets->joined.count;
     return true;
@@ -124,7 +126,8 @@ static bool grow_facet(struct facet_joining *joining, uint32_t triangle) {
   struct facet facet = {triangle, (uint32_t)facets->corner.count, 0};
   joining->count = 3;
   memcpy(joining->corner, seed->point, sizeof seed->point);
-  memcpy(joining->side, seed->side, sizeof seed->side);
+  memcpy(joining->side, sheet_triangle_sides(joining->sheet, triangle),
+         3 * sizeof *joining->side);
   facets->part[triangle] = (uint32_t)facets->joined.count;
   for (uint32_t k = 0; k < joining->count;)
     if (joining->side[k] != SHEET_NONE || joining->count == FACET_CORNERS_MAX ||

@@ -50,7 +50,7 @@ static inline uint32_t facet_outline(const struct facets *facets,
                                      const uint32_t **side) {
   if (facets->part == NULL || facets->part[triangle] == SHEET_NONE) {
     *corner = sheet->triangle.item[triangle].point;
-    *side = sheet->triangle.item[triangle].side;
+    *side = sheet_triangle_sides(sheet, triangle);
     return 3;
   }
   const struct facet *facet = &facets->joined.item[facets->part[triangle]];
