@@ -257,10 +257,12 @@ recto_status paths_chain(struct ink_paths *paths, uint32_t *path_of_segment,
   c.mate = mem_alloc(count, 2 * sizeof *c.mate);
   c.used = mem_calloc(count, sizeof *c.used);
   bool ok = c.mate != NULL && c.used != NULL && pairing_find(c.mate, graph) &&
-            follow_all(&c) && sort_paths(paths) && place_points(&c);
+            follow_all(&c) && sort_paths(paths);
+  /* Points need most of the memory here, and none of this. */
   mem_free(c.mate);
   mem_free(c.used);
   open_paths_fini(&c.open);
+  ok = ok && place_points(&c);
   mem_free(c.from);
   ARRAY_FREE(&c.end);
   return ok ? RECTO_OK : error_memory(error);
