@@ -115,6 +115,8 @@ void pens_warn_unused(const struct pens *pens, const recto_options *options) {
 
 void pens_warn_absent(const struct sheet *sheet, const recto_options *options) {
   unsigned present = 0;
+  if (options->ink.dash_count == 0 && options->ink.pen_use_count == 0)
+    return;
   for (size_t e = 0; e < sheet->edge.count && poll_at(e); e++)
     present |= sheet->edge.item[e].edge_class;
   unsigned absent = options->ink.edges & ~present;

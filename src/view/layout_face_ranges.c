@@ -265,6 +265,7 @@ bool layout_make_all_triangles(struct layout *layout) {
     return false;
   sheet->triangle.count = count;
   sheet->sides.count = bare ? 0 : count;
+  sheet->triangles_are_faces = count == faces;
   for (size_t i = 0; i < count_ranges(layout); i++)
     link_late_sides(layout, &layout->face_range[i]);
   return true;

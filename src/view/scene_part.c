@@ -152,6 +152,7 @@ static bool refer_to_whole(struct sheet *sheet, const struct scene_part *part,
     return false;
   for (size_t t = 0; t < sheet->triangle.count; t++)
     sheet->triangle.item[t].face = part->face[sheet->triangle.item[t].face];
+  sheet->triangles_are_faces = false;
   for (size_t i = 0; i < sheet->face_error.count; i++)
     sheet->face_error.item[i].face = part->face[sheet->face_error.item[i].face];
   for (size_t e = 0; e < sheet->edge.count; e++) {

@@ -18,7 +18,8 @@ static bool name_faces_of_range(void *user, struct parallel_range range) {
 
 bool sheet_drop_triangles(struct sheet *sheet) {
   size_t edges = sheet->edge.count;
-  if (!parallel_ranges(parallel_workers(edges, PARALLEL_ITEMS), edges,
+  if (!sheet->triangles_are_faces &&
+      !parallel_ranges(parallel_workers(edges, PARALLEL_ITEMS), edges,
                        PARALLEL_ITEMS, name_faces_of_range, sheet))
     return false;
   sheet->triangles_dropped = true;

@@ -89,6 +89,7 @@ struct sheet {
   ARRAY(struct sheet_triangle) triangle;
   ARRAY(struct sheet_sides) sides; /* one a triangle; none where they were left
                                       out: sheet_find_sides */
+  bool triangles_are_faces;        /* each has the number of its face */
   uint8_t *triangle_flags;         /* one a triangle */
   bool triangles_dropped;    /* the triangles were freed: edge.triangle then has
                               scene faces instead */

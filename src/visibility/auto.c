@@ -8,11 +8,13 @@
 const struct solver *solver_choose(const struct sheet *sheet,
                                    const struct solver_request *request,
                                    const char **why) {
-  size_t triangles = sheet->triangle.count;
-  size_t requested = request->edges ? sheet_count_requested(sheet) : 0;
+  size_t triangles = sheet->triangle.count, requested = 0;
+  bool few = triangles <= BRUTE_PAIRS_MAX;
+  if (few && request->edges)
+    requested += sheet_count_requested(sheet);
   if (request->fragments)
     requested += triangles;
-  if (triangles <= BRUTE_PAIRS_MAX && requested <= BRUTE_PAIRS_MAX &&
+  if (few && requested <= BRUTE_PAIRS_MAX &&
       triangles * requested <= BRUTE_PAIRS_MAX) {
     *why = "few edges and faces: testing all pairs is quickest";
     return &solver_brute;

@@ -230,6 +230,7 @@ bool potentially_visible_init(struct potentially_visible *part,
       mem_calloc(whole->triangle.count, sizeof *numbering.triangle),
       mem_calloc(whole->edge.count, sizeof *numbering.edge)};
   *part = (struct potentially_visible){.sheet = *whole};
+  part->sheet.triangles_are_faces = false;
   part->sheet.triangle_flags = NULL;
   part->sheet.triangle_error = NULL;
   memset(&part->sheet.point, 0, sizeof part->sheet.point);
