@@ -2,6 +2,7 @@
  * which way they face. */
 #include "visibility/contour/facing.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/parallel.h"
@@ -9,6 +10,10 @@
 #include "scene/angle.h"
 #include "scene/coarse_parts.h"
 #include "scene/edge_classes.h"
+
+/* A face that is seen at an angle with a smaller sine, 7 degrees, is seen
+ * edge-on where it matters which side of it is seen. */
+#define EDGE_ON_SINE 0.125
 
 uint32_t facing_corner_of_edge(const struct facing *f, uint32_t face,
                                uint32_t edge) {
@@ -25,30 +30,39 @@ uint32_t facing_corner_of_edge(const struct facing *f, uint32_t face,
 
 /* ---- Slots --------------------------------------------------------------- */
 
-bool facing_is_split(const struct facing *f, uint32_t edge) {
-  const struct topology_edge *e = &f->topology->edge.item[edge];
-  if (!facing_is_feature(f, edge))
-    return false;
-  if (e->uses != 2 || e->same_way || e->first == e->second)
-    return true;
-  uint32_t c = facing_corner_of_edge(f, e->first, edge);
-  uint32_t d = facing_corner_of_edge(f, e->second, edge);
-  return c == SHEET_NONE || d == SHEET_NONE ||
-         facing_slot(f, c) !=
-             facing_slot(f, scene_next_corner(f->scene, e->second, d)) ||
-         facing_slot(f, scene_next_corner(f->scene, e->first, c)) !=
-             facing_slot(f, d);
-}
-
-/* Joins the corners of two faces at both ends of their smooth edge. */
-static void join_corners(struct facing *f, uint32_t edge) {
+/* The corners of an edge's two faces at either end of it; returns false where
+ * there are none. */
+static bool corners_across(const struct facing *f, uint32_t edge,
+                           uint32_t pair[2][2]) {
   const struct topology_edge *e = &f->topology->edge.item[edge];
   uint32_t c = facing_corner_of_edge(f, e->first, edge);
   uint32_t d = facing_corner_of_edge(f, e->second, edge);
   if (c == SHEET_NONE || d == SHEET_NONE)
+    return false;
+  pair[0][0] = c;
+  pair[0][1] = scene_next_corner(f->scene, e->second, d);
+  pair[1][0] = scene_next_corner(f->scene, e->first, c);
+  pair[1][1] = d;
+  return true;
+}
+
+bool facing_is_split(const struct facing *f, uint32_t edge) {
+  const struct topology_edge *e = &f->topology->edge.item[edge];
+  uint32_t pair[2][2];
+  if (!facing_is_feature(f, edge))
+    return false;
+  if (e->uses != 2 || e->same_way || e->first == e->second)
+    return true;
+  return !corners_across(f, edge, pair) ||
+         facing_slot(f, pair[0][0]) != facing_slot(f, pair[0][1]) ||
+         facing_slot(f, pair[1][0]) != facing_slot(f, pair[1][1]);
+}
+
+/* Joins the corners of two faces at both ends of their smooth edge. */
+static void join_corners(struct facing *f, uint32_t edge) {
+  uint32_t pair[2][2];
+  if (!corners_across(f, edge, pair))
     return;
-  const uint32_t pair[2][2] = {{c, scene_next_corner(f->scene, e->second, d)},
-                               {scene_next_corner(f->scene, e->first, c), d}};
   for (int k = 0; k < 2; k++) {
     uint32_t a = f->near_corner[pair[k][0]], b = f->near_corner[pair[k][1]];
     if (a != 0 && b != 0)
@@ -298,11 +312,10 @@ static bool find_near_faces(struct facing *f) {
 
 /* ---- Apices -------------------------------------------------------------- */
 
-/* Makes creases of all edges at points about which a face bends away from the
- * mean normal by more than the crease angle: at the apex of a cone no normal is
- * near those of its faces.
- * Returns whether there are such points. */
-static bool crease_apices(struct facing *f, double crease_deg) {
+/* Marks the points about which a face bends away from the mean normal by more
+ * than the crease angle: at the apex of a cone no normal is near those of its
+ * faces.  Returns whether there are such points. */
+static bool mark_bent(struct facing *f, double crease_deg) {
   double cosine = angle_of_degrees(crease_deg).cosine;
   bool any = false;
   for (size_t i = 0; i < f->mixed.count; i++) {
@@ -319,6 +332,57 @@ static bool crease_apices(struct facing *f, double crease_deg) {
         any = true;
       }
   }
+  return any;
+}
+
+/* Whether a face is seen so nearly edge-on that it does not matter which side
+ * of it is seen. */
+static bool shows_no_side(const struct facing *f, uint32_t face) {
+  double n[3], at[3], v[3];
+  newell_normal_of_face(f->scene, face, n);
+  facing_position(f, facing_point(f, scene_face_start(f->scene, face)), at);
+  facing_view(f->camera, at, v);
+  return !vector_normalise(n) || !vector_normalise(v) ||
+         fabs(vector_dot(n, v)) < EDGE_ON_SINE;
+}
+
+/* Whether an edge is a crease between a face that is clearly seen from its
+ * front and one that is clearly seen from its back. */
+static bool is_clear_fold(const struct facing *f, uint32_t edge) {
+  const struct topology_edge *e = &f->topology->edge.item[edge];
+  return e->uses == 2 && !e->same_way && e->first != e->second &&
+         (f->class_masks[edge] & RECTO_EDGE_CREASE) != 0 &&
+         f->face_sign[e->first] != f->face_sign[e->second] &&
+         !shows_no_side(f, e->first) && !shows_no_side(f, e->second);
+}
+
+/* Marks the points of creases that clearly are contours of the mesh where the
+ * facing on either side says that the surface does not fold over there.
+ * Returns whether there are such points. */
+static bool mark_contradicted(struct facing *f) {
+  bool any = false;
+  for (size_t i = 0; i < f->near_edge.count; i++) {
+    uint32_t edge = f->near_edge.item[i], pair[2][2];
+    if (!is_clear_fold(f, edge) || !corners_across(f, edge, pair))
+      continue;
+    const struct topology_edge *e = &f->topology->edge.item[edge];
+    bool is_back = f->face_sign[e->first] == FACING_BACK;
+    for (int k = 0; k < 2; k++)
+      if (facing_slot(f, pair[k][0]) != facing_slot(f, pair[k][1]) &&
+          (facing_is_back(f, pair[k][0]) != is_back ||
+           facing_is_back(f, pair[k][1]) == is_back)) {
+        f->point_flags[facing_point(f, pair[k][0])] |= FACING_APEX;
+        any = true;
+      }
+  }
+  return any;
+}
+
+/* Makes creases of all edges at points about which no normal stands for all
+ * faces.  Returns whether there are such points. */
+static bool crease_apices(struct facing *f, double crease_deg) {
+  bool bent = mark_bent(f, crease_deg), contradicted = mark_contradicted(f);
+  bool any = bent || contradicted;
   for (size_t i = 0; any && i < f->near_edge.count; i++)
     if ((flags_of_edge(f, f->near_edge.item[i]) & FACING_APEX) != 0)
       f->class_masks[f->near_edge.item[i]] |= RECTO_EDGE_CREASE;

@@ -5,7 +5,9 @@
  * about it, weighted by their angles there [ThurmerWuthrich1998].  At creases
  * and borders the surface is not smooth: corners of faces share a normal if
  * smooth edges join them about their vertex.  The set of corners that share one
- * is called a slot.
+ * is called a slot.  Where no normal stands for all faces about a vertex its
+ * edges count as creases: at the apex of a cone, and where a crease clearly is
+ * a contour of the mesh and the normals beside it deny that.
  *
  * The facing of a slot is g = n . v, where v points from the eye to the vertex
  * in perspective and along the view otherwise: negative where the surface faces
@@ -64,7 +66,7 @@ enum {
   FACING_MIXED = 3,  /* the two above */
   FACING_NEEDED = 4, /* a point of a crossed face */
   FACING_SPLIT = 8,  /* a point on a crease or border */
-  FACING_APEX = 16   /* no normal is near those of all faces about the point */
+  FACING_APEX = 16   /* no normal stands for all faces about the point */
 };
 
 /* Finds the facing of all slots.
