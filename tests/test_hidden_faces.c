@@ -21,7 +21,8 @@
 enum {
   A_SIDE = 6, /* parts along each axis of a housing */
   PARTS = A_SIDE * A_SIDE * A_SIDE,
-  HOUSING = 6 /* faces, the first ones */
+  HOUSING = 6, /* faces, the first ones */
+  FINS = 4
 };
 
 /* ---- A housing with parts inside ----------------------------------------- */
@@ -48,18 +49,19 @@ static void add_assembly(struct scene *scene, double top) {
 }
 
 /* Finds what is left out of a fixture's scene. */
-static struct hidden_faces find_hidden(struct sheet_fixture *fixture) {
+static struct hidden_faces find_hidden(struct sheet_fixture *fixture,
+                                       bool fragments) {
   struct hidden_faces hidden;
   sheet_fixture_out(fixture, false);
   assert_int_equal(hidden_faces_init(&hidden, &fixture->scene,
                                      &fixture->topology, &fixture->camera,
-                                     &fixture->options, NULL),
+                                     &fixture->options, fragments, NULL),
                    RECTO_OK);
   return hidden;
 }
 
 static size_t count_hidden(struct sheet_fixture *fixture) {
-  struct hidden_faces hidden = find_hidden(fixture);
+  struct hidden_faces hidden = find_hidden(fixture, false);
   size_t count = hidden.count;
   hidden_faces_fini(&hidden);
   sheet_fixture_fini(fixture);
@@ -68,12 +70,12 @@ static size_t count_hidden(struct sheet_fixture *fixture) {
 
 static void what_is_in_a_housing_is_left_out(void **state) {
   (void)state;
-  for (int perspective = 0; perspective <= 1; perspective++) {
+  for (int how = 0; how < 4; how++) { /* perspective or not, filled or not */
     struct sheet_fixture fixture;
     sheet_fixture_start(&fixture);
-    fixture.options.camera.fov_deg = perspective ? 50 : 0;
+    fixture.options.camera.fov_deg = how & 1 ? 50 : 0;
     add_assembly(&fixture.scene, 0.9);
-    struct hidden_faces hidden = find_hidden(&fixture);
+    struct hidden_faces hidden = find_hidden(&fixture, (how & 2) != 0);
     assert_int_equal(hidden.count, 6 * PARTS);
     for (uint32_t f = 0; f < scene_face_count(&fixture.scene); f++)
       assert_int_equal(hidden.left_out[f] != 0, f >= HOUSING);
@@ -89,7 +91,7 @@ static void contact_is_not_left_out(void **state) {
   sheet_fixture_start(&fixture);
   scenes_view_above(&fixture.options);
   add_assembly(&fixture.scene, 1);
-  struct hidden_faces hidden = find_hidden(&fixture);
+  struct hidden_faces hidden = find_hidden(&fixture, false);
   assert_int_equal(hidden.count, 6 * (PARTS - A_SIDE * A_SIDE));
   for (uint32_t f = HOUSING; f < scene_face_count(&fixture.scene); f++) {
     bool touches = (f - HOUSING) / 6 / (A_SIDE * A_SIDE) == A_SIDE - 1;
@@ -152,16 +154,45 @@ static long stat_of(const recto_drawing *drawing, const char *name) {
   return strtol(at + strlen(name) + 2, NULL, 10);
 }
 
+/* A quad from (x, y, z), which is as long in y, and its face. */
+static void write_quad(FILE *to, double x, double y, double z, double width,
+                       double length, double height) {
+  for (int p = 0; p < 4; p++)
+    fprintf(to, "v %.5g %.5g %.5g\n", x + (p == 1 || p == 2 ? width : 0),
+            y + (p / 2 ? length : 0), z + (p == 1 || p == 2 ? height : 0));
+  fprintf(to, "f -4 -3 -2 -1\n");
+}
+
+/* Fins that rise from the top of a housing, and under the top what may be in
+ * contact with one, as that is steep: first what is hidden. */
+static void write_fins(FILE *to, struct random random, bool hidden) {
+  for (int i = 0; i < FINS; i++) {
+    double x = random_between(&random, 1, 8), y = random_between(&random, 1, 8),
+           width = random_between(&random, 0.02, 0.3),
+           height = random_between(&random, 1, 3),
+           depth = random_between(&random, 0.15, 0.3);
+    fprintf(to, "g fin%d\n", 2 * i + hidden);
+    if (hidden)
+      write_quad(to, x, y, 10 - depth, 0.02, 1, 0);
+    else
+      write_quad(to, x, y, 10.01, width, 1, height);
+  }
+}
+
 /* A housing, seldom without a wall, with parts at random: most of them inside,
- * some at its walls, through them, or joined to it. */
+ * some at its walls, through them, or joined to it.  It comes first or last. */
 static void write_assembly(FILE *to, struct random *random) {
   static const int quad[6][4] = {{4, 3, 2, 1}, {5, 6, 7, 8}, {1, 2, 6, 5},
                                  {2, 3, 7, 6}, {3, 4, 8, 7}, {4, 1, 5, 8}};
-  int parts = random_int(random, 150, 300);
+  int parts = random_int(random, 150, 300),
+      housing = random_below(random, 2) ? parts : 0;
   bool is_open = random_below(random, 5) == 0, joins = random_below(random, 3);
+  struct random fins = {random_next(random)};
+  write_fins(to, fins, true);
   for (int i = 0; i <= parts; i++) {
     double low[3] = {0, 0, 0}, high[3] = {10, 10, 10};
-    for (int k = 0; i > 0 && k < 3; k++) {
+    int first = 4 * FINS + 8 * i;
+    for (int k = 0; i != housing && k < 3; k++) {
       double side = random_between(random, 0.5, 2);
       uint32_t place = random_below(random, 40);
       low[k] = place == 0   ? 0
@@ -175,13 +206,14 @@ static void write_assembly(FILE *to, struct random *random) {
               p / 2 % 2 ? high[1] : low[1], p / 4 ? high[2] : low[2]);
     if (random_below(random, 2) == 0)
       fprintf(to, "g part%d\n", i);
-    for (int q = i == 0 && is_open ? 1 : 0; q < 6; q++)
-      fprintf(to, "f %d %d %d %d\n", 8 * i + quad[q][0], 8 * i + quad[q][1],
-              8 * i + quad[q][2], 8 * i + quad[q][3]);
+    for (int q = i == housing && is_open ? 1 : 0; q < 6; q++)
+      fprintf(to, "f %d %d %d %d\n", first + quad[q][0], first + quad[q][1],
+              first + quad[q][2], first + quad[q][3]);
     if (i > 0 && joins && random_below(random, 60) == 0)
-      fprintf(to, "f %d %d %d\n", 8 * i + 1, 8 * i + 2,
-              1 + (int)random_below(random, 8));
+      fprintf(to, "f %d %d %d\n", first + 1, first + 2,
+              4 * FINS + 1 + (int)random_below(random, 8));
   }
+  write_fins(to, fins, false);
 }
 
 static char *draw(const char *text, size_t length, const recto_options *options,
@@ -204,6 +236,9 @@ static char *draw(const char *text, size_t length, const recto_options *options,
 
 /* Another method solves all faces. */
 static void drawings_do_not_change(void **state) {
+  static const recto_fill fills[] = {RECTO_FILL_NONE, RECTO_FILL_PAINT,
+                                     RECTO_FILL_SHADE, RECTO_FILL_HATCH};
+  static const double contacts[] = {-1, 0, 0.05};
   struct random random = {14};
   long left_out = 0;
   (void)state;
@@ -218,11 +253,15 @@ static void drawings_do_not_change(void **state) {
     assert_int_equal(fclose(to), 0);
     recto_options_init(&options);
     options.camera.azimuth_deg = random_between(&random, 0, 360);
-    options.camera.elevation_deg = random_between(&random, -90, 90);
+    options.camera.up[2] = 1;
+    options.camera.elevation_deg =
+        random_below(&random, 2) ? 90 : random_between(&random, -90, 90);
     options.camera.fov_deg = random_below(&random, 2) ? 60 : 0;
     options.ink.exact = random_below(&random, 2);
     if (random_below(&random, 2))
       options.ink.edges = RECTO_EDGES_ALL;
+    options.ink.fill = fills[random_below(&random, 4)];
+    options.solver.contact = contacts[random_below(&random, 3)];
     char *part = draw(text, length, &options, &count[0]);
     options.solver.method = RECTO_METHOD_BRUTE;
     char *whole = draw(text, length, &options, &count[1]);
@@ -265,6 +304,7 @@ static void memory_may_run_out(void **state) {
   write_assembly(to, &random);
   assert_int_equal(fclose(to), 0);
   recto_options_init(&options);
+  options.ink.fill = RECTO_FILL_PAINT;
   assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
   assert_int_equal(
       recto_scene_read_memory(scene, text, length, "obj", NULL, &options, NULL),

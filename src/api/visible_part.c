@@ -34,16 +34,16 @@ recto_status visible_part_layout(struct visible_part *visible,
                                  struct report *report, recto_error *error) {
   struct hidden_faces hidden = {.left_out = NULL};
   recto_status status = RECTO_OK;
-  if (!all_edges && may_leave_out(scene, camera, options))
-    status =
-        hidden_faces_init(&hidden, scene, topology, camera, options, error);
+  if (may_leave_out(scene, camera, options))
+    status = hidden_faces_init(&hidden, scene, topology, camera, options,
+                               all_edges, error);
   report_count(report, "sheet", "faces_left_out", hidden.count);
   if (hidden.left_out != NULL) {
     visible->is_part = true;
     status = scene_part_init(&visible->part, scene, hidden.left_out, error);
     if (status == RECTO_OK)
       status = scene_part_layout(sheet, &visible->part, scene, topology, camera,
-                                 options, false, error);
+                                 options, all_edges, error);
   } else if (status == RECTO_OK) {
     status =
         layout_sheet(sheet, scene, topology, camera, options, all_edges, error);

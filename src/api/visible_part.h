@@ -11,8 +11,8 @@ struct visible_part {
   bool is_part; /* else no face was left out, and `part` is empty */
 };
 
-/* Lays out a scene as layout_sheet does, where lines alone are drawn without
- * faces that are known to be hidden before (hidden_faces.h).
+/* Lays out a scene as layout_sheet does, but without faces that are known to be
+ * hidden before (hidden_faces.h) where these change nothing.
  * all_edges  as of layout_sheet: faces are solved too
  * Errors     as of layout_sheet; end with visible_part_fini either way */
 USE_RESULT recto_status

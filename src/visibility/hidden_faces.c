@@ -8,7 +8,8 @@
  *     about as large as the largest, as triangles at random are
  *   3 lay out the large faces alone, and raise the bounds of an occlusion
  *     buffer by them, from near to far
- *   4 test the boxes of runs
+ *   4 test the boxes of runs; for fragments, lower the bounds by the contact
+ *     tolerances of what is not hidden, and test the hidden ones again
  *   5 restore the runs that are connected to one that is not hidden
  */
 #include "visibility/hidden_faces.h"
@@ -21,6 +22,7 @@
 #include "geom/vector.h"
 #include "view/project.h"
 #include "view/scene_part.h"
+#include "visibility/culling/contact_bounds.h"
 #include "visibility/culling/face_runs.h"
 #include "visibility/culling/occlusion_culling.h"
 #include "visibility/culling/space_box.h"
@@ -44,6 +46,7 @@ struct hiding {
   const struct topology *topology;
   const struct camera *camera;
   const recto_options *options;
+  bool fragments;
   struct projection projection;
   struct face_runs runs;
   struct occlusion_buffer buffer;
@@ -146,26 +149,45 @@ static bool raise_bounds(struct hiding *hiding, const struct sheet *sheet) {
   return ok && vertex_fans_raise(&hiding->buffer, sheet);
 }
 
-/* Lays out the faces that are not left out, and raises the bounds by them. */
-static recto_status fill_buffer(struct hiding *hiding, const uint8_t *left_out,
-                                recto_error *error) {
+/* What is not left out of a scene, and its sheet. */
+struct laid_out {
   struct scene_part part;
-  struct sheet sheet = {.triangle_flags = NULL};
+  struct sheet sheet;
+};
+
+/* Lays out the faces that are not left out; end with fini_laid_out either
+ * way. */
+static recto_status lay_out(struct laid_out *out, const struct hiding *hiding,
+                            const uint8_t *left_out, recto_error *error) {
   recto_options options = *hiding->options;
   options.ink.edges = RECTO_EDGES_NONE;
-  recto_status status = scene_part_init(&part, hiding->scene, left_out, error);
+  out->sheet = (struct sheet){.triangle_flags = NULL};
+  recto_status status =
+      scene_part_init(&out->part, hiding->scene, left_out, error);
   if (status == RECTO_OK)
-    status = layout_sheet(&sheet, &part.scene, &part.topology, hiding->camera,
-                          &options, true, error);
+    status = layout_sheet(&out->sheet, &out->part.scene, &out->part.topology,
+                          hiding->camera, &options, true, error);
+  return status;
+}
+
+static void fini_laid_out(struct laid_out *out) {
+  sheet_fini(&out->sheet);
+  scene_part_fini(&out->part);
+}
+
+/* Raises the bounds by the faces that are not left out. */
+static recto_status fill_buffer(struct hiding *hiding, const uint8_t *left_out,
+                                recto_error *error) {
+  struct laid_out large;
+  recto_status status = lay_out(&large, hiding, left_out, error);
   if (status == RECTO_OK) {
-    hiding->page = box2_of_sheet(&sheet);
-    hiding->margins = occlusion_margins_of(&sheet);
+    hiding->page = box2_of_sheet(&large.sheet);
+    hiding->margins = occlusion_margins_of(&large.sheet);
     occlusion_buffer_shape(&hiding->buffer, hiding->page, CELLS_FOR);
-    if (!raise_bounds(hiding, &sheet))
+    if (!raise_bounds(hiding, &large.sheet))
       status = error_memory(error);
   }
-  sheet_fini(&sheet);
-  scene_part_fini(&part);
+  fini_laid_out(&large);
   return status;
 }
 
@@ -222,15 +244,42 @@ static bool is_run_hidden(const struct hiding *hiding,
   return true;
 }
 
-/* Tests all runs; returns whether any is hidden. */
-static bool test_runs(struct hiding *hiding) {
-  bool any = false;
+/* Tests all runs, or again those that were hidden. */
+static void test_runs(struct hiding *hiding, bool again) {
   for (size_t r = 0; r < hiding->runs.run.count; r++) {
     struct face_run *run = &hiding->runs.run.item[r];
-    run->hidden = is_run_hidden(hiding, run);
-    any |= run->hidden;
+    if (!again || run->hidden)
+      run->hidden = is_run_hidden(hiding, run);
   }
-  return any;
+}
+
+/* Marks the faces of hidden runs, and no others. */
+static size_t mark_left_out(const struct hiding *hiding, uint8_t *left_out) {
+  size_t count = 0;
+  for (size_t r = 0; r < hiding->runs.run.count; r++) {
+    uint32_t first = hiding->runs.run.item[r].first,
+             end = face_runs_end(&hiding->runs, hiding->scene, r);
+    bool hidden = hiding->runs.run.item[r].hidden;
+    memset(left_out + first, hidden, end - first);
+    count += hidden ? end - first : 0;
+  }
+  return count;
+}
+
+/* Tests the hidden runs again, behind bounds that are lowered by the contact
+ * tolerances of all faces that are not left out. */
+static recto_status rule_out_contact(struct hiding *hiding,
+                                     const uint8_t *left_out,
+                                     recto_error *error) {
+  struct laid_out visible;
+  recto_status status = lay_out(&visible, hiding, left_out, error);
+  if (status == RECTO_OK &&
+      !contact_bounds_lower(&hiding->buffer, &visible.sheet))
+    status = error_memory(error);
+  fini_laid_out(&visible);
+  if (status == RECTO_OK)
+    test_runs(hiding, true);
+  return status;
 }
 
 /* ---- 5. Connected runs --------------------------------------------------- */
@@ -304,19 +353,6 @@ static bool restore_connected(struct hiding *hiding, bool *done) {
 
 /* ---- All ----------------------------------------------------------------- */
 
-/* Marks the faces of hidden runs, and no others. */
-static size_t mark_left_out(const struct hiding *hiding, uint8_t *left_out) {
-  size_t count = 0;
-  for (size_t r = 0; r < hiding->runs.run.count; r++) {
-    uint32_t first = hiding->runs.run.item[r].first,
-             end = face_runs_end(&hiding->runs, hiding->scene, r);
-    bool hidden = hiding->runs.run.item[r].hidden;
-    memset(left_out + first, hidden, end - first);
-    count += hidden ? end - first : 0;
-  }
-  return count;
-}
-
 /* Phases 2 to 5. */
 static recto_status find_hidden(struct hiding *hiding,
                                 struct hidden_faces *hidden,
@@ -339,7 +375,14 @@ static recto_status find_hidden(struct hiding *hiding,
   if (choose_large(hiding, large, left_out) == 0)
     goto end;
   status = fill_buffer(hiding, left_out, error);
-  if (status != RECTO_OK || !test_runs(hiding))
+  if (status != RECTO_OK)
+    goto end;
+  test_runs(hiding, false);
+  if (2 * mark_left_out(hiding, left_out) < faces)
+    goto end;
+  if (hiding->fragments)
+    status = rule_out_contact(hiding, left_out, error);
+  if (status != RECTO_OK)
     goto end;
   if (!restore_connected(hiding, &done))
     status = error_memory(error);
@@ -355,14 +398,17 @@ end:
   return status;
 }
 
-recto_status
-hidden_faces_init(struct hidden_faces *hidden, const struct scene *scene,
-                  const struct topology *topology, const struct camera *camera,
-                  const recto_options *options, recto_error *error) {
+recto_status hidden_faces_init(struct hidden_faces *hidden,
+                               const struct scene *scene,
+                               const struct topology *topology,
+                               const struct camera *camera,
+                               const recto_options *options, bool fragments,
+                               recto_error *error) {
   struct hiding hiding = {.scene = scene,
                           .topology = topology,
                           .camera = camera,
                           .options = options,
+                          .fragments = fragments,
                           .projection = projection_of(camera)};
   *hidden = (struct hidden_faces){.left_out = NULL};
   if (estimate_complexity(&hiding) < COMPLEXITY_MIN)

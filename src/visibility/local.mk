@@ -41,6 +41,7 @@ librecto_core_la_SOURCES += \
   %D%/culling/potentially_visible.c %D%/culling/potentially_visible.h \
   %D%/contour/contour_cusps.c %D%/contour/contour_cusps.h \
   %D%/culling/vertex_fans.c %D%/culling/vertex_fans.h \
+  %D%/culling/contact_bounds.c %D%/culling/contact_bounds.h \
   %D%/contour/contour_curves.c %D%/contour/contour_curves.h \
   %D%/contour/curved_triangle.c %D%/contour/curved_triangle.h \
   %D%/contour/corner_moves.c %D%/contour/corner_moves.h \
