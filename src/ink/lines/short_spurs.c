@@ -27,8 +27,9 @@
 #include "ink/lines/nodes_near_segment.h"
 #include "ink/pens.h"
 
-/* The cells of the grid along each side of the page, at most. */
-enum { GRID_MAX = 1 << 10 };
+/* The cells of the grid along each side of the page, at most.  Blocks of them,
+ * 2^BLOCK_SHIFT along each side, are looked at first. */
+enum { GRID_MAX = 1 << 10, BLOCK_SHIFT = 3 };
 
 struct spur {
   uint32_t end[2];   /* its loose ends; SEGMENT_GRAPH_NONE: there is one */
@@ -60,7 +61,9 @@ struct spur_search {
    * listed_end. */
   uint32_t *first;
   ARRAY(struct listed_end) listed;
-  uint8_t *is_near; /* one a segment: some may be near it */
+  uint8_t *has_ends; /* one a block: some cell of it has a list */
+  size_t blocks;     /* in a row of these */
+  uint8_t *is_near;  /* one a segment: some may be near it */
 };
 
 static uint32_t spur_node(const struct spur_search *s, uint32_t end) {
@@ -235,6 +238,8 @@ static bool list_loose_end(struct spur_search *s, uint32_t spur, uint32_t k) {
       if (!ARRAY_PUSH(&s->listed, listed))
         return false;
       *first = (uint32_t)s->listed.count;
+      s->has_ends[(size_t)(row >> BLOCK_SHIFT) * s->blocks +
+                  (size_t)(i >> BLOCK_SHIFT)] = 1;
     }
   return true;
 }
@@ -250,7 +255,9 @@ static bool list_loose_ends(struct spur_search *s) {
   }
   s->first =
       mem_calloc((size_t)s->count[0] * (size_t)s->count[1], sizeof *s->first);
-  bool ok = s->first != NULL;
+  s->blocks = ((size_t)s->count[0] >> BLOCK_SHIFT) + 1;
+  s->has_ends = mem_calloc(s->blocks, ((size_t)s->count[1] >> BLOCK_SHIFT) + 1);
+  bool ok = s->first != NULL && s->has_ends != NULL;
   for (uint32_t i = 0; ok && i < s->spur.count; i++) {
     struct spur *spur = &s->spur.item[i];
     for (uint32_t k = 0; ok && k < 2; k++) {
@@ -275,14 +282,27 @@ static bool find_cells(const struct spur_search *s, uint32_t segment,
   return abs(dx) + abs(dy) <= 1;
 }
 
+/* Whether loose ends may be listed in a cell of a segment: by the blocks of its
+ * box, of which there are two by two at most where it is not long. */
+static bool may_meet_ends(const struct spur_search *s, uint32_t segment) {
+  const uint32_t *node = s->graph->segment.item[segment].node;
+  struct ink_point p = s->graph->node.item[node[0]];
+  struct ink_point q = s->graph->node.item[node[1]];
+  int x = spur_cell(s, 0, p.x) >> BLOCK_SHIFT,
+      y = spur_cell(s, 1, p.y) >> BLOCK_SHIFT,
+      to_x = spur_cell(s, 0, q.x) >> BLOCK_SHIFT,
+      to_y = spur_cell(s, 1, q.y) >> BLOCK_SHIFT;
+  const uint8_t *row = s->has_ends + (size_t)y * s->blocks,
+                *to_row = s->has_ends + (size_t)to_y * s->blocks;
+  return abs(to_x - x) > 1 || abs(to_y - y) > 1 ||
+         (row[x] | row[to_x] | to_row[x] | to_row[to_x]) != 0;
+}
+
 static bool find_near_of_range(void *user, struct parallel_range range) {
   const struct spur_search *s = user;
-  for (size_t i = range.begin; i < range.end; i++) {
-    uint32_t *first[2];
+  for (size_t i = range.begin; i < range.end; i++)
     s->is_near[i] = !graph_segment_is_hidden(&s->graph->segment.item[i]) &&
-                    (!find_cells(s, (uint32_t)i, first) || *first[0] != 0 ||
-                     *first[1] != 0);
-  }
+                    may_meet_ends(s, (uint32_t)i);
   return true;
 }
 
@@ -422,6 +442,7 @@ bool segment_graph_find_short_spurs(const struct segment_graph *graph,
   mem_free(s.of_segment);
   ARRAY_FREE(&s.segment);
   mem_free(s.first);
+  mem_free(s.has_ends);
   ARRAY_FREE(&s.listed);
   mem_free(s.is_near);
   return ok;
