@@ -235,6 +235,49 @@ static void check_segments(const struct sheet *sheet,
   assert_true(other > sheet->triangle.count / 8);
 }
 
+/* The point of a segment, with each coordinate rounded. */
+static struct geom_point point_at(struct geom_point p, struct geom_point q,
+                                  int part) {
+  double t = (double)part / OCCLUSION_PARTS;
+  return (struct geom_point){(int32_t)floor(p.x + t * ((double)q.x - p.x)),
+                             (int32_t)floor(p.y + t * ((double)q.y - p.y)),
+                             p.z + (int64_t)floor(t * (double)(q.z - p.z))};
+}
+
+/* What is not in the rest of a segment, which runs backwards, is hidden. */
+static void check_rests(const struct sheet *sheet,
+                        const struct occlusion_culling *culling) {
+  size_t partly = 0;
+  for (uint32_t t = 0; t < sheet->triangle.count; t++) {
+    struct geom_triangle c = sheet_corners(sheet, t);
+    struct geom_point p = c.p[0], q = c.p[1];
+    q.z -= q.z / 4;
+    struct segment_part rest = occlusion_culling_rest(culling, p, q),
+                        back = occlusion_culling_rest(culling, q, p);
+    bool hidden = occlusion_culling_hides(culling, p, q);
+    assert_int_equal(hidden, rest.from >= rest.to);
+    assert_int_equal(hidden, back.from >= back.to);
+    if (hidden)
+      continue;
+    assert_in_range(rest.from + back.to - OCCLUSION_PARTS + 8, 0, 16);
+    assert_in_range(rest.to + back.from - OCCLUSION_PARTS + 8, 0, 16);
+    assert_true(rest.from >= 0 && rest.to <= OCCLUSION_PARTS);
+    if (rest.from > 0) {
+      assert_true(is_behind(sheet, culling, p));
+      assert_true(is_behind(sheet, culling, point_at(p, q, rest.from / 2)));
+      assert_true(is_behind(sheet, culling, point_at(p, q, rest.from - 1)));
+    }
+    if (rest.to < OCCLUSION_PARTS) {
+      int half = (rest.to + OCCLUSION_PARTS) / 2;
+      assert_true(is_behind(sheet, culling, q));
+      assert_true(is_behind(sheet, culling, point_at(p, q, half)));
+      assert_true(is_behind(sheet, culling, point_at(p, q, rest.to + 1)));
+    }
+    partly += rest.to - rest.from < OCCLUSION_PARTS;
+  }
+  assert_true(partly > sheet->triangle.count / 16);
+}
+
 static void what_is_culled_is_hidden(void **state) {
   (void)state;
   for (uint64_t seed = 1; seed <= 4; seed++) {
@@ -249,6 +292,7 @@ static void what_is_culled_is_hidden(void **state) {
     assert_true(occlusion_culling_init(&culling, &fixture.sheet, seed > 2));
     check_triangles(&fixture.sheet, &culling);
     check_segments(&fixture.sheet, &culling);
+    check_rests(&fixture.sheet, &culling);
     occlusion_culling_fini(&culling);
     sheet_fixture_fini(&fixture);
   }

@@ -188,6 +188,7 @@ void occlusion_culling_fini(struct occlusion_culling *culling) {
 /* A segment to be tested, from its farther to its nearer end. */
 struct tested_segment {
   double x, y, z, dx, dy, dz;
+  int32_t nearest, farthest; /* of its depths, with the margin, in steps */
 };
 
 /* The parameter at which a segment that starts at `from` and runs by `delta`
@@ -210,22 +211,36 @@ static int32_t nearest_of_segment(const struct occlusion_culling *culling,
   return occlusion_steps_up(z + 1 + culling->margin);
 }
 
+static struct tested_segment
+begin_segment(const struct occlusion_culling *culling, struct geom_point p,
+              struct geom_point q) {
+  struct geom_point far = p.z < q.z ? p : q, near = p.z < q.z ? q : p;
+  return (struct tested_segment){
+      far.x,
+      far.y,
+      (double)far.z,
+      (double)near.x - far.x,
+      (double)near.y - far.y,
+      (double)(near.z - far.z),
+      occlusion_steps_up((double)near.z + culling->margin),
+      occlusion_steps_up((double)far.z + culling->margin)};
+}
+
+static bool is_hidden_in_cell(const struct occlusion_culling *culling,
+                              const struct tested_segment *s, int32_t bound,
+                              int x, int y) {
+  return bound > s->nearest ||
+         (bound > s->farthest && bound > nearest_of_segment(culling, s, x, y));
+}
+
 bool occlusion_culling_hides(const struct occlusion_culling *culling,
                              struct geom_point p, struct geom_point q) {
   const struct triangle_grid *cells = &culling->buffer.cells;
   if (culling->culled == NULL)
     return false;
-  struct geom_point far = p.z < q.z ? p : q, near = p.z < q.z ? q : p;
-  int32_t nearest = occlusion_steps_up((double)near.z + culling->margin),
-          farthest = occlusion_steps_up((double)far.z + culling->margin);
-  struct tested_segment s = {far.x,
-                             far.y,
-                             (double)far.z,
-                             (double)near.x - far.x,
-                             (double)near.y - far.y,
-                             (double)(near.z - far.z)};
+  struct tested_segment s = begin_segment(culling, p, q);
   struct cell_range r = triangle_grid_cells(cells, box2_of_segment(p, q));
-  if (occlusion_buffer_hides_in_blocks(&culling->buffer, r, nearest))
+  if (occlusion_buffer_hides_in_blocks(&culling->buffer, r, s.nearest))
     return true;
   for (int y = r.y0; y <= r.y1; y++) {
     const int32_t *bound =
@@ -233,10 +248,76 @@ bool occlusion_culling_hides(const struct occlusion_culling *culling,
     int x0, x1;
     triangle_grid_row(cells, p, q, r, y, &x0, &x1);
     for (int x = x0; x <= x1; x++)
-      if (bound[x] <= nearest &&
-          (bound[x] <= farthest ||
-           bound[x] <= nearest_of_segment(culling, &s, x, y)))
+      if (!is_hidden_in_cell(culling, &s, bound[x], x, y))
         return false;
   }
   return true;
+}
+
+/* Shrinks a range of parameters to those at which a coordinate that starts at
+ * `from` and runs by `delta` is between `low` and `low` + `side`. */
+static void clip_parameters(double from, double delta, double low, double side,
+                            double t[2]) {
+  if (delta == 0)
+    return;
+  double enters = (low + (delta > 0 ? 0 : side) - from) / delta,
+         leaves = (low + (delta > 0 ? side : 0) - from) / delta;
+  t[0] = enters > t[0] ? enters : t[0];
+  t[1] = leaves < t[1] ? leaves : t[1];
+}
+
+/* Extends a part of the segment p-q to what it has in a cell, rounded
+ * outwards. */
+static void add_part_in_cell(const struct triangle_grid *cells,
+                             struct geom_point p, struct geom_point q, int x,
+                             int y, struct segment_part *part) {
+  double side = (double)(INT64_C(1) << cells->shift), t[2] = {0, 1};
+  clip_parameters(p.x, (double)q.x - p.x, cells->x0 + x * side, side, t);
+  clip_parameters(p.y, (double)q.y - p.y, cells->y0 + y * side, side, t);
+  int from = (int)(t[0] * OCCLUSION_PARTS) - 1,
+      to = (int)(t[1] * OCCLUSION_PARTS) + 2;
+  part->from = from < part->from ? from : part->from;
+  part->to = to > part->to ? to : part->to;
+}
+
+/* Extends a part of the segment p-q to what of it is in a row and may be
+ * visible; returns whether anything is. */
+static bool add_part_in_row(const struct occlusion_culling *culling,
+                            const struct tested_segment *s, struct geom_point p,
+                            struct geom_point q, struct cell_range r, int y,
+                            struct segment_part *part) {
+  const struct triangle_grid *cells = &culling->buffer.cells;
+  const int32_t *bound =
+      culling->buffer.bound + (size_t)y * (size_t)cells->columns;
+  int x0, x1;
+  triangle_grid_row(cells, p, q, r, y, &x0, &x1);
+  while (x0 <= x1 && is_hidden_in_cell(culling, s, bound[x0], x0, y))
+    x0++;
+  if (x0 > x1)
+    return false;
+  while (x0 < x1 && is_hidden_in_cell(culling, s, bound[x1], x1, y))
+    x1--;
+  add_part_in_cell(cells, p, q, x0, y, part);
+  if (x0 < x1)
+    add_part_in_cell(cells, p, q, x1, y, part);
+  return true;
+}
+
+struct segment_part
+occlusion_culling_rest(const struct occlusion_culling *culling,
+                       struct geom_point p, struct geom_point q) {
+  struct segment_part rest = {OCCLUSION_PARTS, 0};
+  if (culling->culled == NULL)
+    return (struct segment_part){0, OCCLUSION_PARTS};
+  struct tested_segment s = begin_segment(culling, p, q);
+  struct cell_range r =
+      triangle_grid_cells(&culling->buffer.cells, box2_of_segment(p, q));
+  int y0 = r.y0, y1 = r.y1;
+  while (y0 <= y1 && !add_part_in_row(culling, &s, p, q, r, y0, &rest))
+    y0++;
+  while (y0 < y1 && !add_part_in_row(culling, &s, p, q, r, y1, &rest))
+    y1--;
+  rest.from = rest.from > 0 ? rest.from : 0;
+  rest.to = rest.to < OCCLUSION_PARTS ? rest.to : OCCLUSION_PARTS;
+  return rest;
 }

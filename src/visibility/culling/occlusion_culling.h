@@ -79,6 +79,18 @@ occlusion_culling_is_culled(const struct occlusion_culling *culling,
   return culling->culled != NULL && culling->culled[triangle] != 0;
 }
 
+/* A part of a segment, in units of its OCCLUSION_PARTS-th part. */
+enum { OCCLUSION_PARTS = 1 << 16 };
+struct segment_part {
+  int from, to; /* from >= to: it is empty */
+};
+
+/* The part of the segment p-q outside of which it is certainly hidden, by the
+ * cells that it meets. */
+struct segment_part
+occlusion_culling_rest(const struct occlusion_culling *culling,
+                       struct geom_point p, struct geom_point q);
+
 /* Is the segment p-q, an edge or an intersection, hidden in all cells that it
  * meets?  Sufficient, not necessary. */
 bool occlusion_culling_hides(const struct occlusion_culling *culling,

@@ -5,10 +5,12 @@
 #include <string.h>
 
 bool edge_query_init(struct edge_query *query, const struct sheet *sheet,
-                     const struct tile_candidates *lists) {
+                     const struct tile_candidates *lists,
+                     const struct occlusion_culling *culling) {
   memset(query, 0, sizeof *query);
   query->sheet = sheet;
   query->lists = lists;
+  query->culling = culling != NULL && culling->culled != NULL ? culling : NULL;
   return triangle_grid_query_init(&query->found, &lists->grid) &&
          (lists->occluder != NULL || plane_cache_init(&query->planes, sheet));
 }
@@ -209,10 +211,30 @@ static bool test_cell(struct edge_query *query, int x, int y) {
   return true;
 }
 
-bool edge_query_solve(struct edge_query *query, uint32_t e) {
-  const struct triangle_grid *grid = &query->lists->grid;
+/* Adds the intervals at either end of the edge that the occlusion buffer
+ * hides. */
+static bool occlude_by_buffer(struct edge_query *query) {
+  struct segment_part rest =
+      occlusion_culling_rest(query->culling, query->p, query->q);
+  if (rest.from >= rest.to)
+    rest.to = rest.from = OCCLUSION_PARTS;
+  const struct occluded_interval first = {ratio_of(0, 1),
+                                          ratio_of(rest.from, OCCLUSION_PARTS),
+                                          OCCLUDED_BOTH},
+                                 last = {ratio_of(rest.to, OCCLUSION_PARTS),
+                                         ratio_of(1, 1), OCCLUDED_BOTH};
+  if ((rest.from > 0 && !edge_intervals_occlude(&query->intervals, first)) ||
+      (rest.to < OCCLUSION_PARTS &&
+       !edge_intervals_occlude(&query->intervals, last)))
+    return false;
+  if (!query->intervals.occluded)
+    shrink_rest(query);
+  return true;
+}
+
+/* Begins with edge e, all of which remains. */
+static bool begin_edge(struct edge_query *query, uint32_t e) {
   const struct sheet_edge *edge = &query->sheet->edge.item[e];
-  struct cell_range r;
   query->edge = edge;
   for (int k = 0; k < 2; k++)
     query->face[k] = edge->triangle[k] == SHEET_NONE
@@ -222,10 +244,6 @@ bool edge_query_solve(struct edge_query *query, uint32_t e) {
   query->q = query->sheet->point.item[edge->point[1]];
   query->kdop = kdop8_of_point(query->p);
   kdop8_add(&query->kdop, query->q);
-  r = triangle_grid_cells(grid, box2_of_segment(query->p, query->q));
-  query->several_cells = r.x0 < r.x1 || r.y0 < r.y1;
-  if (query->several_cells)
-    triangle_grid_query_start(grid, &query->found);
   edge_intervals_start(&query->intervals);
   query->rest = edge_intervals_remaining(&query->intervals);
   query->share = 1;
@@ -234,6 +252,29 @@ bool edge_query_solve(struct edge_query *query, uint32_t e) {
   query->tried_recent = false;
   query->end[0] = query->p;
   query->end[1] = query->q;
+  return query->culling == NULL || occlude_by_buffer(query);
+}
+
+/* The cells in which the remaining part of the edge is, whose ends are
+ * rounded. */
+static struct cell_range cells_of_rest(const struct edge_query *query) {
+  struct box2 box = box2_of_segment(query->end[0], query->end[1]);
+  int rounding = query->share < 1 ? 1 : 0;
+  return triangle_grid_cells(
+      &query->lists->grid, (struct box2){box.x0 - rounding, box.y0 - rounding,
+                                         box.x1 + rounding, box.y1 + rounding});
+}
+
+bool edge_query_solve(struct edge_query *query, uint32_t e) {
+  const struct triangle_grid *grid = &query->lists->grid;
+  if (!begin_edge(query, e))
+    return false;
+  if (query->intervals.occluded)
+    return true;
+  struct cell_range r = cells_of_rest(query);
+  query->several_cells = r.x0 < r.x1 || r.y0 < r.y1;
+  if (query->several_cells)
+    triangle_grid_query_start(grid, &query->found);
   for (int y = r.y0; y <= r.y1; y++) {
     int x0, x1;
     triangle_grid_row(grid, query->p, query->q, r, y, &x0, &x1);

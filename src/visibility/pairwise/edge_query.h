@@ -4,7 +4,8 @@
  * Each list is searched from near to far.  A candidate is tested only if its
  * 8-DOP (kdop8.h) overlaps that of the remaining part of the edge: the interval
  * outside of which the edge is known to be hidden, which shrinks as occluders
- * are found.
+ * are found.  Where triangles were culled it begins as what the occlusion
+ * buffer does not hide: what hides only the rest changes nothing.
  *
  * Where a list is so long that it has a BVH, only what may hide the remaining
  * part by its bounds is tested, and the triangles that hid much of the
@@ -14,6 +15,7 @@
 #ifndef VISIBILITY_PAIRWISE_EDGE_QUERY_H
 #define VISIBILITY_PAIRWISE_EDGE_QUERY_H
 
+#include "visibility/culling/occlusion_culling.h"
 #include "visibility/predicate/edge_intervals.h"
 #include "visibility/pairwise/tile_candidates.h"
 
@@ -21,8 +23,9 @@ enum { EDGE_QUERY_RECENT = 16 };
 
 /* The state of the queries of one thread, one edge after another. */
 struct edge_query {
-  const struct sheet *sheet;           /* borrowed, not owned */
-  const struct tile_candidates *lists; /* borrowed, not owned */
+  const struct sheet *sheet;               /* borrowed, not owned */
+  const struct tile_candidates *lists;     /* borrowed, not owned */
+  const struct occlusion_culling *culling; /* borrowed; NULL: none */
   struct triangle_grid_query found;
   struct plane_cache planes; /* where the lists have no prepared occluders */
   struct edge_intervals intervals; /* the occluded ones: the result */
@@ -49,7 +52,8 @@ struct edge_query {
 /* Returns false when memory ran out; end with edge_query_fini either way. */
 USE_RESULT bool edge_query_init(struct edge_query *query,
                                 const struct sheet *sheet,
-                                const struct tile_candidates *lists);
+                                const struct tile_candidates *lists,
+                                const struct occlusion_culling *culling);
 void edge_query_fini(struct edge_query *query);
 
 /* Computes the occluded intervals of edge e into query->intervals.  All tiles

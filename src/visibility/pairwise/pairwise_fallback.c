@@ -32,7 +32,7 @@ bool pairwise_fallback_init(struct pairwise_fallback *fallback,
   memset(fallback->wanted, 1, tiles);
   if (!tile_candidates_fill(&fallback->lists, &fallback->tiles, sheet,
                             fallback->wanted, true, fragments) ||
-      !edge_query_init(&fallback->edge, sheet, &fallback->lists) ||
+      !edge_query_init(&fallback->edge, sheet, &fallback->lists, NULL) ||
       (fragments && !init_faces(fallback)))
     return false;
   return true;

@@ -163,7 +163,8 @@ static bool solve_edges_tiles(struct tiles_work *work, struct map *map) {
       mem_calloc(count, sizeof *batches.map)};
   bool ok = batches.query != NULL && batches.map != NULL;
   for (int k = 0; ok && k < workers; k++)
-    ok = edge_query_init(&batches.query[k], work->sheet, &work->lists);
+    ok = edge_query_init(&batches.query[k], work->sheet, &work->lists,
+                         work->culling);
   for (size_t i = 0; ok && i < count; i++)
     batches.map[i].edge_state = map->edge_state;
   ok = ok && parallel_ranges(workers, work->states.edge.count, BATCH_SIZE,
