@@ -242,9 +242,10 @@ static bool has_part_outside(const struct geom_triangle *corners,
   return false;
 }
 
-/* Raises the bounds of the cells of a block. */
+/* Raises the bounds of the cells of a block.
+ * nearest  none becomes nearer than this */
 static void raise_block(struct raising *raising, struct cell_range r, int bx,
-                        int by) {
+                        int by, int32_t nearest) {
   struct occlusion_buffer *buffer = raising->buffer;
   const struct triangle_grid *cells = &buffer->cells;
   int64_t side = INT64_C(1) << cells->shift, x = cells->x0 + r.x0 * side,
@@ -258,7 +259,7 @@ static void raise_block(struct raising *raising, struct cell_range r, int bx,
     uint64_t at[3] = {row.at[0], row.at[1], row.at[2]};
     for (int cx = r.x0; cx <= r.x1; cx++, step_edge_functions(at, row.right)) {
       int out = outside_mask(at);
-      if ((out & (out - 1)) != 0)
+      if (bound[cx] >= nearest || (out & (out - 1)) != 0)
         continue;
       struct box2 window = {(int32_t)(cells->x0 + cx * side), (int32_t)y,
                             (int32_t)(cells->x0 + (cx + 1) * side),
@@ -312,10 +313,11 @@ void occlusion_buffer_raise(struct occlusion_buffer *buffer,
                                 x + LAST < r.x1 ? x + LAST : r.x1,
                                 y + LAST < r.y1 ? y + LAST : r.y1};
       struct box2 box_part = part_in_cells(&raising, part);
+      int32_t nearest = nearest_over(&raising, box_part);
       if (buffer->farthest[(size_t)by * (size_t)buffer->blocks + (size_t)bx] <
-              nearest_over(&raising, box_part) &&
+              nearest &&
           !has_part_outside(&raising.corners, box_part)) {
-        raise_block(&raising, part, bx, by);
+        raise_block(&raising, part, bx, by, nearest);
         band->visits--;
       }
     }
