@@ -23,6 +23,7 @@
  *             ink/lines/overlap.c, ink/lines/overlap_output.c,
  *             ink/lines/short_spurs.c,
  *             ink/hatch/hatch_lines.c, ink/hatch/inset.c,
+ *             visibility/contour/line_ends.c,
  *             visibility/contour/outline_gaps.c,
  *             visibility/index/bsp_plane.h,
  *             visibility/intersection/edge_crossing.c

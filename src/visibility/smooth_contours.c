@@ -200,6 +200,41 @@ static bool list_triangles_about(struct contour_pieces *c) {
   return partial_grid_fill(&c->grid, c->sheet);
 }
 
+/* Whether a triangle is on the left of one of its sides. */
+static bool has_triangle_left(const struct sheet *sheet, uint32_t triangle,
+                              struct geom_segment side) {
+  struct geom_triangle t = sheet_corners(sheet, triangle);
+  int64_t area = 0;
+  for (int k = 0; k < 3; k++)
+    if (!geom_same_point(t.p[k], side.p) && !geom_same_point(t.p[k], side.q))
+      area = geom_orient2d(side.p, side.q, t.p[k]);
+  return area >= 0;
+}
+
+/* Lists the diagonals along which warped faces fold over as the mesh's
+ * outlines: they are edges of the sheet alone. */
+static bool list_folded_diagonals(struct contour_pieces *c) {
+  const struct sheet *sheet = c->sheet;
+  for (uint32_t e = 0; e < sheet->edge.count; e++) {
+    const struct sheet_edge *edge = &sheet->edge.item[e];
+    if (edge->source != SHEET_NONE || edge->edge_class != 0 ||
+        edge->triangle[0] == SHEET_NONE || edge->triangle[1] == SHEET_NONE)
+      continue;
+    uint32_t face = sheet->triangle.item[edge->triangle[0]].face;
+    struct contour_outline made = {sheet_ends(sheet, edge->point), face};
+    if (face != sheet->triangle.item[edge->triangle[1]].face)
+      continue;
+    if (!has_triangle_left(sheet, edge->triangle[0], made.image)) {
+      struct geom_point p = made.image.p;
+      made.image.p = made.image.q;
+      made.image.q = p;
+    }
+    if (!ARRAY_PUSH(&c->set->outline, made))
+      return false;
+  }
+  return true;
+}
+
 /* ---- The whole ----------------------------------------------------------- */
 
 /* Adds what curves lack.
@@ -221,6 +256,8 @@ static bool close_gaps(struct contour_pieces *c, uint32_t first,
 static bool add_pieces(struct contour_pieces *c) {
   uint32_t first = (uint32_t)c->sheet->edge.count;
   uint32_t first_point = (uint32_t)c->sheet->point.count;
+  if (!list_folded_diagonals(c))
+    return false;
   if (c->set->outline.count == 0 && c->set->segment.count == 0)
     return true;
   bool ok = contour_curves_join(c->curves, c->set, c->options.crease_deg) &&

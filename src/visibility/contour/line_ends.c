@@ -5,6 +5,7 @@
 
 #include "base/poll.h"
 #include "base/sort.h"
+#include "base/tolerance.h"
 #include "visibility/contour/segment_grid.h"
 
 /* Where an edge crosses a contour. */
@@ -15,6 +16,7 @@ struct line_crossing {
   bool leaves;  /* from the contour's left to its right */
   bool own;     /* the edge is one of the contour's triangle's face; else it is
                    behind the contour */
+  bool at_end;  /* the contour ends on the edge, a border of its surface */
 };
 
 struct line_ends {
@@ -22,10 +24,31 @@ struct line_ends {
   const struct sheet *sheet;
   uint32_t first;
   struct segment_grid grid;
+  uint32_t first_point; /* of the contours */
+  uint8_t *degree;      /* one a point of contours: how many of their edges meet
+                      there, at most 2 */
   ARRAY(struct line_crossing) crossing;
 };
 
 /* ---- Crossings ----------------------------------------------------------- */
+
+/* Counts the contours' edges, visible or not, at each of their points, which
+ * are the sheet's last ones. */
+static bool count_ends(struct line_ends *l) {
+  const struct sheet *sheet = l->sheet;
+  l->first_point = (uint32_t)sheet->point.count;
+  for (uint32_t e = l->first; e < sheet->edge.count; e++)
+    for (int k = 0; k < 2; k++)
+      if (sheet->edge.item[e].point[k] < l->first_point)
+        l->first_point = sheet->edge.item[e].point[k];
+  l->degree = mem_calloc(sheet->point.count - l->first_point, 1);
+  for (uint32_t e = l->first; l->degree != NULL && e < sheet->edge.count; e++)
+    for (int k = 0; k < 2; k++) {
+      uint32_t at = sheet->edge.item[e].point[k] - l->first_point;
+      l->degree[at] = (uint8_t)(l->degree[at] + (l->degree[at] < 2));
+    }
+  return l->degree != NULL;
+}
 
 static bool list_drawn_lines(struct line_ends *l) {
   const struct sheet *sheet = l->sheet;
@@ -63,6 +86,35 @@ static double diameter(const struct sheet *sheet, uint32_t triangle) {
   return most;
 }
 
+/* Adds the crossing of a border with a contour of its surface that ends on it.
+ * Their images are tangent there, since the surface is seen edge-on: ahead of
+ * the contour the border is visible, and back along it where it is the nearer
+ * one. */
+static bool add_end_on_border(struct line_ends *l,
+                              const struct page_segment *contour,
+                              const struct page_segment *line,
+                              struct line_crossing made) {
+  double x = (double)line->q.x - line->p.x, y = (double)line->q.y - line->p.y;
+  const uint32_t *point = l->sheet->edge.item[contour->owner].point;
+  bool ok = true;
+  for (int k = 0; k < 2 && ok; k++) {
+    const struct geom_point end = k == 0 ? contour->p : contour->q;
+    const struct geom_point from = k == 0 ? contour->q : contour->p;
+    double px = (double)end.x - line->p.x, py = (double)end.y - line->p.y;
+    double ahead = x * ((double)end.x - from.x) + y * ((double)end.y - from.y);
+    if (l->degree[point[k] - l->first_point] > 1 || ahead == 0 ||
+        fabs(x * py - y * px) > TOLERANCE_COINCIDENT_UNITS * hypot(x, y))
+      continue;
+    /* How the contour's depth changes over the border's length. */
+    double rise = (double)(end.z - from.z) * ((x * x + y * y) / ahead);
+    made.t = (px * x + py * y) / (x * x + y * y);
+    made.leaves = ahead < 0;
+    if (((double)(line->q.z - line->p.z) > rise) == (ahead > 0))
+      ok = ARRAY_PUSH(&l->crossing, made);
+  }
+  return ok;
+}
+
 static bool add_line_crossing(struct line_ends *l,
                               const struct page_segment *contour,
                               const struct page_segment *line) {
@@ -70,15 +122,20 @@ static bool add_line_crossing(struct line_ends *l,
   const struct sheet_edge *edge = &sheet->edge.item[line->owner];
   uint32_t triangle = sheet->edge.item[contour->owner].triangle[0];
   double s, t;
-  if (triangle == SHEET_NONE || !page_segments_cross(contour, line, &s, &t))
+  if (triangle == SHEET_NONE)
     return true;
   struct line_crossing made = {
       .edge = line->owner,
-      .t = t,
       .bound = diameter(sheet, triangle) / hypot((double)line->q.x - line->p.x,
                                                  (double)line->q.y - line->p.y),
-      .leaves = geom_orient2d(contour->p, contour->q, line->p) >= 0,
       .own = is_side_of_face(sheet, edge, sheet->triangle.item[triangle].face)};
+  made.at_end = made.own && edge->triangle[1] == SHEET_NONE;
+  if (made.at_end)
+    return add_end_on_border(l, contour, line, made);
+  if (!page_segments_cross(contour, line, &s, &t))
+    return true;
+  made.t = t;
+  made.leaves = geom_orient2d(contour->p, contour->q, line->p) >= 0;
   return (!made.own &&
           page_segment_depth(contour, s) <= page_segment_depth(line, t)) ||
          ARRAY_PUSH(&l->crossing, made);
@@ -137,6 +194,9 @@ static double moved_end(const struct line_crossing *crossing, size_t count,
     } else if (!c->own && !is_cut && !leaves && beyond > 0 &&
                (up ? c->t < limit : c->t > limit) &&
                (best == t || (up ? c->t < best : c->t > best))) {
+      best = c->t;
+    } else if (c->at_end && leaves && !is_cut && beyond > 0 &&
+               (up ? c->t < limit : c->t > limit)) {
       best = c->t;
     }
   }
@@ -215,10 +275,11 @@ bool line_ends_move(struct map *map, const struct sheet *sheet,
                     uint32_t first) {
   struct line_ends l = {.map = map, .sheet = sheet, .first = first};
   bool ok =
-      list_drawn_lines(&l) &&
+      count_ends(&l) && list_drawn_lines(&l) &&
       (l.grid.contours == 0 || l.grid.contours == l.grid.segment.count ||
        (segment_grid_make(&l.grid) && find_crossings(&l) && move_all(&l)));
   segment_grid_fini(&l.grid);
+  mem_free(l.degree);
   ARRAY_FREE(&l.crossing);
   return ok;
 }

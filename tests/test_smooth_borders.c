@@ -1,0 +1,118 @@
+/* test_smooth_borders.c - smooth contours of open surfaces end on the borders,
+ * and the outline goes on from there: also where faces are warped. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "tests/smooth_surfaces.h"
+
+/* ---- Meshes -------------------------------------------------------------- */
+
+/* The zone of a sphere from near its pole to its equator. */
+static void bowl(double u, double v, double p[3]) {
+  smooth_sphere(u, 0.5 + v * (M_PI - 0.5) / (2 * M_PI), p);
+}
+
+/* A square that ends along u and v. */
+static void waves(double u, double v, double p[3]) {
+  p[0] = u / M_PI - 1;
+  p[1] = 0.2 * sin(2 * u) * cos(1.5 * v);
+  p[2] = v / M_PI - 1;
+}
+
+/* A mesh of n x m quads that ends where v does, and where u does unless it is
+ * closed. */
+static recto_scene *open_scene(smooth_surface *at, bool closed, uint32_t n,
+                               uint32_t m) {
+  uint32_t row = closed ? n : n + 1;
+  size_t points = (size_t)row * (m + 1), corners = 0;
+  double *point = malloc(points * 3 * sizeof *point);
+  uint32_t *corner = malloc((size_t)n * m * 4 * sizeof *corner);
+  recto_scene *scene;
+  assert_non_null(point);
+  assert_non_null(corner);
+  for (uint32_t j = 0; j <= m; j++)
+    for (uint32_t i = 0; i < row; i++)
+      at(2 * M_PI * i / n, 2 * M_PI * j / m, point + 3 * ((size_t)j * row + i));
+  for (uint32_t j = 0; j < m; j++)
+    for (uint32_t i = 0; i < n; i++) {
+      uint32_t next = (i + 1) % row;
+      corner[corners++] = j * row + i;
+      corner[corners++] = j * row + next;
+      corner[corners++] = (j + 1) * row + next;
+      corner[corners++] = (j + 1) * row + i;
+    }
+  const recto_mesh mesh = {.points = point,
+                           .point_count = points,
+                           .corners = corner,
+                           .corner_count = corners,
+                           .face_size = 4};
+  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+  assert_int_equal(recto_scene_add_mesh(scene, &mesh, NULL), RECTO_OK);
+  free(point);
+  free(corner);
+  return scene;
+}
+
+/* ---- The outline --------------------------------------------------------- */
+
+/* How far the outline of the visible faces is from ink, at most, mm. */
+static double distance_of_outline(const recto_scene *scene, int view) {
+  double most = 0;
+  recto_options options;
+  smooth_view(&options, view);
+  options.ink.edges = RECTO_EDGE_SILHOUETTE | RECTO_EDGE_BORDER;
+  options.results = RECTO_RESULT_FACES;
+  recto_drawing *drawing = smooth_draw(scene, &options);
+  size_t loops, halves;
+  const recto_loop *loop = recto_drawing_loops(drawing, &loops);
+  const recto_half_edge *half = recto_drawing_half_edges(drawing, &halves);
+  for (size_t l = 0; l < loops; l++)
+    for (uint32_t i = 0; i < loop[l].count; i++) {
+      const recto_half_edge *p = &half[loop[l].half_edge + i];
+      const recto_half_edge *q =
+          &half[loop[l].half_edge + (i + 1) % loop[l].count];
+      const double at[2] = {(p->x_mm + q->x_mm) / 2, (p->y_mm + q->y_mm) / 2};
+      if (p->twin == RECTO_NONE)
+        most = fmax(most, smooth_distance_to_ink(drawing, RECTO_EDGES_ALL, at));
+    }
+  recto_drawing_destroy(drawing);
+  return most;
+}
+
+/* In how many views it is by more than 0.2 mm. */
+static int count_off(smooth_surface *at, bool closed, uint32_t n, uint32_t m) {
+  recto_scene *scene = open_scene(at, closed, n, m);
+  int off = 0;
+  for (int view = 0; view < 2 * SMOOTH_VIEWS; view++)
+    off += distance_of_outline(scene, view) > 0.2;
+  recto_scene_destroy(scene);
+  return off;
+}
+
+/* A contour that ends on the rim goes on in it. */
+static void a_bowl_has_its_whole_outline(void **state) {
+  (void)state;
+  /* 9 where the rim ends on the wrong side of a contour. */
+  assert_in_range(count_off(bowl, true, 48, 12), 0, 1);
+}
+
+/* Their warped quads fold over along their diagonals, which are no edges. */
+static void waves_of_warped_faces_have_their_whole_outline(void **state) {
+  (void)state;
+  /* 7 without the diagonals. */
+  assert_in_range(count_off(waves, false, 24, 24), 0, 4);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_bowl_has_its_whole_outline),
+      cmocka_unit_test(waves_of_warped_faces_have_their_whole_outline),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
