@@ -158,17 +158,19 @@ bool zero_finder_add_border(struct zero_finder *z, uint32_t edge) {
 bool zero_finder_add_outline(struct zero_finder *z, uint32_t edge) {
   const struct facing *f = z->facing;
   const struct topology_edge *e = &f->topology->edge.item[edge];
-  if (e->uses != 2 || e->same_way || f->coarse[e->point[0]] ||
-      f->face_sign[e->first] == f->face_sign[e->second])
+  if (e->uses != 2 || f->coarse[e->point[0]] ||
+      (f->face_sign[e->first] == f->face_sign[e->second]) != e->same_way)
     return true;
   struct contour_outline made = {
       .face = f->face_sign[e->first] == FACING_FRONT ? e->first : e->second};
   uint32_t c = facing_corner_of_edge(f, made.face, edge);
   if (c == SHEET_NONE)
     return true;
-  const uint32_t point[2] = {
-      facing_point(f, c),
-      facing_point(f, scene_next_corner(f->scene, made.face, c))};
+  uint32_t d = scene_next_corner(f->scene, made.face, c);
+  /* Faces that are seen from their backs run the other way round. */
+  bool is_back = f->face_sign[made.face] == FACING_BACK;
+  const uint32_t point[2] = {facing_point(f, is_back ? d : c),
+                             facing_point(f, is_back ? c : d)};
   return !find_image(z, point, &made.image) ||
          ARRAY_PUSH(&z->set->outline, made);
 }
