@@ -43,6 +43,11 @@ unit_tests += %D%/test_hidden_faces
 %C%_test_hidden_faces_SOURCES = %D%/test_hidden_faces.c %D%/sheet_fixture.c \
   %D%/sheet_fixture.h
 %C%_test_hidden_faces_LDADD = %D%/scenes/libscenes.la $(LDADD)
+unit_tests += %D%/test_intersection_estimate
+%C%_test_intersection_estimate_SOURCES = %D%/test_intersection_estimate.c \
+  %D%/sheet_fixture.c \
+  %D%/sheet_fixture.h
+%C%_test_intersection_estimate_LDADD = %D%/scenes/libscenes.la $(LDADD)
 unit_tests += %D%/test_occlusion_culling
 %C%_test_occlusion_culling_SOURCES = %D%/test_occlusion_culling.c %D%/sheet_fixture.c \
   %D%/sheet_fixture.h

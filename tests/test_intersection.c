@@ -73,10 +73,18 @@ static void init_two_triangles(struct sheet *sheet, const int one[][3],
 
 static const int table[][3] = {{0, 0, 8}, {16, 0, 8}, {0, 16, 8}};
 
-/* Whether a segment begins or ends at the place that `user` points to. */
-static bool is_at(const void *user, struct geom_point p, struct geom_point q) {
+static bool is_near(struct geom_point a, struct geom_point b) {
+  return abs(a.x - b.x) < SCALE / 8 && abs(a.y - b.y) < SCALE / 8 &&
+         llabs(a.z - b.z) < SCALE / 8;
+}
+
+/* Whether a segment, which may be estimated, begins or ends about the place
+ * that `user` points to. */
+static bool is_at(const void *user, struct geom_point p, struct geom_point q,
+                  double xy, double z) {
   const struct geom_point *place = user;
-  return geom_same_point(*place, p) || geom_same_point(*place, q);
+  assert_true(xy < SCALE / 8 && z < SCALE / 8);
+  return is_near(*place, p) || is_near(*place, q);
 }
 
 /* A table that two sheets cross. */

@@ -32,6 +32,8 @@ librecto_core_la_SOURCES += \
   %D%/intersection/edge_fan.c %D%/intersection/edge_fan.h \
   %D%/intersection/intersection.c %D%/intersection/intersection.h \
   %D%/intersection/intersection_segment.c %D%/intersection/intersection_segment.h \
+  %D%/intersection/intersection_estimate.c \
+  %D%/intersection/intersection_estimate.h \
   %D%/intersection/swept_triangle.h \
   %D%/culling/face_runs.c %D%/culling/face_runs.h \
   %D%/culling/occlusion_buffer.c %D%/culling/occlusion_buffer.h \

@@ -185,9 +185,10 @@ void occlusion_culling_fini(struct occlusion_culling *culling) {
   *culling = (struct occlusion_culling){.culled = NULL};
 }
 
-/* A segment to be tested, from its farther to its nearer end. */
+/* A segment to be tested, from its farther to its nearer end, and how far what
+ * is to be hidden may be off it. */
 struct tested_segment {
-  double x, y, z, dx, dy, dz;
+  double x, y, z, dx, dy, dz, xy_off, z_off;
   int32_t nearest, farthest; /* of its depths, with the margin, in steps */
 };
 
@@ -205,25 +206,27 @@ static int32_t nearest_of_segment(const struct occlusion_culling *culling,
   const struct triangle_grid *cells = &culling->buffer.cells;
   double side = (double)(INT64_C(1) << cells->shift),
          left = cells->x0 + x * side, low = cells->y0 + y * side,
-         at_x = leaves_at(s->x, s->dx, left, left + side),
-         at_y = leaves_at(s->y, s->dy, low, low + side),
+         off = s->xy_off,
+         at_x = leaves_at(s->x, s->dx, left - off, left + side + off),
+         at_y = leaves_at(s->y, s->dy, low - off, low + side + off),
          t = at_x < at_y ? at_x : at_y, z = t > 0 ? s->z + t * s->dz : s->z;
-  return occlusion_steps_up(z + 1 + culling->margin);
+  return occlusion_steps_up(z + 1 + s->z_off);
 }
 
-static struct tested_segment
-begin_segment(const struct occlusion_culling *culling, struct geom_point p,
-              struct geom_point q) {
+static struct tested_segment begin_segment(struct geom_point p,
+                                           struct geom_point q, double xy_off,
+                                           double z_off) {
   struct geom_point far = p.z < q.z ? p : q, near = p.z < q.z ? q : p;
-  return (struct tested_segment){
-      far.x,
-      far.y,
-      (double)far.z,
-      (double)near.x - far.x,
-      (double)near.y - far.y,
-      (double)(near.z - far.z),
-      occlusion_steps_up((double)near.z + culling->margin),
-      occlusion_steps_up((double)far.z + culling->margin)};
+  return (struct tested_segment){far.x,
+                                 far.y,
+                                 (double)far.z,
+                                 (double)near.x - far.x,
+                                 (double)near.y - far.y,
+                                 (double)(near.z - far.z),
+                                 xy_off,
+                                 z_off,
+                                 occlusion_steps_up((double)near.z + z_off),
+                                 occlusion_steps_up((double)far.z + z_off)};
 }
 
 static bool is_hidden_in_cell(const struct occlusion_culling *culling,
@@ -233,25 +236,62 @@ static bool is_hidden_in_cell(const struct occlusion_culling *culling,
          (bound > s->farthest && bound > nearest_of_segment(culling, s, x, y));
 }
 
-bool occlusion_culling_hides(const struct occlusion_culling *culling,
-                             struct geom_point p, struct geom_point q) {
+/* The column of an x, within a range. */
+static int column_of(const struct triangle_grid *cells, struct cell_range r,
+                     double x) {
+  double column = (x - cells->x0) / (double)(INT64_C(1) << cells->shift);
+  return column < r.x0 ? r.x0 : column > r.x1 ? r.x1 : (int)column;
+}
+
+/* The columns x0 to x1 of row y, within a range, that the segment may come as
+ * close to as it may be off. */
+static void columns_near(const struct triangle_grid *cells,
+                         const struct tested_segment *s, struct cell_range r,
+                         int y, int *x0, int *x1) {
+  double side = (double)(INT64_C(1) << cells->shift),
+         low = cells->y0 + y * side - s->xy_off,
+         high = low + side + 2 * s->xy_off, off = s->xy_off + 1,
+         run = s->dy != 0 ? 1 / s->dy : 0, a = (low - s->y) * run,
+         b = (high - s->y) * run;
+  if (s->dy == 0) {
+    a = 0;
+    b = 1;
+  }
+  a = s->x + s->dx * (a < 0 ? 0 : a > 1 ? 1 : a);
+  b = s->x + s->dx * (b < 0 ? 0 : b > 1 ? 1 : b);
+  *x0 = column_of(cells, r, (a < b ? a : b) - off);
+  *x1 = column_of(cells, r, (a < b ? b : a) + off);
+}
+
+bool occlusion_culling_hides_near(const struct occlusion_culling *culling,
+                                  struct geom_point p, struct geom_point q,
+                                  double xy, double z) {
   const struct triangle_grid *cells = &culling->buffer.cells;
-  if (culling->culled == NULL)
+  if (culling->culled == NULL || !(xy < SHEET_XY_MAX / 2))
     return false;
-  struct tested_segment s = begin_segment(culling, p, q);
-  struct cell_range r = triangle_grid_cells(cells, box2_of_segment(p, q));
+  struct tested_segment s = begin_segment(p, q, xy, z + culling->margin);
+  struct box2 box = box2_of_segment(p, q);
+  int32_t off = (int32_t)ceil(xy);
+  struct cell_range r =
+      triangle_grid_cells(cells, (struct box2){box.x0 - off, box.y0 - off,
+                                               box.x1 + off, box.y1 + off});
   if (occlusion_buffer_hides_in_blocks(&culling->buffer, r, s.nearest))
     return true;
   for (int y = r.y0; y <= r.y1; y++) {
     const int32_t *bound =
         culling->buffer.bound + (size_t)y * (size_t)cells->columns;
     int x0, x1;
-    triangle_grid_row(cells, p, q, r, y, &x0, &x1);
+    columns_near(cells, &s, r, y, &x0, &x1);
     for (int x = x0; x <= x1; x++)
       if (!is_hidden_in_cell(culling, &s, bound[x], x, y))
         return false;
   }
   return true;
+}
+
+bool occlusion_culling_hides(const struct occlusion_culling *culling,
+                             struct geom_point p, struct geom_point q) {
+  return occlusion_culling_hides_near(culling, p, q, 0, 0);
 }
 
 /* Shrinks a range of parameters to those at which a coordinate that starts at
@@ -290,7 +330,7 @@ static bool add_part_in_row(const struct occlusion_culling *culling,
   const int32_t *bound =
       culling->buffer.bound + (size_t)y * (size_t)cells->columns;
   int x0, x1;
-  triangle_grid_row(cells, p, q, r, y, &x0, &x1);
+  columns_near(cells, s, r, y, &x0, &x1);
   while (x0 <= x1 && is_hidden_in_cell(culling, s, bound[x0], x0, y))
     x0++;
   if (x0 > x1)
@@ -309,7 +349,7 @@ occlusion_culling_rest(const struct occlusion_culling *culling,
   struct segment_part rest = {OCCLUSION_PARTS, 0};
   if (culling->culled == NULL)
     return (struct segment_part){0, OCCLUSION_PARTS};
-  struct tested_segment s = begin_segment(culling, p, q);
+  struct tested_segment s = begin_segment(p, q, 0, culling->margin);
   struct cell_range r =
       triangle_grid_cells(&culling->buffer.cells, box2_of_segment(p, q));
   int y0 = r.y0, y1 = r.y1;

@@ -96,4 +96,10 @@ occlusion_culling_rest(const struct occlusion_culling *culling,
 bool occlusion_culling_hides(const struct occlusion_culling *culling,
                              struct geom_point p, struct geom_point q);
 
+/* The same of one of which each point is off that of p-q by less than `xy` on
+ * the page, in each direction, and `z` in depth. */
+bool occlusion_culling_hides_near(const struct occlusion_culling *culling,
+                                  struct geom_point p, struct geom_point q,
+                                  double xy, double z);
+
 #endif

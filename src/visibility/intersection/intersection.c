@@ -5,6 +5,7 @@
 #include "base/sort.h"
 #include "visibility/intersection/candidate_pairs.h"
 #include "visibility/intersection/edge_crossing.h"
+#include "visibility/intersection/intersection_estimate.h"
 #include "visibility/intersection/intersection_segment.h"
 #include "visibility/predicate/occlusion.h"
 #include "visibility/progress.h"
@@ -42,7 +43,24 @@ prepare_triangle(struct intersection_search *search, uint32_t f) {
 static bool is_segment_hidden(const struct hidden_segments *hidden,
                               const struct intersection_segment *segment) {
   return hidden != NULL &&
-         hidden->hides(hidden->user, segment->end[0], segment->end[1]);
+         hidden->hides(hidden->user, segment->end[0], segment->end[1], 0, 0);
+}
+
+/* Is the segment that two triangles have in common certainly hidden, or is
+ * there none? */
+static bool is_estimate_hidden(const struct intersection_search *search,
+                               const struct geom_point f[3],
+                               const struct geom_point g[3],
+                               const struct coarse_plane *cf,
+                               const struct coarse_plane *cg) {
+  const struct hidden_segments *hidden = search->hidden;
+  struct intersection_estimate estimate;
+  return hidden != NULL &&
+         intersection_estimate_of(&estimate, f, g, cf, cg,
+                                  &search->sweep.all) &&
+         (estimate.empty ||
+          hidden->hides(hidden->user, estimate.end[0], estimate.end[1],
+                        estimate.xy_error, estimate.z_error));
 }
 
 /* Adds the segment of two triangles none of whose corners is in contact with
@@ -52,10 +70,14 @@ static bool add_pierced_segment(struct intersection_search *search, uint32_t f,
                                 uint32_t g, const struct coarse_plane *cf,
                                 const struct coarse_plane *cg) {
   const struct sheet *sheet = search->sheet;
-  const struct triangle_plane pf = triangle_plane_of(sheet, f),
-                              pg = triangle_plane_of(sheet, g);
+  const struct geom_triangle corners_f = sheet_corners(sheet, f),
+                             corners_g = sheet_corners(sheet, g);
   struct intersection_segment segment;
   search->counts.straddle++;
+  if (is_estimate_hidden(search, corners_f.p, corners_g.p, cf, cg))
+    return true;
+  const struct triangle_plane pf = triangle_plane_of(sheet, f),
+                              pg = triangle_plane_of(sheet, g);
   if (!intersection_segment_of_planes(sheet, f, g, &pf, &pg, &segment) ||
       is_segment_hidden(search->hidden, &segment))
     return true;

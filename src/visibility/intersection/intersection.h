@@ -24,9 +24,11 @@
 #include "visibility/solver.h"
 
 /* Says whether a segment is certainly hidden, so that it need not be an edge of
- * the sheet. */
+ * the sheet: one of which each point is off that of p-q by less than `xy` on
+ * the page and `z` in depth. */
 struct hidden_segments {
-  bool (*hides)(const void *user, struct geom_point p, struct geom_point q);
+  bool (*hides)(const void *user, struct geom_point p, struct geom_point q,
+                double xy, double z);
   const void *user;
 };
 

@@ -227,8 +227,8 @@ static void end_phase(struct tiles_work *work, const char *name) {
 }
 
 static bool hides_segment(const void *user, struct geom_point p,
-                          struct geom_point q) {
-  return occlusion_culling_hides(user, p, q);
+                          struct geom_point q, double xy, double z) {
+  return occlusion_culling_hides_near(user, p, q, xy, z);
 }
 
 /* Phase 4.  Adds the intersections to the edges of the sheet. */

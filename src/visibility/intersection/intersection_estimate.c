@@ -1,0 +1,102 @@
+/* intersection_estimate.c - where two triangles intersect, in doubles. */
+#include "visibility/intersection/intersection_estimate.h"
+
+#include "geom/vector.h"
+
+enum { MOST_PER_ERROR = 1024, LENGTH_PER_ERROR = 64, PARAMETERS_OFF = 8 };
+
+/* The part of a plane that is within a triangle. */
+struct line_part {
+  double end[2][3];
+  double xy_error, z_error;
+};
+
+static double range_of_three(double a, double b, double c) {
+  return max_number(a, max_number(b, c)) - min_number(a, min_number(b, c));
+}
+
+/* An upper bound of the error of the parameters at which sides of a triangle
+ * meet the plane. */
+static double parameter_error(const struct coarse_plane *plane,
+                              const struct occlusion_bound *all) {
+  double size = fabs(plane->nx) + fabs(plane->ny) + fabs(plane->nz),
+         error = all->grid * size - plane->least;
+  return MOST_PER_ERROR * error < plane->most ? 2 * error / plane->most
+                                              : INFINITY;
+}
+
+/* Finds the part of the plane within a triangle that straddles it. */
+static bool cut_triangle(struct line_part *part,
+                         const struct coarse_plane *plane,
+                         const struct geom_point p[3],
+                         const struct occlusion_bound *all) {
+  double error = parameter_error(plane, all), value[3];
+  int count = 0;
+  if (!(error < 1))
+    return false;
+  for (int k = 0; k < 3; k++)
+    value[k] = coarse_plane_value(plane, p[k]);
+  for (int k = 0; k < 3; k++) {
+    int next = geom_next_corner(k);
+    if ((value[k] > 0) == (value[next] > 0) || count == 2)
+      continue;
+    struct geom_point a = p[k], b = p[next];
+    double t = value[k] / (value[k] - value[next]);
+    double *end = part->end[count++];
+    end[0] = a.x + t * ((double)b.x - a.x);
+    end[1] = a.y + t * ((double)b.y - a.y);
+    end[2] = (double)a.z + t * (double)(b.z - a.z);
+  }
+  part->xy_error =
+      2 + error * max_number(range_of_three(p[0].x, p[1].x, p[2].x),
+                             range_of_three(p[0].y, p[1].y, p[2].y));
+  part->z_error = 2 + error * range_of_three((double)p[0].z, (double)p[1].z,
+                                             (double)p[2].z);
+  return count == 2;
+}
+
+/* The parameters on the first part of what it has in common with the second;
+ * all of it where it is short. */
+static void common_parameters(const struct line_part *first,
+                              const struct line_part *second, double t[2]) {
+  double dx = first->end[1][0] - first->end[0][0],
+         dy = first->end[1][1] - first->end[0][1],
+         error = max_number(first->xy_error, second->xy_error);
+  int axis = fabs(dx) < fabs(dy);
+  double length = axis == 0 ? dx : dy;
+  t[0] = 0;
+  t[1] = 1;
+  if (fabs(length) < LENGTH_PER_ERROR * error)
+    return;
+  double a = (second->end[0][axis] - first->end[0][axis]) / length,
+         b = (second->end[1][axis] - first->end[0][axis]) / length,
+         off = PARAMETERS_OFF * error / fabs(length);
+  t[0] = max_number(0, min_number(a, b) - off);
+  t[1] = min_number(1, max_number(a, b) + off);
+}
+
+static struct geom_point point_of_part(const struct line_part *part, double t) {
+  double at[3];
+  for (int k = 0; k < 3; k++)
+    at[k] = part->end[0][k] + t * (part->end[1][k] - part->end[0][k]);
+  return (struct geom_point){(int32_t)at[0], (int32_t)at[1], (int64_t)at[2]};
+}
+
+bool intersection_estimate_of(struct intersection_estimate *estimate,
+                              const struct geom_point f[3],
+                              const struct geom_point g[3],
+                              const struct coarse_plane *cf,
+                              const struct coarse_plane *cg,
+                              const struct occlusion_bound *all) {
+  struct line_part in_f, in_g;
+  double t[2];
+  if (!cut_triangle(&in_f, cg, f, all) || !cut_triangle(&in_g, cf, g, all))
+    return false;
+  common_parameters(&in_f, &in_g, t);
+  *estimate = (struct intersection_estimate){
+      .empty = t[0] >= t[1],
+      .end = {point_of_part(&in_f, t[0]), point_of_part(&in_f, t[1])},
+      .xy_error = in_f.xy_error + 2,
+      .z_error = in_f.z_error + 2};
+  return true;
+}
