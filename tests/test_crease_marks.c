@@ -361,7 +361,7 @@ static void marks_run_out_of_memory(void **state) {
       status = topology_init(&topology, &r.scene, &r.error);
     if (status == RECTO_OK &&
         (!crease_marks_find(&topology, &r.scene, AUTO, 30) ||
-         !crease_marks_exist(&r.scene, &found)))
+         !crease_marks_exist(&r.scene, AUTO, &found)))
       status = error_memory(&r.error);
     memory_faults_end(&faults, status);
     assert_true(status != RECTO_OK || found);
