@@ -80,6 +80,9 @@ unit_tests += %D%/test_smooth_borders
 unit_tests += %D%/test_smooth_intersections
 %C%_test_smooth_intersections_SOURCES = %D%/test_smooth_intersections.c \
   %D%/smooth_surfaces.c %D%/smooth_surfaces.h
+unit_tests += %D%/test_smooth_solids
+%C%_test_smooth_solids_SOURCES = %D%/test_smooth_solids.c \
+  %D%/smooth_surfaces.c %D%/smooth_surfaces.h
 unit_tests += %D%/test_curves
 %C%_test_curves_SOURCES = %D%/test_curves.c %D%/drawing_fixture.c \
   %D%/drawing_fixture.h

@@ -29,6 +29,15 @@ static void second_sphere(double u, double v, double p[3]) {
     p[k] += centre[1][k];
 }
 
+/* The same, with their faces turned over. */
+static void first_turned(double u, double v, double p[3]) {
+  first_sphere(-u, v, p);
+}
+
+static void second_turned(double u, double v, double p[3]) {
+  second_sphere(-u, v, p);
+}
+
 static void on_page(const struct smooth_axes *axes, const double p[3],
                     double mm[2]) {
   mm[0] = SMOOTH_PAGE_MM / 2 + SMOOTH_SCALE_MM * smooth_dot(p, axes->right);
@@ -87,10 +96,11 @@ static void check_contour(const recto_drawing *drawing,
   }
 }
 
-static void check_views(unsigned classes) {
+static void check_views(unsigned classes, smooth_surface *first,
+                        smooth_surface *second) {
   for (int n = 16; n <= 64; n *= 2) {
-    recto_scene *scene = smooth_scene(first_sphere, true, n, n / 2);
-    smooth_add(scene, second_sphere, true, n, n / 2);
+    recto_scene *scene = smooth_scene(first, true, n, n / 2);
+    smooth_add(scene, second, true, n, n / 2);
     for (int view = 0; view < SMOOTH_VIEWS; view++) {
       recto_options options;
       smooth_view(&options, view);
@@ -107,17 +117,25 @@ static void check_views(unsigned classes) {
 
 static void contours_end_where_surfaces_intersect(void **state) {
   (void)state;
-  check_views(RECTO_EDGE_SILHOUETTE | RECTO_EDGE_INTERSECTION);
+  check_views(RECTO_EDGE_SILHOUETTE | RECTO_EDGE_INTERSECTION, first_sphere,
+              second_sphere);
 }
 
 static void they_end_where_intersections_are_not_drawn(void **state) {
   (void)state;
-  check_views(RECTO_EDGE_SILHOUETTE);
+  check_views(RECTO_EDGE_SILHOUETTE, first_sphere, second_sphere);
+}
+
+static void it_does_not_matter_which_way_faces_are_turned(void **state) {
+  (void)state;
+  check_views(RECTO_EDGE_SILHOUETTE, first_turned, second_turned);
+  check_views(RECTO_EDGE_SILHOUETTE, first_turned, second_sphere);
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(contours_end_where_surfaces_intersect),
-      cmocka_unit_test(they_end_where_intersections_are_not_drawn)};
+      cmocka_unit_test(they_end_where_intersections_are_not_drawn),
+      cmocka_unit_test(it_does_not_matter_which_way_faces_are_turned)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

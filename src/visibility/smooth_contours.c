@@ -34,6 +34,7 @@ struct contour_pieces {
   struct divided_curves divided;
   struct partial_grid grid; /* about the curves and the mesh's outlines */
   struct triangle_grid_query query;
+  struct occluders occluders;
   struct smooth_contours_options options;
   ARRAY(float) height; /* one an edge made: that of its triangle on the page,
                           grid units */
@@ -150,7 +151,6 @@ static bool add_curve(struct contour_pieces *c, size_t index) {
   const struct divided_curve *of = &c->divided.curve.item[index];
   struct curve_pieces pieces = {c->curves, &c->curves->curve.item[index],
                                 c->divided.piece.item + of->first, of->count};
-  curve_pieces_hide_pierced(&pieces, c->sheet);
   curve_pieces_absorb_short(&pieces);
   if (!c->options.exact)
     curve_pieces_absorb_runs(&pieces, &c->sheet->camera);
@@ -188,8 +188,11 @@ static bool list_triangles_about(struct contour_pieces *c) {
   if (!partial_grid_shape(&c->grid, c->sheet))
     return false;
   for (size_t i = 0; i < c->divided.sample.count; i++) {
-    struct geom_point p = c->divided.sample.item[i];
-    partial_grid_want(&c->grid, (struct box2){p.x, p.y, p.x, p.y});
+    const struct contour_sample *s = &c->divided.sample.item[i];
+    partial_grid_want(&c->grid,
+                      (struct box2){s->off.x, s->off.y, s->off.x, s->off.y});
+    partial_grid_want(&c->grid,
+                      (struct box2){s->on.x, s->on.y, s->on.x, s->on.y});
   }
   for (size_t i = 0; i < c->set->outline.count; i++)
     partial_grid_want(&c->grid, outline_gaps_box(&c->set->outline.item[i]));
@@ -268,7 +271,7 @@ static bool add_pieces(struct contour_pieces *c) {
             contour_cuts_sort(&c->curves->cut) &&
             divided_curves_find(&c->divided) && list_triangles_about(c) &&
             triangle_grid_query_init(&c->query, &c->grid.grid);
-  return ok && divided_curves_count(&c->divided, &c->grid.grid, &c->query) &&
+  return ok && divided_curves_count(&c->divided, &c->occluders) &&
          add_all_curves(c) &&
          doubled_contours_hide(c->sheet, c->map, first, c->height.item,
                                c->options.exact
@@ -280,6 +283,7 @@ static bool add_pieces(struct contour_pieces *c) {
 static void fini_pieces(struct contour_pieces *c) {
   divided_curves_fini(&c->divided);
   triangle_grid_query_fini(&c->query);
+  near_faces_fini(&c->occluders.near);
   partial_grid_fini(&c->grid);
   ARRAY_FREE(&c->height);
   ARRAY_FREE(&c->bulge);
@@ -337,6 +341,10 @@ recto_status smooth_contours_add(struct sheet *sheet, struct map *map,
       .divided = {.sheet = sheet,
                   .curves = &curves,
                   .projection = projection_of(&sheet->camera)},
+      .occluders = {.sheet = sheet,
+                    .grid = &pieces.grid.grid,
+                    .query = &pieces.query,
+                    .near = {.scene = sheet->scene, .topology = topology}},
       .options = options};
   if (status == RECTO_OK &&
       !(add_pieces(&pieces) && end_at_contours(sheet, map, topology, first)))

@@ -21,9 +21,8 @@ struct contour_curve {
 /* A place at which a curve is divided. */
 struct contour_cut {
   uint32_t step;
-  double t;              /* along the step's segment, 0 to before 1 */
-  bool crossing;         /* something passes in front, or through, there */
-  uint32_t intersection; /* the sheet edge that passes through; SHEET_NONE */
+  double t;      /* along the step's segment, 0 to before 1 */
+  bool crossing; /* something passes in front, or through, there */
 };
 
 struct contour_cuts {
@@ -33,7 +32,7 @@ struct contour_cuts {
 
 /* The place of a step's node. */
 static inline struct contour_cut contour_cut_at(uint32_t step) {
-  return (struct contour_cut){.step = step, .intersection = SHEET_NONE};
+  return (struct contour_cut){.step = step};
 }
 
 struct contour_curves {

@@ -27,13 +27,6 @@ static inline double contour_position(struct contour_cut cut) {
   return cut.step + cut.t;
 }
 
-/* Where a curve passes through a face of another surface, between two pieces
- * that are both visible by their samples, hides the one behind that face:
- * samples in front of the curve's own surface may also be in front of the
- * other one. */
-void curve_pieces_hide_pierced(struct curve_pieces *pieces,
-                               const struct sheet *sheet);
-
 /* Makes short pieces like the two beside them, if these are alike; not where
  * both ends are crossings or creases, which are known to be some. */
 void curve_pieces_absorb_short(struct curve_pieces *pieces);

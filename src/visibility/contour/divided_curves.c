@@ -4,7 +4,6 @@
 #include <math.h>
 
 #include "base/poll.h"
-#include "visibility/contour/occluders.h"
 
 /* Visibility is sampled off the surface, by so many heights of the triangles
  * about it: outwards and towards the viewer where the surface bends away from
@@ -51,21 +50,24 @@ static double height_about(const struct divided_curves *d,
  * side  1: the surface bends away from the line of sight, so that the point is
  *       in front of it; -1: it bends into it, which hides the point unless it
  *       is the other side of the surface that is seen */
-static struct geom_point place_sample(const struct divided_curves *d,
-                                      const struct contour_curve *curve,
-                                      uint32_t step, double t, int side) {
+static struct contour_sample place_sample(const struct divided_curves *d,
+                                          const struct contour_curve *curve,
+                                          uint32_t step, double t, int side) {
   const struct contour_node *a = contour_curves_node(d->curves, step);
   const struct contour_node *b = contour_curves_node(d->curves, step + 1);
-  const double *normal = contour_curves_segment(d->curves, step)->normal;
-  double height = height_about(d, curve, step), at[3], view[3];
+  const struct contour_segment *s = contour_curves_segment(d->curves, step);
+  double height = height_about(d, curve, step), on[3], off[3], view[3];
   facing_view(&d->sheet->camera, a->flat, view);
   (void)vector_normalise(view);
-  double off = height * (side > 0 ? OFFSET_OUT : -OFFSET_IN);
+  double out = height * (side > 0 ? OFFSET_OUT : -OFFSET_IN);
   double near = side > 0 ? height * OFFSET_NEARER : 0;
-  for (int k = 0; k < 3; k++)
-    at[k] = a->flat[k] + t * (b->flat[k] - a->flat[k]) + off * normal[k] -
-            near * view[k];
-  return divided_curves_project(d, at);
+  for (int k = 0; k < 3; k++) {
+    double flat = a->flat[k] + t * (b->flat[k] - a->flat[k]);
+    on[k] = flat + side * height * OFFSET_OUT * s->normal[k];
+    off[k] = flat + out * s->normal[k] - near * view[k];
+  }
+  return (struct contour_sample){divided_curves_project(d, off),
+                                 divided_curves_project(d, on), s->face};
 }
 
 /* ---- Pieces -------------------------------------------------------------- */
@@ -92,9 +94,9 @@ static bool add_sampled_piece(struct divided_curves *d,
   for (uint32_t i = 0; i < piece->samples; i++) {
     double at = from + (to - from) * ((i + 0.5) / piece->samples);
     double step = fmin(floor(at), last);
-    struct geom_point p =
+    struct contour_sample sample =
         place_sample(d, curve, (uint32_t)step, at - step, piece->side);
-    if (!ARRAY_PUSH(&d->sample, p))
+    if (!ARRAY_PUSH(&d->sample, sample))
       return false;
   }
   return ARRAY_PUSH(&d->piece, *piece);
@@ -133,14 +135,16 @@ bool divided_curves_find(struct divided_curves *d) {
 
 /* ---- What hides them ----------------------------------------------------- */
 
-/* Tests the samples of a piece. */
-static bool test_samples(const struct divided_curves *d,
-                         const struct triangle_grid *grid,
-                         struct triangle_grid_query *query,
+/* Tests the samples of a piece.  What is near along the surface must not hide
+ * the point off it; another surface must not hide the point on it. */
+static bool test_samples(struct occluders *occluders,
                          struct contour_piece *piece,
-                         const struct geom_point *sample) {
+                         const struct contour_sample *sample) {
   for (uint32_t i = 0; i < piece->samples; i++) {
-    int count = occluders_count(d->sheet, grid, query, sample[i]);
+    int count = occluders_count(occluders->sheet, occluders->grid,
+                                occluders->query, sample[i].off);
+    if (count == 0)
+      count = occluders_count_apart(occluders, sample[i].on, sample[i].face);
     if (count < 0)
       return false;
     piece->visible += count == 0;
@@ -158,12 +162,11 @@ static void join_end_pieces(struct contour_piece *first,
 }
 
 bool divided_curves_count(struct divided_curves *d,
-                          const struct triangle_grid *grid,
-                          struct triangle_grid_query *query) {
-  const struct geom_point *sample = d->sample.item;
+                          struct occluders *occluders) {
+  const struct contour_sample *sample = d->sample.item;
   for (size_t i = 0; i < d->piece.count; i++) {
     struct contour_piece *piece = &d->piece.item[i];
-    if (!poll_at(i) || !test_samples(d, grid, query, piece, sample))
+    if (!poll_at(i) || !test_samples(occluders, piece, sample))
       return false;
     sample += piece->samples;
   }

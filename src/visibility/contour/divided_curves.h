@@ -8,7 +8,7 @@
 
 #include "view/clip.h"
 #include "visibility/contour/curve_pieces.h"
-#include "visibility/index/triangle_grid.h"
+#include "visibility/contour/occluders.h"
 
 /* The pieces of a curve. */
 struct divided_curve {
@@ -16,13 +16,20 @@ struct divided_curve {
   bool joins; /* the first and the last one are one */
 };
 
+/* A place of a curve at which its visibility is tested. */
+struct contour_sample {
+  struct geom_point off; /* off the surface */
+  struct geom_point on;  /* on the mesh */
+  uint32_t face;         /* there */
+};
+
 struct divided_curves {
   const struct sheet *sheet;           /* borrowed, not owned */
   const struct contour_curves *curves; /* borrowed, not owned */
   struct projection projection;
-  ARRAY(struct contour_piece) piece; /* of one curve after the other */
-  ARRAY(struct divided_curve) curve; /* one a curve */
-  ARRAY(struct geom_point) sample;   /* of one piece after the other */
+  ARRAY(struct contour_piece) piece;   /* of one curve after the other */
+  ARRAY(struct divided_curve) curve;   /* one a curve */
+  ARRAY(struct contour_sample) sample; /* of one piece after the other */
 };
 
 /* The image of a point of the scene. */
@@ -41,11 +48,10 @@ USE_RESULT bool divided_curves_find(struct divided_curves *divided);
 
 /* Counts what hides the samples, and decides whether pieces are visible: where
  * most of their samples are.
- * grid  of the sheet's triangles about the samples at least
+ * occluders  with a grid of the sheet's triangles about the samples at least
  * Returns false when memory ran out or the caller cancelled. */
 USE_RESULT bool divided_curves_count(struct divided_curves *divided,
-                                     const struct triangle_grid *grid,
-                                     struct triangle_grid_query *query);
+                                     struct occluders *occluders);
 void divided_curves_fini(struct divided_curves *divided);
 
 #endif

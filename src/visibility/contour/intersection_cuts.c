@@ -196,10 +196,10 @@ static bool look_at(struct intersection_cuts *c, const struct page_segment *s,
   if (distance_in_view(unproject_point(&c->projection, at),
                        unproject_point(&c->projection, end->at)) > reach)
     return true;
-  return keep_nearest(c, (struct nearest_place){
-                             curve_of_step(c, s->owner),
-                             {s->owner, fmin(t, 1 - 0x1p-30), true, end->edge},
-                             hypot(px - t * dx, py - t * dy)});
+  return keep_nearest(
+      c, (struct nearest_place){curve_of_step(c, s->owner),
+                                {s->owner, fmin(t, 1 - 0x1p-30), true},
+                                hypot(px - t * dx, py - t * dy)});
 }
 
 /* The square about an end that its reach covers on the page. */

@@ -32,8 +32,8 @@ static bool cut_at_crossing(struct contour_curves *curves,
   if (!page_segments_cross(a, b, &s, &t))
     return true;
   double depth = page_segment_depth(b, t) - page_segment_depth(a, s);
-  struct contour_cut of_a = {a->owner, fmin(s, 1 - 0x1p-30), true, SHEET_NONE};
-  struct contour_cut of_b = {b->owner, fmin(t, 1 - 0x1p-30), true, SHEET_NONE};
+  struct contour_cut of_a = {a->owner, fmin(s, 1 - 0x1p-30), true};
+  struct contour_cut of_b = {b->owner, fmin(t, 1 - 0x1p-30), true};
   return (depth <= 0 || ARRAY_PUSH(&curves->cut, of_a)) &&
          (b->owner == SHEET_NONE || depth >= 0 ||
           ARRAY_PUSH(&curves->cut, of_b));

@@ -1,0 +1,25 @@
+/* near_faces.h - whether a face is near another one along the surface. */
+#ifndef VISIBILITY_CONTOUR_NEAR_FACES_H
+#define VISIBILITY_CONTOUR_NEAR_FACES_H
+
+#include "scene/topology.h"
+
+/* What one search after the other needs; zero-initialised but for what is
+ * borrowed. */
+struct near_faces {
+  const struct scene *scene;       /* borrowed, not owned */
+  const struct topology *topology; /* borrowed, not owned */
+  uint8_t *found;                  /* one a face; all 0 between searches */
+  ARRAY(uint32_t) face;            /* of the current search, so far */
+};
+
+/* Finds whether a face is among the nearest ones of another, which are a
+ * hundred or so about it, as edges connect them.
+ * is_near  gets the answer
+ * Cost     a constant, after the first call
+ * Returns false when memory ran out. */
+USE_RESULT bool near_faces_find(struct near_faces *near, uint32_t face,
+                                uint32_t other, bool *is_near);
+void near_faces_fini(struct near_faces *near);
+
+#endif
