@@ -127,7 +127,7 @@ static void other_files_are_no_plans(void **state) {
   p.bytes[8]++;
   assert_int_equal(draw_by(state, &p, p.bytes, p.count, 1, &error),
                    RECTO_ERROR_UNSUPPORTED);
-  assert_non_null(strstr(error.text, "this program reads format 1"));
+  assert_non_null(strstr(error.text, "this program reads format 2"));
   assert_false(part_is_there(&p));
   end_plan(&p);
 }
