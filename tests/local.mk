@@ -69,8 +69,11 @@ unit_tests += %D%/test_speckles
 unit_tests += %D%/test_short_spurs
 %C%_test_short_spurs_SOURCES = %D%/test_short_spurs.c %D%/ink_fixture.c \
   %D%/ink_fixture.h
-unit_tests += %D%/test_smooth_contours %D%/test_smooth_tubes
+unit_tests += %D%/test_smooth_contours %D%/test_smooth_fillets
+unit_tests += %D%/test_smooth_tubes
 %C%_test_smooth_contours_SOURCES = %D%/test_smooth_contours.c \
+  %D%/smooth_surfaces.c %D%/smooth_surfaces.h
+%C%_test_smooth_fillets_SOURCES = %D%/test_smooth_fillets.c \
   %D%/smooth_surfaces.c %D%/smooth_surfaces.h
 %C%_test_smooth_tubes_SOURCES = %D%/test_smooth_tubes.c \
   %D%/smooth_surfaces.c %D%/smooth_surfaces.h

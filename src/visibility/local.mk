@@ -41,6 +41,7 @@ librecto_core_la_SOURCES += \
   %D%/culling/occlusion_culling.c %D%/culling/occlusion_culling.h \
   %D%/culling/space_box.c %D%/culling/space_box.h \
   %D%/culling/potentially_visible.c %D%/culling/potentially_visible.h \
+  %D%/contour/arc_normals.c \
   %D%/contour/contour_cusps.c %D%/contour/contour_cusps.h \
   %D%/culling/vertex_fans.c %D%/culling/vertex_fans.h \
   %D%/culling/contact_bounds.c %D%/culling/contact_bounds.h \

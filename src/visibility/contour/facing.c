@@ -427,6 +427,7 @@ recto_status facing_init(struct facing *f, const struct sheet *sheet,
     free_slots(f);
     ok = find_facings(f);
   }
+  ok = ok && facing_find_values(f);
   return ok ? RECTO_OK : error_memory(error);
 }
 

@@ -2,7 +2,8 @@
  * corners of its faces.
  *
  * The surface's normal at a vertex is the mean of the normals of the faces
- * about it, weighted by their angles there [ThurmerWuthrich1998].  At creases
+ * about it, weighted by their angles there [ThurmerWuthrich1998]; where these
+ * differ in size it is turned (arc_normals.c).  At creases
  * and borders the surface is not smooth: corners of faces share a normal if
  * smooth edges join them about their vertex.  The set of corners that share one
  * is called a slot.  Where no normal stands for all faces about a vertex its
@@ -78,9 +79,19 @@ USE_RESULT recto_status facing_init(struct facing *facing,
                                     double crease_deg, recto_error *error);
 void facing_fini(struct facing *facing);
 
-/* A part of facing_init: the normals and the values of slots by their places.
- * Returns false when memory ran out or the caller cancelled. */
+/* Parts of facing_init: the mean normals of slots by their places; then their
+ * values, for which normals are turned.
+ * Return false when memory ran out or the caller cancelled. */
 USE_RESULT bool facing_find_normals(struct facing *facing);
+USE_RESULT bool facing_find_values(struct facing *facing);
+
+/* Turns the normal of a corner's slot from the mean where the faces about it
+ * differ in size. */
+void facing_turn_normal(struct facing *facing, uint32_t face, uint32_t corner);
+
+/* The angle of a face at a corner, radians. */
+double facing_angle(const struct facing *facing, uint32_t face,
+                    uint32_t corner);
 
 /* The point of a corner, as welded. */
 static inline uint32_t facing_point(const struct facing *f, uint32_t corner) {

@@ -11,6 +11,22 @@ static double angle_between(const double a[3], const double b[3]) {
   return atan2(sqrt(vector_dot(cross, cross)), vector_dot(a, b));
 }
 
+double facing_angle(const struct facing *f, uint32_t face, uint32_t corner) {
+  uint32_t start = scene_face_start(f->scene, face);
+  uint32_t end = scene_face_start(f->scene, face + 1);
+  double at[3], to[3], from[3];
+  facing_position(f, facing_point(f, corner), at);
+  facing_position(f, facing_point(f, corner + 1 < end ? corner + 1 : start),
+                  to);
+  facing_position(f, facing_point(f, corner > start ? corner - 1 : end - 1),
+                  from);
+  for (int k = 0; k < 3; k++) {
+    to[k] -= at[k];
+    from[k] -= at[k];
+  }
+  return angle_between(to, from);
+}
+
 /* Finds what a face adds to the normals at its corners, if any is needed.
  * at  of near corners: its first one */
 static void find_shares(const struct facing *f, uint32_t face, size_t at) {
@@ -26,15 +42,7 @@ static void find_shares(const struct facing *f, uint32_t face, size_t at) {
   if (!vector_normalise(n))
     return;
   for (c = start; c < end; c++) {
-    double corner[3], to[3], from[3];
-    facing_position(f, facing_point(f, c), corner);
-    facing_position(f, facing_point(f, c + 1 < end ? c + 1 : start), to);
-    facing_position(f, facing_point(f, c > start ? c - 1 : end - 1), from);
-    for (int k = 0; k < 3; k++) {
-      to[k] -= corner[k];
-      from[k] -= corner[k];
-    }
-    double angle = angle_between(to, from);
+    double angle = facing_angle(f, face, c);
     for (int k = 0; k < 3; k++)
       share[c - start][k] = angle * n[k];
   }
@@ -53,8 +61,9 @@ static bool find_all_shares(struct facing *f) {
   return f->share != NULL;
 }
 
-/* Sets the values of those slots of a face that are the next ones by their
- * places, as slots are numbered in the order of these faces.
+/* Turns the normals of those slots of a face that are the next ones by their
+ * places, as slots are numbered in the order of these faces, and sets their
+ * values.
  * set  how many have values */
 static void set_values(struct facing *f, uint32_t face, uint32_t *set) {
   for (uint32_t c = scene_face_start(f->scene, face);
@@ -64,6 +73,7 @@ static void set_values(struct facing *f, uint32_t face, uint32_t *set) {
     if (place != *set)
       continue;
     ++*set;
+    facing_turn_normal(f, face, c);
     facing_position(f, facing_point(f, c), at);
     facing_view(f->camera, at, v);
     double g = facing_of_normal(f->normal[place], v);
@@ -87,14 +97,19 @@ static void add_shares(struct facing *f) {
 
 bool facing_find_normals(struct facing *f) {
   f->normal = mem_calloc(f->count, sizeof *f->normal);
-  f->value = mem_calloc(f->count, sizeof *f->value);
-  if (f->normal == NULL || f->value == NULL ||
-      (f->share == NULL && !find_all_shares(f)))
+  if (f->normal == NULL || (f->share == NULL && !find_all_shares(f)))
     return false;
   add_shares(f);
   for (size_t i = 0; i < f->count; i++)
     (void)vector_normalise(f->normal[i]);
+  return !poll_is_cancelled();
+}
+
+bool facing_find_values(struct facing *f) {
   uint32_t set = 0;
+  f->value = mem_calloc(f->count, sizeof *f->value);
+  if (f->value == NULL)
+    return false;
   for (size_t i = 0; i < f->mixed.count; i++)
     set_values(f, f->mixed.item[i], &set);
   return !poll_is_cancelled();
