@@ -15,7 +15,7 @@ enum {
 };
 
 /* The faces about a vertex that share a normal there. */
-struct fan {
+struct smooth_fan {
   uint32_t face[MOST_FACES], corner[MOST_FACES];
   double way[MOST_FACES][3]; /* to the faces' next corners */
   double far; /* to the farthest corner of a face with more than three */
@@ -74,8 +74,8 @@ static bool next_about(const struct facing *f, bool forward, uint32_t *face,
 
 /* Lists the faces about a vertex that share a normal with a corner.  Returns
  * false where they are too many. */
-static bool find_fan(const struct facing *f, uint32_t face, uint32_t corner,
-                     struct fan *fan) {
+static bool find_faces_about(const struct facing *f, uint32_t face,
+                             uint32_t corner, struct smooth_fan *fan) {
   fan->count = 0;
   for (int way = 0; way < 2; way++) {
     uint32_t at = face, c = corner;
@@ -97,7 +97,7 @@ static bool find_fan(const struct facing *f, uint32_t face, uint32_t corner,
 
 /* Finds where the corners of a fan's faces are. */
 static void find_ways(const struct facing *f, const double at[3],
-                      struct fan *fan) {
+                      struct smooth_fan *fan) {
   double square = 0, p[3];
   for (size_t i = 0; i < fan->count; i++) {
     uint32_t face = fan->face[i], end = scene_face_start(f->scene, face + 1);
@@ -115,7 +115,7 @@ static void find_ways(const struct facing *f, const double at[3],
 }
 
 /* Whether a corner of a fan's faces may be farther than this the other way. */
-static bool may_reach(const struct fan *fan, const double along[3],
+static bool may_reach(const struct smooth_fan *fan, const double along[3],
                       double far) {
   bool reaches = fan->far > far;
   for (size_t i = 0; i < fan->count && !reaches; i++)
@@ -124,7 +124,7 @@ static bool may_reach(const struct fan *fan, const double along[3],
 }
 
 /* The mean normal of a fan. */
-static void find_mean(const struct facing *f, const struct fan *fan,
+static void find_mean(const struct facing *f, const struct smooth_fan *fan,
                       double mean[3]) {
   for (int k = 0; k < 3; k++)
     mean[k] = 0;
@@ -215,7 +215,7 @@ static void follow_side(const struct facing *f, uint32_t corner,
 
 /* Finds how far the surface goes on in a direction without bending more than
  * this.  Returns false where there is none. */
-static bool find_ray(const struct facing *f, const struct fan *fan,
+static bool find_ray(const struct facing *f, const struct smooth_fan *fan,
                      const double at[3], const double normal[3],
                      const double way[3], double bend, struct ray *ray) {
   uint32_t face = 0, side = SHEET_NONE;
@@ -278,16 +278,16 @@ static void turn_across(const double normal[3], const double along[3],
  * value   is set to what the normal is to be along that: 0 if all that the
  *         surface bends there is what the arc bends */
 static double weigh_arc(const struct facing *f, const struct arc *arc,
-                        const struct fan *about, const double normal[3],
+                        const struct smooth_fan *about, const double normal[3],
                         struct ray *behind, double *value) {
-  struct fan fan;
+  struct smooth_fan fan;
   struct ray ahead;
   double mean[3], flat[3], bent[3];
   const double back[3] = {-arc->along[0], -arc->along[1], -arc->along[2]};
   double bend = fabs(vector_dot(normal, arc->along)) / 2;
   if (!find_ray(f, about, arc->at, normal, back, bend, behind) ||
       !(behind->reach > 2 * arc->length) ||
-      !find_fan(f, arc->face, arc->next, &fan))
+      !find_faces_about(f, arc->face, arc->next, &fan))
     return 0;
   find_mean(f, &fan, mean);
   if (!find_ray(f, &fan, arc->to, mean, arc->along, bend, &ahead))
@@ -314,8 +314,8 @@ struct squares {
   double matrix[3][3], right[3];
 };
 
-static void add_square(struct squares *s, const double along[3], double value,
-                       double weight) {
+static void add_lean(struct squares *s, const double along[3], double value,
+                     double weight) {
   for (int i = 0; i < 3; i++) {
     for (int k = 0; k < 3; k++)
       s->matrix[i][k] += weight * along[i] * along[k];
@@ -333,9 +333,9 @@ static void solve_squares(const struct squares *s, double x[3]) {
 
 /* ---- The whole ----------------------------------------------------------- */
 
-static bool add_arc(const struct facing *f, const struct fan *fan,
-                    uint32_t face, uint32_t corner, uint32_t next,
-                    const double normal[3], struct squares *s) {
+static bool add_arc_lean(const struct facing *f, const struct smooth_fan *fan,
+                         uint32_t face, uint32_t corner, uint32_t next,
+                         const double normal[3], struct squares *s) {
   struct arc arc;
   struct ray behind;
   double value = 0;
@@ -345,27 +345,27 @@ static bool add_arc(const struct facing *f, const struct fan *fan,
   double weight = weigh_arc(f, &arc, fan, normal, &behind, &value);
   if (!(weight > 0))
     return false;
-  add_square(s, behind.along, value, weight);
+  add_lean(s, behind.along, value, weight);
   return true;
 }
 
 void facing_turn_normal(struct facing *f, uint32_t face, uint32_t corner) {
-  struct fan fan;
+  struct smooth_fan fan;
   double at[3], *normal = f->normal[facing_place(f, facing_slot(f, corner))];
   struct squares s = {.matrix = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
                       .right = {normal[0], normal[1], normal[2]}};
   bool any = false;
-  if (!find_fan(f, face, corner, &fan))
+  if (!find_faces_about(f, face, corner, &fan))
     return;
   facing_position(f, facing_point(f, corner), at);
   find_ways(f, at, &fan);
   for (size_t i = 0; i < fan.count; i++) {
     uint32_t of = fan.face[i], c = fan.corner[i];
     uint32_t last = previous_corner(f, of, c);
-    any |=
-        add_arc(f, &fan, of, c, scene_next_corner(f->scene, of, c), normal, &s);
+    any |= add_arc_lean(f, &fan, of, c, scene_next_corner(f->scene, of, c),
+                        normal, &s);
     if (facing_is_feature(f, f->topology->corner_edge[last]))
-      any |= add_arc(f, &fan, of, c, last, normal, &s);
+      any |= add_arc_lean(f, &fan, of, c, last, normal, &s);
   }
   if (any) {
     solve_squares(&s, normal);
