@@ -22,14 +22,22 @@ static const int tessellation[][2] = {{32, 16}, {64, 32}, {256, 128}};
 /* A tube about a closed curve, which is nowhere along Z. */
 struct tube {
   smooth_curve *centre;
-  smooth_surface *surface;
+  smooth_surface *surface, *turned; /* turned: of v and u */
   double radius;
   int turns; /* so many times as long as the torus, about */
 };
 
+static void turned_torus(double u, double v, double p[3]) {
+  smooth_torus(v, u, p);
+}
+
+static void turned_knot(double u, double v, double p[3]) {
+  smooth_knot(v, u, p);
+}
+
 static const struct tube tubes[] = {
-    {smooth_circle, smooth_torus, SMOOTH_TORUS_RADIUS, 1},
-    {smooth_trefoil, smooth_knot, SMOOTH_KNOT_RADIUS, 3}};
+    {smooth_circle, smooth_torus, turned_torus, SMOOTH_TORUS_RADIUS, 1},
+    {smooth_trefoil, smooth_knot, turned_knot, SMOOTH_KNOT_RADIUS, 3}};
 
 /* The height of a mesh's arcs over its chords, mm: along both parameters. */
 static double sagitta_of(const struct tube *tube, int n, int m) {
@@ -233,11 +241,14 @@ static void check_tube(const struct tube *tube, const recto_scene *scene, int n,
   recto_drawing_destroy(drawing);
 }
 
-static void check_tubes(bool exact) {
+/* Draws tubes of the first tessellations.
+ * turned  all faces are turned inwards */
+static void check_tubes(bool exact, bool turned, size_t tessellations) {
   for (size_t i = 0; i < 2; i++)
-    for (size_t t = 0; t < 3; t++) {
+    for (size_t t = 0; t < tessellations; t++) {
       int n = tubes[i].turns * tessellation[t][0], m = tessellation[t][1];
-      recto_scene *scene = smooth_scene(tubes[i].surface, false, n, m);
+      recto_scene *scene = turned ? smooth_scene(tubes[i].turned, false, m, n)
+                                  : smooth_scene(tubes[i].surface, false, n, m);
       for (int view = 0; view < SMOOTH_VIEWS; view++) {
         recto_options options;
         smooth_view(&options, view);
@@ -254,14 +265,20 @@ static void check_tubes(bool exact) {
  * two arcs of the mesh are to their chords. */
 static void the_contours_of_tubes_are_their_visible_pieces(void **state) {
   (void)state;
-  check_tubes(true);
+  check_tubes(true, false, 3);
 }
 
 /* By default, but for what is nearer to another one than a side of the mesh is
  * long: loops that are thinner than that are left out. */
 static void loops_thinner_than_triangles_are_left_out(void **state) {
   (void)state;
-  check_tubes(false);
+  check_tubes(false, false, 3);
+}
+
+/* It does not matter which way faces are turned. */
+static void tubes_may_be_inside_out(void **state) {
+  (void)state;
+  check_tubes(true, true, 2);
 }
 
 /* ---- A torus along its plane --------------------------------------------- */
@@ -307,6 +324,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_contours_of_tubes_are_their_visible_pieces),
       cmocka_unit_test(loops_thinner_than_triangles_are_left_out),
+      cmocka_unit_test(tubes_may_be_inside_out),
       cmocka_unit_test(the_contour_of_a_torus_along_its_plane_is_one_stroke),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

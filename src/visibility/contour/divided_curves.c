@@ -5,12 +5,11 @@
 
 #include "base/poll.h"
 
-/* Visibility is sampled off the surface, by so many heights of the triangles
- * about it: outwards and towards the viewer where the surface bends away from
- * the line of sight, since the mesh about it is uneven; else inwards. */
-#define OFFSET_OUT 0.1
+/* Visibility is sampled off the surface, since the mesh about it is uneven, by
+ * so many heights of the triangles about it: to the side on which the line of
+ * sight passes, and towards the viewer. */
+#define OFFSET_ASIDE 0.1
 #define OFFSET_NEARER 1.0
-#define OFFSET_IN 0.6
 
 /* The samples of a piece, at most, and segments whose heights give the offset,
  * to either side of one. */
@@ -47,9 +46,9 @@ static double height_about(const struct divided_curves *d,
 }
 
 /* Where the visibility of a curve is sampled.
- * side  1: the surface bends away from the line of sight, so that the point is
- *       in front of it; -1: it bends into it, which hides the point unless it
- *       is the other side of the surface that is seen */
+ * side  1: the surface bends away from the line of sight, so that its outer
+ *       side is seen; -1: it bends into it, which hides the point unless it is
+ *       the inner side that is seen, as where all faces are turned inwards */
 static struct contour_sample place_sample(const struct divided_curves *d,
                                           const struct contour_curve *curve,
                                           uint32_t step, double t, int side) {
@@ -59,12 +58,10 @@ static struct contour_sample place_sample(const struct divided_curves *d,
   double height = height_about(d, curve, step), on[3], off[3], view[3];
   facing_view(&d->sheet->camera, a->flat, view);
   (void)vector_normalise(view);
-  double out = height * (side > 0 ? OFFSET_OUT : -OFFSET_IN);
-  double near = side > 0 ? height * OFFSET_NEARER : 0;
   for (int k = 0; k < 3; k++) {
-    double flat = a->flat[k] + t * (b->flat[k] - a->flat[k]);
-    on[k] = flat + side * height * OFFSET_OUT * s->normal[k];
-    off[k] = flat + out * s->normal[k] - near * view[k];
+    on[k] = a->flat[k] + t * (b->flat[k] - a->flat[k]) +
+            side * height * OFFSET_ASIDE * s->normal[k];
+    off[k] = on[k] - height * OFFSET_NEARER * view[k];
   }
   return (struct contour_sample){divided_curves_project(d, off),
                                  divided_curves_project(d, on), s->face};

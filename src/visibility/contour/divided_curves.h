@@ -19,7 +19,7 @@ struct divided_curve {
 /* A place of a curve at which its visibility is tested. */
 struct contour_sample {
   struct geom_point off; /* off the surface */
-  struct geom_point on;  /* on the mesh */
+  struct geom_point on;  /* beside it */
   uint32_t face;         /* there */
 };
 
