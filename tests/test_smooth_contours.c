@@ -516,7 +516,7 @@ static void the_contour_of_a_rough_sphere_is_one_stroke(void **state) {
     views_of_one += recto_drawing_stroke_count(drawing) == 1;
     recto_drawing_destroy(drawing);
   }
-  if (views_of_one < 15 || 6 * strokes > exact)
+  if (views_of_one < 15 || 5 * strokes > exact)
     fail_msg("one stroke in %d views, %lu in all, exact %lu", views_of_one,
              (unsigned long)strokes, (unsigned long)exact);
   recto_scene_destroy(scene);

@@ -378,15 +378,11 @@ static bool mark_contradicted(struct facing *f) {
   return any;
 }
 
-/* Makes creases of all edges at points about which no normal stands for all
- * faces.  Returns whether there are such points. */
-static bool crease_apices(struct facing *f, double crease_deg) {
-  bool bent = mark_bent(f, crease_deg), contradicted = mark_contradicted(f);
-  bool any = bent || contradicted;
-  for (size_t i = 0; any && i < f->near_edge.count; i++)
+/* Makes creases of all edges at the points that are marked. */
+static void crease_apices(struct facing *f) {
+  for (size_t i = 0; i < f->near_edge.count; i++)
     if ((flags_of_edge(f, f->near_edge.item[i]) & FACING_APEX) != 0)
       f->class_masks[f->near_edge.item[i]] |= RECTO_EDGE_CREASE;
-  return any;
 }
 
 /* ---- The whole ----------------------------------------------------------- */
@@ -407,8 +403,24 @@ static void free_slots(struct facing *f) {
 
 /* Finds slots and their normals by the edges' classes.  Returns false when
  * memory ran out or the caller cancelled. */
-static bool find_facings(struct facing *f) {
+static bool find_normals(struct facing *f) {
   return split_at_features(f) && number_needed(f) && facing_find_normals(f);
+}
+
+/* Finds normals and values, again where no normal stands for all faces about a
+ * point: bent ones are told by mean normals, contradictions by what is final.
+ * Returns false when memory ran out or the caller cancelled. */
+static bool find_facings(struct facing *f, double crease_deg) {
+  if (!find_normals(f))
+    return false;
+  bool is_bent = mark_bent(f, crease_deg);
+  if (!facing_find_values(f))
+    return false;
+  if (!mark_contradicted(f) && !is_bent)
+    return true;
+  crease_apices(f);
+  free_slots(f);
+  return find_normals(f) && facing_find_values(f);
 }
 
 recto_status facing_init(struct facing *f, const struct sheet *sheet,
@@ -422,12 +434,7 @@ recto_status facing_init(struct facing *f, const struct sheet *sheet,
       f->class_masks != NULL && f->coarse != NULL &&
       topology_class_masks(topology, f->scene, crease_deg, f->class_masks) &&
       topology_coarse_parts(topology, f->scene, f->class_masks, f->coarse) &&
-      find_face_signs(f) && find_near_faces(f) && find_facings(f);
-  if (ok && crease_apices(f, crease_deg)) {
-    free_slots(f);
-    ok = find_facings(f);
-  }
-  ok = ok && facing_find_values(f);
+      find_face_signs(f) && find_near_faces(f) && find_facings(f, crease_deg);
   return ok ? RECTO_OK : error_memory(error);
 }
 
