@@ -53,6 +53,7 @@ librecto_core_la_SOURCES += \
   %D%/contour/doubled_contours.c %D%/contour/doubled_contours.h \
   %D%/contour/drawn_outlines.c %D%/contour/drawn_outlines.h \
   %D%/contour/facing.c %D%/contour/facing.h \
+  %D%/contour/facing_apices.c \
   %D%/contour/fit_fragments.c %D%/contour/fit_fragments.h \
   %D%/contour/fit_outline.c %D%/contour/fit_outline.h \
   %D%/contour/fold_bridges.c %D%/contour/fold_bridges.h \

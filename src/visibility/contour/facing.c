@@ -7,13 +7,8 @@
 
 #include "base/parallel.h"
 #include "base/poll.h"
-#include "scene/angle.h"
 #include "scene/coarse_parts.h"
 #include "scene/edge_classes.h"
-
-/* A face that is seen at an angle with a smaller sine, 7 degrees, is seen
- * edge-on where it matters which side of it is seen. */
-#define EDGE_ON_SINE 0.125
 
 uint32_t facing_corner_of_edge(const struct facing *f, uint32_t face,
                                uint32_t edge) {
@@ -30,9 +25,7 @@ uint32_t facing_corner_of_edge(const struct facing *f, uint32_t face,
 
 /* ---- Slots --------------------------------------------------------------- */
 
-/* The corners of an edge's two faces at either end of it; returns false where
- * there are none. */
-static bool corners_across(const struct facing *f, uint32_t edge,
+bool facing_corners_across(const struct facing *f, uint32_t edge,
                            uint32_t pair[2][2]) {
   const struct topology_edge *e = &f->topology->edge.item[edge];
   uint32_t c = facing_corner_of_edge(f, e->first, edge);
@@ -53,7 +46,7 @@ bool facing_is_split(const struct facing *f, uint32_t edge) {
     return false;
   if (e->uses != 2 || e->same_way || e->first == e->second)
     return true;
-  return !corners_across(f, edge, pair) ||
+  return !facing_corners_across(f, edge, pair) ||
          facing_slot(f, pair[0][0]) != facing_slot(f, pair[0][1]) ||
          facing_slot(f, pair[1][0]) != facing_slot(f, pair[1][1]);
 }
@@ -61,7 +54,7 @@ bool facing_is_split(const struct facing *f, uint32_t edge) {
 /* Joins the corners of two faces at both ends of their smooth edge. */
 static void join_corners(struct facing *f, uint32_t edge) {
   uint32_t pair[2][2];
-  if (!corners_across(f, edge, pair))
+  if (!facing_corners_across(f, edge, pair))
     return;
   for (int k = 0; k < 2; k++) {
     uint32_t a = f->near_corner[pair[k][0]], b = f->near_corner[pair[k][1]];
@@ -84,12 +77,6 @@ static bool list_near_edges(struct facing *f) {
     }
   }
   return true;
-}
-
-/* The union of the flags of an edge's points. */
-static unsigned flags_of_edge(const struct facing *f, uint32_t edge) {
-  const uint32_t *point = f->topology->edge.item[edge].point;
-  return f->point_flags[point[0]] | f->point_flags[point[1]];
 }
 
 /* Marks the points at features among the near edges; returns whether there are
@@ -132,7 +119,7 @@ static bool split_at_features(struct facing *f) {
   if (f->sets == NULL || f->signs == NULL || !number_near_corners(f))
     return false;
   for (size_t i = 0; i < f->near_edge.count; i++)
-    if ((flags_of_edge(f, f->near_edge.item[i]) & FACING_SPLIT) != 0 &&
+    if ((facing_flags_of_edge(f, f->near_edge.item[i]) & FACING_SPLIT) != 0 &&
         !facing_is_feature(f, f->near_edge.item[i]))
       join_corners(f, f->near_edge.item[i]);
   for (size_t i = 0; i < f->near.count; i++) {
@@ -310,81 +297,6 @@ static bool find_near_faces(struct facing *f) {
   return list_near_edges(f);
 }
 
-/* ---- Apices -------------------------------------------------------------- */
-
-/* Marks the points about which a face bends away from the mean normal by more
- * than the crease angle: at the apex of a cone no normal is near those of its
- * faces.  Returns whether there are such points. */
-static bool mark_bent(struct facing *f, double crease_deg) {
-  double cosine = angle_of_degrees(crease_deg).cosine;
-  bool any = false;
-  for (size_t i = 0; i < f->mixed.count; i++) {
-    uint32_t face = f->mixed.item[i];
-    double n[3];
-    newell_normal_of_face(f->scene, face, n);
-    if (!vector_normalise(n))
-      continue;
-    for (uint32_t c = scene_face_start(f->scene, face);
-         c < scene_face_start(f->scene, face + 1); c++)
-      if (vector_dot(f->normal[facing_place(f, facing_slot(f, c))], n) <
-          cosine) {
-        f->point_flags[facing_point(f, c)] |= FACING_APEX;
-        any = true;
-      }
-  }
-  return any;
-}
-
-/* Whether a face is seen so nearly edge-on that it does not matter which side
- * of it is seen. */
-static bool shows_no_side(const struct facing *f, uint32_t face) {
-  double n[3], at[3], v[3];
-  newell_normal_of_face(f->scene, face, n);
-  facing_position(f, facing_point(f, scene_face_start(f->scene, face)), at);
-  facing_view(f->camera, at, v);
-  return !vector_normalise(n) || !vector_normalise(v) ||
-         fabs(vector_dot(n, v)) < EDGE_ON_SINE;
-}
-
-/* Whether an edge is a crease between a face that is clearly seen from its
- * front and one that is clearly seen from its back. */
-static bool is_clear_fold(const struct facing *f, uint32_t edge) {
-  const struct topology_edge *e = &f->topology->edge.item[edge];
-  return e->uses == 2 && !e->same_way && e->first != e->second &&
-         (f->class_masks[edge] & RECTO_EDGE_CREASE) != 0 &&
-         f->face_sign[e->first] != f->face_sign[e->second] &&
-         !shows_no_side(f, e->first) && !shows_no_side(f, e->second);
-}
-
-/* Marks the points of creases that clearly are contours of the mesh where the
- * facing on either side says that the surface does not fold over there.
- * Returns whether there are such points. */
-static bool mark_contradicted(struct facing *f) {
-  bool any = false;
-  for (size_t i = 0; i < f->near_edge.count; i++) {
-    uint32_t edge = f->near_edge.item[i], pair[2][2];
-    if (!is_clear_fold(f, edge) || !corners_across(f, edge, pair))
-      continue;
-    const struct topology_edge *e = &f->topology->edge.item[edge];
-    bool is_back = f->face_sign[e->first] == FACING_BACK;
-    for (int k = 0; k < 2; k++)
-      if (facing_slot(f, pair[k][0]) != facing_slot(f, pair[k][1]) &&
-          (facing_is_back(f, pair[k][0]) != is_back ||
-           facing_is_back(f, pair[k][1]) == is_back)) {
-        f->point_flags[facing_point(f, pair[k][0])] |= FACING_APEX;
-        any = true;
-      }
-  }
-  return any;
-}
-
-/* Makes creases of all edges at the points that are marked. */
-static void crease_apices(struct facing *f) {
-  for (size_t i = 0; i < f->near_edge.count; i++)
-    if ((flags_of_edge(f, f->near_edge.item[i]) & FACING_APEX) != 0)
-      f->class_masks[f->near_edge.item[i]] |= RECTO_EDGE_CREASE;
-}
-
 /* ---- The whole ----------------------------------------------------------- */
 
 static void free_slots(struct facing *f) {
@@ -413,12 +325,12 @@ static bool find_normals(struct facing *f) {
 static bool find_facings(struct facing *f, double crease_deg) {
   if (!find_normals(f))
     return false;
-  bool is_bent = mark_bent(f, crease_deg);
+  bool is_bent = facing_mark_bent(f, crease_deg);
   if (!facing_find_values(f))
     return false;
-  if (!mark_contradicted(f) && !is_bent)
+  if (!facing_mark_contradicted(f) && !is_bent)
     return true;
-  crease_apices(f);
+  facing_crease_apices(f);
   free_slots(f);
   return find_normals(f) && facing_find_values(f);
 }

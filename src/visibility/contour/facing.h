@@ -85,9 +85,27 @@ void facing_fini(struct facing *facing);
 USE_RESULT bool facing_find_normals(struct facing *facing);
 USE_RESULT bool facing_find_values(struct facing *facing);
 
+/* Marks the points about which a face bends away from the mean normal by more
+ * than the crease angle: at the apex of a cone no normal is near those of its
+ * faces.  Returns whether there are such points. */
+bool facing_mark_bent(struct facing *facing, double crease_deg);
+
+/* Marks the points of creases that clearly are contours of the mesh where the
+ * facing on either side says that the surface does not fold over there.
+ * Returns whether there are such points. */
+bool facing_mark_contradicted(struct facing *facing);
+
+/* Makes creases of all edges at the points that are marked. */
+void facing_crease_apices(struct facing *facing);
+
 /* Turns the normal of a corner's slot from the mean where the faces about it
  * differ in size. */
 void facing_turn_normal(struct facing *facing, uint32_t face, uint32_t corner);
+
+/* The corners of an edge's two faces at either end of it; returns false where
+ * there are none. */
+bool facing_corners_across(const struct facing *facing, uint32_t edge,
+                           uint32_t pair[2][2]);
 
 /* The angle of a face at a corner, radians. */
 double facing_angle(const struct facing *facing, uint32_t face,
@@ -107,6 +125,13 @@ static inline uint32_t facing_slot(const struct facing *f, uint32_t corner) {
     return point;
   return (uint32_t)f->scene->point.count +
          union_find_root(f->sets, f->near_corner[corner] - 1);
+}
+
+/* The union of the flags of an edge's points. */
+static inline unsigned facing_flags_of_edge(const struct facing *f,
+                                            uint32_t edge) {
+  const uint32_t *point = f->topology->edge.item[edge].point;
+  return f->point_flags[point[0]] | f->point_flags[point[1]];
 }
 
 /* The signs of the faces about a slot. */
