@@ -429,20 +429,20 @@ static void contours_go_on_where_the_mesh_folds_over(void **state) {
     strokes += recto_drawing_stroke_count(drawing);
     recto_drawing_destroy(drawing);
   }
-  if (strokes > 100) /* 99; 101 where they do not */
+  if (strokes > 95) /* 92; 100 where they do not */
     fail_msg("%lu strokes", (unsigned long)strokes);
   recto_scene_destroy(scene);
 }
 
 /* Its contours end within its image, and its mesh's outline goes on from there.
  * Where one gives way to the other the way of the faces leads from line to line
- * through where these meet; by more than 0.21 mm it is off in three views. */
+ * through where these meet; by more than 0.2 mm it is off in three views. */
 static void faces_of_an_uneven_surface_end_at_lines(void **state) {
   (void)state;
   recto_scene *scene = smooth_scene(bumpy, true, 24, 12);
   int off = 0;
   for (int view = 0; view < 2 * SMOOTH_VIEWS; view++)
-    off += distance_of_faces(scene, view) > 0.21;
+    off += distance_of_faces(scene, view) > 0.2;
   assert_true(off <= 3); /* 6 where it leads straight from line to line */
   recto_scene_destroy(scene);
 }
@@ -516,7 +516,9 @@ static void the_contour_of_a_rough_sphere_is_one_stroke(void **state) {
     views_of_one += recto_drawing_stroke_count(drawing) == 1;
     recto_drawing_destroy(drawing);
   }
-  if (views_of_one < 15 || 5 * strokes > exact)
+  /* 51 of 300; a sixth of 340 that exact drawings had while contours within
+   * the noise, which are hidden, were drawn. */
+  if (views_of_one < 15 || strokes > 56 || 5 * strokes > exact)
     fail_msg("one stroke in %d views, %lu in all, exact %lu", views_of_one,
              (unsigned long)strokes, (unsigned long)exact);
   recto_scene_destroy(scene);
