@@ -40,33 +40,28 @@ struct crease_mark_range crease_mark_range_of(recto_crease_marks which,
 
 /* ---- Whether there are any ----------------------------------------------- */
 
-/* Whether any marks may count, without a look at the edges. */
-static bool may_count(const struct scene *scene,
-                      const struct topology *topology,
-                      recto_crease_marks which) {
-  bool has_normals = scene->point_normal.count > 0;
+/* Whether a scene's files mark edges, but for normals that differ because
+ * points are welded. */
+static bool has_marks(const struct scene *scene, recto_crease_marks which) {
   if (which == RECTO_CREASE_MARKS_NONE)
     return false;
   if (which == RECTO_CREASE_MARKS_ALL)
-    return has_normals || scene->smoothing.range.count > 0;
-  return scene->corner_normal.count > 0 ||
-         (has_normals && topology->weld != NULL) ||
+    return scene->point_normal.count > 0 || scene->smoothing.range.count > 0;
+  return scene->corner_normal.count > 0 || scene->has_several_normals ||
+         (scene->is_read_in_passes && scene->smoothing.has_several) ||
          smoothing_has_several(&scene->smoothing);
+}
+
+/* Whether welded points may have several normals that count. */
+static bool may_differ_where_welded(const struct scene *scene,
+                                    recto_crease_marks which) {
+  return which == RECTO_CREASE_MARKS_AUTO && scene->point_normal.count > 0;
 }
 
 bool crease_marks_exist(const struct scene *scene, recto_crease_marks which,
                         bool *found) {
-  bool has_normals = scene->point_normal.count > 0;
-  *found = false;
-  if (which == RECTO_CREASE_MARKS_NONE)
-    return true;
-  if (which == RECTO_CREASE_MARKS_ALL)
-    *found = has_normals || scene->smoothing.range.count > 0;
-  else
-    *found = scene->corner_normal.count > 0 || scene->has_several_normals ||
-             (scene->is_read_in_passes && scene->smoothing.has_several) ||
-             smoothing_has_several(&scene->smoothing);
-  if (*found || !has_normals)
+  *found = has_marks(scene, which);
+  if (*found || !may_differ_where_welded(scene, which))
     return true;
   /* Points at one position are one point. */
   uint32_t *weld = NULL;
@@ -303,7 +298,9 @@ bool crease_marks_find(struct topology *topology, const struct scene *scene,
   const struct crease_mark_range range =
       crease_mark_range_of(which, crease_deg);
   size_t edges = topology->edge.count;
-  if (edges == 0 || !may_count(scene, topology, which))
+  bool is_welded = topology->weld != NULL;
+  if (edges == 0 || (!has_marks(scene, which) &&
+                     !(is_welded && may_differ_where_welded(scene, which))))
     return true;
   struct mark_search s = {
       .scene = scene,
