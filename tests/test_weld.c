@@ -13,7 +13,9 @@
 #include "recto.h"
 #include "scene/cluster.h"
 #include "scene/edge_classes.h"
+#include "scene/isolated_members.h"
 #include "scene/read.h"
+#include "scene/weld_equal.h"
 #include "scene/weld_near.h"
 #include "tests/memory_faults.h"
 #include "tests/scenes/build.h"
@@ -669,6 +671,78 @@ static void a_noisy_teapot_is_drawn_as_a_clean_one(void **state) {
   scene_fini(&scene);
 }
 
+/* ---- Many points --------------------------------------------------------- */
+
+/* So many that those that are alone are left out first. */
+enum { MANY_POINTS = 50000 };
+
+/* Every third point lies where another of these does, 7 * 3 before it. */
+static void equal_points_among_many_are_found(void **state) {
+  (void)state;
+  enum { BEFORE = 21 };
+  struct random random = {31};
+  struct scene scene;
+  scene_init(&scene);
+  uint32_t *listed = calloc(MANY_POINTS, sizeof *listed), *weld;
+  assert_non_null(listed);
+  size_t count = 0;
+  for (uint32_t i = 0; i < MANY_POINTS; i++) {
+    if (i % 3 == 0 && i % (2 * BEFORE) >= BEFORE)
+      assert_true(ARRAY_PUSH(&scene.point, scene.point.item[i - BEFORE]));
+    else
+      add_point(&scene, random_unit(&random), random_unit(&random), 0);
+    if (i % 5 > 0)
+      listed[count++] = i;
+  }
+  assert_true(weld_equal(&scene, listed, count, &weld));
+  assert_non_null(weld);
+  for (uint32_t i = 0; i < MANY_POINTS; i++) {
+    bool is_second = i % 3 == 0 && i % (2 * BEFORE) >= BEFORE;
+    bool is_welded = is_second && i % 5 > 0 && (i - BEFORE) % 5 > 0;
+    assert_int_equal(weld[i], is_welded ? i - BEFORE : i);
+  }
+  free(weld);
+  free(listed);
+  scene_fini(&scene);
+}
+
+/* Some have another at just the length or a little less, in any direction, so
+ * also across the sides of cells. */
+static void members_near_another_are_kept(void **state) {
+  (void)state;
+  const double length = 0x1p-20;
+  struct random random = {32};
+  struct scene scene;
+  scene_init(&scene);
+  struct cluster_member *member = calloc(MANY_POINTS, sizeof *member);
+  assert_non_null(member);
+  for (uint32_t i = 0; i < MANY_POINTS; i++) {
+    double at[3] = {random_unit(&random), random_unit(&random),
+                    random_unit(&random)};
+    if (i % 50 == 1) {
+      const struct scene_point *p = &scene.point.item[i - 1];
+      memcpy(at, (double[]){p->x, p->y, p->z}, sizeof at);
+      at[random_below(&random, 3)] +=
+          (i % 4 > 1 ? length : -length) * (1 - 0x1p-20);
+    }
+    add_point(&scene, at[0], at[1], at[2]);
+    member[i].point = i;
+    if (i % 50 == 2)
+      member[i].halvings = CLUSTER_ALONE;
+  }
+  size_t count = MANY_POINTS, pairs = 0;
+  assert_true(isolated_members_drop(&scene, length, member, &count));
+  assert_true(count < MANY_POINTS / 10);
+  for (size_t i = 0; i < count; i++) {
+    assert_true(i == 0 || member[i - 1].point < member[i].point);
+    assert_int_not_equal(member[i].halvings, CLUSTER_ALONE);
+    pairs += member[i].point % 50 < 2;
+  }
+  assert_int_equal(pairs, 2 * MANY_POINTS / 50);
+  free(member);
+  scene_fini(&scene);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(points_within_the_length_are_one),
@@ -694,6 +768,8 @@ int main(void) {
       cmocka_unit_test(open_grids_are_not_suspicious),
       cmocka_unit_test(soups_of_triangles_are_not_suspicious),
       cmocka_unit_test(a_noisy_teapot_is_drawn_as_a_clean_one),
+      cmocka_unit_test(equal_points_among_many_are_found),
+      cmocka_unit_test(members_near_another_are_kept),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

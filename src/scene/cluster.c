@@ -22,11 +22,9 @@
 #include "scene/cluster.h"
 
 #include <math.h>
-#include <stdatomic.h>
 #include <string.h>
 
 #include "base/hash.h"
-#include "base/parallel.h"
 
 enum { CHAIN_MAX = 128, NONE = -1 };
 
@@ -178,185 +176,6 @@ static bool join_cluster(struct clusters *clusters, const struct scene *scene,
   return true;
 }
 
-/* ---- Points without neighbours ------------------------------------------- */
-
-/* A hash table of 2^bits slots, 32 in a word; a slot is two bits, which are set
- * once a first and once a second point is in it.  So it does not depend on the
- * order in which threads enter points. */
-struct slots {
-  _Atomic uint64_t *word;
-  int bits;
-  uint64_t seed; /* of the hash */
-};
-
-/* What one pass over the members needs. */
-struct slot_visit {
-  struct slots slots;
-  const struct scene *scene;
-  double length;
-  struct cluster_member *member;
-  bool is_alone; /* there is one thread */
-  bool marking;
-};
-
-/* The slots of the cells that lie within the length of a point; there is mostly
- * one, as cells are wide. */
-struct point_slots {
-  size_t slot[8];
-  int count;
-};
-
-/* The number of a cell; all that are too far away have one. */
-static int64_t number_of_cell(double quotient) {
-  if (!(fabs(quotient) < 0x1p62))
-    return INT64_MAX;
-  int64_t whole = (int64_t)quotient;
-  return whole - ((double)whole > quotient);
-}
-
-static void find_slots(const struct scene_point *p, double length,
-                       const struct slots *slots, struct point_slots *found) {
-  enum { LENGTHS = 64 }; /* in a cell's side */
-  const double at[3] = {p->x, p->y, p->z}, per_side = 1 / (LENGTHS * length);
-  int64_t cell[3][2];
-  int differ = 0;
-  for (int k = 0; k < 3; k++) {
-    cell[k][0] = number_of_cell((at[k] - length) * per_side);
-    cell[k][1] = number_of_cell((at[k] + length) * per_side);
-    differ |= (cell[k][0] != cell[k][1]) << k;
-  }
-  found->count = 0;
-  for (int i = 0; i < 8; i++) {
-    uint64_t hash = slots->seed;
-    if ((i & ~differ) != 0)
-      continue;
-    for (int k = 0; k < 3; k++)
-      hash = hash_add(hash, (uint64_t)cell[k][i >> k & 1]);
-    found->slot[found->count++] =
-        (size_t)((hash * HASH_GOLDEN) >> (64 - slots->bits));
-    if (differ == 0)
-      break;
-  }
-}
-
-/* Enters a point into its slots. */
-static void insert_point(const struct slot_visit *visit,
-                         const struct point_slots *of) {
-  for (int i = 0; i < of->count; i++) {
-    _Atomic uint64_t *word = &visit->slots.word[of->slot[i] / 32];
-    uint64_t first = UINT64_C(1) << of->slot[i] % 32 * 2;
-    uint64_t is = atomic_load_explicit(word, memory_order_relaxed);
-    if (visit->is_alone) {
-      is |= (is & first) << 1 | first;
-      atomic_store_explicit(word, is, memory_order_relaxed);
-    } else if ((is & first << 1) == 0) {
-      is = atomic_fetch_or_explicit(word, first, memory_order_relaxed);
-      if (is & first)
-        (void)atomic_fetch_or_explicit(word, first << 1, memory_order_relaxed);
-    }
-  }
-}
-
-/* Does a point share no slot with another, so that it has no neighbour? */
-static bool is_isolated(const struct slots *slots,
-                        const struct point_slots *of) {
-  for (int i = 0; i < of->count; i++)
-    if (atomic_load_explicit(&slots->word[of->slot[i] / 32],
-                             memory_order_relaxed) >>
-            of->slot[i] % 32 * 2 &
-        2)
-      return false;
-  return true;
-}
-
-/* The slots of a member.  Those who mark need not compute them again: entering
- * it stored the only slot of most members as their representative, which is not
- * known yet. */
-static void slots_of_member(const struct slot_visit *visit,
-                            struct cluster_member *member,
-                            struct point_slots *of) {
-  if (visit->marking && member->representative != SCENE_NONE) {
-    of->count = 1;
-    of->slot[0] = member->representative;
-    return;
-  }
-  find_slots(&visit->scene->point.item[member->point], visit->length,
-             &visit->slots, of);
-  bool is_one = of->count == 1 && of->slot[0] < SCENE_NONE;
-  member->representative = is_one ? (uint32_t)of->slot[0] : SCENE_NONE;
-}
-
-/* Enters the members of a range that are not CLUSTER_ALONE, or, if `marking`,
- * marks those that no other is near as that.  Slots are fetched for a group of
- * members at a time, as most are not in the cache. */
-static bool visit_slots(void *user, struct parallel_range range) {
-  enum { GROUP = 32 };
-  const struct slot_visit *visit = user;
-  struct cluster_member *member = visit->member;
-  for (size_t i = range.begin; i < range.end;) {
-    struct point_slots of[GROUP];
-    size_t group[GROUP], n = 0;
-    for (; n < GROUP && i < range.end; i++) {
-      if (member[i].halvings == CLUSTER_ALONE)
-        continue;
-      slots_of_member(visit, &member[i], &of[n]);
-      for (int k = 0; k < of[n].count; k++)
-        MEM_PREFETCH((const void *)&visit->slots.word[of[n].slot[k] / 32]);
-      group[n++] = i;
-    }
-    for (size_t g = 0; g < n; g++)
-      if (!visit->marking)
-        insert_point(visit, &of[g]);
-      else if (is_isolated(&visit->slots, &of[g]))
-        member[group[g]].halvings = CLUSTER_ALONE;
-  }
-  return true;
-}
-
-static size_t count_members_left(const struct cluster_member *member,
-                                 size_t count) {
-  size_t left = 0;
-  for (size_t i = 0; i < count; i++)
-    left += member[i].halvings != CLUSTER_ALONE;
-  return left;
-}
-
-/* Marks members that no other is near as CLUSTER_ALONE, which is most of them
- * in a scene of separate faces; it saves looking for clusters to join.  Some
- * share a slot by chance: where many were marked, the others are tried once
- * more, by another hash.
- * left  gets how many are not marked
- * Returns false when memory ran out. */
-static bool find_isolated(const struct scene *scene, double length,
-                          struct cluster_member *member, size_t count,
-                          size_t *left) {
-  enum { ROUNDS = 3, WORTH = 4 };
-  struct slot_visit visit = {
-      .scene = scene, .length = length, .member = member};
-  int workers = parallel_workers(count, PARALLEL_ITEMS);
-  bool ok = true;
-  visit.is_alone = workers == 1;
-  *left = count_members_left(member, count);
-  for (int round = 0; ok && round < ROUNDS; round++) {
-    size_t before = *left;
-    visit.slots = (struct slots){.bits = 10, .seed = (uint64_t)round};
-    while (8 * before >> visit.slots.bits)
-      visit.slots.bits++;
-    visit.slots.word = mem_calloc((size_t)1 << (visit.slots.bits - 5),
-                                  sizeof *visit.slots.word);
-    ok = visit.slots.word != NULL;
-    for (int pass = 0; ok && pass < 2; pass++) {
-      visit.marking = pass == 1;
-      ok = parallel_ranges(workers, count, PARALLEL_ITEMS, visit_slots, &visit);
-    }
-    mem_free((void *)visit.slots.word);
-    *left = count_members_left(member, count);
-    if (*left * WORTH > before)
-      break;
-  }
-  return ok;
-}
-
 /* ---- All of it ----------------------------------------------------------- */
 
 static bool allocate_clusters(struct clusters *clusters, double length,
@@ -392,9 +211,7 @@ static size_t name_members(const struct clusters *clusters,
 size_t cluster_join(const struct scene *scene, double length,
                     struct cluster_member *member, size_t count) {
   struct clusters clusters = {.chain = NULL};
-  size_t left;
-  bool ok = find_isolated(scene, length, member, count, &left);
-  ok = ok && allocate_clusters(&clusters, length, left);
+  bool ok = allocate_clusters(&clusters, length, count);
   for (size_t i = 0; i < count && ok; i++) {
     member[i].representative = (uint32_t)i;
     if (member[i].halvings != CLUSTER_ALONE)

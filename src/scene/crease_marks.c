@@ -65,15 +65,15 @@ bool crease_marks_exist(const struct scene *scene, recto_crease_marks which,
     return true;
   /* Points at one position are one point. */
   uint32_t *weld = NULL;
-  uint8_t *marked = mem_calloc(scene->point.count, sizeof *marked);
   size_t count = scene->point_normal.count;
-  if (marked != NULL)
-    memset(marked, 1, count);
-  bool ok = marked != NULL && weld_equal(scene, marked, count, &weld);
+  uint32_t *point = mem_alloc(count, sizeof *point);
+  for (size_t p = 0; point != NULL && p < count; p++)
+    point[p] = (uint32_t)p;
+  bool ok = point != NULL && weld_equal(scene, point, count, &weld);
   for (size_t p = 0; ok && weld != NULL && p < count; p++)
     *found = *found ||
              scene->point_normal.item[p] != scene->point_normal.item[weld[p]];
-  mem_free(marked);
+  mem_free(point);
   mem_free(weld);
   return ok;
 }

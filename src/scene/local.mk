@@ -13,6 +13,7 @@ librecto_core_la_SOURCES += \
   %D%/exact.c %D%/exact.h \
   %D%/face.c \
   %D%/import_format.c %D%/import_format.h \
+  %D%/isolated_members.c %D%/isolated_members.h \
   %D%/limit.h \
   %D%/material.c %D%/material.h \
   %D%/name.c %D%/name.h \
@@ -41,6 +42,7 @@ librecto_core_la_SOURCES += \
   %D%/scene.c %D%/scene.h \
   %D%/self_intersection.c %D%/self_intersection.h \
   %D%/side_iterator.h \
+  %D%/slot_table.c %D%/slot_table.h \
   %D%/smoothing.c %D%/smoothing.h \
   %D%/topology.c %D%/topology.h \
   %D%/topology_edge.h \

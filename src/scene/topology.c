@@ -211,18 +211,23 @@ static bool map_borders(void *user, struct parallel_range edges) {
   return true;
 }
 
+static size_t count_bits(const uint64_t *word, size_t words) {
+  size_t count = 0;
+  for (size_t w = 0; w < words; w++)
+    count += (size_t)__builtin_popcountll(word[w]);
+  return count;
+}
+
 /* Finds the edges of one face in one pass, as several steps look at them. */
 static bool find_borders(struct topology *topology) {
   size_t edges = topology->edge.count, words = edges / 64 + 1;
   mem_free(topology->border);
   topology->border = mem_calloc(words, sizeof *topology->border);
-  topology->borders = 0;
   if (topology->border == NULL ||
       !parallel_ranges(parallel_workers(edges, EDGES_IN_RANGE), edges,
                        EDGES_IN_RANGE, map_borders, topology))
     return false;
-  for (size_t w = 0; w < words; w++)
-    topology->borders += (size_t)__builtin_popcountll(topology->border[w]);
+  topology->borders = count_bits(topology->border, words);
   return true;
 }
 
@@ -248,29 +253,45 @@ static bool build_edges(struct topology *topology, const struct scene *scene) {
          find_borders(topology);
 }
 
-/* Marks the points of border edges; returns how many there are. */
-static size_t mark_border(const struct topology *topology, uint8_t *marked) {
-  size_t count = 0;
-  for (uint32_t e = topology_next_border(topology, 0); e < topology->edge.count;
-       e = topology_next_border(topology, e + 1)) {
-    const struct topology_edge *edge = &topology->edge.item[e];
-    for (int k = 0; k < 2; k++) {
-      count += !marked[edge->point[k]];
-      marked[edge->point[k]] = 1;
-    }
-  }
-  return count;
+/* Sets a bit for each point of a border edge. */
+static void mark_border_points(const struct topology *topology,
+                               uint64_t *marked) {
+  const struct topology_edge *edge = topology->edge.item;
+  for (size_t w = 0; 64 * w < topology->edge.count; w++)
+    for (uint64_t left = topology->border[w]; left; left &= left - 1)
+      for (int k = 0; k < 2; k++) {
+        uint32_t p = edge[64 * w + (size_t)__builtin_ctzll(left)].point[k];
+        marked[p / 64] |= UINT64_C(1) << p % 64;
+      }
+}
+
+bool topology_border_points(const struct topology *topology, size_t points,
+                            uint32_t **point, size_t *count) {
+  size_t words = points / 64 + 1, listed = 0;
+  uint64_t *marked = mem_calloc(words, sizeof *marked);
+  *point = NULL;
+  if (marked == NULL)
+    return false;
+  mark_border_points(topology, marked);
+  *count = count_bits(marked, words);
+  *point = mem_alloc(*count, sizeof **point);
+  for (size_t w = 0; *point != NULL && w < words; w++)
+    for (uint64_t left = marked[w]; left; left &= left - 1)
+      (*point)[listed++] = (uint32_t)(64 * w) + (uint32_t)__builtin_ctzll(left);
+  mem_free(marked);
+  return *point != NULL;
 }
 
 /* Welds the points of border edges that coincide. */
 static bool weld_border(struct topology *topology, const struct scene *scene) {
+  uint32_t *point;
+  size_t count;
   if (topology->borders == 0)
     return true;
-  uint8_t *marked = mem_calloc(scene->point.count, sizeof *marked);
   bool ok =
-      marked != NULL &&
-      weld_equal(scene, marked, mark_border(topology, marked), &topology->weld);
-  mem_free(marked);
+      topology_border_points(topology, scene->point.count, &point, &count) &&
+      weld_equal(scene, point, count, &topology->weld);
+  mem_free(point);
   return ok;
 }
 

@@ -47,6 +47,14 @@ void topology_fini(struct topology *topology);
  * there is none.  Few edges of most meshes are such. */
 uint32_t topology_next_border(const struct topology *topology, uint32_t edge);
 
+/* Lists the points of these edges, ascending.
+ * points  of the scene
+ * point   set to a new array, which the caller owns, also on failure
+ * Returns false when memory ran out. */
+USE_RESULT bool topology_border_points(const struct topology *topology,
+                                       size_t points, uint32_t **point,
+                                       size_t *count);
+
 /* Gives up corner_edge. */
 void topology_drop_corners(struct topology *topology);
 

@@ -10,30 +10,29 @@ void weld_candidates_fini(struct weld_candidates *candidates) {
   mem_free(candidates->size);
 }
 
-bool weld_candidates_find(struct weld_candidates *candidates,
+bool weld_candidates_list(struct weld_candidates *candidates,
                           const struct scene *scene,
                           const struct topology *topology) {
-  size_t points = scene->point.count;
-  candidates->number = mem_calloc(points, sizeof *candidates->number);
+  uint32_t *point;
+  size_t count;
+  bool ok =
+      topology_border_points(topology, scene->point.count, &point, &count) &&
+      ARRAY_RESERVE(&candidates->member, count);
+  for (size_t i = 0; ok && i < count; i++)
+    candidates->member.item[candidates->member.count++] =
+        (struct cluster_member){.point = point[i]};
+  mem_free(point);
+  return ok;
+}
+
+bool weld_candidates_number(struct weld_candidates *candidates,
+                            const struct scene *scene) {
+  candidates->number =
+      mem_calloc(scene->point.count, sizeof *candidates->number);
   if (candidates->number == NULL)
     return false;
-  size_t count = 0;
-  for (uint32_t e = topology_next_border(topology, 0); e < topology->edge.count;
-       e = topology_next_border(topology, e + 1)) {
-    const struct topology_edge *edge = &topology->edge.item[e];
-    for (int k = 0; k < 2; k++) {
-      count += candidates->number[edge->point[k]] == 0;
-      candidates->number[edge->point[k]] = 1;
-    }
-  }
-  if (!ARRAY_RESERVE(&candidates->member, count))
-    return false;
-  for (size_t p = 0; p < points; p++)
-    if (candidates->number[p]) {
-      struct cluster_member member = {.point = (uint32_t)p};
-      candidates->member.item[candidates->member.count++] = member;
-      candidates->number[p] = (uint32_t)candidates->member.count;
-    }
+  for (size_t i = 0; i < candidates->member.count; i++)
+    candidates->number[candidates->member.item[i].point] = (uint32_t)i + 1;
   return true;
 }
 
@@ -73,14 +72,17 @@ bool weld_candidates_measure(struct weld_candidates *candidates,
   for (uint32_t e = topology_next_border(topology, 0); e < topology->edge.count;
        e = topology_next_border(topology, e + 1)) {
     const struct topology_edge *edge = &topology->edge.item[e];
+    const uint32_t number[2] = {candidates->number[edge->point[0]],
+                                candidates->number[edge->point[1]]};
+    if (number[0] == 0 && number[1] == 0)
+      continue;
     if (edge->first != face)
       size = face_size(scene, edge->first);
     face = edge->first;
-    for (int k = 0; k < 2; k++) {
-      uint32_t number = candidates->number[edge->point[k]];
-      double *least = &candidates->size[number - 1];
-      *least = fmin(*least, size);
-    }
+    for (int k = 0; k < 2; k++)
+      if (number[k] > 0)
+        candidates->size[number[k] - 1] =
+            fmin(candidates->size[number[k] - 1], size);
   }
   return true;
 }

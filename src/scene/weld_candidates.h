@@ -18,13 +18,19 @@ struct weld_candidates {
 
 void weld_candidates_fini(struct weld_candidates *candidates);
 
-/* Lists the points of borders.  Returns false when memory ran out. */
-USE_RESULT bool weld_candidates_find(struct weld_candidates *candidates,
+/* Lists the points of borders; they have no numbers yet.  Returns false when
+ * memory ran out. */
+USE_RESULT bool weld_candidates_list(struct weld_candidates *candidates,
                                      const struct scene *scene,
                                      const struct topology *topology);
 
-/* Sets the size of each candidate: of the faces whose border edges meet there,
- * the smallest counts.  Returns false when memory ran out. */
+/* Numbers those that are listed.  Returns false when memory ran out. */
+USE_RESULT bool weld_candidates_number(struct weld_candidates *candidates,
+                                       const struct scene *scene);
+
+/* Sets the size of each candidate, which has a number: of the faces whose
+ * border edges meet there, the smallest counts.  Returns false when memory ran
+ * out. */
 USE_RESULT bool weld_candidates_measure(struct weld_candidates *candidates,
                                         const struct scene *scene,
                                         const struct topology *topology);

@@ -4,8 +4,10 @@
  * Phases
  *   candidates  the points of edges that only one face has, once those at equal
  *               positions are one (weld_equal.h).
- *   radius      of each, the requested length; or where there is none, what
- *               rounding explains: see below.
+ *   length      over which points may be joined at most: the requested one; or
+ *               where there is none, what rounding explains: see below.
+ *   isolated    points that have no other within it are left out.
+ *   radius      of each other, the requested length or what rounding explains.
  *   join        into clusters (cluster.h); one member's position represents
  *               all, none is made up.
  *   rewrite     faces and polylines use the points that represent theirs.
@@ -24,6 +26,7 @@
  */
 #include "scene/weld_near.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -31,9 +34,22 @@
 #include "base/tolerance.h"
 #include "geom/vector.h"
 #include "scene/corner_normals.h"
+#include "scene/isolated_members.h"
 #include "scene/weld_candidates.h"
 
 /* ---- Radii --------------------------------------------------------------- */
+
+/* As of frexp, of a number that is not negative. */
+static inline int exponent_of(double size) {
+  int exponent = 0;
+  if (size < DBL_MIN) {
+    frexp(size, &exponent);
+    return exponent;
+  }
+  uint64_t bits;
+  memcpy(&bits, &size, sizeof bits);
+  return (int)(bits >> (DBL_MANT_DIG - 1)) - (DBL_MAX_EXP - 2);
+}
 
 /* The power of two below which nine in ten of the members' largest coordinates
  * lie. */
@@ -43,11 +59,8 @@ static double common_scale(const struct scene *scene,
   uint32_t histogram[COUNT] = {0};
   for (size_t i = 0; i < count; i++) {
     const struct scene_point *p = &scene->point.item[member[i].point];
-    double size = fmax(fabs(p->x), fmax(fabs(p->y), fabs(p->z)));
-    int exponent = LEAST;
-    if (size > 0)
-      frexp(size, &exponent);
-    histogram[exponent - LEAST]++;
+    double size = max_number(fabs(p->x), max_number(fabs(p->y), fabs(p->z)));
+    histogram[(size > 0 ? exponent_of(size) : LEAST) - LEAST]++;
   }
   size_t sum = 0;
   int slot = COUNT;
@@ -64,63 +77,67 @@ static double explained_length(double scale, struct precision precision) {
                                     TOLERANCE_WELD_SHARE * scale));
 }
 
-/* The members from `first` on whose points are of one range of precision. */
-static size_t range_end(const struct scene *scene,
-                        const struct weld_candidates *candidates,
-                        size_t first) {
-  uint32_t limit = SCENE_NONE;
-  uint32_t point = candidates->member.item[first].point;
+/* The distance that rounding explains for the points up to a number. */
+struct rounding_length {
+  uint32_t end_point;
+  double length;
+};
+
+typedef ARRAY(struct rounding_length) rounding_lengths;
+
+/* The first point from which on the precision is not that of this one. */
+static uint32_t end_of_precision(const struct scene *scene, uint32_t point) {
+  uint32_t end = SCENE_NONE;
   for (size_t r = scene->precision.count; r > 0; r--)
     if (scene->precision.item[r - 1].first_point > point)
-      limit = scene->precision.item[r - 1].first_point;
-  size_t end = first;
-  while (end < candidates->member.count &&
-         candidates->member.item[end].point < limit)
-    end++;
+      end = scene->precision.item[r - 1].first_point;
   return end;
 }
 
-/* Finds for each range the distance that rounding of its coordinates explains.
- * each  gets it for each member
- * Returns the longest. */
-static double find_rounding_lengths(const struct scene *scene,
-                                    const struct weld_candidates *candidates,
-                                    struct precision unstated, double *each) {
-  double most = 0;
+/* Finds for each range of the members' points that has a precision of its own
+ * the distance that rounding of its coordinates explains.
+ * most  gets the longest of these
+ * Returns false when memory ran out. */
+static bool find_rounding_lengths(const struct scene *scene,
+                                  const struct weld_candidates *candidates,
+                                  struct precision unstated,
+                                  rounding_lengths *lengths, double *most) {
   const struct cluster_member *member = candidates->member.item;
+  *most = 0;
   for (size_t i = 0, end; i < candidates->member.count; i = end) {
-    end = range_end(scene, candidates, i);
-    double scale = common_scale(scene, member + i, end - i);
+    uint32_t end_point = end_of_precision(scene, member[i].point);
+    for (end = i + 1;
+         end < candidates->member.count && member[end].point < end_point;)
+      end++;
     double length = explained_length(
-        scale, scene_point_precision(scene, member[i].point, unstated));
-    for (size_t k = i; k < end; k++)
-      each[k] = length;
-    most = fmax(most, length);
+        common_scale(scene, member + i, end - i),
+        scene_point_precision(scene, member[i].point, unstated));
+    struct rounding_length range = {end_point, length};
+    if (!ARRAY_PUSH(lengths, range))
+      return false;
+    *most = fmax(*most, length);
   }
-  return most;
+  return true;
 }
 
-/* Sets the radii that rounding explains; returns the longest length, or less
- * than 0 when memory ran out. */
-static double set_explained_radii(struct weld_candidates *candidates,
-                                  const struct scene *scene,
-                                  const struct topology *topology,
-                                  struct precision unstated) {
-  size_t count = candidates->member.count;
-  double *each = mem_alloc(count, sizeof *each);
-  double length = -1;
-  if (each == NULL)
-    return length;
-  length = find_rounding_lengths(scene, candidates, unstated, each);
-  if (length > 0 && !weld_candidates_measure(candidates, scene, topology))
-    length = -1;
-  for (size_t i = 0; i < count && length > 0; i++) {
+/* Sets the radii that rounding explains.  Returns false when memory ran out. */
+static bool set_explained_radii(struct weld_candidates *candidates,
+                                const struct scene *scene,
+                                const struct topology *topology,
+                                const rounding_lengths *lengths,
+                                double length) {
+  size_t range = 0;
+  if (!weld_candidates_measure(candidates, scene, topology))
+    return false;
+  for (size_t i = 0; i < candidates->member.count; i++) {
+    struct cluster_member *member = &candidates->member.item[i];
+    while (member->point >= lengths->item[range].end_point)
+      range++;
     double face = sqrt(candidates->size[i]) * TOLERANCE_WELD_FACE_SHARE;
-    weld_candidate_set_radius(&candidates->member.item[i], length,
-                              fmin(each[i], face));
+    weld_candidate_set_radius(member, length,
+                              fmin(lengths->item[range].length, face));
   }
-  mem_free(each);
-  return length;
+  return true;
 }
 
 double weld_near_length_most(const struct scene *scene,
@@ -287,27 +304,48 @@ static recto_status rewrite(struct welded *welded, const struct scene *scene,
 
 /* ---- All of it ----------------------------------------------------------- */
 
-/* Sets the radii and joins; false when memory ran out. */
+/* Joins the members that are left when those without neighbours were dropped.
+ * lengths  of ranges of points; empty: all may be joined over welded->length
+ * Returns false when memory ran out. */
+static bool join_members(struct welded *welded,
+                         struct weld_candidates *candidates,
+                         const struct topology *topology,
+                         const rounding_lengths *lengths) {
+  const struct scene *scene = &welded->scene;
+  struct cluster_member *member = candidates->member.item;
+  if (!isolated_members_drop(scene, welded->length, member,
+                             &candidates->member.count))
+    return false;
+  if (candidates->member.count == 0)
+    return true;
+  if (!weld_candidates_number(candidates, scene) ||
+      (lengths->count > 0 && !set_explained_radii(candidates, scene, topology,
+                                                  lengths, welded->length)))
+    return false;
+  welded->joined =
+      cluster_join(scene, welded->length, member, candidates->member.count);
+  return welded->joined != SIZE_MAX;
+}
+
+/* Finds the length and joins; false when memory ran out. */
 static bool join_close_points(struct welded *welded,
                               struct weld_candidates *candidates,
                               const struct topology *topology,
                               const struct weld_request *request) {
   const struct scene *scene = &welded->scene;
-  if (!weld_candidates_find(candidates, scene, topology))
+  rounding_lengths lengths = {.item = NULL};
+  if (!weld_candidates_list(candidates, scene, topology))
     return false;
   if (candidates->member.count == 0)
     return true;
   welded->length = fmin(request->length, WELD_LENGTH_MAX);
-  if (request->length < 0)
-    welded->length =
-        set_explained_radii(candidates, scene, topology, request->unstated);
-  if (welded->length < 0)
-    return false;
-  if (welded->length < WELD_LENGTH_LEAST)
-    return true;
-  welded->joined = cluster_join(scene, welded->length, candidates->member.item,
-                                candidates->member.count);
-  return welded->joined != SIZE_MAX;
+  bool ok = request->length >= 0 ||
+            find_rounding_lengths(scene, candidates, request->unstated,
+                                  &lengths, &welded->length);
+  if (ok && welded->length >= WELD_LENGTH_LEAST)
+    ok = join_members(welded, candidates, topology, &lengths);
+  ARRAY_FREE(&lengths);
+  return ok;
 }
 
 recto_status weld_near(struct welded *welded, struct topology *topology,

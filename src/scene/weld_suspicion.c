@@ -4,6 +4,7 @@
 
 #include "base/hash.h"
 #include "base/tolerance.h"
+#include "scene/isolated_members.h"
 #include "scene/weld_candidates.h"
 #include "scene/weld_near.h"
 
@@ -41,6 +42,16 @@ static void keep_sample(struct weld_candidates *candidates,
       member[candidates->member.count++] = member[i];
 }
 
+/* Joins members; returns how many another one represents, SIZE_MAX when memory
+ * ran out. */
+static size_t join_candidates(struct weld_candidates *candidates,
+                              const struct scene *scene, double length) {
+  struct cluster_member *member = candidates->member.item;
+  return isolated_members_drop(scene, length, member, &candidates->member.count)
+             ? cluster_join(scene, length, member, candidates->member.count)
+             : SIZE_MAX;
+}
+
 bool welded_is_suspicious(const struct welded *welded,
                           const struct topology *topology) {
   enum { FEWEST_FACES = 100, TENTHS_OF_EDGES = 3, ONE_POINT_IN = 4 };
@@ -50,7 +61,8 @@ bool welded_is_suspicious(const struct welded *welded,
   if (scene_face_count(scene) < FEWEST_FACES ||
       10 * welded->borders <= TENTHS_OF_EDGES * topology->edge.count)
     return false;
-  if (weld_candidates_find(&candidates, scene, topology) &&
+  if (weld_candidates_list(&candidates, scene, topology) &&
+      weld_candidates_number(&candidates, scene) &&
       weld_candidates_measure(&candidates, scene, topology)) {
     double length = 0;
     count = candidates.member.count;
@@ -62,7 +74,7 @@ bool welded_is_suspicious(const struct welded *welded,
     if (length >= WELD_LENGTH_LEAST) {
       keep_sample(&candidates, scene, length);
       count = candidates.member.count;
-      joined = cluster_join(scene, length, candidates.member.item, count);
+      joined = join_candidates(&candidates, scene, length);
     }
   }
   weld_candidates_fini(&candidates);

@@ -1,0 +1,188 @@
+/* isolated_members.c - which members share no cell with another, on a hash
+ * grid whose cells are wide against the length.
+ *
+ * A member is entered into the slots of all cells that lie within the length
+ * of it.  One that has a single slot, which no other is in, has no neighbour.
+ * Some share a slot by chance, and some lie at the sides of cells: where many
+ * were dropped, the others are tried once more, by another hash and with cells
+ * that lie otherwise. */
+#include "scene/isolated_members.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/hash.h"
+#include "base/parallel.h"
+#include "scene/slot_table.h"
+
+/* What one pass over the members needs. */
+struct member_visit {
+  struct slot_table table;
+  int round;
+  const struct scene *scene;
+  double length;
+  struct cluster_member *member;
+  size_t *kept; /* one a range: its members that are left, at its beginning */
+};
+
+/* ---- Slots --------------------------------------------------------------- */
+
+/* The number of a cell; all that are too far away have one. */
+static inline int64_t number_of_cell(double quotient) {
+  if (!(fabs(quotient) < 0x1p62))
+    return INT64_MAX;
+  int64_t whole = (int64_t)quotient;
+  return whole - ((double)whole > quotient);
+}
+
+/* The cells that lie within the length of a point: at most two along each
+ * axis, as cells are wide. */
+struct near_cells {
+  int64_t low[3], high[3];
+};
+
+static inline struct near_cells
+cells_of_member(const struct member_visit *visit, const struct scene_point *p) {
+  enum { LENGTHS = 64 }; /* in a cell's side */
+  const double at[3] = {p->x, p->y, p->z}, length = visit->length;
+  const double per_side = 1 / (LENGTHS * length), shift = 0.375 * visit->round;
+  struct near_cells cells;
+  for (int k = 0; k < 3; k++) {
+    cells.low[k] = number_of_cell((at[k] - length) * per_side + shift);
+    cells.high[k] = number_of_cell((at[k] + length) * per_side + shift);
+  }
+  return cells;
+}
+
+static inline size_t slot_of_near_cell(const struct member_visit *visit,
+                                       int64_t x, int64_t y, int64_t z) {
+  uint64_t hash = hash_add((uint64_t)visit->round, (uint64_t)x);
+  hash = hash_add(hash, (uint64_t)y);
+  hash = hash_add(hash, (uint64_t)z);
+  return slot_table_find(&visit->table, hash * HASH_GOLDEN);
+}
+
+/* Enters a member into several slots. */
+static void enter_cells(const struct member_visit *visit,
+                        const struct near_cells *cells) {
+  for (int64_t x = cells->low[0];; x = cells->high[0]) {
+    for (int64_t y = cells->low[1];; y = cells->high[1]) {
+      for (int64_t z = cells->low[2];; z = cells->high[2]) {
+        slot_table_enter(&visit->table, slot_of_near_cell(visit, x, y, z));
+        if (z == cells->high[2])
+          break;
+      }
+      if (y == cells->high[1])
+        break;
+    }
+    if (x == cells->high[0])
+      break;
+  }
+}
+
+/* The only slot of a member, which is fetched, and is to be entered into; where
+ * it has several, SCENE_NONE, when these were entered. */
+static inline uint32_t slot_of_member(const struct member_visit *visit,
+                                      const struct cluster_member *member) {
+  struct near_cells cells =
+      cells_of_member(visit, &visit->scene->point.item[member->point]);
+  if (cells.low[0] == cells.high[0] && cells.low[1] == cells.high[1] &&
+      cells.low[2] == cells.high[2])
+    return (uint32_t)slot_of_near_cell(visit, cells.low[0], cells.low[1],
+                                       cells.low[2]);
+  enter_cells(visit, &cells);
+  return SCENE_NONE;
+}
+
+/* ---- Passes -------------------------------------------------------------- */
+
+/* Enters the members of a range.  Their only slots are stored as their
+ * representatives, which are not known yet. */
+static bool enter_members(void *user, struct parallel_range range) {
+  const struct member_visit *visit = user;
+  struct cluster_member *member = visit->member;
+  for (size_t i = range.begin; i < range.end + SLOT_TABLE_AHEAD; i++) {
+    if (i + SLOT_TABLE_AHEAD < range.end)
+      MEM_PREFETCH(
+          &visit->scene->point.item[member[i + SLOT_TABLE_AHEAD].point]);
+    if (i >= range.begin + SLOT_TABLE_AHEAD) {
+      uint32_t slot = member[i - SLOT_TABLE_AHEAD].representative;
+      if (slot != SCENE_NONE)
+        slot_table_enter(&visit->table, slot);
+    }
+    if (i < range.end)
+      member[i].representative = slot_of_member(visit, &member[i]);
+  }
+  return true;
+}
+
+/* Moves the members of a range that may have a neighbour to its beginning. */
+static bool keep_members(void *user, struct parallel_range range) {
+  const struct member_visit *visit = user;
+  struct cluster_member *member = visit->member;
+  size_t kept = range.begin;
+  for (size_t i = range.begin; i < range.end; i++) {
+    if (i + SLOT_TABLE_AHEAD < range.end &&
+        member[i + SLOT_TABLE_AHEAD].representative != SCENE_NONE)
+      slot_table_fetch(&visit->table,
+                       member[i + SLOT_TABLE_AHEAD].representative);
+    if (member[i].representative == SCENE_NONE ||
+        slot_table_is_shared(&visit->table, member[i].representative))
+      member[kept++] = member[i];
+  }
+  visit->kept[range.begin / PARALLEL_ITEMS] = kept - range.begin;
+  return true;
+}
+
+/* Moves the members that are left together; returns how many there are. */
+static size_t gather_neighbours(const struct member_visit *visit,
+                                size_t count) {
+  size_t all = 0;
+  for (size_t r = 0; r < parallel_range_count(count, PARALLEL_ITEMS); r++) {
+    memmove(visit->member + all, visit->member + r * PARALLEL_ITEMS,
+            visit->kept[r] * sizeof *visit->member);
+    all += visit->kept[r];
+  }
+  return all;
+}
+
+/* Drops members by one hash; *count as of isolated_members_drop. */
+static bool drop_by_hash(struct member_visit *visit, size_t *count) {
+  enum { SLOTS = 8 }; /* for a member */
+  int workers = parallel_workers(*count, PARALLEL_ITEMS);
+  bool ok =
+      slot_table_init(&visit->table, SLOTS * *count, workers) &&
+      parallel_ranges(workers, *count, PARALLEL_ITEMS, enter_members, visit) &&
+      parallel_ranges(workers, *count, PARALLEL_ITEMS, keep_members, visit);
+  slot_table_fini(&visit->table);
+  if (ok)
+    *count = gather_neighbours(visit, *count);
+  return ok;
+}
+
+bool isolated_members_drop(const struct scene *scene, double length,
+                           struct cluster_member *member, size_t *count) {
+  enum { ROUNDS = 4, WORTH = 4 };
+  size_t left = 0;
+  for (size_t i = 0; i < *count; i++)
+    if (member[i].halvings != CLUSTER_ALONE)
+      member[left++] = member[i];
+  struct member_visit visit = {
+      .scene = scene,
+      .length = length,
+      .member = member,
+      .kept = mem_alloc(parallel_range_count(left, PARALLEL_ITEMS),
+                        sizeof *visit.kept)};
+  bool ok = visit.kept != NULL;
+  *count = left;
+  for (int round = 0; ok && round < ROUNDS && left > 0; round++) {
+    visit.round = round;
+    ok = drop_by_hash(&visit, &left);
+    bool is_worth = left * WORTH <= *count;
+    *count = left;
+    if (!is_worth)
+      break;
+  }
+  mem_free(visit.kept);
+  return ok;
+}

@@ -1,0 +1,18 @@
+/* isolated_members.h - leaves out members that no other is near, which is most
+ * of them in a scene of separate faces: it saves looking for clusters to
+ * join. */
+#ifndef SCENE_ISOLATED_MEMBERS_H
+#define SCENE_ISOLATED_MEMBERS_H
+
+#include "scene/cluster.h"
+
+/* Removes members that are CLUSTER_ALONE, and nearly all of those that have no
+ * other within the length; the others keep their order.
+ * length  more than 0
+ * count   in and out: how many there are
+ * Returns false when memory ran out. */
+USE_RESULT bool isolated_members_drop(const struct scene *scene, double length,
+                                      struct cluster_member *member,
+                                      size_t *count);
+
+#endif
