@@ -202,7 +202,7 @@ unit_tests += %D%/test_crease_marks
   %D%/reading.c %D%/reading.h
 unit_tests += %D%/test_obj_parallel
 %C%_test_obj_parallel_SOURCES = %D%/test_obj_parallel.c \
-  %D%/reading.c %D%/reading.h
+  %D%/reading.c %D%/reading.h %D%/temporary.c %D%/temporary.h
 unit_tests += %D%/test_precision
 %C%_test_precision_SOURCES = %D%/test_precision.c \
   %D%/reading.c %D%/reading.h

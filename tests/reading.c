@@ -194,16 +194,22 @@ bool reading_same(const struct scene *a, const struct scene *b) {
 
 /* ---- Threads ------------------------------------------------------------- */
 
+/* Reads bytes, or a file.
+ * bytes  NULL: the file */
 static void read_with_threads(struct reading *reading,
                               const struct reader *reader, const char *bytes,
-                              size_t count, int threads) {
+                              size_t count, const char *path, int threads) {
   recto_options options;
   struct poll poll;
   recto_options_init(&options);
   options.solver.threads = threads;
   poll_open(&poll, &options);
   reading_init(reading);
-  (void)reading_bytes(reading, reader, bytes, count);
+  if (bytes != NULL)
+    (void)reading_bytes(reading, reader, bytes, count);
+  else
+    reading->status = scene_read(&reading->scene, path, reader->name,
+                                 &reading->diagnostics, &reading->error);
   poll_close(&poll);
 }
 
@@ -225,13 +231,24 @@ static const char *reading_difference(const struct reading *a,
   return NULL;
 }
 
-const char *reading_parallel_fault(const struct reader *reader,
-                                   const char *bytes, size_t count) {
+static const char *parallel_fault(const struct reader *reader,
+                                  const char *bytes, size_t count,
+                                  const char *path) {
   struct reading one, several;
-  read_with_threads(&one, reader, bytes, count, 1);
-  read_with_threads(&several, reader, bytes, count, 4);
+  read_with_threads(&one, reader, bytes, count, path, 1);
+  read_with_threads(&several, reader, bytes, count, path, 4);
   const char *fault = reading_difference(&one, &several);
   reading_fini(&one);
   reading_fini(&several);
   return fault;
+}
+
+const char *reading_parallel_fault(const struct reader *reader,
+                                   const char *bytes, size_t count) {
+  return parallel_fault(reader, bytes, count, NULL);
+}
+
+const char *reading_parallel_file_fault(const struct reader *reader,
+                                        const char *path) {
+  return parallel_fault(reader, NULL, 0, path);
 }

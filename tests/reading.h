@@ -44,5 +44,8 @@ bool reading_same(const struct scene *a, const struct scene *b);
  * the process has one processor. */
 const char *reading_parallel_fault(const struct reader *reader,
                                    const char *bytes, size_t count);
+/* The same of a file. */
+const char *reading_parallel_file_fault(const struct reader *reader,
+                                        const char *path);
 
 #endif

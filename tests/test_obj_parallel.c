@@ -17,6 +17,7 @@
 #include "scene/read.h"
 #include "tests/reading.h"
 #include "tests/scenes/random.h"
+#include "tests/temporary.h"
 #include "tests/valgrind.h"
 
 enum { POINTS = 60000, FACES = 70000, LONGEST = 400 };
@@ -158,6 +159,37 @@ static void other_statements_are_found_where_they_are(void **state) {
     assert_same_in_parallel((uint64_t)seed, rarities[seed % 4]);
 }
 
+/* Of a file each thread reads the parts that it parses. */
+static void files_are_read_as_they_are_in_memory(void **state) {
+  static const uint32_t rarities[] = {0, 20000, 60000, 5000};
+  skip_without_processors();
+  for (int seed = 1; seed <= rounds(20); seed++) {
+    struct text text = write_file((uint64_t)seed, rarities[seed % 4]);
+    const char *path = temporary_file(state, "a.obj", text.bytes, text.count);
+    const char *fault = reading_parallel_file_fault(&reader_obj, path);
+    free(text.bytes);
+    if (fault != NULL)
+      fail_msg("file of seed %d: %s", seed, fault);
+  }
+}
+
+/* A face that names a point after it has all later ones read first, from the
+ * middle of a run. */
+static void points_may_follow_runs_of_faces(void **state) {
+  skip_without_processors();
+  struct text text = write_file(5, 0);
+  put(&text, "f 1 2 60003\nf 4 5 6\n");
+  struct random random = {5};
+  for (int i = 0; i < FACES / 8; i++)
+    put_face(&text, &random);
+  for (int i = 0; i < FACES / 8; i++)
+    put_point(&text, &random);
+  const char *path = temporary_file(state, "a.obj", text.bytes, text.count);
+  const char *fault = reading_parallel_file_fault(&reader_obj, path);
+  free(text.bytes);
+  assert_null(fault);
+}
+
 /* The end of the file may cut a statement of a part anywhere. */
 static void files_may_end_anywhere(void **state) {
   struct random random = {3};
@@ -177,6 +209,10 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(plain_files_are_read_alike),
       cmocka_unit_test(other_statements_are_found_where_they_are),
+      cmocka_unit_test_setup_teardown(files_are_read_as_they_are_in_memory,
+                                      temporary_set_up, temporary_tear_down),
+      cmocka_unit_test_setup_teardown(points_may_follow_runs_of_faces,
+                                      temporary_set_up, temporary_tear_down),
       cmocka_unit_test(files_may_end_anywhere)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -141,6 +141,19 @@ recto_status line_blocks_next(struct line_blocks *blocks, recto_error *error) {
   return RECTO_OK;
 }
 
+size_t line_blocks_copy(const struct line_blocks *blocks, off_t place, char *to,
+                        size_t count) {
+  size_t sum = 0;
+  ssize_t got = 1;
+  while (sum < count && got != 0) {
+    got = pread(blocks->descriptor, to + sum, count - sum, place + (off_t)sum);
+    if (got < 0 && errno != EINTR)
+      break;
+    sum += got > 0 ? (size_t)got : 0;
+  }
+  return sum;
+}
+
 void line_blocks_share(struct line_blocks *second,
                        const struct line_blocks *blocks) {
   *second = *blocks;

@@ -47,6 +47,12 @@ void line_blocks_seek(struct line_blocks *blocks, off_t place);
 USE_RESULT recto_status line_blocks_next(struct line_blocks *blocks,
                                          recto_error *error);
 
+/* Copies up to `count` bytes of the file from a place on; the blocks stay where
+ * they are.  Returns how many there are, fewer also where they cannot be read.
+ * Threads  may be called from several at once */
+size_t line_blocks_copy(const struct line_blocks *blocks, off_t place, char *to,
+                        size_t count);
+
 /* Makes `second` blocks of the same file, which are to be closed first. */
 void line_blocks_share(struct line_blocks *second,
                        const struct line_blocks *blocks);

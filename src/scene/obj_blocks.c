@@ -7,17 +7,7 @@
 
 #include <string.h>
 
-#include "base/parallel.h"
 #include "scene/diagnostics.h"
-
-/* Several threads parse parts of one block: so large that it is worth while. */
-enum { BLOCK_BYTES = 1 << 18, BLOCK_BYTES_OF_THREADS = 1 << 22 };
-
-size_t obj_blocks_bytes(void) {
-  return parallel_workers(BLOCK_BYTES_OF_THREADS, BLOCK_BYTES) > 1
-             ? BLOCK_BYTES_OF_THREADS
-             : BLOCK_BYTES;
-}
 
 /* Hands a block to the parser. */
 static recto_status enter_lines(const struct line_blocks *lines,
@@ -57,9 +47,10 @@ recto_status obj_blocks_keep_names(struct obj_blocks *blocks,
 
 recto_status obj_blocks_read_points_behind(const struct obj_blocks *blocks,
                                            struct obj_parser *p) {
-  struct line_blocks behind;
+  struct line_blocks behind, *lines = p->lines;
   recto_status status = RECTO_OK;
   line_blocks_share(&behind, &blocks->lines);
+  p->lines = &behind;
   while (status == RECTO_OK) {
     status = line_blocks_next(&behind, p->error);
     if (status != RECTO_OK || behind.count == 0)
@@ -69,6 +60,7 @@ recto_status obj_blocks_read_points_behind(const struct obj_blocks *blocks,
       status = obj_read_statements(p, true);
   }
   line_blocks_close(&behind);
+  p->lines = lines;
   if (status == RECTO_OK)
     status = enter_lines(&blocks->lines, p);
   return status;
@@ -81,6 +73,7 @@ recto_status obj_blocks_read(struct obj_blocks *blocks, struct scene *scene,
   recto_status status = RECTO_OK;
   obj_parser_begin(&p, scene, path, diagnostics, error);
   p.blocks = blocks;
+  p.lines = &blocks->lines;
   while (status == RECTO_OK) {
     status = line_blocks_next(&blocks->lines, error);
     if (status != RECTO_OK || blocks->lines.count == 0)

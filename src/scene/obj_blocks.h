@@ -11,9 +11,8 @@ struct obj_blocks {
   ARRAY(char) name[NAME_COUNT]; /* current names, of earlier blocks */
 };
 
-/* How many bytes of a block are read at once, for so many threads as the call
- * may use. */
-size_t obj_blocks_bytes(void);
+/* How many bytes of a block are read at once. */
+enum { OBJ_BLOCK_BYTES = 1 << 18 };
 
 /* Hands the current block to the parser.
  * Errors  as of obj_parser_open */

@@ -12,12 +12,15 @@ enum { OBJ_DIGITS_MAX = 12 }; /* of an index that may be in range */
 
 enum name_kind { NAME_OBJECT, NAME_GROUP, NAME_MATERIAL, NAME_COUNT };
 
+struct line_blocks;
 struct obj_blocks;
 
 struct obj_parser {
   struct scene *scene;
   /* Of which this is one; NULL: it is the whole file. */
   const struct obj_blocks *blocks;
+  /* Whose current block this is, if it may be left for a later place; NULL. */
+  struct line_blocks *lines;
   const char *at, *end; /* *end is NUL */
   unsigned long line;   /* of `at` */
   const char *path;

@@ -4,6 +4,7 @@
 #include "scene/obj_plain.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/number.h"
 #include "scene/corner_normals.h"
@@ -14,11 +15,10 @@
 enum { PLAIN_ROOM = OBJ_PLAIN_ROOM };
 
 /* Is there a statement of that letter, with room to look at? */
-static inline bool has_short_statement(const struct obj_parser *p,
-                                       const struct obj_run *run,
+static inline bool has_short_statement(const struct obj_run *run,
                                        char keyword) {
   return run->count < run->most && run->at < run->end &&
-         p->end - run->at > PLAIN_ROOM && run->at[0] == keyword &&
+         run->limit - run->at > PLAIN_ROOM && run->at[0] == keyword &&
          run->at[1] == ' ';
 }
 
@@ -26,7 +26,7 @@ static inline bool has_short_statement(const struct obj_parser *p,
 
 /* Reads a coordinate of a statement; NULL where it is no finite number, or
  * where those before it were too long. */
-static inline const char *read_coordinate(const struct obj_parser *p,
+static inline const char *read_coordinate(const struct obj_run *run,
                                           const char *start, const char *at,
                                           double *value) {
   if (at - start > PLAIN_ROOM / 2)
@@ -34,21 +34,21 @@ static inline const char *read_coordinate(const struct obj_parser *p,
   const char *past = number_parse_plain(at, value);
   if (past != NULL && *past <= ' ')
     return past;
-  past = number_parse_double(at, p->end, value);
+  past = number_parse_double(at, run->limit, value);
   return past != NULL && isfinite(*value) ? past : NULL;
 }
 
 /* Reads "v x y z" to its end; NULL where it is something else. */
-static inline const char *read_plain_point(const struct obj_parser *p,
-                                           const char *start,
+static inline const char *read_plain_point(const struct obj_run *run,
                                            struct scene_point *point) {
-  const char *at = read_coordinate(p, start, start + 2, &point->x);
+  const char *start = run->at;
+  const char *at = read_coordinate(run, start, start + 2, &point->x);
   if (at == NULL || *at != ' ')
     return NULL;
-  at = read_coordinate(p, start, at + 1, &point->y);
+  at = read_coordinate(run, start, at + 1, &point->y);
   if (at == NULL || *at != ' ')
     return NULL;
-  at = read_coordinate(p, start, at + 1, &point->z);
+  at = read_coordinate(run, start, at + 1, &point->z);
   return at != NULL && *at == '\n' ? at + 1 : NULL;
 }
 
@@ -65,13 +65,16 @@ static bool read_points(const struct obj_parser *p, struct obj_run *run) {
   struct scene_point *point =
       p->scene->point.item + p->scene->point.count + run->before;
   size_t first = p->seen + run->before, sampled = next_sampled(p, first);
-  for (; has_short_statement(p, run, 'v'); run->count++) {
-    const char *past = read_plain_point(p, run->at, &point[run->count]);
+  for (; has_short_statement(run, 'v'); run->count++) {
+    const char *past = read_plain_point(run, &point[run->count]);
     if (past == NULL)
       break;
     if (first + run->count == sampled) {
-      if (!ARRAY_PUSH(&run->sampled, run->at))
+      size_t length = (size_t)(past - run->at);
+      if (!ARRAY_RESERVE(&run->sampled, length))
         return false;
+      memcpy(run->sampled.item + run->sampled.count, run->at, length);
+      run->sampled.count += length;
       sampled = precision_sampled_after(sampled);
     }
     run->at = past;
@@ -79,9 +82,10 @@ static bool read_points(const struct obj_parser *p, struct obj_run *run) {
   return true;
 }
 
-/* Looks at the numbers of "v x y z", which are plain. */
-static void sample_point(struct obj_parser *p, const char *at,
-                         const struct scene_point *point) {
+/* Looks at the numbers of the line "v x y z", which are plain; returns where it
+ * ends. */
+static const char *sample_point(struct obj_parser *p, const char *at,
+                                const struct scene_point *point) {
   const double xyz[3] = {point->x, point->y, point->z};
   at += 2;
   for (int k = 0; k < 3; k++) {
@@ -90,15 +94,17 @@ static void sample_point(struct obj_parser *p, const char *at,
       at++;
     precision_add_literal(&p->sample, start, at++, xyz[k]);
   }
+  return at;
 }
 
 static bool add_points(struct obj_parser *p, const struct obj_run *run) {
   const struct scene_point *point =
       p->scene->point.item + p->scene->point.count;
-  for (size_t i = 0; i < run->sampled.count; i++) {
+  const char *at = run->sampled.item, *end = at + run->sampled.count;
+  while (at < end) {
     size_t number = next_sampled(p, p->seen);
     (void)precision_is_sampled(&p->sample, number);
-    sample_point(p, run->sampled.item[i], &point[number - p->seen]);
+    at = sample_point(p, at, &point[number - p->seen]);
   }
   p->seen += run->count;
   p->scene->point.count += run->count;
@@ -158,7 +164,7 @@ static void read_corners_of_faces(const struct obj_parser *p,
   do {
     begin[read % MEM_PREFETCH_AHEAD] = run->at;
     const char *past =
-        goes_on && read < run->most && has_short_statement(p, run, 'f')
+        goes_on && read < run->most && has_short_statement(run, 'f')
             ? read_plain_face(p, run->at, &corner[3 * read])
             : NULL;
     goes_on = past != NULL;

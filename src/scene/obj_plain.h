@@ -12,10 +12,11 @@ enum {
 /* A run of plain statements of one kind, or a part of one. */
 struct obj_run {
   const char *at, *end; /* where the next one begins, and where it ends */
+  const char *limit;    /* where the text ends that may be looked at: a NUL */
   size_t most, count;   /* how many it may have, and has */
   size_t before;        /* how many the parts before it may have */
   bool has_normals;     /* a corner of its faces has one */
-  ARRAY(const char *) sampled; /* points whose numbers are looked at */
+  struct byte_array sampled; /* lines of points whose numbers are looked at */
 };
 
 struct obj_run_kind {

@@ -4,16 +4,21 @@
  * without the tests that only others need.  What follows a run is left to
  * reader_obj.c.
  *
- * In parallel, once a run is long, as many bytes as it had so far are divided
- * into parts at the ends of lines.  Where all statements are plain, the lines
- * before a part say where its points or faces belong.  The parts are taken up
- * to the first that is not plain to its end, after which none is begun; where
- * that begins something else, it is read again. */
+ * In parallel, once a run is long, what follows is divided into parts at the
+ * ends of lines.  Where the file is read in blocks, each thread reads the parts
+ * that it parses, into memory of its own that stays in its cache.  Where all
+ * statements are plain, the lines before a part say where its points or faces
+ * belong: so the lines of a part are counted before it is parsed, and summed in
+ * order.  The parts are taken up to the first that is not plain to its end,
+ * after which none is begun; where that begins something else, it is read
+ * again. */
 #include <pthread.h>
 #include <stdatomic.h>
 #include <string.h>
 
+#include "base/line_blocks.h"
 #include "base/parallel.h"
+#include "scene/diagnostics.h"
 #include "scene/limit.h"
 #include "scene/obj_plain.h"
 
@@ -27,21 +32,34 @@ enum {
   PLAIN_RUN = 4096, /* statements that room is made for */
   PART_BYTES = 1 << 16,
 #endif
-  PARTS_MAX = 64,      /* at once */
+  PARTS_MAX = 256, /* at once */
+  TIMES_SO_FAR = 4,
   STATEMENT_BYTES = 8, /* of the shortest one: "v 0 0 0", "f 1 2 3" */
+  ROOM_BYTES = 2 * OBJ_PLAIN_ROOM, /* behind a part that may be looked at */
 };
 
-/* ---- In parallel --------------------------------------------------------- */
+/* ---- Parts --------------------------------------------------------------- */
+
+struct run_part {
+  struct obj_run run;
+  size_t past;   /* where its last plain statement ends, from the first part's
+                    beginning */
+  bool is_plain; /* to its end */
+};
 
 struct parts {
   struct obj_parser *p;
   const struct obj_run_kind *kind;
-  struct obj_run *part;
+  struct run_part *part;
   size_t count;
-  pthread_mutex_t lock; /* of `counted` and `lines` */
-  size_t counted;       /* parts whose lines were counted */
-  size_t lines;         /* of these */
-  atomic_size_t broken; /* a part that is not plain to its end; `count`: none */
+  off_t from;           /* where the first begins in the file, */
+  atomic_size_t next;   /* the first that no thread has taken */
+  atomic_size_t broken; /* one that is not plain to its end; `count`: none */
+  atomic_bool ended;    /* memory ran out, or the caller cancelled */
+  pthread_mutex_t lock; /* of what follows */
+  pthread_cond_t is_placed;
+  size_t placed; /* parts before which the lines are known */
+  size_t lines;  /* of these */
 };
 
 static void note_broken(struct parts *parts, size_t i) {
@@ -51,101 +69,197 @@ static void note_broken(struct parts *parts, size_t i) {
     ;
 }
 
-/* Counts the lines of the parts up to number i, to find where the statements of
- * this one belong.  One with more lines than plain statements would have room
- * for is broken, so that no later one is read. */
-static void place_part(struct parts *parts, size_t i) {
+/* Sums up the lines of the parts, in order, to find where the statements of
+ * this one belong.  Each part that a thread took is placed by it, so that no
+ * other one waits for long. */
+static void place_part(struct parts *parts, size_t i, size_t lines) {
   (void)pthread_mutex_lock(&parts->lock);
-  for (; parts->counted <= i; parts->counted++) {
-    struct obj_run *part = &parts->part[parts->counted];
-    size_t lines = obj_count_lines(part->at, part->end);
-    if (lines > (size_t)(part->end - part->at) / STATEMENT_BYTES) {
-      note_broken(parts, parts->counted);
-      lines = 0;
-    }
-    part->before = parts->lines;
-    part->most = lines;
-    parts->lines += lines;
-  }
+  while (parts->placed < i)
+    (void)pthread_cond_wait(&parts->is_placed, &parts->lock);
+  parts->part[i].run.before = parts->lines;
+  parts->part[i].run.most = lines;
+  parts->lines += lines;
+  parts->placed++;
+  (void)pthread_cond_broadcast(&parts->is_placed);
   (void)pthread_mutex_unlock(&parts->lock);
 }
 
-static bool read_run_parts(void *user, struct parallel_range range) {
-  struct parts *parts = user;
-  for (size_t i = range.begin; i < range.end; i++) {
-    struct obj_run *part = &parts->part[i];
-    place_part(parts, i);
-    if (i > atomic_load(&parts->broken))
-      return true;
-    if (!parts->kind->read(parts->p, part))
-      return false;
-    if (part->at < part->end)
-      note_broken(parts, i);
-  }
+/* Lets a part be the lines that begin within its bytes.
+ * text   a byte before these, but of the first part
+ * Returns false where a line is too long to be plain. */
+static bool bound_part(struct obj_run *run, const char *text, bool is_first,
+                       const char *limit) {
+  const char *at = text, *last = text + PART_BYTES - is_first;
+  if (limit <= last)
+    return false;
+  if (!is_first)
+    at = memchr(text, '\n', PART_BYTES);
+  size_t room = (size_t)(limit - last);
+  const char *end =
+      memchr(last, '\n', room < ROOM_BYTES ? room : (size_t)ROOM_BYTES);
+  if (at == NULL || end == NULL)
+    return false;
+  run->at = is_first ? at : at + 1;
+  run->end = end + 1;
+  run->limit = limit;
+  return run->at <= run->end;
+}
+
+/* Finds the text of a part, in the file or in memory.
+ * buffer  of this thread
+ * Returns false where it is not plain, or cannot be read. */
+static bool open_part(const struct parts *parts, size_t i,
+                      struct byte_array *buffer) {
+  enum { NULS = 8, MOST = 1 + PART_BYTES + ROOM_BYTES };
+  const struct obj_parser *p = parts->p;
+  struct obj_run *run = &parts->part[i].run;
+  size_t before = i * PART_BYTES - (i > 0);
+  if (p->lines == NULL)
+    return bound_part(run, p->at + before, i == 0, p->end);
+  buffer->count = 0;
+  if (!ARRAY_RESERVE(buffer, MOST + NULS))
+    return false;
+  size_t got = line_blocks_copy(p->lines, parts->from + (off_t)before,
+                                buffer->item, MOST);
+  memset(buffer->item + got, 0, NULS);
+  return bound_part(run, buffer->item, i == 0, buffer->item + got);
+}
+
+/* Reads a part that this thread took; false when memory ran out. */
+static bool read_part_of_run(struct parts *parts, size_t i,
+                             struct byte_array *buffer) {
+  struct run_part *part = &parts->part[i];
+  struct obj_run *run = &part->run;
+  bool is_open =
+      i <= atomic_load(&parts->broken) && open_part(parts, i, buffer);
+  const char *begin = run->at;
+  size_t lines = is_open ? obj_count_lines(begin, run->end) : 0;
+  /* One with more lines than there is room for has others than plain ones. */
+  is_open = is_open && lines <= (size_t)(run->end - begin) / STATEMENT_BYTES;
+  if (!is_open)
+    note_broken(parts, i);
+  place_part(parts, i, is_open ? lines : 0);
+  if (!is_open || i > atomic_load(&parts->broken))
+    return true;
+  if (!parts->kind->read(parts->p, run))
+    return false;
+  const char *text = parts->p->lines == NULL ? parts->p->at : buffer->item;
+  part->past = (size_t)(run->at - text);
+  if (parts->p->lines != NULL)
+    part->past += i * PART_BYTES - (i > 0);
+  part->is_plain = run->at == run->end;
+  if (!part->is_plain)
+    note_broken(parts, i);
   return true;
 }
 
-/* Takes the statements of a run; whether it was plain to its end. */
-static bool take_run(struct obj_parser *p, const struct obj_run_kind *kind,
+static void read_taken_parts(void *user, bool is_caller) {
+  struct parts *parts = user;
+  struct byte_array buffer = {.item = NULL};
+  size_t i;
+  while ((i = atomic_fetch_add(&parts->next, 1)) < parts->count) {
+    bool goes_on = !is_caller || poll_now();
+    if (!goes_on)
+      note_broken(parts, 0);
+    if (!read_part_of_run(parts, i, &buffer) || !goes_on) {
+      atomic_store(&parts->ended, true);
+      note_broken(parts, 0);
+    }
+  }
+  ARRAY_FREE(&buffer);
+}
+
+/* ---- In parallel --------------------------------------------------------- */
+
+/* Adds the statements of a run. */
+static void take_run(struct obj_parser *p, const struct obj_run_kind *kind,
                      const struct obj_run *run) {
   if (!kind->add(p, run))
     p->out_of_memory = true;
-  p->at = run->at;
   p->line += run->count;
-  return run->at == run->end;
 }
 
-/* Divides what follows into parts; returns where the last one ends. */
-static const char *divide_into_parts(const struct parts *parts) {
-  const struct obj_parser *p = parts->p;
-  struct obj_run *part = parts->part;
-  for (size_t i = 0; i < parts->count; i++) {
-    const char *nominal = p->at + (i + 1) * PART_BYTES;
-    const char *end = memchr(nominal, '\n', (size_t)(p->end - nominal));
-    part[i].at = i > 0 ? part[i - 1].end : p->at;
-    part[i].end = end != NULL ? end + 1 : p->end;
+/* Where the parser is in its file. */
+static off_t place_in_file(const struct obj_parser *p) {
+  return p->lines->end - (p->end - p->at);
+}
+
+/* Goes on so many bytes: to where the next block is to begin, if this one has
+ * not as many. */
+static void go_on(struct obj_parser *p, size_t bytes) {
+  if (bytes <= (size_t)(p->end - p->at)) {
+    p->at += bytes;
+    return;
   }
-  return part[parts->count - 1].end;
+  line_blocks_seek(p->lines, place_in_file(p) + (off_t)bytes);
+  p->at = p->end;
+  if (p->diagnostics != NULL) {
+    p->diagnostics->bytes = p->diagnostics->poll_at = p->at;
+    p->diagnostics->bytes_before = (size_t)p->lines->begin;
+  }
 }
 
 /* Reads the parts, and takes those that are plain; *plain: all of them. */
 static recto_status read_parts_of_run(struct parts *parts, int workers,
                                       bool *plain) {
   struct obj_parser *p = parts->p;
-  const char *start = p->at, *end = divide_into_parts(parts);
-  size_t most = (size_t)(end - start) / STATEMENT_BYTES;
-  *plain = parts->kind->reserve(p, most) &&
-           parallel_ranges(workers, parts->count, 1, read_run_parts, parts);
+  size_t past = 0;
+  size_t most = (parts->count * PART_BYTES + ROOM_BYTES) / STATEMENT_BYTES;
+  *plain = parts->kind->reserve(p, most);
+  if (*plain) {
+    parallel_run(workers, read_taken_parts, parts);
+    *plain = !atomic_load(&parts->ended);
+  }
   recto_status status = *plain ? RECTO_OK : error_memory(p->error);
-  for (size_t i = 0; *plain && i < parts->count; i++)
-    *plain = take_run(p, parts->kind, &parts->part[i]);
-  p->run_bytes = *plain ? p->run_bytes + (size_t)(p->at - start) : 0;
+  for (size_t i = 0; *plain && i < parts->count; i++) {
+    const struct run_part *part = &parts->part[i];
+    *plain = part->is_plain;
+    if (part->past > 0) {
+      take_run(p, parts->kind, &part->run);
+      past = part->past;
+    }
+  }
+  p->run_bytes = *plain ? p->run_bytes + past : 0;
+  go_on(p, past);
   return p->out_of_memory ? error_memory(p->error) : status;
 }
 
-/* Reads parts of what follows, no more bytes than the run had so far, where
- * several threads can.
+/* How many bytes there are from where the parser is to the end of the file, or
+ * of what is in memory. */
+static size_t bytes_left(const struct obj_parser *p) {
+  return p->lines == NULL ? (size_t)(p->end - p->at)
+                          : (size_t)(p->lines->size - place_in_file(p));
+}
+
+/* Reads parts of what follows where the run was so long so far that this is
+ * worth several threads, no more than so many times its bytes.
  * plain  gets whether all of them were plain */
 static recto_status read_ahead(struct obj_parser *p,
                                const struct obj_run_kind *kind, bool *plain) {
-  size_t left = (size_t)(p->end - p->at);
-  size_t count = (p->run_bytes < left ? p->run_bytes : left) / PART_BYTES;
+  size_t left = bytes_left(p);
+  int workers = parallel_workers(p->run_bytes / PART_BYTES, 1);
+  size_t most = TIMES_SO_FAR * p->run_bytes;
+  size_t count = (most < left ? most : left) / PART_BYTES;
   count = count < PARTS_MAX ? count : PARTS_MAX;
-  int workers = parallel_workers(count, 1);
   *plain = false;
-  if (workers == 1 ||
+  if (workers == 1 || count == 0 ||
       p->scene->corner.count + 3 * (left / STATEMENT_BYTES) > SCENE_LIMIT ||
       p->scene->point.count + left / STATEMENT_BYTES > SCENE_LIMIT)
     return RECTO_OK;
   struct parts parts = {.p = p, .kind = kind, .count = count, .broken = count};
+  if (p->lines != NULL)
+    parts.from = place_in_file(p);
   parts.part = mem_calloc(count, sizeof *parts.part);
-  if (parts.part == NULL || pthread_mutex_init(&parts.lock, NULL) != 0) {
-    mem_free(parts.part);
+  if (parts.part == NULL)
     return error_memory(p->error);
-  }
-  recto_status status = read_parts_of_run(&parts, workers, plain);
+  (void)pthread_mutex_init(&parts.lock, NULL);
+  (void)pthread_cond_init(&parts.is_placed, NULL);
+  recto_status status = diagnostics_poll(p->diagnostics, p->at, p->error);
+  if (status == RECTO_OK)
+    status = read_parts_of_run(&parts, workers, plain);
   for (size_t i = 0; i < count; i++)
-    ARRAY_FREE(&parts.part[i].sampled);
+    ARRAY_FREE(&parts.part[i].run.sampled);
+  (void)pthread_cond_destroy(&parts.is_placed);
   (void)pthread_mutex_destroy(&parts.lock);
   mem_free(parts.part);
   return status;
@@ -156,11 +270,13 @@ static recto_status read_ahead(struct obj_parser *p,
 /* Reads up to PLAIN_RUN statements. */
 static recto_status read_alone(struct obj_parser *p,
                                const struct obj_run_kind *kind) {
-  struct obj_run run = {.at = p->at, .end = p->end, .most = PLAIN_RUN};
+  struct obj_run run = {
+      .at = p->at, .end = p->end, .limit = p->end, .most = PLAIN_RUN};
   bool ok = kind->reserve(p, PLAIN_RUN) && kind->read(p, &run);
   p->run_bytes += (size_t)(run.at - p->at);
   if (ok)
-    (void)take_run(p, kind, &run);
+    take_run(p, kind, &run);
+  p->at = run.at;
   ARRAY_FREE(&run.sampled);
   return ok && !p->out_of_memory ? RECTO_OK : error_memory(p->error);
 }

@@ -184,7 +184,7 @@ recto_status scene_read(struct scene *scene, const char *path,
     return refuse_format(path, format, error);
   struct obj_blocks blocks = {.lines = {.bytes = NULL}};
   if (reader == &reader_obj &&
-      line_blocks_open(&blocks.lines, path, obj_blocks_bytes()) &&
+      line_blocks_open(&blocks.lines, path, OBJ_BLOCK_BYTES) &&
       (uint64_t)blocks.lines.size <= input_size_max())
     return scene_read_blocks(scene, &blocks, path, diagnostics, error);
   obj_blocks_close(&blocks);

@@ -11,8 +11,7 @@
  *
  * Robustness: a statement that makes no sense is skipped with a warning, but
  * bytes that no text holds, and a last line that stops in the middle of a
- * statement, mean that the file itself is broken.
- */
+ * statement, mean that the file itself is broken. */
 #include "scene/obj_blocks.h"
 
 #include <math.h>
@@ -72,12 +71,15 @@ recto_status obj_read_ahead(struct obj_parser *p) {
   const char *at = p->at;
   unsigned long line = p->line;
   size_t seen = p->seen, normals_seen = p->normals_seen;
+  struct line_blocks *lines = p->lines;
+  p->lines = NULL; /* the block is read again from here on */
   obj_skip_line(p, true);
   recto_status status = obj_read_statements(p, true);
   if (status == RECTO_OK && p->blocks != NULL)
     status = obj_blocks_read_points_behind(p->blocks, p);
   p->at = at;
   p->line = line;
+  p->lines = lines;
   p->seen = seen;
   p->normals_seen = normals_seen;
   p->ahead = true;
