@@ -4,10 +4,12 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
 
+#include "base/poll.h"
 #include "scene/angle.h"
 #include "tests/scenes/random.h"
 #include "tests/scenes/scenes.h"
@@ -15,6 +17,7 @@
 #include "view/camera_aim.h"
 #include "view/camera_axes.h"
 #include "view/project.h"
+#include "view/used_box.h"
 
 /* ---- Means --------------------------------------------------------------- */
 
@@ -916,6 +919,56 @@ static void a_failed_allocation_is_reported(void **state) {
   scene_fini(&scene);
 }
 
+/* ---- Boxes --------------------------------------------------------------- */
+
+/* Whether the box is the one that a single loop finds, to the sign of 0. */
+static void check_box(const struct scene *scene, const uint8_t *used,
+                      int threads) {
+  struct used_box box, wanted = {{INFINITY, INFINITY, INFINITY},
+                                 {-INFINITY, -INFINITY, -INFINITY}};
+  for (size_t p = 0; p < scene->point.count; p++) {
+    const struct scene_point *at = &scene->point.item[p];
+    const double xyz[3] = {at->x, at->y, at->z};
+    for (int k = 0; used[p] && k < 3; k++) {
+      wanted.low[k] = xyz[k] < wanted.low[k] ? xyz[k] : wanted.low[k];
+      wanted.high[k] = xyz[k] > wanted.high[k] ? xyz[k] : wanted.high[k];
+    }
+  }
+  recto_options options;
+  struct poll poll;
+  recto_options_init(&options);
+  options.solver.threads = threads;
+  poll_open(&poll, &options);
+  assert_true(used_box_find(&box, scene, used, NULL));
+  poll_close(&poll);
+  assert_memory_equal(&box, &wanted, sizeof box);
+}
+
+static void boxes_do_not_depend_on_threads(void **state) {
+  (void)state;
+  enum { POINTS = 300000 };
+  struct random random = {41};
+  struct scene scene;
+  scene_init(&scene);
+  uint8_t *used = calloc(POINTS, 1);
+  assert_non_null(used);
+  for (int i = 0; i < POINTS; i++) {
+    struct scene_point point = {random_below(&random, 2) ? 0 : -0.0,
+                                random_between(&random, -1, 1),
+                                random_between(&random, 2, 3)};
+    assert_true(ARRAY_PUSH(&scene.point, point));
+    used[i] = i > POINTS / 2 && random_below(&random, 3) == 0;
+  }
+  check_box(&scene, used, 1);
+  check_box(&scene, used, 4);
+  memset(used, 0, POINTS);
+  check_box(&scene, used, 4);
+  used[POINTS - 1] = 1;
+  check_box(&scene, used, 4);
+  free(used);
+  scene_fini(&scene);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(named_views_are_exact),
@@ -952,6 +1005,7 @@ int main(void) {
       cmocka_unit_test(units_and_places_move_nothing_on_the_page),
       cmocka_unit_test(the_matrix_is_the_camera),
       cmocka_unit_test(a_failed_allocation_is_reported),
+      cmocka_unit_test(boxes_do_not_depend_on_threads),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -27,6 +27,7 @@
 #include "view/camera_axes.h"
 #include "view/camera_phases.h"
 #include "view/used.h"
+#include "view/used_box.h"
 #include "geom/vector.h"
 
 /* The largest page that fits on the page grid. */
@@ -86,22 +87,12 @@ static recto_status check_view(const struct aim *aim) {
 
 /* ---- Aim ----------------------------------------------------------------- */
 
-static void grow_range_of_axes(double low[3], double high[3],
-                               const struct scene_point *point) {
-  const double p[3] = {point->x, point->y, point->z};
-  for (int k = 0; k < 3; k++) {
-    low[k] = min_number(low[k], p[k]);
-    high[k] = max_number(high[k], p[k]);
-  }
-}
-
 /* The bounding box of all that is drawn: its centre and diagonal. */
 static recto_status measure_scene(struct aim *aim) {
-  double low[3] = {INFINITY, INFINITY, INFINITY};
-  double high[3] = {-INFINITY, -INFINITY, -INFINITY};
-  for (size_t p = 0; p < aim->scene->point.count; p++)
-    if (aim->used[p])
-      grow_range_of_axes(low, high, &aim->scene->point.item[p]);
+  struct used_box box;
+  if (!used_box_find(&box, aim->scene, aim->used, NULL))
+    return error_cancelled(aim->error);
+  const double *low = box.low, *high = box.high;
   if (low[0] > high[0])
     return error_set(aim->error, RECTO_ERROR_EMPTY, NULL, 0,
                      "there is nothing to draw");
@@ -229,22 +220,15 @@ static recto_status set_eye(struct aim *aim) {
 /* ---- Depths -------------------------------------------------------------- */
 
 /* The depths, and what an orthographic view needs of the same points. */
-static void measure_depth(struct aim *aim) {
-  struct extent extent = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
-  aim->d_low = INFINITY;
-  aim->d_high = -INFINITY;
-  for (size_t p = 0; p < aim->scene->point.count; p++) {
-    if (!aim->used[p])
-      continue;
-    struct view_point v = camera_view(aim->camera, &aim->scene->point.item[p]);
-    aim->d_low = min_number(aim->d_low, v.d);
-    aim->d_high = max_number(aim->d_high, v.d);
-    extent.low[0] = min_number(extent.low[0], v.x);
-    extent.high[0] = max_number(extent.high[0], v.x);
-    extent.low[1] = min_number(extent.low[1], v.y);
-    extent.high[1] = max_number(extent.high[1], v.y);
-  }
-  aim->extent = extent;
+static recto_status measure_depth(struct aim *aim) {
+  struct used_box box;
+  if (!used_box_find(&box, aim->scene, aim->used, aim->camera))
+    return error_cancelled(aim->error);
+  aim->d_low = box.low[2];
+  aim->d_high = box.high[2];
+  aim->extent =
+      (struct extent){{box.low[0], box.low[1]}, {box.high[0], box.high[1]}};
+  return RECTO_OK;
 }
 
 /* The default near plane. */
@@ -267,7 +251,9 @@ static double depth_origin(const struct aim *aim, bool section) {
 static recto_status set_depth_range(struct aim *aim) {
   const recto_options *o = aim->options;
   struct camera *camera = aim->camera;
-  measure_depth(aim);
+  recto_status status = measure_depth(aim);
+  if (status != RECTO_OK)
+    return status;
   camera->near_chosen = !(o->camera.near_distance > 0);
   camera->near_d = o->camera.near_distance > 0
                        ? depth_origin(aim, false) + o->camera.near_distance
@@ -377,8 +363,9 @@ recto_status camera_find_section(struct camera_section *section,
   recto_status status = begin_aim(&aim);
   if (status == RECTO_OK)
     status = look_at_target(&aim);
+  if (status == RECTO_OK)
+    status = measure_depth(&aim);
   if (status == RECTO_OK) {
-    measure_depth(&aim);
     double depth = depth_origin(&aim, true) + options->camera.section;
     section->is_within = depth > aim.d_low;
     memcpy(section->normal, camera.back, sizeof camera.back);

@@ -25,4 +25,5 @@ librecto_core_la_SOURCES += \
   %D%/scene_part.c %D%/scene_part.h \
   %D%/sheet.c %D%/sheet.h \
   %D%/sheet_sides.c \
-  %D%/used.c %D%/used.h
+  %D%/used.c %D%/used.h \
+  %D%/used_box.c %D%/used_box.h

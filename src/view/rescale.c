@@ -11,6 +11,7 @@
 #include <math.h>
 
 #include "geom/vector.h"
+#include "view/used_box.h"
 
 enum { LARGEST_EXPONENT = 100 };
 
@@ -37,13 +38,17 @@ static double largest_used(const struct scene *scene, double enough) {
                      enough));
 }
 
-/* The exponent of the power of two to divide by. */
+/* The exponent of the power of two to divide by; 0 also where the caller
+ * cancelled, which is found later. */
 static int choose_exponent(const struct scene *scene) {
   const double largest_kept = ldexp(1, LARGEST_EXPONENT),
                least = 1 / largest_kept;
+  struct used_box box;
   double largest = 0;
-  for (size_t p = 0; p < scene->point.count; p++)
-    largest = max_number(largest, largest_of(&scene->point.item[p]));
+  if (!used_box_find(&box, scene, NULL, NULL))
+    return 0;
+  for (int k = 0; k < 3; k++)
+    largest = max_number(largest, max_number(-box.low[k], box.high[k]));
   if (largest <= largest_kept && largest_used(scene, least) >= least)
     return 0;
   largest = largest_used(scene, INFINITY);
