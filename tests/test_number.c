@@ -12,6 +12,7 @@
 
 #include <cmocka.h>
 
+#include "base/digits.h"
 #include "base/number.h"
 #include "base/sanitizer.h"
 #include "tests/comma_locale.h"
@@ -335,6 +336,26 @@ static void plain_numbers_are_read_as_all_others(void **state) {
 
 /* Their quotients by powers of ten end in ones or zeros: powers of two, and
  * what lies next to the middle of two doubles. */
+static void few_digits_are_read_to_their_end(void **state) {
+  (void)state;
+  for (uint64_t number = 0; number < 100000000; number = 7 * number / 5 + 1)
+    for (int width = 1; width <= 8; width++) {
+      char text[32]; /* eight bytes are read at once */
+      int length = snprintf(text, sizeof text, "%0*d", width, (int)number);
+      uint64_t sum = 12345;
+      text[length] = "/ \n"[width % 3];
+      const char *past = digits_read_few(text, &sum);
+      if (length > 7) {
+        assert_null(past);
+        continue;
+      }
+      assert_ptr_equal(past, text + length);
+      assert_int_equal(sum, number);
+    }
+  uint64_t sum;
+  assert_null(digits_read_few("/1234567", &sum));
+}
+
 static void plain_numbers_carry_where_they_are_rounded(void **state) {
   static const char *const text[] = {
       "0.5",
@@ -621,6 +642,7 @@ int main(void) {
 #if DIGITS_CHUNKS
     cmocka_unit_test(plain_numbers_are_read_as_all_others),
     cmocka_unit_test(plain_numbers_carry_where_they_are_rounded),
+    cmocka_unit_test(few_digits_are_read_to_their_end),
 #endif
     cmocka_unit_test(names_of_non_finite_numbers_are_read),
     cmocka_unit_test(integers_are_read_up_to_their_limits),

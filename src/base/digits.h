@@ -37,6 +37,31 @@ static inline uint64_t digits_sum(uint64_t chunk, int count) {
           second * (UINT64_C(10000) << 32 | 1);
   return chunk >> 32;
 }
+/* Reads a number of one to seven digits at `text`; returns where it ends, or
+ * NULL where there are none or more.
+ * Numbers that follow one another mostly have as many digits: where they are
+ * many, the branch for their count is foreseen, and the next number is begun
+ * before these are counted. */
+static inline const char *digits_read_few(const char *text, uint64_t *sum) {
+  uint64_t chunk;
+  int count = digits_count(text, &chunk);
+  if (__builtin_expect(count == 6, 1)) {
+    *sum = digits_sum(chunk, 6);
+    return text + 6;
+  }
+  if (__builtin_expect(count == 5, 1)) {
+    *sum = digits_sum(chunk, 5);
+    return text + 5;
+  }
+  if (__builtin_expect(count == 7, 1)) {
+    *sum = digits_sum(chunk, 7);
+    return text + 7;
+  }
+  if (count == 0 || count == 8)
+    return NULL;
+  *sum = digits_sum(chunk, count);
+  return text + count;
+}
 #else
 #define DIGITS_CHUNKS 0
 #endif

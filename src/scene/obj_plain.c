@@ -121,17 +121,14 @@ static bool reserve_points(struct obj_parser *p, size_t count) {
  * seen so far; NULL where it is something else. */
 static inline const char *read_plain_index(const struct obj_parser *p,
                                            const char *at, uint32_t *point) {
-  uint64_t chunk;
+  uint64_t index;
   if (*at != ' ')
     return NULL;
-  int count = digits_count(++at, &chunk);
-  if (count == 0 || count == 8)
-    return NULL;
-  uint64_t index = digits_sum(chunk, count) - 1;
-  if (index >= p->seen)
+  at = digits_read_few(at + 1, &index);
+  if (at == NULL || --index >= p->seen)
     return NULL;
   *point = (uint32_t)(p->first + index);
-  return at[count] == '/' ? obj_skip_other_indices(at + count) : at + count;
+  return *at == '/' ? obj_skip_other_indices(at) : at;
 }
 
 /* Reads "f a b c" to its end; NULL where it is something else. */

@@ -37,16 +37,14 @@ static void have_room_to_hold(struct obj_parser *p, size_t bytes) {
  * end may be read. */
 static inline const char *parse_plain_triangle(const char *at, size_t points,
                                                uint64_t index[3]) {
-  uint64_t chunk;
   at++;
   for (int k = 0; k < 3; k++) {
     if (*at != ' ')
       return NULL;
-    int digits = digits_count(++at, &chunk);
-    if (digits == 0 || digits == 8)
+    at = digits_read_few(at + 1, &index[k]);
+    if (at == NULL)
       return NULL;
-    index[k] = digits_sum(chunk, digits) - 1;
-    at += digits;
+    index[k]--;
   }
   return *at == '\n' && index[0] < points && index[1] < points &&
                  index[2] < points
