@@ -10,10 +10,12 @@
 #define WELD_LENGTH_MAX 0x1p200
 #define WELD_LENGTH_LEAST 0x1p-900
 
+typedef ARRAY(struct cluster_member) cluster_members;
+
 struct weld_candidates {
-  ARRAY(struct cluster_member) member; /* ascending points */
-  uint32_t *number;                    /* point -> its member + 1; 0: none */
-  double *size; /* one a member: of its smallest face, squared */
+  cluster_members member; /* ascending points */
+  uint32_t *number;       /* point -> its member + 1; 0: none */
+  double *size;           /* one a member: of its smallest face, squared */
 };
 
 void weld_candidates_fini(struct weld_candidates *candidates);

@@ -24,22 +24,49 @@ static bool is_in_sample(const struct scene *scene,
 /* Keeps a sample of the members: those of some blocks of space, so that each is
  * kept with all its neighbours but for those beyond the sides of its block.
  * Keeps all where there are few, or few in these blocks.
- * length  the longest radius */
-static void keep_sample(struct weld_candidates *candidates,
+ * length  the longest radius
+ * Returns false when memory ran out. */
+static bool keep_sample(struct weld_candidates *candidates,
                         const struct scene *scene, double length) {
   enum { SAMPLE = 1 << 15, SAMPLE_MIN = SAMPLE / 8, RADII = 64 };
-  struct cluster_member *member = candidates->member.item;
-  size_t kept = 0, count = candidates->member.count, one_in = count / SAMPLE;
+  size_t count = candidates->member.count, one_in = count / SAMPLE;
+  cluster_members kept = {.item = NULL};
   if (one_in < 2)
-    return;
+    return true;
   for (size_t i = 0; i < count; i++)
-    kept += is_in_sample(scene, &member[i], RADII * length, one_in);
-  if (kept < SAMPLE_MIN)
-    return;
-  candidates->member.count = 0;
-  for (size_t i = 0; i < count; i++)
-    if (is_in_sample(scene, &member[i], RADII * length, one_in))
-      member[candidates->member.count++] = member[i];
+    if (is_in_sample(scene, &candidates->member.item[i], RADII * length,
+                     one_in) &&
+        !ARRAY_PUSH(&kept, candidates->member.item[i])) {
+      ARRAY_FREE(&kept);
+      return false;
+    }
+  if (kept.count < SAMPLE_MIN) {
+    ARRAY_FREE(&kept);
+    return true;
+  }
+  ARRAY_FREE(&candidates->member);
+  candidates->member = kept;
+  return true;
+}
+
+/* The length that is the share of a face of this squared size. */
+static double gap_length(double size) {
+  return TOLERANCE_GAP_SHARE * sqrt(size);
+}
+
+static double largest_size(const struct weld_candidates *candidates) {
+  double size = 0;
+  for (size_t i = 0; i < candidates->member.count; i++)
+    size = fmax(size, candidates->size[i]);
+  return size;
+}
+
+static void set_radii(struct weld_candidates *candidates, double length) {
+  for (size_t i = 0; i < candidates->member.count; i++) {
+    struct cluster_member *member = &candidates->member.item[i];
+    double size = candidates->size[candidates->number[member->point] - 1];
+    weld_candidate_set_radius(member, length, gap_length(size));
+  }
 }
 
 /* Joins members; returns how many another one represents, SIZE_MAX when memory
@@ -64,15 +91,10 @@ bool welded_is_suspicious(const struct welded *welded,
   if (weld_candidates_list(&candidates, scene, topology) &&
       weld_candidates_number(&candidates, scene) &&
       weld_candidates_measure(&candidates, scene, topology)) {
-    double length = 0;
-    count = candidates.member.count;
-    for (size_t i = 0; i < count; i++)
-      length = fmax(length, TOLERANCE_GAP_SHARE * sqrt(candidates.size[i]));
-    for (size_t i = 0; i < count; i++)
-      weld_candidate_set_radius(&candidates.member.item[i], length,
-                                TOLERANCE_GAP_SHARE * sqrt(candidates.size[i]));
-    if (length >= WELD_LENGTH_LEAST) {
-      keep_sample(&candidates, scene, length);
+    double length = gap_length(largest_size(&candidates));
+    if (length >= WELD_LENGTH_LEAST &&
+        keep_sample(&candidates, scene, length)) {
+      set_radii(&candidates, length);
       count = candidates.member.count;
       joined = join_candidates(&candidates, scene, length);
     }
