@@ -38,7 +38,8 @@ static inline int64_t number_of_cell(double quotient) {
 /* The cells that lie within the length of a point: at most two along each
  * axis, as cells are wide. */
 struct near_cells {
-  int64_t low[3], high[3];
+  int64_t low[3], high[3]; /* high: where there are several alone */
+  bool are_several;
 };
 
 static inline struct near_cells
@@ -46,11 +47,16 @@ cells_of_member(const struct member_visit *visit, const struct scene_point *p) {
   enum { LENGTHS = 64 }; /* in a cell's side */
   const double at[3] = {p->x, p->y, p->z}, length = visit->length;
   const double per_side = 1 / (LENGTHS * length), shift = 0.375 * visit->round;
-  struct near_cells cells;
+  double low[3], high[3];
+  struct near_cells cells = {.are_several = false};
   for (int k = 0; k < 3; k++) {
-    cells.low[k] = number_of_cell((at[k] - length) * per_side + shift);
-    cells.high[k] = number_of_cell((at[k] + length) * per_side + shift);
+    low[k] = (at[k] - length) * per_side + shift;
+    high[k] = (at[k] + length) * per_side + shift;
+    cells.low[k] = number_of_cell(low[k]);
+    cells.are_several |= !(high[k] < (double)cells.low[k] + 1);
   }
+  for (int k = 0; cells.are_several && k < 3; k++)
+    cells.high[k] = number_of_cell(high[k]);
   return cells;
 }
 
@@ -86,8 +92,7 @@ static inline uint32_t slot_of_member(const struct member_visit *visit,
                                       const struct cluster_member *member) {
   struct near_cells cells =
       cells_of_member(visit, &visit->scene->point.item[member->point]);
-  if (cells.low[0] == cells.high[0] && cells.low[1] == cells.high[1] &&
-      cells.low[2] == cells.high[2])
+  if (!cells.are_several)
     return (uint32_t)slot_of_near_cell(visit, cells.low[0], cells.low[1],
                                        cells.low[2]);
   enter_cells(visit, &cells);
