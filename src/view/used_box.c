@@ -21,11 +21,17 @@ struct box_search {
 static const struct used_box empty_box = {{INFINITY, INFINITY, INFINITY},
                                           {-INFINITY, -INFINITY, -INFINITY}};
 
-static inline void grow_used_box(struct used_box *box, const double at[3]) {
-  for (int k = 0; k < 3; k++) {
-    box->low[k] = min_number(box->low[k], at[k]);
-    box->high[k] = max_number(box->high[k], at[k]);
-  }
+static inline void grow_along(struct used_box *box, int axis, double at) {
+  box->low[axis] = min_number(box->low[axis], at);
+  box->high[axis] = max_number(box->high[axis], at);
+}
+
+/* Axis by axis, so that the box stays in registers. */
+static inline void grow_used_box(struct used_box *box, double x, double y,
+                                 double z) {
+  grow_along(box, 0, x);
+  grow_along(box, 1, y);
+  grow_along(box, 2, z);
 }
 
 /* The box of a range's points as they are; what it needs is copied, so that it
@@ -37,8 +43,7 @@ static struct used_box box_of_points(const struct box_search *search,
   struct used_box box = empty_box;
   for (size_t p = range.begin; p < range.end; p++)
     if (used == NULL || used[p])
-      grow_used_box(&box,
-                    (const double[3]){point[p].x, point[p].y, point[p].z});
+      grow_used_box(&box, point[p].x, point[p].y, point[p].z);
   return box;
 }
 
@@ -53,7 +58,7 @@ static struct used_box box_of_seen_points(const struct box_search *search,
     if (used != NULL && !used[p])
       continue;
     struct view_point v = camera_view(&camera, &point[p]);
-    grow_used_box(&box, (const double[3]){v.x, v.y, v.d});
+    grow_used_box(&box, v.x, v.y, v.d);
   }
   return box;
 }
