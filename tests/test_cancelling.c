@@ -26,6 +26,8 @@ static bool listen(void *user, double share, const char *stage) {
   return strcmp(stage, listener->stop) != 0 || listener->after-- > 0;
 }
 
+/* Cancels in a stage.  Of several threads others may do all that is left of it,
+ * so that the poll does not come. */
 static void stop_tiles(const char *stage, int after, int threads, unsigned n) {
   struct sheet_fixture fixture;
   struct map map;
@@ -42,13 +44,16 @@ static void stop_tiles(const char *stage, int after, int threads, unsigned n) {
   sheet_fixture_out(&fixture, true);
   map_init(&map);
   polled_begin(&polled, listen, &listener);
-  assert_int_equal(
-      solver_tiles.solve(&fixture.sheet, &request, &map, report, &error),
-      RECTO_ERROR_CANCELLED);
+  recto_status status =
+      solver_tiles.solve(&fixture.sheet, &request, &map, report, &error);
   polled_end(&polled);
-  assert_int_equal(error.code, RECTO_ERROR_CANCELLED);
-  assert_int_equal(listener.after,
-                   -1); /* not polled again after it cancelled */
+  if (threads == 1 || status != RECTO_OK) {
+    assert_int_equal(status, RECTO_ERROR_CANCELLED);
+    assert_int_equal(error.code, RECTO_ERROR_CANCELLED);
+    /* It is not polled again after it cancelled. */
+    assert_int_equal(listener.after, -1);
+  } else
+    assert_true(listener.after >= 0);
   map_fini(&map);
   report_destroy(report);
   sheet_fixture_fini(&fixture);
