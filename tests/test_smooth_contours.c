@@ -76,6 +76,30 @@ static void the_contour_of_an_ellipsoid_is_one_stroke(void **state) {
   check_outlines(smooth_ellipsoid, (const double[3]){1, 0.7, 0.5});
 }
 
+/* The page is fitted to the mesh, beyond which the contour is curved. */
+static void a_contour_that_fits_the_page_is_one_stroke(void **state) {
+  (void)state;
+  const double least = 10, most = SMOOTH_PAGE_MM - least, rounding = 1e-6;
+  recto_scene *scene = smooth_scene(smooth_ellipsoid, true, 256, 128);
+  for (int view = 0; view < SMOOTH_VIEWS; view++) {
+    recto_options options;
+    recto_stroke stroke;
+    smooth_view(&options, view);
+    options.camera.has_target = false;
+    options.camera.fit = RECTO_FIT_PAGE;
+    recto_drawing *drawing = smooth_draw(scene, &options);
+    assert_int_equal(recto_drawing_stroke_count(drawing), 1);
+    assert_true(recto_drawing_stroke(drawing, 0, &stroke));
+    assert_true(stroke.closed);
+    for (size_t i = 0; i < 2 * stroke.count; i++) {
+      assert_true(stroke.points[i] > least - rounding);
+      assert_true(stroke.points[i] < most + rounding);
+    }
+    recto_drawing_destroy(drawing);
+  }
+  recto_scene_destroy(scene);
+}
+
 /* ---- Visible faces ------------------------------------------------------- */
 
 /* How far the outline of the visible faces is from ink at a side's middle, mm;
@@ -540,6 +564,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_contour_of_a_sphere_is_one_stroke),
       cmocka_unit_test(the_contour_of_an_ellipsoid_is_one_stroke),
+      cmocka_unit_test(a_contour_that_fits_the_page_is_one_stroke),
       cmocka_unit_test(visible_faces_end_at_the_contour),
       cmocka_unit_test(lines_end_at_the_contour_in_front_of_them),
       cmocka_unit_test(the_contour_of_a_cone_starts_at_its_tip),

@@ -330,7 +330,7 @@ recto_status smooth_contours_add(struct sheet *sheet, struct map *map,
   recto_status status =
       facing_init(&facing, sheet, topology, options.crease_deg, error);
   if (status == RECTO_OK)
-    status = zero_set_find(&set, &facing, error);
+    status = zero_set_find(&set, sheet, &facing, error);
   facing_fini(&facing);
   struct contour_pieces pieces = {
       .sheet = sheet,

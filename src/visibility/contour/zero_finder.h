@@ -10,6 +10,7 @@ struct zero_finder {
   struct zero_set *set;
   const struct facing *facing;
   struct projection projection;
+  bool mesh_is_inside; /* no face is clipped by the page's margins */
   uint32_t
       *edge_node; /* two a topology edge: its node, from 1 on, where normals
                           are split those of its first and its second face; 0:
@@ -37,8 +38,8 @@ USE_RESULT bool zero_finder_cross_triangle(struct zero_finder *finder,
                                            const uint32_t corner[3],
                                            const uint32_t side[3]);
 
-/* Adds a segment, clipped to the page.  A node that is outside gives way to a
- * new one on the border. */
+/* Adds a segment, clipped to the page unless the mesh is inside.  A node that
+ * is outside gives way to a new one on the border. */
 USE_RESULT bool zero_finder_add_segment(struct zero_finder *finder,
                                         struct contour_segment segment);
 

@@ -30,16 +30,29 @@ bool zero_finder_add_node(struct zero_finder *z, const double at[3],
   return ARRAY_PUSH(&z->set->node, made);
 }
 
+/* Clips a segment.  Where the mesh is within the page's margins, a contour that
+ * is curved beyond them is not clipped: its images are moved to the border, so
+ * that its curve goes on.
+ * Returns false where nothing is left. */
+static bool clip_contour(const struct zero_finder *z, struct view_point end[2],
+                         bool moved[2]) {
+  unsigned outside = 0;
+  for (int k = 0; k < 2; k++)
+    outside |= clip_outcode(&z->projection, end[k]);
+  if (z->mesh_is_inside)
+    outside &= CLIP_NEAR_BIT;
+  return outside == 0 || clip_segment(&z->projection, end, moved);
+}
+
 bool zero_finder_add_segment(struct zero_finder *z, struct contour_segment s) {
   double at[2][3];
   struct view_point end[2];
-  bool outside = false, moved[2] = {false, false};
+  bool moved[2] = {false, false};
   for (int k = 0; k < 2; k++) {
     memcpy(at[k], z->set->node.item[s.node[k]].at, sizeof at[k]);
     end[k] = zero_finder_view(z, at[k]);
-    outside = outside || clip_outcode(&z->projection, end[k]) != 0;
   }
-  if (outside && !clip_segment(&z->projection, end, moved))
+  if (!clip_contour(z, end, moved))
     return true;
   for (int k = 0; k < 2; k++)
     if (moved[k]) {
@@ -147,11 +160,12 @@ static bool cross_all(struct zero_finder *z) {
   return true;
 }
 
-recto_status zero_set_find(struct zero_set *set, const struct facing *facing,
-                           recto_error *error) {
+recto_status zero_set_find(struct zero_set *set, const struct sheet *sheet,
+                           const struct facing *facing, recto_error *error) {
   struct zero_finder z = {.set = set,
                           .facing = facing,
-                          .projection = projection_of(facing->camera)};
+                          .projection = projection_of(facing->camera),
+                          .mesh_is_inside = sheet->clipped_page == 0};
   bool ok = cross_all(&z);
   mem_free(z.edge_node);
   mem_free(z.point_node);

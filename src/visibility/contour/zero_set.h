@@ -10,13 +10,16 @@
 #ifndef VISIBILITY_CONTOUR_ZERO_SET_H
 #define VISIBILITY_CONTOUR_ZERO_SET_H
 
+#include "view/sheet.h"
 #include "visibility/contour/zero_segments.h"
 
 /* Finds the contour.
  * set     zero-initialised; the caller frees it
+ * sheet   laid out from the mesh
  * Errors  RECTO_ERROR_MEMORY.
  * Cost    linear in the corners */
 USE_RESULT recto_status zero_set_find(struct zero_set *set,
+                                      const struct sheet *sheet,
                                       const struct facing *facing,
                                       recto_error *error);
 void zero_set_fini(struct zero_set *set);
