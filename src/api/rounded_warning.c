@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "base/parallel.h"
 #include "base/poll.h"
 #include "ink/planar_regions.h"
 #include "scene/crease_marks.h"
@@ -70,19 +71,50 @@ static double twice_area(const struct scene *scene, uint32_t face) {
   return sqrt(vector_dot(sum, sum));
 }
 
-/* Sets *found: whether large faces are a large share of all.  False when memory
- * ran out. */
+/* The areas of all faces, and their sums by range of faces. */
+struct face_areas {
+  const struct scene *scene;
+  double *area, *sum;
+};
+
+static bool measure_faces(void *user, struct parallel_range range) {
+  struct face_areas *of = user;
+  double sum = 0;
+  for (size_t f = range.begin; f < range.end; f++)
+    sum += of->area[f] = twice_area(of->scene, (uint32_t)f);
+  of->sum[range.begin / PARALLEL_ITEMS] = sum;
+  return true;
+}
+
+/* Whether large faces are a large share of all. */
+static bool has_large_faces(const struct face_areas *of) {
+  uint32_t faces = scene_face_count(of->scene);
+  size_t ranges = parallel_range_count(faces, PARALLEL_ITEMS);
+  double all = 0, large = 0;
+  for (size_t i = 0; i < ranges; i++)
+    all += of->sum[i];
+  double limit = LARGE_FACE * all / faces;
+  for (uint32_t f = 0; f < faces && poll_at(f); f++)
+    large += of->area[f] > limit ? of->area[f] : 0;
+  return large > LARGE_SHARE * all;
+}
+
+/* Sets *found: whether there are such.  False when memory ran out or the caller
+ * cancelled. */
 static bool find_large_faces(const struct scene *scene, bool *found) {
   uint32_t faces = scene_face_count(scene);
-  double *area = mem_alloc(faces, sizeof *area);
-  double all = 0, large = 0;
-  for (uint32_t f = 0; area != NULL && f < faces; f++)
-    all += area[f] = twice_area(scene, f);
-  for (uint32_t f = 0; area != NULL && f < faces && poll_at(f); f++)
-    large += area[f] * faces > LARGE_FACE * all ? area[f] : 0;
-  *found = large > LARGE_SHARE * all;
-  mem_free(area);
-  return area != NULL;
+  struct face_areas of = {
+      .scene = scene,
+      .area = mem_alloc(faces, sizeof *of.area),
+      .sum = mem_alloc(parallel_range_count(faces, PARALLEL_ITEMS),
+                       sizeof *of.sum)};
+  bool ok = of.area != NULL && of.sum != NULL &&
+            parallel_ranges(parallel_workers(faces, PARALLEL_ITEMS), faces,
+                            PARALLEL_ITEMS, measure_faces, &of);
+  *found = ok && has_large_faces(&of);
+  mem_free(of.area);
+  mem_free(of.sum);
+  return ok;
 }
 
 /* The faces at edge e if it is smooth. */
