@@ -103,4 +103,24 @@ says_where() {
     says 'cube.obj:16: face with normal 1 where there are 0, drawn without'
 }
 claim "what is wrong with marks is told with its line" says_where
+
+# Three are told with their lines, the others counted.
+counts_missing() {
+  printf 'v %s\n' "0 0 0" "1 0 0" "0 1 0" "0 0 1" >missing.obj
+  for i in $(seq 20); do echo "f 1//1 2//$i 3//1"; done >>missing.obj
+  run 0 missing.obj -o missing.svg &&
+    says 'and 17 more with indices out of range'
+}
+claim "normals that are missing are told of every face" counts_missing
+
+# Faces may come before their normals.
+draws_with_late_normals() {
+  mkdir late && grep -v '^vn' marked/prism.obj >late/prism.obj &&
+    grep '^vn' marked/prism.obj >>late/prism.obj &&
+    run 0 marked/prism.obj -o marked.svg -e crease && silent &&
+    run 0 late/prism.obj -o late.svg -e crease && silent &&
+    cmp marked.svg late.svg
+}
+prism 8 normals
+claim "normals may follow the faces" draws_with_late_normals
 finish

@@ -118,7 +118,8 @@ static bool reserve_points(struct obj_parser *p, size_t count) {
 /* ---- Faces --------------------------------------------------------------- */
 
 /* Reads " index" or " index/other/other" of up to seven digits, of a point
- * seen so far; NULL where it is something else. */
+ * seen so far; NULL where it is something else, such as the index of a normal
+ * where these are needed and there are none yet. */
 static inline const char *read_plain_index(const struct obj_parser *p,
                                            const char *at, uint32_t *point) {
   uint64_t index;
@@ -128,7 +129,13 @@ static inline const char *read_plain_index(const struct obj_parser *p,
   if (at == NULL || --index >= p->seen)
     return NULL;
   *point = (uint32_t)(p->first + index);
-  return *at == '/' ? obj_skip_other_indices(at) : at;
+  if (*at != '/')
+    return at;
+  const char *normal;
+  at = obj_pass_other_indices(at, &normal);
+  return normal != NULL && p->scene->needs_crease_marks && p->normal.count == 0
+             ? NULL
+             : at;
 }
 
 /* Reads "f a b c" to its end; NULL where it is something else. */
