@@ -98,20 +98,20 @@ static bool contains_triangle(const struct geom_point g[3],
 bool occluder_subtraction_collect(struct occluder_subtraction *subtraction,
                                   uint32_t g) {
   const struct sheet *sheet = subtraction->sheet;
-  struct triangle_plane plane;
-  struct box2 box = box2_of_triangle(sheet, g);
-  struct triangle_occluder occluder = {.triangle = g, .sides = 3, .box = box};
   struct geom_line line, reversed;
   enum depth_order depth_order = NEARER_ALWAYS;
   int64_t low, high;
+  struct box2 box = box2_of_triangle(sheet, g);
   if (box2_disjoint(subtraction->box, box))
     return true;
+  struct triangle_occluder occluder = {.triangle = g, .sides = 3, .box = box};
+  struct triangle_plane plane;
   subtraction->counts.pairs++;
   for (int k = 0; k < 3; k++)
     plane.p[k] = sheet->point.item[sheet->triangle.item[g].point[k]];
   geom_depth_range(plane.p, &low, &high);
   if (high < subtraction->low ||
-      triangles_disjoint(sheet, subtraction->triangle, g))
+      triangle_corners_disjoint(subtraction->plane.p, plane.p))
     return true;
   subtraction->counts.overlapping++;
   if (low <= subtraction->high &&

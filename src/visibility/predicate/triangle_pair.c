@@ -27,9 +27,14 @@ static bool is_separated_by_side(const struct geom_point f[3],
 
 /* The separating axis theorem: two convex polygons with disjoint interiors are
  * separated by a side of one of them. */
+bool triangle_corners_disjoint(const struct geom_point f[3],
+                               const struct geom_point g[3]) {
+  return is_separated_by_side(f, g) || is_separated_by_side(g, f);
+}
+
 bool triangles_disjoint(const struct sheet *sheet, uint32_t f, uint32_t g) {
   struct geom_triangle p = sheet_corners(sheet, f), q = sheet_corners(sheet, g);
-  return is_separated_by_side(p.p, q.p) || is_separated_by_side(q.p, p.p);
+  return triangle_corners_disjoint(p.p, q.p);
 }
 
 void triangle_lines(const struct sheet *sheet, uint32_t triangle,

@@ -27,6 +27,10 @@ struct triangle_plane triangle_plane_of(const struct sheet *sheet,
  * triangles near a face are its neighbours.  Exact. */
 bool triangles_disjoint(const struct sheet *sheet, uint32_t f, uint32_t g);
 
+/* The same of triangles whose corners are at hand. */
+bool triangle_corners_disjoint(const struct geom_point f[3],
+                               const struct geom_point g[3]);
+
 /* The lines through the sides of a triangle, which lies on their left, and the
  * same lines reversed. */
 void triangle_lines(const struct sheet *sheet, uint32_t triangle,
