@@ -178,14 +178,15 @@ static bool is_crossed(const struct triangle_solver *solver) {
 
 /* ---- Candidates ---------------------------------------------------------- */
 
-/* Adds triangle g to the candidates unless it was added before.  A hidden
- * triangle is no occluder and is added only if it is earlier than the current
- * one: visible pieces may be passed on to it if the two are in contact. */
+/* Adds triangle g to the candidates unless it was seen before, which is asked
+ * first: many are in several cells of the query.  A hidden triangle is no
+ * occluder and is added only if it is earlier than the current one: visible
+ * pieces may be passed on to it if the two are in contact. */
 static bool add_candidate(struct triangle_solver *solver, uint32_t g) {
-  return g == solver->subtraction.triangle ||
+  return !triangle_grid_query_first(&solver->query, g) ||
+         g == solver->subtraction.triangle ||
          (g > solver->subtraction.triangle && is_hidden(solver, g)) ||
          sheet_is_edge_on(solver->d->sheet, g) ||
-         !triangle_grid_query_first(&solver->query, g) ||
          ARRAY_PUSH(&solver->query.found, g);
 }
 
