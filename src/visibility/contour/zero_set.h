@@ -5,8 +5,8 @@
  * which g is linear: its zero set is one segment between two sides, or three.
  * At a crease, where g jumps, the contour runs along the edge as far as its two
  * faces have different signs there.  So the segments join to closed curves
- * [HertzmannZorin2000], but for borders, the page's margins and the near plane,
- * where they end. */
+ * [HertzmannZorin2000], but for borders, the near plane, and the page's margins
+ * where faces are clipped by them, where they end. */
 #ifndef VISIBILITY_CONTOUR_ZERO_SET_H
 #define VISIBILITY_CONTOUR_ZERO_SET_H
 
