@@ -302,6 +302,16 @@ static void lines_do_not_depend_on_what_threads_there_are(void **state) {
   map_fini(&alone);
 }
 
+static void what_ranges_keep_is_gathered_in_order(void **state) {
+  int item[] = {1, 2, 0, 0, 0, 0, 3, 0, 0, 4, 5, 6, 7};
+  const size_t kept[] = {2, 0, 1, 3, 1};
+  (void)state;
+  assert_int_equal(parallel_gather(item, sizeof *item, 13, 3, kept), 7);
+  for (int i = 0; i < 7; i++)
+    assert_int_equal(item[i], i + 1);
+  assert_int_equal(parallel_gather(NULL, sizeof *item, 0, 3, kept), 0);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test_setup(all_is_done_once_by_any_number_of_threads, reset),
@@ -314,6 +324,7 @@ int main(void) {
       cmocka_unit_test_setup(a_range_that_fails_ends_the_others, reset),
       cmocka_unit_test_setup(ranges_are_cancelled, reset),
       cmocka_unit_test_setup(there_are_no_more_workers_than_given, reset),
+      cmocka_unit_test(what_ranges_keep_is_gathered_in_order),
       cmocka_unit_test_setup(few_items_and_no_call_have_one_worker, reset),
       cmocka_unit_test_setup(lines_do_not_depend_on_what_threads_there_are,
                              reset),

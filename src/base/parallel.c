@@ -11,6 +11,7 @@
 #include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
+#include <string.h>
 #include <unistd.h>
 #ifdef __linux__
 #include <sched.h>
@@ -126,4 +127,15 @@ bool parallel_ranges(int workers, size_t count, size_t items,
       .count = count, .items = items, .task = task, .user = user};
   parallel_run(workers, do_ranges, &ranges);
   return !atomic_load(&ranges.ended);
+}
+
+size_t parallel_gather(void *item, size_t size, size_t count, size_t items,
+                       const size_t *kept) {
+  char *bytes = item;
+  size_t all = 0;
+  for (size_t r = 0; r < parallel_range_count(count, items); r++) {
+    memmove(bytes + all * size, bytes + r * items * size, kept[r] * size);
+    all += kept[r];
+  }
+  return all;
 }

@@ -71,4 +71,12 @@ static inline size_t parallel_range_count(size_t count, size_t items) {
   return (count + items - 1) / items;
 }
 
+/* Moves together, in order, what tasks left at the beginnings of the ranges of
+ * an array: so that a filter of its items is divided among threads.
+ * item   an array of `count` items of `size` bytes
+ * kept   one a range: how many of its items are left
+ * Returns how many are left of all. */
+size_t parallel_gather(void *item, size_t size, size_t count, size_t items,
+                       const size_t *kept);
+
 #endif

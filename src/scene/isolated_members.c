@@ -9,7 +9,6 @@
 #include "scene/isolated_members.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/hash.h"
 #include "base/parallel.h"
@@ -139,18 +138,6 @@ static bool keep_members(void *user, struct parallel_range range) {
   return true;
 }
 
-/* Moves the members that are left together; returns how many there are. */
-static size_t gather_neighbours(const struct member_visit *visit,
-                                size_t count) {
-  size_t all = 0;
-  for (size_t r = 0; r < parallel_range_count(count, PARALLEL_ITEMS); r++) {
-    memmove(visit->member + all, visit->member + r * PARALLEL_ITEMS,
-            visit->kept[r] * sizeof *visit->member);
-    all += visit->kept[r];
-  }
-  return all;
-}
-
 /* Drops members by one hash; *count as of isolated_members_drop. */
 static bool drop_by_hash(struct member_visit *visit, size_t *count) {
   enum { SLOTS = 8 }; /* for a member */
@@ -161,7 +148,8 @@ static bool drop_by_hash(struct member_visit *visit, size_t *count) {
       parallel_ranges(workers, *count, PARALLEL_ITEMS, keep_members, visit);
   slot_table_fini(&visit->table);
   if (ok)
-    *count = gather_neighbours(visit, *count);
+    *count = parallel_gather(visit->member, sizeof *visit->member, *count,
+                             PARALLEL_ITEMS, visit->kept);
   return ok;
 }
 

@@ -76,30 +76,19 @@ static bool keep_points(void *user, struct parallel_range range) {
   return true;
 }
 
-/* Moves the points that are left together; returns how many there are. */
-static size_t gather_points(const struct fingerprints *work, size_t ranges) {
-  size_t all = 0;
-  for (size_t r = 0; r < ranges; r++) {
-    memmove(work->slot + all, work->slot + r * PARALLEL_ITEMS,
-            work->kept[r] * sizeof *work->slot);
-    all += work->kept[r];
-  }
-  return all;
-}
-
 /* Lists those of the points that may have another at their position.
  * count  in: of the points; out: of those that are listed
  * Returns the list, or NULL when memory ran out. */
 static uint32_t *list_shared(const struct scene *scene, const uint32_t *point,
                              size_t *count) {
   enum { SLOTS = 4 }; /* for a point */
-  size_t ranges = parallel_range_count(*count, PARALLEL_ITEMS);
   int workers = parallel_workers(*count, PARALLEL_ITEMS);
   struct fingerprints work = {
       .scene = scene,
       .point = point,
       .slot = mem_alloc(*count, sizeof *work.slot),
-      .kept = mem_alloc(ranges, sizeof *work.kept),
+      .kept = mem_alloc(parallel_range_count(*count, PARALLEL_ITEMS),
+                        sizeof *work.kept),
   };
   bool ok =
       slot_table_init(&work.table, SLOTS * *count, workers) &&
@@ -108,7 +97,8 @@ static uint32_t *list_shared(const struct scene *scene, const uint32_t *point,
                       &work) &&
       parallel_ranges(workers, *count, PARALLEL_ITEMS, keep_points, &work);
   if (ok)
-    *count = gather_points(&work, ranges);
+    *count = parallel_gather(work.slot, sizeof *work.slot, *count,
+                             PARALLEL_ITEMS, work.kept);
   slot_table_fini(&work.table);
   mem_free(work.kept);
   if (!ok)
