@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include "base/memory.h"
+#include "base/number_filter.h"
 #include "base/number_lists.h"
 #include "base/poll.h"
 #include "base/sort.h"
@@ -238,6 +239,90 @@ static void four_billion_numbers_are_refused(void **state) {
   number_lists_fini(&made);
 }
 
+/* As list_squares, of a range. */
+static void put_squares(void *user, struct number_lists *lists,
+                        struct parallel_range range) {
+  const uint32_t *count = user;
+  for (size_t i = range.end; i-- > range.begin;)
+    number_lists_put(lists, i * i % *count, (uint32_t)i);
+}
+
+static void lists_do_not_depend_on_their_parts(void **state) {
+  (void)state;
+  for (uint32_t lists = 1; lists <= 7; lists += 3)
+    for (uint32_t count = 0; count <= 40; count += 5)
+      for (int workers = 1; workers <= 20; workers++) {
+        struct number_lists expected, made;
+        assert_true(list_squares(&expected, lists, count));
+        assert_true(number_lists_make(&made, lists, workers, count, put_squares,
+                                      &lists));
+        assert_memory_equal(made.start, expected.start,
+                            (lists + 1) * sizeof *made.start);
+        if (count > 0)
+          assert_memory_equal(made.item, expected.item,
+                              count * sizeof *made.item);
+        number_lists_fini(&expected);
+        number_lists_fini(&made);
+      }
+}
+
+static void parts_of_lists_report_that_memory_ran_out(void **state) {
+  (void)state;
+  struct memory_faults faults = {.least = 4};
+  while (memory_faults_go_on(&faults)) {
+    struct number_lists made;
+    uint32_t lists = 3;
+    memory_faults_begin(&faults);
+    memory_faults_end(&faults, memory_faults_status(number_lists_make(
+                                   &made, 3, 3, 9, put_squares, &lists)));
+    number_lists_fini(&made);
+  }
+}
+
+/* ---- Filters of numbers -------------------------------------------------- */
+
+static size_t keep_multiples(const void *user, struct parallel_range range,
+                             uint32_t *kept) {
+  const size_t *of = user;
+  size_t count = 0;
+  for (size_t i = range.begin; i < range.end; i++)
+    if (i % *of == 0)
+      kept[count++] = (uint32_t)i;
+  return count;
+}
+
+static void a_filter_keeps_the_same_numbers_by_several_threads(void **state) {
+  (void)state;
+  struct poll poll;
+  recto_options options;
+  recto_options_init(&options);
+  for (size_t of = 1; of < 50000; of *= 7)
+    for (size_t count = 0; count < 200000; count += 40001) {
+      size_t kept;
+      options.solver.threads = count % 2 == 0 ? 1 : 2;
+      poll_open(&poll, &options);
+      uint32_t *number = number_filter(count, keep_multiples, &of, &kept);
+      poll_close(&poll);
+      assert_non_null(number);
+      assert_int_equal(kept, (count + of - 1) / of);
+      for (size_t i = 0; i < kept; i++)
+        assert_int_equal(number[i], i * of);
+      mem_free(number);
+    }
+}
+
+static void a_filter_reports_that_memory_ran_out(void **state) {
+  (void)state;
+  struct memory_faults faults = {.least = 2};
+  while (memory_faults_go_on(&faults)) {
+    size_t of = 3, kept;
+    memory_faults_begin(&faults);
+    uint32_t *number = number_filter(10, keep_multiples, &of, &kept);
+    memory_faults_end(&faults, memory_faults_status(number != NULL));
+    mem_free(number);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(keys_are_sorted_stably_at_every_size),
@@ -250,6 +335,10 @@ int main(void) {
       cmocka_unit_test(a_list_has_its_numbers_in_reverse_of_the_second_pass),
       cmocka_unit_test(lists_of_numbers_report_that_memory_ran_out),
       cmocka_unit_test(four_billion_numbers_are_refused),
+      cmocka_unit_test(lists_do_not_depend_on_their_parts),
+      cmocka_unit_test(parts_of_lists_report_that_memory_ran_out),
+      cmocka_unit_test(a_filter_keeps_the_same_numbers_by_several_threads),
+      cmocka_unit_test(a_filter_reports_that_memory_ran_out),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

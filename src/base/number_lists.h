@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/parallel.h"
 #include "base/status.h"
 
 /* List k is item[start[k]] to before item[start[k + 1]].
@@ -36,5 +37,22 @@ static inline void number_lists_put(struct number_lists *lists, size_t list,
   else
     ++*end;
 }
+
+/* ---- By several threads -------------------------------------------------- */
+
+/* Puts what is of a range of the numbers, from its last to its first. */
+typedef void number_lists_task(void *user, struct number_lists *lists,
+                               struct parallel_range range);
+
+/* Makes lists with both passes over `numbers` numbers divided among threads:
+ * each counts and stores a part of them, by starts of its own of four bytes a
+ * list.  A list has the numbers of the first part first, so that its order does
+ * not depend on the parts.
+ * lists    uninitialised
+ * workers  as from parallel_workers
+ * Returns false when memory ran out, or the caller cancelled. */
+USE_RESULT bool number_lists_make(struct number_lists *lists, size_t count,
+                                  int workers, size_t numbers,
+                                  number_lists_task *task, void *user);
 
 #endif

@@ -4,16 +4,16 @@
 
 #include <string.h>
 
+#include "base/number_filter.h"
+#include "base/parallel.h"
 #include "base/poll.h"
 #include "visibility/index/bsp.h"
 #include "visibility/index/duplicate_triangles.h"
 
 enum {
   MAX_SHIFT = 31,
-  SAMPLE = 1 << 16 /* triangles sampled to choose the cells */
+  SAMPLE = 1 << 14 /* triangles sampled to choose the cells */
 };
-
-typedef ARRAY(uint32_t) triangle_list;
 
 /* Do the boxes meet at most `spread` cells of 2^shift units on average?
  * Estimated from every stride-th triangle. */
@@ -119,10 +119,11 @@ struct filling {
 };
 
 /* Puts a triangle, by its index in the subset, into its cells' lists. */
-static void fill_triangle(const struct filling *filling, size_t index) {
+static void fill_triangle(const struct filling *filling,
+                          struct number_lists *lists, size_t index) {
   uint32_t t =
       filling->subset != NULL ? filling->subset[index] : (uint32_t)index;
-  struct triangle_grid *grid = filling->grid;
+  const struct triangle_grid *grid = filling->grid;
   const struct sheet *sheet = filling->sheet;
   struct cell_range r =
       filling->footprint != NULL
@@ -133,15 +134,17 @@ static void fill_triangle(const struct filling *filling, size_t index) {
     for (int x = r.x0; x <= r.x1; x++) {
       size_t cell = triangle_grid_index(grid, x, y);
       if (filling->wanted == NULL || filling->wanted[cell])
-        number_lists_put(&grid->lists, cell, t);
+        number_lists_put(lists, cell, t);
     }
 }
 
-/* A pass over the triangles, from the last to the first. */
-static void fill_cells(const struct filling *filling) {
-  for (size_t i = filling->count; i-- > 0;) {
+/* A pass over a range of the triangles, from the last to the first. */
+static void fill_cells(void *user, struct number_lists *lists,
+                       struct parallel_range range) {
+  const struct filling *filling = user;
+  for (size_t i = range.end; i-- > range.begin;) {
     (void)poll_at(i);
-    fill_triangle(filling, i);
+    fill_triangle(filling, lists, i);
   }
 }
 
@@ -202,15 +205,20 @@ bool triangle_grid_split(struct triangle_grid *grid, bool planes) {
   return true;
 }
 
-static bool fill(const struct filling *filling) {
+/* How many threads fill the lists: one where there are more cells than
+ * triangles, so that starts of their own are little for each. */
+static int filling_workers(const struct filling *filling, size_t cells) {
+  return cells <= filling->count
+             ? parallel_workers(filling->count, PARALLEL_ITEMS)
+             : 1;
+}
+
+static bool fill(struct filling *filling) {
   struct triangle_grid *grid = filling->grid;
   size_t cells = triangle_grid_cell_count(grid);
-  bool ok = number_lists_init(&grid->lists, cells);
-  if (ok)
-    fill_cells(filling);
-  ok = ok && number_lists_allocate(&grid->lists, cells);
-  if (ok)
-    fill_cells(filling);
+  bool ok =
+      number_lists_make(&grid->lists, cells, filling_workers(filling, cells),
+                        filling->count, fill_cells, filling);
   grid->sheet = filling->sheet;
   ok = ok && leave_out_duplicates(grid);
   if (!ok)
@@ -232,36 +240,44 @@ uint8_t *triangle_grid_dilate(const struct triangle_grid *grid,
   return dilated;
 }
 
-/* Collects the triangles that meet wanted cells, and maybe a few more. */
-static bool choose_subset(const struct triangle_grid *grid,
-                          const struct footprint *footprint,
-                          const uint8_t *dilated, triangle_list *subset) {
-  for (size_t t = 0; t < grid->triangle_count; t++) {
-    struct footprint f = footprint[t];
-    size_t cell = (size_t)f.y * (size_t)grid->columns + f.x;
+/* The triangles among which those of wanted cells are. */
+struct choice {
+  const struct triangle_grid *grid;
+  const struct footprint *footprint;
+  const uint8_t *dilated; /* triangle_grid_dilate */
+};
+
+/* Keeps those that meet wanted cells, and maybe a few more. */
+static size_t choose_of_range(const void *user, struct parallel_range range,
+                              uint32_t *kept) {
+  const struct choice *choice = user;
+  size_t columns = (size_t)choice->grid->columns, count = 0;
+  for (size_t t = range.begin; t < range.end; t++) {
+    struct footprint f = choice->footprint[t];
     bool small = f.width <= 1 && f.height <= 1;
-    if (small && !dilated[cell])
-      continue;
-    if (!ARRAY_PUSH(subset, (uint32_t)t) || !poll_at(t))
-      return false;
+    if (!small || choice->dilated[(size_t)f.y * columns + f.x])
+      kept[count++] = (uint32_t)t;
   }
-  return true;
+  return count;
 }
 
 bool triangle_grid_fill(struct triangle_grid *grid, const struct sheet *sheet,
                         const struct footprint *footprint,
                         const uint8_t *wanted) {
-  triangle_list subset = {0};
-  uint8_t *dilated = triangle_grid_dilate(grid, wanted);
-  bool ok = dilated != NULL && choose_subset(grid, footprint, dilated, &subset);
-  mem_free(dilated);
-  ok = ok && fill(&(struct filling){.grid = grid,
-                                    .sheet = sheet,
-                                    .footprint = footprint,
-                                    .wanted = wanted,
-                                    .subset = subset.item,
-                                    .count = subset.count});
-  ARRAY_FREE(&subset);
+  size_t count;
+  uint32_t *subset = NULL;
+  struct choice choice = {grid, footprint, triangle_grid_dilate(grid, wanted)};
+  if (choice.dilated != NULL)
+    subset =
+        number_filter(grid->triangle_count, choose_of_range, &choice, &count);
+  mem_free((void *)(uintptr_t)choice.dilated);
+  bool ok = subset != NULL && fill(&(struct filling){.grid = grid,
+                                                     .sheet = sheet,
+                                                     .footprint = footprint,
+                                                     .wanted = wanted,
+                                                     .subset = subset,
+                                                     .count = count});
+  mem_free(subset);
   return ok;
 }
 

@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 
+#include "base/number_filter.h"
 #include "base/sort.h"
 
 int surface_edge_compare(struct surface_edge a, struct surface_edge b) {
@@ -57,20 +58,51 @@ const struct incidence *incidences_find(const struct incidences *incidences,
   return incidence + first;
 }
 
+struct marked_points {
+  const struct sheet *sheet;
+  const uint8_t *marked; /* one a point: 0 or 1 */
+};
+
+/* Keeps the triangles with two marked corners. */
+static size_t triangles_of_range(const void *user, struct parallel_range range,
+                                 uint32_t *kept) {
+  const struct marked_points *points = user;
+  const uint8_t *marked = points->marked;
+  size_t count = 0;
+  for (size_t t = range.begin; t < range.end; t++) {
+    const uint32_t *p = points->sheet->triangle.item[t].point;
+    if (marked[p[0]] + marked[p[1]] + marked[p[2]] >= 2)
+      kept[count++] = (uint32_t)t;
+  }
+  return count;
+}
+
+/* Adds a triangle's edges between marked points. */
+static bool add_incidences(struct incidences *incidences,
+                           const struct marked_points *points,
+                           uint32_t triangle) {
+  for (int k = 0; k < 3; k++) {
+    struct incidence incidence = {surface_edge_of(points->sheet, triangle, k),
+                                  triangle};
+    if (points->marked[incidence.edge.i] && points->marked[incidence.edge.j] &&
+        !ARRAY_PUSH(&incidences->list, incidence))
+      return false;
+  }
+  return true;
+}
+
 bool incidences_init(struct incidences *incidences, const struct sheet *sheet,
                      const uint8_t *marked) {
-  for (uint32_t t = 0; t < sheet->triangle.count; t++) {
-    const uint32_t *p = sheet->triangle.item[t].point;
-    if (marked[p[0]] + marked[p[1]] + marked[p[2]] < 2)
-      continue;
-    for (int k = 0; k < 3; k++) {
-      struct incidence incidence = {surface_edge_of(sheet, t, k), t};
-      if (marked[incidence.edge.i] && marked[incidence.edge.j] &&
-          !ARRAY_PUSH(&incidences->list, incidence))
-        return false;
-    }
-  }
-  return sort_stable(incidences->list.item, incidences->list.count,
+  struct marked_points points = {sheet, marked};
+  size_t count = 0;
+  uint32_t *triangle =
+      number_filter(sheet->triangle.count, triangles_of_range, &points, &count);
+  bool ok = triangle != NULL;
+  for (size_t i = 0; ok && i < count; i++)
+    ok = add_incidences(incidences, &points, triangle[i]);
+  mem_free(triangle);
+  return ok &&
+         sort_stable(incidences->list.item, incidences->list.count,
                      sizeof *incidences->list.item, compare_incidences, NULL);
 }
 

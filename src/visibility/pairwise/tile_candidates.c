@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "base/number_filter.h"
 #include "base/parallel.h"
 #include "base/poll.h"
 #include "base/sort.h"
@@ -52,23 +53,27 @@ static double cost_of_lists(const struct triangle_grid *grid) {
   return cost;
 }
 
+static size_t listed_of_range(const void *user, struct parallel_range range,
+                              uint32_t *kept) {
+  const uint8_t *is_listed = user;
+  size_t count = 0;
+  for (size_t t = range.begin; t < range.end; t++)
+    if (is_listed[t])
+      kept[count++] = (uint32_t)t;
+  return count;
+}
+
 /* The triangles that are in some list, ascending; NULL when memory ran out. */
 static uint32_t *list_all(const struct triangle_grid *grid, size_t *count) {
-  size_t n = grid->triangle_count,
-         entries = grid->lists.start[triangle_grid_cell_count(grid)];
-  uint32_t *all = mem_alloc(n, sizeof *all);
-  uint8_t *listed = mem_calloc(n, 1);
-  *count = 0;
-  for (size_t i = 0; all != NULL && listed != NULL && i < entries; i++)
-    listed[grid->lists.item[i]] = 1;
-  for (size_t t = 0; all != NULL && listed != NULL && t < n; t++)
-    if (listed[t])
-      all[(*count)++] = (uint32_t)t;
-  if (listed == NULL) {
-    mem_free(all);
-    all = NULL;
-  }
-  mem_free(listed);
+  size_t entries = grid->lists.start[triangle_grid_cell_count(grid)];
+  uint8_t *is_listed = mem_calloc(grid->triangle_count, 1);
+  if (is_listed == NULL)
+    return NULL;
+  for (size_t i = 0; i < entries; i++)
+    is_listed[grid->lists.item[i]] = 1;
+  uint32_t *all =
+      number_filter(grid->triangle_count, listed_of_range, is_listed, count);
+  mem_free(is_listed);
   return all;
 }
 
