@@ -7,6 +7,7 @@
 #include "base/sort.h"
 #include "base/tolerance.h"
 #include "visibility/contour/segment_grid.h"
+#include "visibility/contour/zero_segments.h"
 
 /* Where an edge crosses a contour. */
 struct line_crossing {
@@ -16,7 +17,8 @@ struct line_crossing {
   bool leaves;  /* from the contour's left to its right */
   bool own;     /* the edge is one of the contour's triangle's face; else it is
                    behind the contour */
-  bool at_end;  /* the contour ends on the edge, a border of its surface */
+  bool at_end;  /* the contour ends on the edge, a border of its surface, or of
+                   more than two faces */
 };
 
 struct line_ends {
@@ -66,12 +68,29 @@ static bool list_drawn_lines(struct line_ends *l) {
   return true;
 }
 
-/* Whether a face is one of an edge's first two. */
+/* Whether an edge is a border of more than two faces. */
+static bool has_more_faces(const struct sheet_edge *edge) {
+  return edge->edge_class == RECTO_EDGE_BORDER &&
+         edge->triangle[1] != SHEET_NONE;
+}
+
+static bool has_point(const struct sheet_triangle *t, uint32_t point) {
+  return t->point[0] == point || t->point[1] == point || t->point[2] == point;
+}
+
+/* Whether an edge is one of a face's. */
 static bool is_side_of_face(const struct sheet *sheet,
                             const struct sheet_edge *edge, uint32_t face) {
+  const struct sheet_triangle *all = sheet->triangle.item;
   for (int k = 0; k < 2; k++)
-    if (edge->triangle[k] != SHEET_NONE &&
-        sheet->triangle.item[edge->triangle[k]].face == face)
+    if (edge->triangle[k] != SHEET_NONE && all[edge->triangle[k]].face == face)
+      return true;
+  if (!has_more_faces(edge))
+    return false;
+  for (size_t t = first_triangle_of_face(sheet, face);
+       t < sheet->triangle.count && all[t].face == face; t++)
+    if (has_point(&all[t], edge->point[0]) &&
+        has_point(&all[t], edge->point[1]))
       return true;
   return false;
 }
@@ -129,7 +148,8 @@ static bool add_line_crossing(struct line_ends *l,
       .bound = diameter(sheet, triangle) / hypot((double)line->q.x - line->p.x,
                                                  (double)line->q.y - line->p.y),
       .own = is_side_of_face(sheet, edge, sheet->triangle.item[triangle].face)};
-  made.at_end = made.own && edge->triangle[1] == SHEET_NONE;
+  made.at_end =
+      made.own && (edge->triangle[1] == SHEET_NONE || has_more_faces(edge));
   if (made.at_end)
     return add_end_on_border(l, contour, line, made);
   if (!page_segments_cross(contour, line, &s, &t))
