@@ -447,6 +447,33 @@ static void lists_of_the_nearest_are_complete_and_in_order(void **state) {
   nearest_fini(&nearest);
 }
 
+/* As many of the points are equally near, the order of the boxes counts. */
+static void
+tree_split_where_asked_finds_what_the_whole_one_finds(void **state) {
+  enum { COUNT = 1000, WANTED = 4, MOST = 5 };
+  struct random random = {101};
+  struct drawing_point point[COUNT];
+  struct nearest whole, part;
+  (void)state;
+  for (uint32_t i = 0; i < COUNT; i++)
+    point[i] = (struct drawing_point){random_int(&random, 0, 60),
+                                      random_int(&random, 0, 60)};
+  assert_true(nearest_init(&whole, point, COUNT));
+  assert_true(nearest_init_unsplit(&part, point, COUNT));
+  for (uint32_t i = 0; i < COUNT; i += 7) {
+    uint32_t of_whole[WANTED], of_part[WANTED];
+    uint32_t found =
+        nearest_list(&whole, point[i], NEAREST_NONE, MOST, of_whole, WANTED);
+    nearest_split(&part, point[i], MOST);
+    assert_int_equal(
+        nearest_list(&part, point[i], NEAREST_NONE, MOST, of_part, WANTED),
+        found);
+    assert_memory_equal(of_part, of_whole, found * sizeof *of_whole);
+  }
+  nearest_fini(&whole);
+  nearest_fini(&part);
+}
+
 /* ---- Lifts, options ------------------------------------------------------ */
 
 static void pen_is_not_lifted_between_strokes_that_meet(void **state) {
@@ -498,6 +525,7 @@ int main(void) {
       cmocka_unit_test(improved_tour_is_never_longer),
       cmocka_unit_test(nearest_is_what_a_look_at_all_finds),
       cmocka_unit_test(lists_of_the_nearest_are_complete_and_in_order),
+      cmocka_unit_test(tree_split_where_asked_finds_what_the_whole_one_finds),
       cmocka_unit_test(pen_is_not_lifted_between_strokes_that_meet),
       cmocka_unit_test(order_is_an_option),
   };

@@ -57,7 +57,7 @@ static recto_status make_graph(struct ink *ink, struct segment_graph *graph,
   if (status == RECTO_OK)
     status = drop_overlaps(graph, rows, tidy_step(ink->options), error);
   if (status == RECTO_OK && ink_is_tidied(ink->options))
-    status = segment_graph_close_gaps(graph, ink->pens, error);
+    status = segment_graph_close_gaps(graph, rows, ink->pens, error);
   counts->without_length = graph->dots;
   return status;
 }

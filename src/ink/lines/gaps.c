@@ -15,13 +15,15 @@
 #include "ink/pens.h"
 
 enum { ENDS_IN_RANGE = PARALLEL_RANGE(1 << 10) };
+#define NO_END UINT32_MAX
+#define SEVERAL_ENDS (UINT32_MAX - 1)
 
 struct gaps {
   struct segment_graph *graph;
   const struct pens *pens;
-  ARRAY(struct sort_key) loose;   /* pen key and class, end */
-  ARRAY(struct drawing_point) at; /* of a group of equal keys, grid units */
-  struct graph_segments added;    /* those that close gaps */
+  const struct node_rows *rows;
+  ARRAY(struct sort_key) loose; /* pen key and class, end; then by node */
+  struct graph_segments added;  /* those that close gaps */
 };
 
 static const struct graph_segment *segment_of(const struct gaps *g,
@@ -29,8 +31,18 @@ static const struct graph_segment *segment_of(const struct gaps *g,
   return &g->graph->segment.item[end >> 1];
 }
 
+static uint32_t node_of_loose_end(const struct gaps *g, uint32_t end) {
+  return segment_of(g, end)->node[end & 1];
+}
+
 static struct ink_point end_point(const struct gaps *g, uint32_t end) {
-  return g->graph->node.item[segment_of(g, end)->node[end & 1]];
+  return g->graph->node.item[node_of_loose_end(g, end)];
+}
+
+/* What ends must have in common for a gap: the pen key and the class. */
+static uint64_t key_of_gap(const struct gaps *g, uint32_t end) {
+  const struct graph_segment *s = segment_of(g, end);
+  return (uint64_t)s->pen_key << 8 | (s->style_key & RECTO_EDGES_ALL);
 }
 
 /* Whether one segment ends at a node. */
@@ -48,9 +60,9 @@ static bool collect_loose_ends(struct gaps *g) {
       continue;
     uint32_t end = graph->ends.item[first];
     const struct graph_segment *s = segment_of(g, end);
-    unsigned edge_class = s->style_key & RECTO_EDGES_ALL;
-    struct sort_key loose = {(uint64_t)s->pen_key << 8 | edge_class, end};
-    if (!graph_segment_is_hidden(s) && (edge_class & SEGMENT_GRAPH_FEATURES) &&
+    struct sort_key loose = {key_of_gap(g, end), end};
+    if (!graph_segment_is_hidden(s) &&
+        (s->style_key & SEGMENT_GRAPH_FEATURES) != 0 &&
         !ARRAY_PUSH(&g->loose, loose))
       return false;
   }
@@ -89,23 +101,150 @@ static bool close_gap(struct gaps *g, uint32_t a, uint32_t b) {
          ARRAY_PUSH(&g->added, s);
 }
 
-/* The search for the other end of a gap, for each of a group. */
-struct gap_search {
-  const struct nearest *tree;
-  const struct drawing_point *at;
-  uint32_t *next; /* of each: the nearest other one; NEAREST_NONE: none */
-  double most;    /* what is as far away is the end of no gap */
+/* A group of loose ends, which have equal keys, and the search in it for the
+ * other end of each gap. */
+struct gap_group {
+  const struct gaps *g;
+  const struct sort_key *loose;
+  uint32_t count, *next; /* of each: the nearest other one; NO_END: none;
+                            SEVERAL_ENDS: several are equally near */
+  double near, most;     /* what is as far away as `most` ends no gap */
 };
 
-static bool find_next_of_range(void *user, struct parallel_range range) {
-  const struct gap_search *search = user;
-  for (uint32_t i = (uint32_t)range.begin; i < range.end; i++) {
-    uint32_t found[2] = {NEAREST_NONE, NEAREST_NONE};
-    (void)nearest_list(search->tree, search->at[i], NEAREST_NONE, search->most,
-                       found, 2);
-    search->next[i] = found[0] == i ? found[1] : found[0];
-  }
+/* The end for which another one is sought, and the nearest one so far. */
+struct nearest_end {
+  struct ink_point from;
+  uint32_t found;   /* as of gap_group */
+  double distance2; /* of a node that is to be nearer */
+};
+
+/* The loose end of the group at a node; NO_END: there is none. */
+static uint32_t loose_end_at(const struct gap_group *group, uint32_t node) {
+  const struct segment_graph *graph = group->g->graph;
+  if (!has_one_end(graph, node))
+    return NO_END;
+  uint32_t end = graph->ends.item[graph->ends.start[node]];
+  return key_of_gap(group->g, end) == group->loose->key ? end : NO_END;
+}
+
+/* Tests node k; returns whether its x is near enough, so that those beyond it
+ * in its row may be. */
+static bool test_node(const struct gap_group *group, struct nearest_end *best,
+                      uint32_t k) {
+  struct ink_point p = group->g->graph->node.item[k];
+  double dx = (double)p.x - best->from.x, dy = (double)p.y - best->from.y;
+  if (dx * dx > best->distance2)
+    return false;
+  double distance2 = dx * dx + dy * dy;
+  if (distance2 > best->distance2)
+    return true;
+  uint32_t end = loose_end_at(group, k);
+  if (end != NO_END && distance2 < best->distance2)
+    best->found = end;
+  else if (end != NO_END && best->found != NO_END)
+    best->found = SEVERAL_ENDS;
+  if (end != NO_END)
+    best->distance2 = distance2;
   return true;
+}
+
+/* Tests the nodes of a row: those from `first` to the right, and those before
+ * `past` to the left. */
+static void test_row(const struct gap_group *group, struct nearest_end *best,
+                     uint32_t r, size_t first, size_t past) {
+  const struct node_rows *rows = group->g->rows;
+  for (size_t k = first; k < rows->start[r + 1]; k++)
+    if (!test_node(group, best, (uint32_t)k))
+      break;
+  for (size_t k = past; k > rows->start[r]; k--)
+    if (!test_node(group, best, (uint32_t)(k - 1)))
+      break;
+}
+
+/* The same of a row without the end itself. */
+static void test_other_row(const struct gap_group *group,
+                           struct nearest_end *best, uint32_t r) {
+  const struct node_rows *rows = group->g->rows;
+  const struct ink_point *at = group->g->graph->node.item;
+  size_t k;
+  LOWER_BOUND(k, rows->start[r], rows->start[r + 1], at[k].x < best->from.x);
+  test_row(group, best, r, k, k);
+}
+
+/* The nearest other end of the group, as of gap_group. */
+static uint32_t find_next(const struct gap_group *group, uint32_t node) {
+  const struct node_rows *rows = group->g->rows;
+  struct nearest_end best = {group->g->graph->node.item[node], NO_END,
+                             group->most * group->most};
+  uint32_t own = rows->row[node];
+  double y = best.from.y, away;
+  test_row(group, &best, own, (size_t)node + 1, node);
+  for (uint32_t r = own; r > 0; r--) {
+    away = y - (double)rows->low[r];
+    if (away * away > best.distance2)
+      break;
+    test_other_row(group, &best, r - 1);
+  }
+  for (uint32_t r = own + 1; r < rows->count; r++) {
+    away = (double)rows->low[r] - y;
+    if (away * away > best.distance2)
+      break;
+    test_other_row(group, &best, r);
+  }
+  return best.found;
+}
+
+static bool find_next_of_range(void *user, struct parallel_range range) {
+  const struct gap_group *group = user;
+  for (size_t i = range.begin; i < range.end; i++)
+    group->next[i] =
+        find_next(group, node_of_loose_end(group->g, group->loose[i].value));
+  return true;
+}
+
+/* Finds the others where several are equally near: as a search of a k-d tree
+ * finds the first of them.  Returns false when memory ran out. */
+static bool find_among_several(const struct gap_group *group) {
+  struct nearest tree = {0};
+  struct drawing_point *at = mem_alloc(group->count, sizeof *at);
+  bool ok = at != NULL;
+  for (uint32_t i = 0; ok && i < group->count; i++) {
+    struct ink_point p = end_point(group->g, group->loose[i].value);
+    at[i] = (struct drawing_point){p.x, p.y};
+  }
+  ok = ok && nearest_init_unsplit(&tree, at, group->count);
+  for (uint32_t i = 0; ok && i < group->count; i++) {
+    uint32_t found[2] = {i, i};
+    if (group->next[i] != SEVERAL_ENDS)
+      continue;
+    nearest_split(&tree, at[i], group->most);
+    (void)nearest_list(&tree, at[i], NEAREST_NONE, group->most, found, 2);
+    group->next[i] = group->loose[found[found[0] == i]].value;
+  }
+  nearest_fini(&tree);
+  mem_free(at);
+  return ok;
+}
+
+/* Finds the nearest other end of each of the group.  Returns false when memory
+ * ran out or the caller cancelled. */
+static bool find_nearest_ends(struct gap_group *group) {
+  if (!parallel_ranges(parallel_workers(group->count, ENDS_IN_RANGE),
+                       group->count, ENDS_IN_RANGE, find_next_of_range, group))
+    return false;
+  for (uint32_t i = 0; i < group->count; i++)
+    if (group->next[i] == SEVERAL_ENDS)
+      return find_among_several(group);
+  return true;
+}
+
+/* The place of an end in the group, which is sorted by node. */
+static size_t place_in_group(const struct gap_group *group, uint32_t end) {
+  uint32_t node = node_of_loose_end(group->g, end);
+  size_t i;
+  LOWER_BOUND(i, 0, group->count,
+              node_of_loose_end(group->g, group->loose[i].value) < node);
+  return i;
 }
 
 /* Closes the gaps between the ends of a group.
@@ -114,25 +253,18 @@ static bool close_group(struct gaps *g, const struct sort_key *loose,
                         uint32_t count) {
   uint32_t pen = (uint32_t)(loose->key >> 9) / RECTO_EDGE_CLASS_COUNT;
   double near = pens_width_mm(g->pens, pen) / 2 * SHEET_UNITS_PER_MM;
-  struct nearest tree;
-  g->at.count = 0;
-  for (uint32_t i = 0; i < count; i++) {
-    struct ink_point p = end_point(g, loose[i].value);
-    if (!ARRAY_PUSH(&g->at, ((struct drawing_point){p.x, p.y})))
-      return false;
+  struct gap_group group = {
+      g, loose, count, mem_alloc(count, sizeof *group.next), near, near + 1};
+  bool ok = group.next != NULL && find_nearest_ends(&group);
+  for (uint32_t i = 0; ok && i < count; i++) {
+    uint32_t end = loose[i].value, next = group.next[i];
+    if (next != NO_END &&
+        node_of_loose_end(g, next) > node_of_loose_end(g, end) &&
+        is_gap(g, end, next, near) &&
+        group.next[place_in_group(&group, next)] == end)
+      ok = close_gap(g, end, next);
   }
-  uint32_t *next = mem_alloc(count, sizeof *next);
-  bool ok = next != NULL && nearest_init(&tree, g->at.item, count);
-  struct gap_search search = {&tree, g->at.item, next, near + 1};
-  ok = ok && parallel_ranges(parallel_workers(count, ENDS_IN_RANGE), count,
-                             ENDS_IN_RANGE, find_next_of_range, &search);
-  for (uint32_t i = 0; ok && i < count; i++)
-    if (next[i] != NEAREST_NONE && next[i] > i && next[next[i]] == i &&
-        is_gap(g, loose[i].value, loose[next[i]].value, near))
-      ok = close_gap(g, loose[i].value, loose[next[i]].value);
-  if (next != NULL)
-    nearest_fini(&tree);
-  mem_free(next);
+  mem_free(group.next);
   return ok;
 }
 
@@ -162,13 +294,13 @@ static bool merge_added(struct gaps *g) {
 }
 
 recto_status segment_graph_close_gaps(struct segment_graph *graph,
+                                      const struct node_rows *rows,
                                       const struct pens *pens,
                                       recto_error *error) {
-  struct gaps g = {.graph = graph, .pens = pens};
+  struct gaps g = {.graph = graph, .pens = pens, .rows = rows};
   bool ok = collect_loose_ends(&g) && close_all(&g) && merge_added(&g);
   bool changed = g.added.count > 0;
   ARRAY_FREE(&g.loose);
-  ARRAY_FREE(&g.at);
   graph->gap = g.added;
   if (!ok)
     return error_memory(error);

@@ -3,7 +3,8 @@
  * Invariants  Box i of level l, with j = i - 2^l, bounds the items from
  *   n j / 2^l up to, but without, n (j + 1) / 2^l.  So both children of a box
  *   have child of its items, whatever the points are, and the depth is log2 n.
- *   `left` counts the items of a box that are not deleted.
+ *   `left` counts the items of a box that are not deleted; UNSPLIT: the box
+ *   above it is still to be split.
  * Robustness  A box is pruned if it is not nearer than the best points found so
  *   far.  Of points that coincide, the first one found is the result, which is
  *   deterministic. */
@@ -14,6 +15,7 @@
 #include <math.h>
 
 enum { LEAF_MAX = 8, LEVEL_MAX = 32, SERIAL_LEVELS = 2 };
+#define UNSPLIT UINT32_MAX
 
 struct nearest_item {
   struct drawing_point at;
@@ -107,20 +109,27 @@ struct level_work {
   int level;
 };
 
+/* Fills box j of a level. */
+static void fill_box(struct nearest *t, int level, uint32_t j) {
+  t->box[(UINT32_C(1) << level) + j] =
+      bound(t, first_of_box(t, level, j), first_of_box(t, level, j + 1));
+}
+
+/* Splits the items of box j of a level, which is filled and no leaf. */
+static void split_box(struct nearest *t, int level, uint32_t j) {
+  const struct nearest_box *box = &t->box[(UINT32_C(1) << level) + j];
+  int axis = box->high[1] - box->low[1] > box->high[0] - box->low[0];
+  select_middle(t, first_of_box(t, level, j), first_of_box(t, level, j + 1),
+                first_of_box(t, level + 1, 2 * j + 1), axis);
+}
+
 /* Fills some boxes of a level, and splits the items of each. */
 static bool fill_boxes(void *user, struct parallel_range range) {
   const struct level_work *work = user;
-  struct nearest *t = work->tree;
   for (uint32_t j = (uint32_t)range.begin; j < range.end; j++) {
-    uint32_t low = first_of_box(t, work->level, j),
-             high = first_of_box(t, work->level, j + 1);
-    struct nearest_box *box = &t->box[(UINT32_C(1) << work->level) + j];
-    *box = bound(t, low, high);
-    if (work->level < t->levels) {
-      int axis = box->high[1] - box->low[1] > box->high[0] - box->low[0];
-      uint32_t middle = first_of_box(t, work->level + 1, 2 * j + 1);
-      select_middle(t, low, high, middle, axis);
-    }
+    fill_box(work->tree, work->level, j);
+    if (work->level < work->tree->levels)
+      split_box(work->tree, work->level, j);
   }
   return true;
 }
@@ -139,8 +148,10 @@ static bool build(struct nearest *t) {
   return ok;
 }
 
-bool nearest_init(struct nearest *t, const struct drawing_point *point,
-                  uint32_t count) {
+/* Copies the points of a tree without boxes.  Returns false when memory ran
+ * out. */
+static bool allocate(struct nearest *t, const struct drawing_point *point,
+                     uint32_t count) {
   *t = (struct nearest){.count = count};
   while ((uint64_t)LEAF_MAX << t->levels < count)
     t->levels++;
@@ -153,12 +164,29 @@ bool nearest_init(struct nearest *t, const struct drawing_point *point,
     (void)poll_at(i);
     t->item[i] = (struct nearest_item){point[i], i, false};
   }
+  return true;
+}
+
+bool nearest_init(struct nearest *t, const struct drawing_point *point,
+                  uint32_t count) {
+  if (!allocate(t, point, count))
+    return false;
   bool ok = build(t);
   for (uint32_t i = 0; i < count; i++) {
     (void)poll_at(i);
     t->position[t->item[i].point] = i;
   }
   return ok;
+}
+
+bool nearest_init_unsplit(struct nearest *t, const struct drawing_point *point,
+                          uint32_t count) {
+  if (!allocate(t, point, count))
+    return false;
+  for (size_t i = 2; i < (size_t)2 << t->levels; i++)
+    t->box[i].left = UNSPLIT;
+  fill_box(t, 0, 0);
+  return true;
 }
 
 void nearest_fini(struct nearest *t) {
@@ -259,6 +287,27 @@ static void search_tree(const struct nearest *t, struct search *s) {
         stack[depth].box = 2 * i + child;
         stack[depth++].distance2 = d;
       }
+    }
+  }
+}
+
+void nearest_split(struct nearest *t, struct drawing_point from, double most) {
+  struct {
+    uint32_t level, j;
+  } stack[LEVEL_MAX + 2] = {{0, 0}};
+  for (uint32_t depth = 1; depth > 0;) {
+    int level = (int)stack[--depth].level;
+    uint32_t j = stack[depth].j, box = (UINT32_C(1) << level) + j;
+    if (level == t->levels || box_distance2(&t->box[box], from) >= most * most)
+      continue;
+    if (t->box[2 * box].left == UNSPLIT) {
+      split_box(t, level, j);
+      fill_box(t, level + 1, 2 * j);
+      fill_box(t, level + 1, 2 * j + 1);
+    }
+    for (uint32_t child = 0; child < 2; child++) {
+      stack[depth].level = (uint32_t)level + 1;
+      stack[depth++].j = 2 * j + child;
     }
   }
 }

@@ -21,6 +21,16 @@ struct nearest {
  * Cost  n log n */
 USE_RESULT bool nearest_init(struct nearest *nearest,
                              const struct drawing_point *point, uint32_t count);
+/* The same of a tree that nearest_split builds.  Cost  linear */
+USE_RESULT bool nearest_init_unsplit(struct nearest *nearest,
+                                     const struct drawing_point *point,
+                                     uint32_t count);
+
+/* Builds as much of that tree as nearest_list with `most` visits; that then
+ * finds the same points in the same order as in the whole tree. */
+void nearest_split(struct nearest *nearest, struct drawing_point from,
+                   double most);
+
 void nearest_fini(struct nearest *nearest);
 
 /* Deletes a point, which must not have been deleted before.

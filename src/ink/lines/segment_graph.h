@@ -181,8 +181,10 @@ USE_RESULT recto_status segment_graph_drop_output_overlaps(
  * at most half a pen apart, each is the nearest such end to the other and the
  * only one at its node, and the lines do not turn back there.
  * Errors  RECTO_ERROR_MEMORY
- * Cost    linear, and n log n in the n ends that are alone at their nodes */
+ * Cost    linear, and for each end that is alone at its node the nodes that its
+ *         row and those beside it have as near as the nearest such end */
 USE_RESULT recto_status segment_graph_close_gaps(struct segment_graph *graph,
+                                                 const struct node_rows *rows,
                                                  const struct pens *pens,
                                                  recto_error *error);
 
