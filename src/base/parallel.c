@@ -115,10 +115,10 @@ static void do_ranges(void *user, bool is_caller) {
 
 int parallel_workers(size_t count, size_t items) {
   size_t worthwhile = count / items / RANGES_PER_THREAD;
+  if (worthwhile < 2)
+    return 1; /* without asking the system, which short loops would feel */
   int threads = parallel_threads();
-  return worthwhile < 2                 ? 1
-         : worthwhile < (size_t)threads ? (int)worthwhile
-                                        : threads;
+  return worthwhile < (size_t)threads ? (int)worthwhile : threads;
 }
 
 bool parallel_ranges(int workers, size_t count, size_t items,

@@ -49,6 +49,7 @@ librecto_core_la_SOURCES += \
   %D%/lines/segment_order.c \
   %D%/lines/segments.c \
   %D%/lines/short_cycles.c \
+  %D%/lines/loose_ends.c %D%/lines/loose_ends.h \
   %D%/lines/short_spurs.c %D%/lines/short_spurs.h \
   %D%/lines/speckled_creases.c \
   %D%/lines/simplify.c \

@@ -18,30 +18,19 @@
 #include "ink/lines/short_spurs.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "base/parallel.h"
 #include "base/poll.h"
 #include "base/tolerance.h"
-#include "geom/nearest.h"
+#include "ink/lines/loose_ends.h"
 #include "ink/lines/nodes_near_segment.h"
+#include "ink/lines/paths.h"
 #include "ink/pens.h"
 
-/* The cells of the grid along each side of the page, at most.  Blocks of them,
- * 2^BLOCK_SHIFT along each side, are looked at first. */
-enum { GRID_MAX = 1 << 10, BLOCK_SHIFT = 3 };
-
 struct spur {
-  uint32_t end[2];   /* its loose ends; SEGMENT_GRAPH_NONE: there is one */
-  bool is_passed[2]; /* another line is near that end, or there is none */
-  bool is_met;       /* another line ends on it */
-  bool is_dash;      /* it is left out only if it touches nothing */
-};
-
-/* A loose end in the list of a cell: end k of spur `end` >> 1, k = `end` & 1.
- * next  one in the list, plus one; 0: none */
-struct listed_end {
-  uint32_t end, next;
+  uint32_t end[2]; /* its loose ends; SEGMENT_GRAPH_NONE: there is one */
+  bool is_met;     /* another line ends on it */
+  bool is_dash;    /* it is left out only if it touches nothing */
 };
 
 struct spur_search {
@@ -53,17 +42,7 @@ struct spur_search {
   ARRAY(struct spur) spur;
   uint32_t *of_segment;    /* the spur of each, plus one; 0: it is of none */
   ARRAY(uint32_t) segment; /* those of spurs */
-  double near;             /* half of the widest pen, grid units */
-  double cell, low[2];     /* of the uniform grid, grid units */
-  double per_unit;         /* cells */
-  int count[2];            /* of cells, in x and in y */
-  /* One a cell: the first of the loose ends in it and in those about it, as in
-   * listed_end. */
-  uint32_t *first;
-  ARRAY(struct listed_end) listed;
-  uint8_t *has_ends; /* one a block: some cell of it has a list */
-  size_t blocks;     /* in a row of these */
-  uint8_t *is_near;  /* one a segment: some may be near it */
+  struct loose_ends loose; /* end k of spur i is 2 i + k */
 };
 
 static uint32_t spur_node(const struct spur_search *s, uint32_t end) {
@@ -206,214 +185,94 @@ static bool is_own_node(void *user, uint32_t segment, uint32_t node) {
   return is_of_spur(s, node, s->of_segment[segment] - 1);
 }
 
-static void find_met(struct spur_search *s, const struct node_rows *rows) {
-  double near = s->step + 2 * TOLERANCE_COINCIDENT_UNITS;
-  const struct node_search search = {s->graph, rows, (int32_t)ceil(near),
-                                     is_own_node, s};
-  for (size_t i = 0; i < s->segment.count; i++) {
+struct met_search {
+  const struct spur_search *spurs;
+  struct node_search nodes;
+};
+
+static bool find_met_of_range(void *user, struct parallel_range range) {
+  const struct met_search *met = user;
+  const struct spur_search *s = met->spurs;
+  for (size_t i = range.begin; i < range.end; i++) {
     uint32_t segment = s->segment.item[i];
     struct spur *spur = &s->spur.item[s->of_segment[segment] - 1];
-    spur->is_met = spur->is_met || !nodes_near_segment_visit(&search, segment);
+    if (!loose_ends_is_found(&spur->is_met) &&
+        !nodes_near_segment_visit(&met->nodes, segment))
+      loose_ends_set_found(&spur->is_met);
   }
+  return true;
+}
+
+static bool find_met(struct spur_search *s, const struct node_rows *rows) {
+  double near = s->step + 2 * TOLERANCE_COINCIDENT_UNITS;
+  struct met_search met = {
+      s, {s->graph, rows, (int32_t)ceil(near), is_own_node, s}};
+  return parallel_ranges(parallel_workers(s->segment.count, PATHS_IN_RANGE),
+                         s->segment.count, PATHS_IN_RANGE, find_met_of_range,
+                         &met);
 }
 
 /* ---- 3 What passes by ---------------------------------------------------- */
 
-static int spur_cell(const struct spur_search *s, int axis, double at) {
-  double cell = (at - s->low[axis]) * s->per_unit;
-  int last = s->count[axis] - 1;
-  return cell < 0 ? 0 : cell < last ? (int)cell : last;
-}
-
-/* Lists a loose end in its cell and in those about it: what is near the end is
- * in one of them. */
-static bool list_loose_end(struct spur_search *s, uint32_t spur, uint32_t k) {
-  struct ink_point at =
-      s->graph->node.item[spur_node(s, s->spur.item[spur].end[k])];
-  int x = spur_cell(s, 0, at.x), y = spur_cell(s, 1, at.y);
-  for (int row = y - (y > 0); row <= y + 1 && row < s->count[1]; row++)
-    for (int i = x - (x > 0); i <= x + 1 && i < s->count[0]; i++) {
-      uint32_t *first = &s->first[row * s->count[0] + i];
-      struct listed_end listed = {spur << 1 | k, *first};
-      if (!ARRAY_PUSH(&s->listed, listed))
-        return false;
-      *first = (uint32_t)s->listed.count;
-      s->has_ends[(size_t)(row >> BLOCK_SHIFT) * s->blocks +
-                  (size_t)(i >> BLOCK_SHIFT)] = 1;
-    }
-  return true;
-}
-
 static bool list_loose_ends(struct spur_search *s) {
-  const double *page_mm = s->sheet->camera.page_mm;
-  double longest = fmax(page_mm[0], page_mm[1]) * SHEET_UNITS_PER_MM;
-  s->cell = fmax(4 * s->near, longest / GRID_MAX);
-  s->per_unit = 1 / s->cell;
-  for (int axis = 0; axis < 2; axis++) {
-    s->low[axis] = -page_mm[axis] / 2 * SHEET_UNITS_PER_MM;
-    s->count[axis] = 1 - (int)floor(2 * s->low[axis] / s->cell);
-  }
-  s->first =
-      mem_calloc((size_t)s->count[0] * (size_t)s->count[1], sizeof *s->first);
-  s->blocks = ((size_t)s->count[0] >> BLOCK_SHIFT) + 1;
-  s->has_ends = mem_calloc(s->blocks, ((size_t)s->count[1] >> BLOCK_SHIFT) + 1);
-  bool ok = s->first != NULL && s->has_ends != NULL;
-  for (uint32_t i = 0; ok && i < s->spur.count; i++) {
-    struct spur *spur = &s->spur.item[i];
-    for (uint32_t k = 0; ok && k < 2; k++) {
-      spur->is_passed[k] = spur->end[k] == SEGMENT_GRAPH_NONE;
-      ok = spur->is_passed[k] || spur->is_met || list_loose_end(s, i, k);
+  bool ok =
+      loose_ends_init(&s->loose, s->graph, s->pens, s->sheet->camera.page_mm);
+  for (uint32_t i = 0; ok && i < s->spur.count; i++)
+    for (int k = 0; ok && k < 2; k++) {
+      const struct spur *spur = &s->spur.item[i];
+      uint32_t end = spur->end[k];
+      struct loose_end loose = {.spur = i,
+                                .is_passed = end == SEGMENT_GRAPH_NONE};
+      if (!loose.is_passed)
+        loose.at = s->graph->node.item[spur_node(s, end)];
+      ok = loose_ends_add(&s->loose, loose, !loose.is_passed && !spur->is_met);
     }
-  }
   return ok;
 }
 
-/* The lists of the cells of a segment's ends, if it is in no other cells: in
- * one, or in two that share a side.  Returns false if it may be. */
-static bool find_cells(const struct spur_search *s, uint32_t segment,
-                       uint32_t *first[2]) {
-  const uint32_t *node = s->graph->segment.item[segment].node;
-  struct ink_point p = s->graph->node.item[node[0]];
-  struct ink_point q = s->graph->node.item[node[1]];
-  int x = spur_cell(s, 0, p.x), y = spur_cell(s, 1, p.y);
-  int dx = spur_cell(s, 0, q.x) - x, dy = spur_cell(s, 1, q.y) - y;
-  first[0] = &s->first[y * s->count[0] + x];
-  first[1] = first[0] + dy * s->count[0] + dx;
-  return abs(dx) + abs(dy) <= 1;
-}
-
-/* Whether loose ends may be listed in a cell of a segment: by the blocks of its
- * box, of which there are two by two at most where it is not long. */
-static bool may_meet_ends(const struct spur_search *s, uint32_t segment) {
-  const uint32_t *node = s->graph->segment.item[segment].node;
-  struct ink_point p = s->graph->node.item[node[0]];
-  struct ink_point q = s->graph->node.item[node[1]];
-  int x = spur_cell(s, 0, p.x) >> BLOCK_SHIFT,
-      y = spur_cell(s, 1, p.y) >> BLOCK_SHIFT,
-      to_x = spur_cell(s, 0, q.x) >> BLOCK_SHIFT,
-      to_y = spur_cell(s, 1, q.y) >> BLOCK_SHIFT;
-  const uint8_t *row = s->has_ends + (size_t)y * s->blocks,
-                *to_row = s->has_ends + (size_t)to_y * s->blocks;
-  return abs(to_x - x) > 1 || abs(to_y - y) > 1 ||
-         (row[x] | row[to_x] | to_row[x] | to_row[to_x]) != 0;
-}
-
-static bool find_near_of_range(void *user, struct parallel_range range) {
-  const struct spur_search *s = user;
-  for (size_t i = range.begin; i < range.end; i++)
-    s->is_near[i] = !graph_segment_is_hidden(&s->graph->segment.item[i]) &&
-                    may_meet_ends(s, (uint32_t)i);
-  return true;
-}
-
-/* Whether a number is within `near` of a range, given by its ends. */
-static bool is_near_span(int32_t a, int32_t b, int32_t at, double near) {
-  double low = a < b ? a : b, high = a < b ? b : a;
-  return low - near <= at && at <= high + near;
-}
-
-/* Whether a segment is within half a pen of a place.  One whose box is farther
- * away by a grid unit, more than rounding can bring it nearer, is not. */
-static bool is_near_place(const struct spur_search *s, uint32_t segment,
-                          struct ink_point at) {
-  const uint32_t *node = s->graph->segment.item[segment].node;
-  struct ink_point p = s->graph->node.item[node[0]];
-  struct ink_point q = s->graph->node.item[node[1]];
-  if (!is_near_span(p.x, q.x, at.x, s->near + 1) ||
-      !is_near_span(p.y, q.y, at.y, s->near + 1))
-    return false;
-  double x = (double)q.x - p.x, y = (double)q.y - p.y;
-  double px = (double)at.x - p.x, py = (double)at.y - p.y;
-  double t = geom_nearest_parameter(x, y, px, py);
-  return hypot(px - t * x, py - t * y) <= s->near;
-}
-
-/* Tests a segment with the loose ends in a list, which those leave that some
- * segment is near. */
-static void test_list(struct spur_search *s, uint32_t *link, uint32_t segment) {
-  while (*link != 0) {
-    struct listed_end *listed = &s->listed.item[*link - 1];
-    uint32_t number = listed->end >> 1, k = listed->end & 1;
-    struct spur *spur = &s->spur.item[number];
-    spur->is_passed[k] =
-        spur->is_passed[k] ||
-        (s->of_segment[segment] != number + 1 &&
-         is_near_place(s, segment,
-                       s->graph->node.item[spur_node(s, spur->end[k])]));
-    if (spur->is_passed[k])
-      *link = listed->next;
-    else
-      link = &listed->next;
-  }
-}
-
-/* Tests a segment with what is listed in all of its cells, row by row. */
-static void test_rows(struct spur_search *s, uint32_t segment) {
-  const uint32_t *node = s->graph->segment.item[segment].node;
-  struct ink_point p = s->graph->node.item[node[0]];
-  struct ink_point q = s->graph->node.item[node[1]];
-  double low = fmin(p.y, q.y), high = fmax(p.y, q.y);
-  double slope = high > low ? ((double)q.x - p.x) / ((double)q.y - p.y) : 0;
-  for (int row = spur_cell(s, 1, low); row <= spur_cell(s, 1, high); row++) {
-    double from = s->low[1] + row * s->cell - s->near;
-    double y0 = fmin(fmax(from, low), high);
-    double y1 = fmin(fmax(from + s->cell + 2 * s->near, low), high);
-    double x0 = p.x + slope * (y0 - p.y), x1 = p.x + slope * (y1 - p.y);
-    if (high == low) {
-      x0 = p.x;
-      x1 = q.x;
-    }
-    int last = spur_cell(s, 0, fmax(x0, x1));
-    for (int x = spur_cell(s, 0, fmin(x0, x1)); x <= last; x++)
-      test_list(s, &s->first[row * s->count[0] + x], segment);
-  }
-}
-
 static void test_segment(struct spur_search *s, uint32_t segment) {
-  uint32_t *first[2];
-  if (find_cells(s, segment, first)) {
-    test_list(s, first[0], segment);
-    test_list(s, first[1], segment);
-  } else {
-    test_rows(s, segment);
-  }
+  loose_ends_test(&s->loose, segment, s->of_segment[segment] - 1);
+}
+
+static bool test_range(void *user, struct parallel_range range) {
+  struct spur_search *s = user;
+  for (size_t i = range.begin; i < range.end; i++)
+    if (!graph_segment_is_hidden(&s->graph->segment.item[i]) &&
+        loose_ends_may_meet(&s->loose, (uint32_t)i))
+      test_segment(s, (uint32_t)i);
+  return true;
 }
 
 /* Segments of spurs come first: of ends that are close together all but a few
  * leave the lists with these. */
 static bool find_passing(struct spur_search *s) {
   size_t count = s->graph->segment.count;
-  s->is_near = mem_alloc(count, 1);
-  if (s->is_near == NULL || !list_loose_ends(s) ||
-      !parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
-                       PARALLEL_ITEMS, find_near_of_range, s))
+  if (!list_loose_ends(s))
     return false;
   for (size_t i = 0; i < s->segment.count; i++) {
     if (!poll_at(i))
       return false;
     test_segment(s, s->segment.item[i]);
   }
-  for (uint32_t i = 0; i < count; i++) {
-    if (!poll_at(i))
-      return false;
-    if (s->is_near[i])
-      test_segment(s, i);
-  }
-  return true;
+  int workers = parallel_workers(count, PARALLEL_ITEMS);
+  s->loose.is_shared = workers > 1;
+  return parallel_ranges(workers, count, PARALLEL_ITEMS, test_range, s);
 }
 
 /* ---- All ----------------------------------------------------------------- */
 
-static bool leads_nowhere(const struct spur *spur) {
-  return !spur->is_met &&
-         (spur->is_dash ? !spur->is_passed[0] && !spur->is_passed[1]
-                        : !spur->is_passed[0] || !spur->is_passed[1]);
+static bool leads_nowhere(const struct spur_search *s, uint32_t spur) {
+  const struct loose_end *end = &s->loose.end.item[2 * (size_t)spur];
+  if (s->spur.item[spur].is_met)
+    return false;
+  return s->spur.item[spur].is_dash ? !end[0].is_passed && !end[1].is_passed
+                                    : !end[0].is_passed || !end[1].is_passed;
 }
 
 static void drop_spurs(const struct spur_search *s, uint8_t *drop) {
   for (size_t i = 0; i < s->segment.count; i++) {
     uint32_t segment = s->segment.item[i];
-    drop[segment] = leads_nowhere(&s->spur.item[s->of_segment[segment] - 1]);
+    drop[segment] = leads_nowhere(s, s->of_segment[segment] - 1);
   }
 }
 
@@ -427,23 +286,15 @@ bool segment_graph_find_short_spurs(const struct segment_graph *graph,
                           .pens = pens,
                           .step = step,
                           .creases = creases};
-  for (uint32_t pen = 0; pen < pens->count; pen++)
-    s.near = fmax(s.near, pens_width_mm(pens, pen) / 2 * SHEET_UNITS_PER_MM);
   bool ok = find_spurs(&s);
   if (ok && s.spur.count > 0) {
-    ok = list_spurs(&s);
-    if (ok)
-      find_met(&s, rows);
-    ok = ok && find_passing(&s);
+    ok = list_spurs(&s) && find_met(&s, rows) && find_passing(&s);
     if (ok)
       drop_spurs(&s, drop);
   }
   ARRAY_FREE(&s.spur);
   mem_free(s.of_segment);
   ARRAY_FREE(&s.segment);
-  mem_free(s.first);
-  mem_free(s.has_ends);
-  ARRAY_FREE(&s.listed);
-  mem_free(s.is_near);
+  loose_ends_fini(&s.loose);
   return ok;
 }
