@@ -14,10 +14,9 @@
 #include "base/tolerance.h"
 #include "visibility/contour/zero_segments.h"
 
-/* How far a corner within the picture is moved, as a share of the width of the
- * faces there: those on a mesh's outline lie in the strip between it and the
- * contour. */
-#define INNER_SHARE 0.5
+/* How far a corner is moved, as a share of the width of the faces there: those
+ * on a mesh's outline lie in the strip between it and the contour. */
+#define MOVE_SHARE 0.5
 
 /* ---- 1 Contour edges about points ---------------------------------------- */
 
@@ -133,18 +132,18 @@ bool corner_moves_is_along(const struct corner_moves *moves,
           sheet_edge_is_outline(moves->sheet, edge));
 }
 
-/* How far a corner is moved on an edge within the picture, at most: by half of
- * the width of the narrower face beside it, squared.  A corner of the outline
- * goes to the contour wherever that is. */
-static double farthest_within(const struct corner_moves *moves,
-                              const struct sheet_edge *edge) {
-  double least = INFINITY;
-  for (int k = 0; k < 2; k++) {
-    const struct sheet *sheet = moves->sheet;
-    uint32_t face = sheet->triangle.item[edge->triangle[k]].face;
-    least = fmin(least, INNER_SHARE * extent_of_face(sheet, face));
-  }
-  return least * least;
+/* How far a corner is moved on an edge, at most: by half of the width of the
+ * wider face beside it, or of the narrower one within the picture. */
+static double farthest_move(const struct corner_moves *moves,
+                            const struct sheet_edge *edge, bool within) {
+  const struct sheet *sheet = moves->sheet;
+  double width[2] = {0, 0};
+  for (int k = 0; k < 2; k++)
+    if (edge->triangle[k] != SHEET_NONE)
+      width[k] =
+          extent_of_face(sheet, sheet->triangle.item[edge->triangle[k]].face);
+  return MOVE_SHARE *
+         (within ? fmin(width[0], width[1]) : fmax(width[0], width[1]));
 }
 
 /* Tries the contours about the edge along a side that starts or ends at a
@@ -165,15 +164,15 @@ static void try_side(const struct corner_moves *moves,
   if (moves->of_point.start[point[0]] == moves->of_point.start[point[0] + 1] &&
       moves->of_point.start[point[1]] == moves->of_point.start[point[1] + 1])
     return;
+  struct corner_move moved = *move;
   if (occluder && !move->occluder) {
-    move->occluder = true;
-    move->distance = INFINITY;
+    moved.occluder = true;
+    moved.distance = INFINITY;
   }
   bool beyond = !occluder && !sheet_edge_is_outline(sheet, edge);
-  struct corner_move moved = *move;
-  if (beyond)
-    moved.distance = fmin(moved.distance, farthest_within(moves, edge));
-  double least = moved.distance;
+  double most = farthest_move(moves, edge, beyond);
+  double least = fmin(moved.distance, most * most);
+  moved.distance = least;
   for (int k = 0; k < 2; k++)
     try_point(moves, point[k], beyond, &moved);
   if (moved.distance < least)
@@ -187,10 +186,10 @@ static void meet_contours(const struct corner_moves *moves,
                           const struct map_corner *farther,
                           struct corner_move *move) {
   const struct sheet_edge *edge = moves->sheet->edge.item;
-  double best = INFINITY;
   if (move->distance == INFINITY || nearer->side != MAP_SIDE_OCCLUDER ||
       !corner_moves_is_along(moves, farther))
     return;
+  double best = farthest_move(moves, &edge[farther->id], false);
   const uint32_t *ends =
       moves->topology->edge.item[edge[farther->id].source].point;
   for (int k = 0; k < 4; k++)
