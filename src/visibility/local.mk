@@ -91,6 +91,7 @@ librecto_core_la_SOURCES += \
   %D%/predicate/occlusion.c %D%/predicate/occlusion.h \
   %D%/predicate/plane_cache.c %D%/predicate/plane_cache.h \
   %D%/predicate/plane_filter.c %D%/predicate/plane_filter.h \
+  %D%/predicate/point_lanes.h \
   %D%/predicate/surrounder.c %D%/predicate/surrounder.h \
   %D%/predicate/triangle_pair.c %D%/predicate/triangle_pair.h \
   %D%/predicate/window.c %D%/predicate/window.h \

@@ -156,8 +156,8 @@ enum { FOOTPRINT_LARGE = 255 };
 static inline struct footprint footprint_of(struct cell_range r, int low,
                                             int high) {
   int width = r.x1 - r.x0, height = r.y1 - r.y0;
-  bool large = width >= FOOTPRINT_LARGE || height >= FOOTPRINT_LARGE ||
-               r.x0 > UINT16_MAX || r.y0 > UINT16_MAX;
+  bool large = (width >= FOOTPRINT_LARGE) | (height >= FOOTPRINT_LARGE) |
+               ((r.x0 | r.y0) > UINT16_MAX);
   return (struct footprint){(uint16_t)(r.x0 & UINT16_MAX),
                             (uint16_t)(r.y0 & UINT16_MAX),
                             (uint8_t)(large ? FOOTPRINT_LARGE : width),

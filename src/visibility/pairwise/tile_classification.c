@@ -17,6 +17,7 @@
 #include "base/parallel.h"
 #include "visibility/predicate/occlusion.h"
 #include "visibility/predicate/plane_filter.h"
+#include "visibility/predicate/point_lanes.h"
 
 /* A scene is called deep if its depth complexity is above DEEP. */
 enum {
@@ -53,36 +54,31 @@ static bool is_steep(const struct sheet *sheet,
 /* What is read for every triangle, as a copy, so that the compiler knows that
  * writing to the tiles does not change it. */
 struct tile_collection {
-  struct triangle_grid grid;
   struct tile *tile;
-  /* The sample point of the first tile.  It is off the middle, because in
-   * regular meshes whose edges are aligned with the grid the middle would often
-   * be on an edge. */
-  int64_t sample_x, sample_y;
+  size_t columns;
+  int shift;
+  point_lanes first; /* the grid's lower left corner */
+  /* The sample point of the first tile, from there.  It is off the middle,
+   * because in regular meshes whose edges are aligned with the grid the middle
+   * would often be on an edge. */
+  point_lanes sample;
 };
 
 static inline struct tile *collection_tile(const struct tile_collection *g,
                                            int x, int y) {
-  return &g->tile[(size_t)y * (size_t)g->grid.columns + (size_t)x];
+  return &g->tile[(size_t)y * g->columns + (size_t)x];
 }
 
 static struct tile_collection
 collection_of(const struct tile_classification *tiles, struct tile *tile) {
   const struct triangle_grid *grid = &tiles->grid;
   int64_t side = INT64_C(1) << grid->shift;
-  return (struct tile_collection){*grid, tile, grid->x0 + side * 37 / 64,
-                                  grid->y0 + side * 29 / 64};
-}
-
-/* Finds the columns, or rows, from *first to before *past whose sample points
- * are in [low, high]; there are none if *past <= *first.
- * origin  the sample point of column or row 0 */
-static inline void find_samples(int32_t low, int32_t high, int64_t origin,
-                                int shift, int count, int *first, int *past) {
-  int64_t from = (low - origin + (INT64_C(1) << shift) - 1) >> shift;
-  int64_t to = (high - origin) >> shift;
-  *first = from < 0 ? 0 : (int)from;
-  *past = to < count ? (int)to + 1 : count;
+  return (struct tile_collection){
+      .tile = tile,
+      .columns = (size_t)grid->columns,
+      .shift = grid->shift,
+      .first = {grid->x0, grid->y0},
+      .sample = {(int32_t)(side * 37 / 64), (int32_t)(side * 29 / 64)}};
 }
 
 /* Records a face that makes the tile's sample unusable. */
@@ -113,42 +109,55 @@ static inline void add_to_sample(struct tile *tile,
   }
 }
 
-/* The same for all sample points within the triangle's box. */
+/* A triangle with all that its tiles need of it. */
+struct collected {
+  struct geom_triangle corners;
+  point_lanes low, high; /* the ends of its box, from the grid's corner on */
+  struct cell_range cells;
+  int farthest, nearest; /* its depth buckets */
+  /* The first of its tiles, and of those in its last row. */
+  struct tile *first, *last;
+};
+
+/* The same for all sample points within the triangle's box.  None of it lies
+ * outside of the grid, nor do the samples. */
 static inline void add_to_samples(const struct tile_collection *g,
-                                  const struct geom_triangle *corners,
-                                  struct box2 box, uint8_t farthest) {
-  const struct triangle_grid *grid = &g->grid;
-  int x0, x1, y0, y1;
-  find_samples(box.x0, box.x1, g->sample_x, grid->shift, grid->columns, &x0,
-               &x1);
-  find_samples(box.y0, box.y1, g->sample_y, grid->shift, grid->rows, &y0, &y1);
-  if ((x0 >= x1) | (y0 >= y1)) /* four in five; no jump for each of them */
+                                  const struct collected *c) {
+  point_lanes before = (c->low - g->sample - 1) >> g->shift,
+              last = (c->high - g->sample) >> g->shift, within = before < last;
+  if ((within[0] & within[1]) == 0) /* one jump for each */
     return;
-  for (int y = y0; y < y1; y++)
-    for (int x = x0; x < x1; x++) {
+  int y = before[1];
+  do {
+    int x = before[0];
+    y++;
+    do {
+      x++;
       struct geom_point sample = {
-          (int32_t)(g->sample_x + ((int64_t)x << grid->shift)),
-          (int32_t)(g->sample_y + ((int64_t)y << grid->shift)), 0};
-      add_to_sample(collection_tile(g, x, y), corners, sample, farthest);
-    }
+          (int32_t)(g->first[0] + g->sample[0] + ((int64_t)x << g->shift)),
+          (int32_t)(g->first[1] + g->sample[1] + ((int64_t)y << g->shift)), 0};
+      add_to_sample(collection_tile(g, x, y), &c->corners, sample,
+                    (uint8_t)(c->farthest + 1));
+    } while (x < last[0]);
+  } while (y < last[1]);
 }
 
 /* Adds a triangle's depth buckets to all its tiles.  Most have two by two at
  * most: those in the corners of the range, whichever are the same. */
 static inline void add_buckets(const struct tile_collection *g,
-                               struct cell_range r, uint64_t mask) {
-  if ((r.x1 - r.x0 <= 1) & (r.y1 - r.y0 <= 1)) {
-    collection_tile(g, r.x0, r.y0)->z_buckets |= mask;
-    collection_tile(g, r.x1, r.y0)->z_buckets |= mask;
-    collection_tile(g, r.x0, r.y1)->z_buckets |= mask;
-    collection_tile(g, r.x1, r.y1)->z_buckets |= mask;
+                               const struct collected *c) {
+  uint64_t mask = bucket_mask(c->farthest, c->nearest);
+  int width = c->cells.x1 - c->cells.x0, height = c->cells.y1 - c->cells.y0;
+  if ((width <= 1) & (height <= 1)) {
+    c->first[0].z_buckets |= mask;
+    c->first[width].z_buckets |= mask;
+    c->last[0].z_buckets |= mask;
+    c->last[width].z_buckets |= mask;
     return;
   }
-  for (int y = r.y0; y <= r.y1; y++) {
-    struct tile *tile = collection_tile(g, r.x0, y), *end = tile + r.x1 - r.x0;
-    for (; tile <= end; tile++)
-      tile->z_buckets |= mask;
-  }
+  for (struct tile *row = c->first; row <= c->last; row += g->columns)
+    for (int x = 0; x <= width; x++)
+      row[x].z_buckets |= mask;
 }
 
 /* Makes the samples of all tiles of a triangle unusable. */
@@ -178,45 +187,43 @@ static struct tile *tiles_of_worker(const struct collection_work *work,
   return work->own[worker];
 }
 
-/* A triangle with all that its tiles need of it. */
-struct collected {
-  struct geom_triangle corners;
-  struct box2 box;
-  struct cell_range cells;
-  int low, high; /* its depth buckets */
-};
-
 /* Reads a triangle, and has the first of its tiles, and of those in the last
  * row, fetched. */
 static inline struct collected collected_of(const struct collection_work *work,
                                             const struct tile_collection *g,
                                             size_t t) {
+  enum { BUCKET_SHIFT = TILE_BUCKET_SHIFT - POINT_LANE_DEPTH_BIT };
   const uint32_t *p = work->sheet->triangle.item[t].point;
   const struct geom_point *point = work->sheet->point.item;
   struct collected c = {.corners = {{point[p[0]], point[p[1]], point[p[2]]}}};
-  int64_t z0 = c.corners.p[0].z, z1 = c.corners.p[1].z, z2 = c.corners.p[2].z;
-  int64_t least = z0 < z1 ? z0 : z1, most = z0 > z1 ? z0 : z1;
-  c.box = box2_of_corners(&c.corners.p[0], &c.corners.p[1], &c.corners.p[2]);
-  c.cells = triangle_grid_cells(&g->grid, c.box);
-  c.low = tile_bucket(z2 < least ? z2 : least);
-  c.high = tile_bucket(z2 > most ? z2 : most);
-  MEM_PREFETCH(collection_tile(g, c.cells.x0, c.cells.y0));
-  MEM_PREFETCH(collection_tile(g, c.cells.x0, c.cells.y1));
+  point_lanes a = point_lanes_of(&c.corners.p[0]),
+              b = point_lanes_of(&c.corners.p[1]), ab = point_lanes_min(a, b),
+              last = point_lanes_of(&c.corners.p[2]);
+  c.low = point_lanes_min(ab, last) - g->first;
+  c.high = point_lanes_max(point_lanes_max(a, b), last) - g->first;
+  point_lanes from = c.low >> g->shift, to = c.high >> g->shift;
+  c.cells = (struct cell_range){from[0], from[1], to[0], to[1]};
+  c.farthest = c.low[POINT_LANE_DEPTH] >> BUCKET_SHIFT;
+  c.nearest = c.high[POINT_LANE_DEPTH] >> BUCKET_SHIFT;
+  c.first = collection_tile(g, c.cells.x0, c.cells.y0);
+  c.last = collection_tile(g, c.cells.x0, c.cells.y1);
+  MEM_PREFETCH(c.first);
+  MEM_PREFETCH(c.last);
   return c;
 }
 
 static inline void add_collected(const struct collection_work *work,
                                  const struct tile_collection *g,
                                  const struct collected *c, size_t t) {
-  work->tiles->footprint[t] = footprint_of(c->cells, c->low, c->high);
-  add_buckets(g, c->cells, bucket_mask(c->low, c->high));
+  work->tiles->footprint[t] = footprint_of(c->cells, c->farthest, c->nearest);
+  add_buckets(g, c);
   if (work->sheet->triangle_flags[t] & SHEET_EDGE_ON)
     return;
   if (is_steep(work->sheet, &work->all, (uint32_t)t, &c->corners))
     add_unsafe(g, c->cells,
-               work->fragments ? UINT8_MAX : (uint8_t)(c->low + 1));
+               work->fragments ? UINT8_MAX : (uint8_t)(c->farthest + 1));
   else
-    add_to_samples(g, &c->corners, c->box, (uint8_t)(c->low + 1));
+    add_to_samples(g, c);
 }
 
 /* Phase 1: visits the triangles of a range, block by block: all of a block are

@@ -35,9 +35,9 @@ static inline double occlusion_bound_of(const struct occlusion_bound *all,
                                         const struct geom_triangle *corners,
                                         double *nz) {
   const struct geom_point *p = corners->p;
-  double ux = (double)p[1].x - p[0].x, uy = (double)p[1].y - p[0].y,
-         uz = (double)(p[1].z - p[0].z), vx = (double)p[2].x - p[0].x,
-         vy = (double)p[2].y - p[0].y, vz = (double)(p[2].z - p[0].z);
+  double ux = p[1].x - p[0].x, uy = p[1].y - p[0].y,
+         uz = (double)(p[1].z - p[0].z), vx = p[2].x - p[0].x,
+         vy = p[2].y - p[0].y, vz = (double)(p[2].z - p[0].z);
   *nz = ux * vy - uy * vx;
   return 1 + all->level * *nz +
          all->slope * (fabs(uy * vz - uz * vy) + fabs(uz * vx - ux * vz));
@@ -55,9 +55,9 @@ static inline struct coarse_plane
 coarse_plane_of(const struct occlusion_bound *all,
                 const struct geom_point p[3]) {
   const double page = 2 * (double)SHEET_XY_MAX, depth = (double)SHEET_Z_MAX;
-  double ux = (double)p[1].x - p[0].x, uy = (double)p[1].y - p[0].y,
-         uz = (double)(p[1].z - p[0].z), vx = (double)p[2].x - p[0].x,
-         vy = (double)p[2].y - p[0].y, vz = (double)(p[2].z - p[0].z);
+  double ux = p[1].x - p[0].x, uy = p[1].y - p[0].y,
+         uz = (double)(p[1].z - p[0].z), vx = p[2].x - p[0].x,
+         vy = p[2].y - p[0].y, vz = (double)(p[2].z - p[0].z);
   double x0 = uy * vz, x1 = uz * vy, y0 = uz * vx, y1 = ux * vz, z0 = ux * vy,
          z1 = uy * vx;
   double page_most = fabs(x0) + fabs(x1) + fabs(y0) + fabs(y1),
