@@ -17,7 +17,6 @@
 #include "base/parallel.h"
 #include "visibility/predicate/occlusion.h"
 #include "visibility/predicate/plane_filter.h"
-#include "visibility/predicate/point_lanes.h"
 
 /* A scene is called deep if its depth complexity is above DEEP. */
 enum {
@@ -192,7 +191,6 @@ static struct tile *tiles_of_worker(const struct collection_work *work,
 static inline struct collected collected_of(const struct collection_work *work,
                                             const struct tile_collection *g,
                                             size_t t) {
-  enum { BUCKET_SHIFT = TILE_BUCKET_SHIFT - POINT_LANE_DEPTH_BIT };
   const uint32_t *p = work->sheet->triangle.item[t].point;
   const struct geom_point *point = work->sheet->point.item;
   struct collected c = {.corners = {{point[p[0]], point[p[1]], point[p[2]]}}};
@@ -203,8 +201,8 @@ static inline struct collected collected_of(const struct collection_work *work,
   c.high = point_lanes_max(point_lanes_max(a, b), last) - g->first;
   point_lanes from = c.low >> g->shift, to = c.high >> g->shift;
   c.cells = (struct cell_range){from[0], from[1], to[0], to[1]};
-  c.farthest = c.low[POINT_LANE_DEPTH] >> BUCKET_SHIFT;
-  c.nearest = c.high[POINT_LANE_DEPTH] >> BUCKET_SHIFT;
+  c.farthest = tile_bucket_of_lanes(c.low);
+  c.nearest = tile_bucket_of_lanes(c.high);
   c.first = collection_tile(g, c.cells.x0, c.cells.y0);
   c.last = collection_tile(g, c.cells.x0, c.cells.y1);
   MEM_PREFETCH(c.first);

@@ -25,6 +25,7 @@
 #define VISIBILITY_PAIRWISE_TILE_CLASSIFICATION_H
 
 #include "visibility/culling/occlusion_culling.h"
+#include "visibility/predicate/point_lanes.h"
 
 enum tile_state {
   TILE_EMPTY, /* no face */
@@ -70,6 +71,9 @@ void tile_classification_drop_footprints(struct tile_classification *tiles);
 /* The bucket of a depth; farther depths have lower numbers. */
 static inline int tile_bucket(int64_t z) {
   return (int)(z >> TILE_BUCKET_SHIFT);
+}
+static inline int tile_bucket_of_lanes(point_lanes p) {
+  return p[POINT_LANE_DEPTH] >> (TILE_BUCKET_SHIFT - POINT_LANE_DEPTH_BIT);
 }
 
 #endif

@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "base/poll.h"
 #include "visibility/pairwise/edge_query.h"
+#include "visibility/predicate/point_lanes.h"
 
 bool tile_states_init(struct tile_states *states, const struct sheet *sheet,
                       const struct tile_classification *tiles,
@@ -96,14 +97,24 @@ static enum map_state state_in_range(const struct tile_classification *tiles,
   return (enum map_state)state;
 }
 
+/* What state_in_corners reads of all tiles. */
+struct tile_corners {
+  const uint8_t *visible_from;
+  size_t columns;
+};
+
+static struct tile_corners tile_corners_of(const struct tile_states *states) {
+  return (struct tile_corners){states->visible_from,
+                               (size_t)states->tiles->grid.columns};
+}
+
 /* The state on which the tiles at the corners of a range agree, whichever are
  * the same, for what lies in a layer of faces; or MAP_MIXED.
  * low  its farthest depth bucket */
-static inline enum map_state state_in_corners(const struct tile_states *states,
+static inline enum map_state state_in_corners(const struct tile_corners *tiles,
                                               struct cell_range r, int low) {
-  size_t columns = (size_t)states->tiles->grid.columns;
-  const uint8_t *first = states->visible_from + (size_t)r.y0 * columns,
-                *last = states->visible_from + (size_t)r.y1 * columns;
+  const uint8_t *first = tiles->visible_from + (size_t)r.y0 * tiles->columns,
+                *last = tiles->visible_from + (size_t)r.y1 * tiles->columns;
   uint8_t from[4] = {first[r.x0], first[r.x1], last[r.x0], last[r.x1]};
   uint8_t least = from[0], most = from[0];
   for (int k = 1; k < 4; k++) {
@@ -117,23 +128,59 @@ static inline enum map_state state_in_corners(const struct tile_states *states,
 
 /* ---- Edges --------------------------------------------------------------- */
 
-/* The state of an edge.  Usually all tiles of its bounding box agree, so that
- * it need not be traced through them. */
-static inline enum map_state state_of_edge(struct tile_states *states,
-                                           struct geom_point p,
-                                           struct geom_point q, bool wire) {
+/* The state of an edge that meets these tiles by its box.  Usually all of them
+ * agree, so that it need not be traced through them. */
+static enum map_state state_of_large_edge(struct tile_states *states,
+                                          struct geom_segment s, bool wire) {
   struct cell_range r =
-      triangle_grid_cells(&states->tiles->grid, box2_of_segment(p, q));
-  int low = tile_bucket(p.z < q.z ? p.z : q.z);
+      triangle_grid_cells(&states->tiles->grid, box2_of_segment(s.p, s.q));
   if (r.x1 - r.x0 + r.y1 - r.y0 > 2)
-    return state_along(states, p, q, wire, false);
-  bool corners = !wire && r.x1 - r.x0 <= 1 && r.y1 - r.y0 <= 1;
-  enum map_state state =
-      corners ? state_in_corners(states, r, low)
-              : state_in_range(states->tiles, r, low,
-                               tile_bucket(p.z > q.z ? p.z : q.z), wire);
+    return state_along(states, s.p, s.q, wire, false);
+  enum map_state state = state_in_range(
+      states->tiles, r, tile_bucket(s.p.z < s.q.z ? s.p.z : s.q.z),
+      tile_bucket(s.p.z > s.q.z ? s.p.z : s.q.z), wire);
   return state == MAP_MIXED && r.x0 < r.x1 && r.y0 < r.y1
-             ? state_along(states, p, q, wire, false)
+             ? state_along(states, s.p, s.q, wire, false)
+             : state;
+}
+
+/* What is read for every edge, as a copy: writing states, which are bytes, may
+ * change anything else. */
+struct edge_loop {
+  struct tile_corners corners;
+  point_lanes first, last; /* the grid's lower left corner, and its last cell */
+  int shift;
+};
+
+static struct edge_loop edge_loop_of(const struct tile_states *states) {
+  const struct triangle_grid *grid = &states->tiles->grid;
+  return (struct edge_loop){.corners = tile_corners_of(states),
+                            .first = {grid->x0, grid->y0},
+                            .last = {grid->columns - 1, grid->rows - 1},
+                            .shift = grid->shift};
+}
+
+/* The state of an edge, of which most meet two by two tiles at most. */
+static inline enum map_state state_of_edge(struct tile_states *states,
+                                           const struct edge_loop *loop,
+                                           const struct geom_point *p,
+                                           const struct geom_point *q,
+                                           bool wire) {
+  const point_lanes at_p = point_lanes_of(p), at_q = point_lanes_of(q),
+                    none = {0, 0};
+  point_lanes low = point_lanes_min(at_p, at_q),
+              high = point_lanes_max(at_p, at_q);
+  point_lanes from = (low - loop->first) >> loop->shift,
+              to = (high - loop->first) >> loop->shift;
+  from = point_lanes_max(point_lanes_min(from, loop->last), none);
+  to = point_lanes_max(point_lanes_min(to, loop->last), none);
+  struct cell_range r = {from[0], from[1], to[0], to[1]};
+  if (wire | (r.x1 - r.x0 > 1) | (r.y1 - r.y0 > 1))
+    return state_of_large_edge(states, (struct geom_segment){*p, *q}, wire);
+  enum map_state state =
+      state_in_corners(&loop->corners, r, tile_bucket_of_lanes(low));
+  return state == MAP_MIXED && r.x0 < r.x1 && r.y0 < r.y1
+             ? state_along(states, *p, *q, wire, false)
              : state;
 }
 
@@ -147,23 +194,28 @@ struct classification_work {
 static bool classify_edge_range(void *user, struct parallel_range range) {
   const struct classification_work *work = user;
   const struct sheet *sheet = work->states->sheet;
-  for (size_t e = work->from + range.begin; e < work->from + range.end; e++) {
-    const struct sheet_edge *edge = &sheet->edge.item[e];
-    if (e + MEM_PREFETCH_AHEAD < sheet->edge.count) {
-      MEM_PREFETCH(&sheet->point.item[edge[MEM_PREFETCH_AHEAD].point[0]]);
-      MEM_PREFETCH(&sheet->point.item[edge[MEM_PREFETCH_AHEAD].point[1]]);
+  const struct geom_point *point = sheet->point.item;
+  const struct edge_loop loop = edge_loop_of(work->states);
+  uint8_t *states = work->map->edge_state;
+  size_t from = work->from, edges = sheet->edge.count;
+  const struct sheet_edge *all = sheet->edge.item;
+  for (size_t e = from + range.begin; e < from + range.end; e++) {
+    const struct sheet_edge *edge = &all[e];
+    if (e + MEM_PREFETCH_AHEAD < edges) {
+      MEM_PREFETCH(&point[edge[MEM_PREFETCH_AHEAD].point[0]]);
+      MEM_PREFETCH(&point[edge[MEM_PREFETCH_AHEAD].point[1]]);
     }
-    struct geom_segment s = sheet_ends(sheet, edge->point);
+    const struct geom_point *p = &point[edge->point[0]],
+                            *q = &point[edge->point[1]];
     bool wire = edge->triangle[0] == SHEET_NONE ||
                 edge->edge_class == RECTO_EDGE_INTERSECTION;
     if (!poll_at(e))
       return false;
-    if (edge->edge_class != 0 && (s.p.x != s.q.x || s.p.y != s.q.y))
-      work->map->edge_state[e] =
-          work->from > 0 &&
-                  occlusion_culling_hides(work->states->culling, s.p, s.q)
+    if (edge->edge_class != 0 && (p->x != q->x || p->y != q->y))
+      states[e] =
+          from > 0 && occlusion_culling_hides(work->states->culling, *p, *q)
               ? MAP_HIDDEN
-              : (uint8_t)state_of_edge(work->states, s.p, s.q, wire);
+              : (uint8_t)state_of_edge(work->states, &loop, p, q, wire);
   }
   return true;
 }
@@ -197,8 +249,9 @@ static enum map_state state_of_face(const struct tile_states *states,
   struct footprint print = states->tiles->footprint[t];
   struct cell_range r =
       footprint_cells(&states->tiles->grid, states->sheet, t, print);
+  struct tile_corners corners = tile_corners_of(states);
   if (print.width <= 1 && print.height <= 1)
-    return state_in_corners(states, r, print.low);
+    return state_in_corners(&corners, r, print.low);
   return state_in_range(states->tiles, r, print.low, print.high, false);
 }
 
