@@ -86,6 +86,13 @@ uint32_t ink_fixture_edge(struct ink_fixture *k, uint32_t p, uint32_t q,
   return edge;
 }
 
+void ink_fixture_set_group(struct ink_fixture *k, uint32_t edge,
+                           uint32_t group) {
+  while (k->sheet.edge_group.count < k->sheet.edge.count)
+    assert_true(ARRAY_PUSH(&k->sheet.edge_group, 0));
+  k->sheet.edge_group.item[edge] = group;
+}
+
 uint32_t ink_fixture_line_at(struct ink_fixture *k, int32_t x0, int32_t y0,
                              int32_t x1, int32_t y1, unsigned edge_class) {
   uint32_t p = ink_fixture_point_at(k, x0, y0);

@@ -54,6 +54,8 @@ uint32_t ink_fixture_point_at(struct ink_fixture *k, int32_t x, int32_t y);
 /* A visible edge; of the first group. */
 uint32_t ink_fixture_edge(struct ink_fixture *k, uint32_t p, uint32_t q,
                           unsigned edge_class);
+void ink_fixture_set_group(struct ink_fixture *k, uint32_t edge,
+                           uint32_t group);
 /* The same between two new points, mm or grid units. */
 uint32_t ink_fixture_line(struct ink_fixture *k, double x0, double y0,
                           double x1, double y1, unsigned edge_class);

@@ -125,7 +125,8 @@ static void check_edge(const struct sheet_fixture *fixture,
   assert_true(edge->point[0] < fixture->sheet.point.count);
   assert_true(edge->point[1] < fixture->sheet.point.count);
   assert_int_not_equal(edge->point[0], edge->point[1]);
-  assert_true(edge->group < fixture->scene.group.count);
+  assert_true(sheet_edge_group(&fixture->sheet, edge) <
+              fixture->scene.group.count);
   if (edge->edge_class == 0) {
     assert_true(fixture->all_edges);
     return;
@@ -145,7 +146,8 @@ static void check_fold(const struct sheet_fixture *fixture,
   const struct sheet_triangle *one = &sheet->triangle.item[edge->triangle[0]];
   const struct sheet_triangle *two = &sheet->triangle.item[edge->triangle[1]];
   assert_int_equal(one->face, two->face);
-  assert_int_equal(edge->group, scene_face_group(&fixture->scene, one->face));
+  assert_int_equal(sheet_edge_group(sheet, edge),
+                   scene_face_group(&fixture->scene, one->face));
 }
 
 static void check_edges(const struct sheet_fixture *fixture) {
@@ -170,6 +172,10 @@ static void check_edges(const struct sheet_fixture *fixture) {
     }
     assert_false(folds);
     assert_true(edge->source < fixture->topology.edge.count);
+    assert_int_equal(
+        sheet_edge_group(&fixture->sheet, edge),
+        scene_face_group(&fixture->scene,
+                         fixture->topology.edge.item[edge->source].first));
     assert_true(e == 0 || edge->source > edge[-1].source);
     if (edge->triangle[1] != SHEET_NONE)
       assert_true(edge->triangle[0] < edge->triangle[1]);

@@ -65,7 +65,8 @@ static void faces_edge_on_hide_nothing(void **state) {
     struct geom_point a = pipeline.sheet.point.item[edge->point[0]];
     struct geom_point b = pipeline.sheet.point.item[edge->point[1]];
     bool front = a.z == b.z && (a.x != b.x || a.y != b.y);
-    if (edge->group == 0 && front && pipeline.map.edge_state[i] == MAP_VISIBLE)
+    if (sheet_edge_group(&pipeline.sheet, edge) == 0 && front &&
+        pipeline.map.edge_state[i] == MAP_VISIBLE)
       cube += hypot(b.x - a.x, b.y - a.y) / SHEET_UNITS_PER_MM;
   }
   const double side = 2 * pipeline.camera.s;

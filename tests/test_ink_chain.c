@@ -104,7 +104,7 @@ static void outlines_that_touch_at_a_point_close_each(void **state) {
     for (int i = 0; i < 4; i++) {
       const double *p = boxes[b] + 2 * i, *q = boxes[b] + 2 * ((i + 1) % 4);
       uint32_t edge = ink_fixture_line(&k, p[0], p[1], q[0], q[1], SILHOUETTE);
-      k.sheet.edge.item[edge].group = (uint32_t)b;
+      ink_fixture_set_group(&k, edge, (uint32_t)b);
     }
   ink_fixture_group(&k, "other");
   ink_fixture_draw(&k);
@@ -200,7 +200,7 @@ static void strokes_of_two_pens_are_not_joined(void **state) {
     k.options.ink.pens = pens;
     ink_fixture_line(&k, 10, 50, 50, 50, CREASE);
     uint32_t edge = ink_fixture_line(&k, 50, 50, 90, 80, CREASE);
-    k.sheet.edge.item[edge].group = 1;
+    ink_fixture_set_group(&k, edge, 1);
     ink_fixture_draw(&k);
     assert_int_equal(k.drawing.stroke.count, pens);
     ink_fixture_end(&k);
@@ -218,7 +218,7 @@ static void stroke_has_the_ids_of_its_first_segment(void **state) {
   struct sheet_triangle t = {.face = 42};
   assert_true(ARRAY_PUSH(&k.sheet.triangle, t));
   k.sheet.edge.item[edge].triangle[0] = 0;
-  k.sheet.edge.item[edge].group = 1;
+  ink_fixture_set_group(&k, edge, 1);
   k.sheet.edge.item[edge].source = 7;
   ink_fixture_draw(&k);
   const struct drawing_stroke *stroke = k.drawing.stroke.item;
@@ -244,7 +244,7 @@ static void by_groups_every_stroke_is_of_one_group(void **state) {
       p[i] = ink_fixture_point(&k, square[2 * i], square[2 * i + 1]);
     for (uint32_t i = 0; i < 4; i++) {
       uint32_t edge = ink_fixture_edge(&k, p[i], p[(i + 1) % 4], SILHOUETTE);
-      k.sheet.edge.item[edge].group = i < 2 ? other : 0;
+      ink_fixture_set_group(&k, edge, i < 2 ? other : 0);
     }
     ink_fixture_draw(&k);
     const struct drawing_stroke *stroke = k.drawing.stroke.item;

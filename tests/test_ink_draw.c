@@ -160,7 +160,7 @@ static void fill_all(struct ink_fixture *k) {
            y = random_int(&random, 1, 9) * 10;
     uint32_t edge = ink_fixture_line(k, x, y, random_int(&random, 1, 9) * 10, y,
                                      RECTO_EDGE_CREASE);
-    k->sheet.edge.item[edge].group = (uint32_t)i % 2;
+    ink_fixture_set_group(k, edge, (uint32_t)i % 2);
     edge = ink_fixture_line(k, x, y, x, y + 7, RECTO_EDGE_BORDER);
     ink_fixture_show(k, edge, 0, 1, 3);
   }

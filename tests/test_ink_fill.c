@@ -31,7 +31,7 @@ static void one_pen_draws_everything_visible(void **state) {
   ink_fixture_group(&k, "other");
   uint32_t edge = ink_fixture_line(&k, 10, 10, 50, 10, CREASE);
   ink_fixture_line(&k, 10, 20, 50, 20, CREASE);
-  k.sheet.edge.item[edge].group = 1;
+  ink_fixture_set_group(&k, edge, 1);
   ink_fixture_draw(&k);
   assert_int_equal(k.drawing.layer.count, 1);
   assert_layer(&k, 0, 1, "1 visible");
@@ -66,7 +66,7 @@ static void groups_are_assigned_to_the_pens(void **state) {
   ink_fixture_group(&k, "axle");
   for (uint32_t g = 3; g-- > 0;) {
     uint32_t edge = ink_fixture_line(&k, 10, 10 + g, 50, 10 + g, CREASE);
-    k.sheet.edge.item[edge].group = g;
+    ink_fixture_set_group(&k, edge, g);
   }
   ink_fixture_hide(&k, ink_fixture_line(&k, 10, 30, 50, 30, CREASE));
   ink_fixture_draw(&k);
@@ -93,7 +93,7 @@ empty_layers_are_left_out_and_pens_keep_their_numbers(void **state) {
   ink_fixture_group(&k, "wheel");
   ink_fixture_group(&k, "axle");
   uint32_t edge = ink_fixture_line(&k, 10, 10, 50, 10, CREASE);
-  k.sheet.edge.item[edge].group = 2;
+  ink_fixture_set_group(&k, edge, 2);
   ink_fixture_draw(&k);
   assert_int_equal(k.drawing.layer.count, 1);
   assert_layer(&k, 0, 3, "3 axle");
@@ -121,7 +121,7 @@ static void draw_two_pens(struct ink_fixture *k, bool by_pens) {
   uint32_t wheel = ink_fixture_group(k, "wheel");
   for (uint32_t i = 0; i < 4; i++) {
     uint32_t edge = ink_fixture_line(k, 10, 10 + i, 50, 10 + i, CREASE);
-    k->sheet.edge.item[edge].group = i / 2 * wheel;
+    ink_fixture_set_group(k, edge, i / 2 * wheel);
     if (i % 2 == 1)
       ink_fixture_hide(k, edge);
   }
@@ -169,7 +169,7 @@ static void hidden_lines_of_groups_lie_below(void **state) {
     ink_fixture_group(&k, "wheel");
     ink_fixture_line(&k, 10, 10, 50, 10, CREASE);
     uint32_t edge = ink_fixture_line(&k, 10, 20, 50, 20, CREASE);
-    k.sheet.edge.item[edge].group = 1;
+    ink_fixture_set_group(&k, edge, 1);
     ink_fixture_hide(&k, edge);
     ink_fixture_draw(&k);
     assert_int_equal(k.drawing.layer.count, 1 + ids);
@@ -194,7 +194,7 @@ static void labels_end_with_a_whole_name(void **state) {
   for (char name[] = "wheel_a"; name[6] < 'u'; name[6]++) {
     uint32_t group = ink_fixture_group(&k, name);
     uint32_t edge = ink_fixture_line(&k, 1, name[6], 5, name[6], CREASE);
-    k.sheet.edge.item[edge].group = group;
+    ink_fixture_set_group(&k, edge, group);
   }
   ink_fixture_draw(&k);
   assert_layer(&k, 0, 1, "1 thing, axle, wheel_b, wheel_d, wheel_f, ...");
@@ -213,7 +213,7 @@ static void long_names_are_cut_between_characters(void **state) {
     for (int i = 0; i < 30; i++)
       strcat(name, "\xe2\x82\xac"); /* three bytes each */
     uint32_t edge = ink_fixture_line(&k, 1, 1, 5, 5, CREASE);
-    k.sheet.edge.item[edge].group = ink_fixture_group(&k, name);
+    ink_fixture_set_group(&k, edge, ink_fixture_group(&k, name));
     ink_fixture_draw(&k);
     const char *label = k.drawing.layer.item[0].label;
     assert_in_range(strlen(label), 44, 47);
@@ -232,7 +232,7 @@ static void digits_of_names_are_no_digits_of_labels(void **state) {
     ink_fixture_start(&k);
     k.options.ink.pens = 2;
     uint32_t edge = ink_fixture_line(&k, 1, 1, 5, 5, CREASE);
-    k.sheet.edge.item[edge].group = ink_fixture_group(&k, row[i][0]);
+    ink_fixture_set_group(&k, edge, ink_fixture_group(&k, row[i][0]));
     ink_fixture_draw(&k);
     assert_layer(&k, 0, 2, row[i][1]);
     ink_fixture_end(&k);

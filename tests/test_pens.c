@@ -22,7 +22,7 @@ static void start_scene(struct ink_fixture *k) {
   ink_fixture_line(k, 10, 20, 50, 20, CREASE);
   ink_fixture_hide(k, ink_fixture_line(k, 10, 30, 50, 30, CREASE));
   uint32_t edge = ink_fixture_line(k, 10, 40, 50, 40, CREASE);
-  k->sheet.edge.item[edge].group = wheel;
+  ink_fixture_set_group(k, edge, wheel);
 }
 
 /* The pen of the stroke that begins at height y. */

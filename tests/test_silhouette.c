@@ -261,7 +261,8 @@ where_groups_meet_is_an_edge_of_the_first_face_s_group(void **state) {
   sheet_fixture_check(&fixture);
   assert_int_equal(fixture.sheet.edge.count, 1);
   assert_int_equal(fixture.sheet.edge.item[0].edge_class, RECTO_EDGE_GROUP);
-  assert_int_equal(fixture.sheet.edge.item[0].group, 0);
+  assert_int_equal(sheet_edge_group(&fixture.sheet, fixture.sheet.edge.item),
+                   0);
   sheet_fixture_fini(&fixture);
 }
 

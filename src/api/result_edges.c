@@ -201,7 +201,7 @@ static bool add_edge_result(struct edge_results *r, uint32_t e) {
   struct result_edge result = {.point = {RECTO_NONE, RECTO_NONE},
                                .face = {face_number(r, edge->triangle[0]),
                                         face_number(r, edge->triangle[1])},
-                               .group = edge->group,
+                               .group = sheet_edge_group(r->sheet, edge),
                                .number = edge->source,
                                .edge_class = (recto_edge_class)edge->edge_class,
                                .interval =

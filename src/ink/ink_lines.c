@@ -101,14 +101,15 @@ static recto_status make_paths(const struct ink *ink, struct ink_paths *paths,
 static struct drawing_stroke stroke_like(const struct ink *ink,
                                          const struct ink_path *path) {
   const struct sheet_edge *edge = &ink->sheet->edge.item[path->edge];
-  uint32_t layer = path->hidden
-                       ? pens_of_hidden(ink->pens, ink->options,
-                                        edge->edge_class, edge->group)
-                       : pens_of_line(ink->pens, edge->edge_class, edge->group);
+  uint32_t group = sheet_edge_group(ink->sheet, edge);
+  uint32_t layer =
+      path->hidden
+          ? pens_of_hidden(ink->pens, ink->options, edge->edge_class, group)
+          : pens_of_line(ink->pens, edge->edge_class, group);
   return (struct drawing_stroke){.layer = layer,
                                  .face = sheet_edge_face(ink->sheet, edge),
                                  .edge = edge->source,
-                                 .group = edge->group,
+                                 .group = group,
                                  .edge_class = edge->edge_class,
                                  .hidden = path->hidden};
 }

@@ -54,13 +54,12 @@ static recto_status find_end_points(struct layout *layout, uint32_t edge,
 enum { EDGES_IN_RANGE = 64 * PARALLEL_RANGE(POLL_ITEMS / 64) };
 
 static struct sheet_edge sheet_edge_of(struct layout_clipped ends,
-                                       uint32_t source, uint32_t group,
-                                       unsigned edge_class, uint32_t part) {
+                                       uint32_t source, unsigned edge_class,
+                                       uint32_t part) {
   return (struct sheet_edge){
       .point = {ends.point[0], ends.point[1]},
       .triangle = {SHEET_NONE, SHEET_NONE},
       .source = source,
-      .group = group,
       .edge_class = (uint16_t)edge_class,
       .part = (uint16_t)(part & UINT16_MAX),
   };
@@ -213,8 +212,9 @@ static recto_status clip_edges(struct edge_layout *work, size_t *count) {
 static bool make_edges_of_range(void *user, struct parallel_range range) {
   const struct edge_layout *work = user;
   struct layout *layout = work->layout;
-  struct sheet_edge *to =
-      layout->sheet->edge.item + layout->ids.before[range.begin / 64];
+  size_t at = layout->ids.before[range.begin / 64];
+  struct sheet_edge *to = layout->sheet->edge.item + at;
+  uint32_t *group = layout->sheet->edge_group.item;
   for (size_t w = range.begin / 64; 64 * w < range.end; w++)
     for (uint64_t left = layout->ids.bits[w]; left != 0; left &= left - 1) {
       uint32_t e = (uint32_t)(64 * w) + (uint32_t)__builtin_ctzll(left);
@@ -224,12 +224,14 @@ static bool make_edges_of_range(void *user, struct parallel_range range) {
       struct layout_clipped ends;
       if (find_end_points(layout, e, &ends) != RECTO_OK)
         return false;
-      *to = sheet_edge_of(ends, e, scene_face_group(layout->scene, edge->first),
-                          edge_class, 0);
+      *to = sheet_edge_of(ends, e, edge_class, 0);
       if (layout->leaves_out_sides) {
         to->triangle[0] = edge->first;
         to->triangle[1] = edge->uses > 1 ? edge->second : SHEET_NONE;
       }
+      if (group != NULL)
+        group[at] = scene_face_group(layout->scene, edge->first);
+      at++;
       to++;
     }
   return true;
@@ -246,11 +248,24 @@ static recto_status make_edges(struct edge_layout *work) {
   if (status != RECTO_OK || count == 0)
     return status;
   if (!ARRAY_RESERVE(&layout->sheet->edge, count + layout->fold.count) ||
+      (layout->scene->group.count > 1 &&
+       !ARRAY_RESERVE(&layout->sheet->edge_group,
+                      count + layout->fold.count)) ||
       !parallel_ranges(workers, edges, EDGES_IN_RANGE, make_edges_of_range,
                        work))
     return error_memory(layout->error);
   layout->sheet->edge.count = count;
+  if (layout->scene->group.count > 1)
+    layout->sheet->edge_group.count = count;
   return RECTO_OK;
+}
+
+/* Adds an edge, with its group where these are stored. */
+static bool push_edge(struct layout *layout, struct sheet_edge edge,
+                      uint32_t group) {
+  return ARRAY_PUSH(&layout->sheet->edge, edge) &&
+         (layout->scene->group.count <= 1 ||
+          ARRAY_PUSH(&layout->sheet->edge_group, group));
 }
 
 /* Makes an edge of every fold; only requested ones were stored. */
@@ -264,8 +279,8 @@ static bool make_folds(struct layout *layout) {
     bool is_mesh =
         has_mesh_contours(layout->coarse, layout_weld(layout, corner));
     struct sheet_edge edge =
-        sheet_edge_of(fold->ends, SHEET_NONE, group, is_mesh ? wanted : 0, 0);
-    if (!ARRAY_PUSH(&layout->sheet->edge, edge))
+        sheet_edge_of(fold->ends, SHEET_NONE, is_mesh ? wanted : 0, 0);
+    if (!push_edge(layout, edge, group))
       return false;
   }
   return true;
@@ -377,9 +392,9 @@ static recto_status add_wire(struct layout *layout, uint32_t wire) {
       return status;
     if (ends.point[0] == SHEET_NONE || from == to)
       continue;
-    struct sheet_edge edge = sheet_edge_of(
-        ends, wire, scene->wire_group.item[wire], RECTO_EDGE_WIRE, c - start);
-    if (!ARRAY_PUSH(&layout->sheet->edge, edge))
+    struct sheet_edge edge =
+        sheet_edge_of(ends, wire, RECTO_EDGE_WIRE, c - start);
+    if (!push_edge(layout, edge, scene->wire_group.item[wire]))
       return error_memory(layout->error);
   }
   return RECTO_OK;

@@ -43,6 +43,7 @@ void sheet_fini(struct sheet *sheet) {
   ARRAY_FREE(&sheet->triangle);
   ARRAY_FREE(&sheet->sides);
   ARRAY_FREE(&sheet->edge);
+  ARRAY_FREE(&sheet->edge_group);
   ARRAY_FREE(&sheet->contour);
   ARRAY_FREE(&sheet->face_error);
   mem_free(sheet->triangle_flags);

@@ -65,7 +65,6 @@ struct sheet_edge {
                            that intersect, the lower index first */
   uint32_t source;      /* topology edge; wires: the wire's index; SHEET_NONE
                            for intersections and diagonals */
-  uint32_t group;       /* of its first face, or of the wire */
   uint16_t edge_class;  /* a recto_edge_class: the first in that enumeration of
                            its classes that were requested; 0: none was, the
                            edge is there as an outline of its faces */
@@ -105,6 +104,10 @@ struct sheet {
    * wires, then intersections once they were found.  Edges of class 0 are
    * outlines, which are not drawn. */
   ARRAY(struct sheet_edge) edge;
+  /* One an edge that was laid out, where the scene has several groups: that of
+   * the edge's first face, or of the wire.  Of edges that come later: that of
+   * their first triangle (sheet_edge_group). */
+  ARRAY(uint32_t) edge_group;
   /* The contours, whether drawn or not:
    *   edges of one face or of more than two,
    *   silhouettes,
@@ -227,6 +230,18 @@ static inline uint32_t sheet_edge_face(const struct sheet *sheet,
   return first == SHEET_NONE || sheet->triangles_dropped
              ? first
              : sheet->triangle.item[first].face;
+}
+
+/* The group of an edge of the sheet. */
+static inline uint32_t sheet_edge_group(const struct sheet *sheet,
+                                        const struct sheet_edge *edge) {
+  if (sheet->edge_group.count == 0 && sheet->face_group == NULL)
+    return 0;
+  size_t e = (size_t)(edge - sheet->edge.item);
+  if (e < sheet->edge_group.count)
+    return sheet->edge_group.item[e];
+  uint32_t face = sheet_edge_face(sheet, edge);
+  return face != SHEET_NONE ? sheet_face_group(sheet, face) : 0;
 }
 
 static inline bool sheet_is_inner_side(const struct sheet *sheet,

@@ -114,7 +114,6 @@ static bool add_edges(struct contour_pieces *c,
         .point = {*point},
         .triangle = {first_triangle_of_face(sheet, face), SHEET_NONE},
         .source = SHEET_NONE,
-        .group = sheet_face_group(sheet, face),
         .edge_class = RECTO_EDGE_SILHOUETTE};
     float height = (float)contour_height(
         &sheet->camera, contour_curves_node(c->curves, at.step),

@@ -151,7 +151,8 @@ static bool side_is_of_pen(const struct hatch *h, uint32_t side) {
   if (corner->side == MAP_SIDE_INTERSECTION || corner->id >= sheet->edge.count)
     return !h->pens->several && h->pens->of_hatch == PENS_NONE;
   const struct sheet_edge *edge = &sheet->edge.item[corner->id];
-  return pens_of_line(h->pens, edge->edge_class, edge->group) == h->pen;
+  return pens_of_line(h->pens, edge->edge_class,
+                      sheet_edge_group(sheet, edge)) == h->pen;
 }
 
 /* Whether a point is on the ink of a line of the same pen, among the sides

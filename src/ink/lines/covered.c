@@ -81,7 +81,8 @@ static struct measured_path measure_path(const struct covering *c,
   if (path->hidden || (path->classes & ~SEGMENT_GRAPH_FEATURES) != 0)
     return (struct measured_path){.is_drawn = false};
   struct measured_path m = {
-      .layer = pens_of_line(c->pens, edge->edge_class, edge->group),
+      .layer = pens_of_line(c->pens, edge->edge_class,
+                            sheet_edge_group(c->sheet, edge)),
       .weight = (float)pens_weight(c->pens, edge->edge_class)};
   const struct ink_point *p = c->paths->point.item + path->point;
   for (uint32_t i = 0; i + 1 < path->count; i++)

@@ -93,15 +93,15 @@ static uint32_t node_at(struct collector *c, const struct sheet_edge *edge,
  * them with one weight.  Mostly it is that of the edge before. */
 static void set_pen_key(struct collector *c, const struct sheet_edge *e) {
   const struct segment_collection *of = c->of;
-  if (e->edge_class == c->edge_class && e->group == c->group)
+  uint32_t group = sheet_edge_group(of->sheet, e);
+  if (e->edge_class == c->edge_class && group == c->group)
     return;
   c->edge_class = e->edge_class;
-  c->group = e->group;
+  c->group = group;
   c->pen_key =
       c->hidden
-          ? 2 * pens_of_hidden(of->pens, of->options, e->edge_class, e->group) +
-                1
-          : 2 * (pens_of_line(of->pens, e->edge_class, e->group) *
+          ? 2 * pens_of_hidden(of->pens, of->options, e->edge_class, group) + 1
+          : 2 * (pens_of_line(of->pens, e->edge_class, group) *
                      RECTO_EDGE_CLASS_COUNT +
                  pens_weight_id(of->pens, e->edge_class));
 }
@@ -120,7 +120,8 @@ static inline void store_or_count(struct collector *c, uint32_t edge,
       .node = {from, to},
       .edge = edge,
       .pen_key = c->pen_key,
-      .style_key = e->group << RECTO_EDGE_CLASS_COUNT | e->edge_class};
+      .style_key = sheet_edge_group(c->of->sheet, e) << RECTO_EDGE_CLASS_COUNT |
+                   e->edge_class};
 }
 
 static void collect_segment(struct collector *c, uint32_t edge, struct ratio t0,
@@ -408,6 +409,7 @@ void segment_graph_key_by_group(struct segment_graph *graph,
                                 const struct sheet *sheet) {
   for (size_t i = 0; i < graph->segment.count; i++) {
     struct graph_segment *s = &graph->segment.item[i];
-    s->pen_key += PEN_KEYS * sheet->edge.item[s->edge].group;
+    s->pen_key +=
+        PEN_KEYS * sheet_edge_group(sheet, &sheet->edge.item[s->edge]);
   }
 }

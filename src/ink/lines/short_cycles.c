@@ -126,7 +126,8 @@ static bool is_short_crease(const struct segment_graph *graph,
       (s->style_key & RECTO_EDGES_ALL) != RECTO_EDGE_CREASE)
     return false;
   const struct sheet_edge *edge = &sheet->edge.item[s->edge];
-  uint32_t pen = pens_of_line(pens, edge->edge_class, edge->group);
+  uint32_t pen =
+      pens_of_line(pens, edge->edge_class, sheet_edge_group(sheet, edge));
   return length_of_segment(graph, segment) <
          pens_shortest_crease_mm(pens, pen) * SHEET_UNITS_PER_MM;
 }
@@ -144,7 +145,8 @@ static bool list_creases_of_lines(struct cycle_search *c,
     if (!is_short_crease(graph, sheet, pens, i) ||
         !is_free[union_find_root(line, edge->point[0])])
       continue;
-    uint32_t pen = pens_of_line(pens, edge->edge_class, edge->group);
+    uint32_t pen =
+        pens_of_line(pens, edge->edge_class, sheet_edge_group(sheet, edge));
     struct cycle_candidate made = {
         i, crease_cosine(sheet, edge, &normals), length_of_segment(graph, i),
         pens_short_cycle_mm(pens, pen) * SHEET_UNITS_PER_MM};

@@ -104,7 +104,8 @@ static uint32_t next_end(const struct spur_search *s, uint32_t end) {
  * SEGMENT_GRAPH_NONE: it is too long. */
 static uint32_t walk(const struct spur_search *s, uint32_t end, bool *is_long) {
   const struct graph_segment *first = &s->graph->segment.item[end >> 1];
-  uint32_t group = s->sheet->edge.item[first->edge].group;
+  uint32_t group =
+      sheet_edge_group(s->sheet, &s->sheet->edge.item[first->edge]);
   uint32_t pen = pens_of_line(s->pens, spur_class(s, end >> 1), group);
   double length = 0;
   for (uint32_t next = end; next != SEGMENT_GRAPH_NONE;

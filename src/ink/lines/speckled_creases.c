@@ -230,7 +230,8 @@ static void measure_lines(const struct speckle_search *s) {
     if (!s->is_of_line[e])
       continue;
     double cosine = cosine_of(s, e, &normals);
-    uint32_t pen = pens_of_line(s->pens, RECTO_EDGE_CREASE, edge->group);
+    uint32_t pen = pens_of_line(s->pens, RECTO_EDGE_CREASE,
+                                sheet_edge_group(s->sheet, edge));
     uint32_t piece = union_find_root(s->piece, e);
     struct speckle_line *of =
         &s->lines[union_find_root(s->line, edge->point[0])];

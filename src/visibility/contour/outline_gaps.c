@@ -332,7 +332,6 @@ static bool add_part_edges(struct outline_gaps *g, struct map *map) {
     struct sheet_edge edge = {
         .triangle = {first_triangle_of_face(sheet, part->face), SHEET_NONE},
         .source = SHEET_NONE,
-        .group = sheet_face_group(sheet, part->face),
         .edge_class = RECTO_EDGE_SILHOUETTE};
     if (!point_of(sheet, &part->end[0], &edge.point[0]) ||
         !point_of(sheet, &part->end[1], &edge.point[1]) ||

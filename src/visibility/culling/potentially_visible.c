@@ -237,6 +237,7 @@ bool potentially_visible_init(struct potentially_visible *part,
   memset(&part->sheet.triangle, 0, sizeof part->sheet.triangle);
   memset(&part->sheet.sides, 0, sizeof part->sheet.sides);
   memset(&part->sheet.edge, 0, sizeof part->sheet.edge);
+  memset(&part->sheet.edge_group, 0, sizeof part->sheet.edge_group);
   memset(&part->sheet.contour, 0, sizeof part->sheet.contour);
   bool ok = numbering.point != NULL && numbering.triangle != NULL &&
             numbering.edge != NULL && list_triangles(part, &numbering) &&

@@ -259,12 +259,9 @@ static bool add_edges_in_order(struct sheet *sheet, struct segment_order *order,
   struct sheet_edge *edge = sheet->edge.item + sheet->edge.count;
   for (size_t i = 0; i < n; i++) {
     const struct intersection_segment *s = &order->item[order->key[i].value];
-    edge[i] = (struct sheet_edge){
-        .triangle = {s->triangle[0], s->triangle[1]},
-        .source = SHEET_NONE,
-        .group =
-            sheet_face_group(sheet, sheet->triangle.item[s->triangle[0]].face),
-        .edge_class = RECTO_EDGE_INTERSECTION};
+    edge[i] = (struct sheet_edge){.triangle = {s->triangle[0], s->triangle[1]},
+                                  .source = SHEET_NONE,
+                                  .edge_class = RECTO_EDGE_INTERSECTION};
   }
   if (!add_intersection_points(sheet, order, n, edge))
     return false;
