@@ -16,10 +16,12 @@
 #include "ink/lines/paths.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/poll.h"
 #include "base/sort.h"
 #include "geom/nearest.h"
+#include "geom/vector.h"
 #include "ink/pens.h"
 
 enum {
@@ -142,8 +144,10 @@ static bool make_cells(struct covering *c) {
 
 /* The cell's index along an axis, moved into the page. */
 static int64_t cell_along(const struct covering *c, int axis, double at) {
-  double i = floor((at - c->low[axis]) / c->cell);
-  return (int64_t)fmin(fmax(i, 0), (double)c->count[axis] - 1);
+  double i = (at - c->low[axis]) / c->cell;
+  return !(i >= 0)                    ? 0
+         : i < (double)c->count[axis] ? (int64_t)i
+                                      : c->count[axis] - 1;
 }
 
 static int64_t cell_of_place(const struct covering *c, double x, double y) {
@@ -204,13 +208,22 @@ static enum verdict for_all_pieces(const struct covering *c, uint32_t number,
 
 /* ---- 2 Mark -------------------------------------------------------------- */
 
-static enum verdict mark_piece(const struct covering *c,
-                               const struct measured_path *hair,
-                               const double at[4], struct last_cover *last) {
-  (void)hair;
-  (void)last;
-  c->marked[cell_of_place(c, (at[0] + at[2]) / 2, (at[1] + at[3]) / 2)] = 1;
-  return COVERED;
+/* Marks the cells that the box of each side of a hair meets: those in which the
+ * middles of its pieces are. */
+static void mark_hair(const struct covering *c, uint32_t number) {
+  const struct ink_path *path = &c->paths->path.item[number];
+  const struct ink_point *p = c->paths->point.item + path->point;
+  for (uint32_t i = 0; i + 1 < path->count; i++) {
+    int64_t x[2], y[2];
+    for (int k = 0; k < 2; k++) {
+      x[k] = cell_along(c, 0, p[i + (uint32_t)k].x);
+      y[k] = cell_along(c, 1, p[i + (uint32_t)k].y);
+    }
+    int left = x[0] > x[1], low = y[0] > y[1];
+    for (int64_t row = y[low]; row <= y[!low]; row++)
+      memset(c->marked + row * c->count[0] + x[left], 1,
+             (size_t)(x[!left] - x[left] + 1));
+  }
 }
 
 /* ---- 3 List -------------------------------------------------------------- */
@@ -220,7 +233,8 @@ static bool list_side(struct covering *c, uint32_t path, struct ink_point a,
                       struct ink_point b) {
   const struct measured_path *m = &c->measured[path];
   struct cover_side side = {a, b, m->rank, m->layer, m->weight, m->is_hair};
-  double reach = 2 * m->near, y0 = fmin(a.y, b.y), y1 = fmax(a.y, b.y);
+  double reach = 2 * m->near, y0 = min_number(a.y, b.y),
+         y1 = max_number(a.y, b.y);
   uint32_t number = (uint32_t)c->side.count;
   bool found = false;
   for (int64_t row = cell_along(c, 1, y0 - reach);
@@ -229,11 +243,11 @@ static bool list_side(struct covering *c, uint32_t path, struct ink_point a,
     double low = c->low[1] + (double)row * c->cell - reach;
     double high = low + c->cell + 2 * reach, x[2] = {a.x, b.x};
     for (int k = 0; k < 2 && y1 > y0; k++) {
-      double y = fmin(fmax(k ? b.y : a.y, low), high);
+      double y = min_number(high, max_number(low, k ? b.y : a.y));
       x[k] = a.x + ((double)b.x - a.x) * (y - a.y) / ((double)b.y - a.y);
     }
-    int64_t end = cell_along(c, 0, fmax(x[0], x[1]) + reach);
-    for (int64_t i = cell_along(c, 0, fmin(x[0], x[1]) - reach); i <= end;
+    int64_t end = cell_along(c, 0, max_number(x[0], x[1]) + reach);
+    for (int64_t i = cell_along(c, 0, min_number(x[0], x[1]) - reach); i <= end;
          i++) {
       struct cover_listed listed = {(uint32_t)(row * c->count[0] + i), number};
       if (c->marked[listed.cell] && !ARRAY_PUSH(&c->listed, listed))
@@ -416,7 +430,7 @@ bool paths_find_covered(struct ink_paths *paths, const struct sheet *sheet,
   if (ok && c.hairs > 0) {
     ok = make_cells(&c) && list_hairs(&c);
     for (size_t i = 0; ok && i < c.hairs; i++)
-      (void)for_all_pieces(&c, c.hair[i].value, mark_piece);
+      mark_hair(&c, c.hair[i].value);
     ok = ok && list_sides(&c) && decide(&c);
   }
   mem_free(c.measured);
