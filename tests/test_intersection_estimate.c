@@ -70,8 +70,8 @@ static void exact_segments_are_near(void **state) {
                             cg = coarse_plane_of(&all, pg.p);
         struct intersection_estimate estimate;
         struct intersection_segment exact;
-        if (!coarse_plane_is_straddled(&cf, pg.p) ||
-            !coarse_plane_is_straddled(&cg, pf.p) ||
+        if (!coarse_counts_straddle(coarse_plane_counts(&cf, pg.p)) ||
+            !coarse_counts_straddle(coarse_plane_counts(&cg, pf.p)) ||
             !intersection_estimate_of(&estimate, pf.p, pg.p, &cf, &cg, &all))
           continue;
         estimates++;

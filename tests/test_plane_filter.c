@@ -119,11 +119,11 @@ static void check_coarse_plane(const struct coarse_plane *plane,
                 sign == geom_sign128(occluder_value(occluder, p[k])));
     certain[0] += sign != 0;
   }
-  bool may = coarse_plane_may_intersect(plane, p);
+  bool may = coarse_counts_may_intersect(coarse_plane_counts(plane, p));
   assert_true(may || !side_count_of_sides(side));
   bool touches = side[0] == 0 && side[1] == 0 && side[2] == 0;
   assert_true(coarse_plane_may_touch(plane, p) || !touches);
-  bool straddles = coarse_plane_is_straddled(plane, p);
+  bool straddles = coarse_counts_straddle(coarse_plane_counts(plane, p));
   assert_true(!straddles || side[0] * side[1] * side[2] != 0);
   assert_true(!straddles || side[0] != side[1] || side[1] != side[2]);
   certain[1] += !may + straddles;

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "base/parallel.h"
+#include "geom/vector.h"
 #include "visibility/predicate/depth_plane.h"
 
 enum {
@@ -103,25 +104,24 @@ static bool columns_in_row(const struct culling_work *work,
     double from = p.y, to = q.y, x = p.x,
            run = ((double)q.x - p.x) / (to - from);
     if (from >= low && from <= high) {
-      least = fmin(least, x);
-      most = fmax(most, x);
+      least = min_number(least, x);
+      most = max_number(most, x);
     }
     const double level[2] = {low, high};
     for (int l = 0; l < 2; l++)
       if ((from < level[l]) != (to < level[l])) {
         double at = x + run * (level[l] - from);
-        least = fmin(least, at);
-        most = fmax(most, at);
+        least = min_number(least, at);
+        most = max_number(most, at);
       }
   }
   if (!(least <= most))
     return false;
-  *x0 = triangle_grid_cell(
-      (int32_t)fmax(floor(least) - (double)work->xy_margin, INT32_MIN),
-      cells->x0, cells->shift, cells->columns);
-  *x1 = triangle_grid_cell(
-      (int32_t)fmin(ceil(most) + (double)work->xy_margin, INT32_MAX), cells->x0,
-      cells->shift, cells->columns);
+  double margin = (double)work->xy_margin + 1; /* more than both round off */
+  *x0 = triangle_grid_cell((int32_t)max_number(INT32_MIN, least - margin),
+                           cells->x0, cells->shift, cells->columns);
+  *x1 = triangle_grid_cell((int32_t)min_number(INT32_MAX, most + margin),
+                           cells->x0, cells->shift, cells->columns);
   return true;
 }
 

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "geom/vector.h"
 #include "visibility/predicate/surrounder.h"
 
 enum {
@@ -184,6 +185,7 @@ struct raising {
   struct surrounder_plane plane;
   struct neighbour neighbour[3];
   int searched; /* bit k: the neighbour beyond side k was looked for */
+  int open;     /* bit k: and there is none */
 };
 
 /* The bound of a cell that the triangle surrounds, or that it surrounds
@@ -192,19 +194,22 @@ struct raising {
 static int32_t bound_of_cell(struct raising *raising, int out,
                              const struct box2 *window) {
   const struct occlusion_buffer *buffer = raising->buffer;
-  double low = surrounder_farthest_z(&raising->plane, window);
+  double low = INFINITY;
   if (out != 0) {
     int k = out >> 1; /* out is 1, 2 or 4 */
     struct neighbour *neighbour = &raising->neighbour[k];
     if ((raising->searched >> k & 1) == 0)
       *neighbour = find_neighbour(raising->sheet, raising->triangle, k);
     raising->searched |= 1 << k;
+    if (!neighbour->found)
+      raising->open |= 1 << k;
     if (!neighbour->found ||
         !surrounds_beyond(neighbour, window, buffer->cells.shift))
       return -1;
-    low = fmin(low, surrounder_farthest_z(&neighbour->plane, window));
+    low = surrounder_farthest_z(&neighbour->plane, window);
   }
-  return occlusion_steps_down(low);
+  return occlusion_steps_down(
+      min_number(low, surrounder_farthest_z(&raising->plane, window)));
 }
 
 /* The part of the triangle's box that is in a range of cells. */
@@ -259,7 +264,8 @@ static void raise_block(struct raising *raising, struct cell_range r, int bx,
     uint64_t at[3] = {row.at[0], row.at[1], row.at[2]};
     for (int cx = r.x0; cx <= r.x1; cx++, step_edge_functions(at, row.right)) {
       int out = outside_mask(at);
-      if (bound[cx] >= nearest || (out & (out - 1)) != 0)
+      if (bound[cx] >= nearest || (out & (out - 1)) != 0 ||
+          (out & raising->open) != 0)
         continue;
       struct box2 window = {(int32_t)(cells->x0 + cx * side), (int32_t)y,
                             (int32_t)(cells->x0 + (cx + 1) * side),

@@ -15,8 +15,6 @@
 #ifndef VISIBILITY_CULLING_OCCLUSION_BUFFER_H
 #define VISIBILITY_CULLING_OCCLUSION_BUFFER_H
 
-#include <math.h>
-
 #include "visibility/index/triangle_grid.h"
 
 enum {
@@ -77,16 +75,20 @@ bool occlusion_buffer_hides_in_blocks(const struct occlusion_buffer *buffer,
                                       struct cell_range range, int32_t nearest);
 
 /* A depth in steps, rounded towards the viewer; what is behind all bounds, as a
- * steep plane may be far beside its triangle, is -1. */
+ * steep plane may be far beside its triangle, is -1.  Without calls of ceil and
+ * floor: this is done for each cell. */
 static inline int32_t occlusion_steps_up(double depth) {
-  double steps = ceil(depth * (1.0 / (1 << OCCLUSION_DEPTH_SHIFT)));
-  return steps < (double)INT32_MAX ? (int32_t)fmax(steps, -1) : INT32_MAX;
+  double steps = depth * (1.0 / (1 << OCCLUSION_DEPTH_SHIFT));
+  if (!(steps <= INT32_MAX - 1))
+    return INT32_MAX;
+  int32_t whole = steps > -1 ? (int32_t)steps : -1;
+  return whole + (whole < steps);
 }
 
 /* A depth in steps, rounded away from the viewer; nothing is behind -1. */
 static inline int32_t occlusion_steps_down(double depth) {
-  double steps = floor(depth * (1.0 / (1 << OCCLUSION_DEPTH_SHIFT)));
-  return steps > 0 ? (int32_t)steps : -1;
+  double steps = depth * (1.0 / (1 << OCCLUSION_DEPTH_SHIFT));
+  return steps >= 1 ? (int32_t)steps : -1;
 }
 
 #endif

@@ -74,14 +74,14 @@ static bool is_cell_of_pair(const struct pair_sweep *sweep,
   return true;
 }
 
-/* May f straddle the coarse plane of g or end on it? */
-static inline bool may_meet_plane(const struct pair_sweep *sweep,
-                                  const struct swept_triangle *f,
-                                  struct swept_triangle *g) {
+/* The corners of f by the coarse plane of g. */
+static inline struct coarse_counts
+counts_by_plane(const struct pair_sweep *sweep, const struct swept_triangle *f,
+                struct swept_triangle *g) {
   if (!g->has_coarse_plane)
     g->coarse_plane = coarse_plane_of(&sweep->all, g->corners.p);
   g->has_coarse_plane = true;
-  return coarse_plane_may_intersect(&g->coarse_plane, f->corners.p);
+  return coarse_plane_counts(&g->coarse_plane, f->corners.p);
 }
 
 /* May f straddle the plane of g or end on it? */
@@ -115,15 +115,22 @@ static inline bool visit_pair(const struct pair_sweep *sweep,
                               struct swept_triangle *f,
                               struct swept_triangle *g) {
   if ((f->right_copy & g->right_copy) != 0 || !is_cell_of_pair(sweep, f, g) ||
-      are_neighbours(sweep->sheet, f, g) || !may_meet_plane(sweep, f, g) ||
-      !may_meet_plane(sweep, g, f) || !may_pierce(sweep->sheet, f, g) ||
-      !may_pierce(sweep->sheet, g, f) ||
+      are_neighbours(sweep->sheet, f, g))
+    return true;
+  struct coarse_counts of_f = counts_by_plane(sweep, f, g);
+  if (!coarse_counts_may_intersect(of_f))
+    return true;
+  struct coarse_counts of_g = counts_by_plane(sweep, g, f);
+  if (!coarse_counts_may_intersect(of_g))
+    return true;
+  bool straddle = coarse_counts_straddle(of_f) && coarse_counts_straddle(of_g);
+  if ((!straddle &&
+       (!may_pierce(sweep->sheet, f, g) || !may_pierce(sweep->sheet, g, f))) ||
       is_outside_triangle(f->corners.p, g->corners.p) ||
       is_outside_triangle(g->corners.p, f->corners.p))
     return true;
-  return f->triangle < g->triangle
-             ? sweep->visit(sweep->user, f->triangle, g->triangle)
-             : sweep->visit(sweep->user, g->triangle, f->triangle);
+  return f->triangle < g->triangle ? sweep->visit(sweep->user, f, g, straddle)
+                                   : sweep->visit(sweep->user, g, f, straddle);
 }
 
 /* ---- Lists --------------------------------------------------------------- */

@@ -8,6 +8,8 @@
 #include "visibility/predicate/coarse_plane.h"
 #include "visibility/progress.h"
 
+struct swept_triangle; /* swept_triangle.h */
+
 /* An entry of a list.
  * right_copy  of bsp.h; 0 where the list is that of a cell */
 struct listed_triangle {
@@ -21,7 +23,8 @@ struct pair_sweep {
   const struct sheet *sheet;
   const struct triangle_grid *grid;
   const uint8_t *cells; /* per cell, not 0: selected; NULL: all are */
-  bool (*visit)(void *user, uint32_t f, uint32_t g);
+  bool (*visit)(void *user, const struct swept_triangle *f,
+                const struct swept_triangle *g, bool straddle);
   void *user;
   struct progress *progress; /* counts the work */
   uint64_t met; /* the number of pairs of one list whose depths overlap */
@@ -41,8 +44,10 @@ struct pair_sweep {
 /* The caller sets the members up to `progress`, the others to 0. */
 void pair_sweep_fini(struct pair_sweep *sweep);
 
-/* Calls visit(user, f, g), f < g, for candidate pairs, each of which one cell
- * gives.  The two
+/* Calls visit(user, f, g, straddle), f's number below g's, for candidate pairs,
+ * each of which one cell gives.  Their coarse planes are computed; where
+ * `straddle`, each certainly straddles that of the other, no corner in contact.
+ * The two
  *   - share a cell of the grid that has a list and is selected by `cells`,
  *   - have boxes that meet on the page and in depth,
  *   - share less than an edge, and

@@ -7,6 +7,7 @@
 #include "visibility/intersection/edge_crossing.h"
 #include "visibility/intersection/intersection_estimate.h"
 #include "visibility/intersection/intersection_segment.h"
+#include "visibility/intersection/swept_triangle.h"
 #include "visibility/predicate/occlusion.h"
 #include "visibility/progress.h"
 
@@ -64,55 +65,43 @@ static bool is_estimate_hidden(const struct intersection_search *search,
 }
 
 /* Adds the segment of two triangles none of whose corners is in contact with
- * the other's plane: they pierce each other, unless they are apart.
- * cf, cg  their coarse planes */
-static bool add_pierced_segment(struct intersection_search *search, uint32_t f,
-                                uint32_t g, const struct coarse_plane *cf,
-                                const struct coarse_plane *cg) {
+ * the other's plane: they pierce each other, unless they are apart. */
+static bool add_pierced_segment(struct intersection_search *search,
+                                const struct swept_triangle *f,
+                                const struct swept_triangle *g) {
   const struct sheet *sheet = search->sheet;
-  const struct geom_triangle corners_f = sheet_corners(sheet, f),
-                             corners_g = sheet_corners(sheet, g);
   struct intersection_segment segment;
   search->counts.straddle++;
-  if (is_estimate_hidden(search, corners_f.p, corners_g.p, cf, cg))
+  if (is_estimate_hidden(search, f->corners.p, g->corners.p, &f->coarse_plane,
+                         &g->coarse_plane))
     return true;
-  const struct triangle_plane pf = triangle_plane_of(sheet, f),
-                              pg = triangle_plane_of(sheet, g);
-  if (!intersection_segment_of_planes(sheet, f, g, &pf, &pg, &segment) ||
+  const struct triangle_plane pf = triangle_plane_of(sheet, f->triangle),
+                              pg = triangle_plane_of(sheet, g->triangle);
+  if (!intersection_segment_of_planes(sheet, f->triangle, g->triangle, &pf, &pg,
+                                      &segment) ||
       is_segment_hidden(search->hidden, &segment))
     return true;
-  if (!triangles_are_off_plane(pf.p, pg.p, cf, cg)) {
-    const struct occluder *hf = prepare_triangle(search, f);
+  if (!triangles_are_off_plane(pf.p, pg.p, &f->coarse_plane,
+                               &g->coarse_plane)) {
+    const struct occluder *hf = prepare_triangle(search, f->triangle);
     struct occluder hg;
-    occluder_init(&hg, sheet, g);
-    if (triangles_coplanar_within_rounding(sheet, f, g, hf, &hg))
+    occluder_init(&hg, sheet, g->triangle);
+    if (triangles_coplanar_within_rounding(sheet, f->triangle, g->triangle, hf,
+                                           &hg))
       return true;
   }
   return ARRAY_PUSH(&search->segment.list, segment);
 }
 
-/* Decides a candidate pair exactly; either triangle may be SHEET_EDGE_ON. */
-static bool decide_pair(void *user, uint32_t f, uint32_t g) {
-  struct intersection_search *search = user;
+/* Decides a candidate pair exactly of which that is not certain. */
+static bool decide_contact(struct intersection_search *search, uint32_t f,
+                           uint32_t g) {
   const struct sheet *sheet = search->sheet;
-  const struct occluder *hf;
+  const struct occluder *hf = prepare_triangle(search, f);
+  const struct geom_triangle pg = sheet_corners(sheet, g);
   struct occluder hg;
-  struct corner_counts cf, cg;
+  struct corner_counts cf, cg = corner_counts_of(hf, pg.p);
   struct intersection_segment segment;
-  if (sheet_is_one_face(sheet, f, g))
-    return true;
-  search->counts.pairs++;
-  if (!progress_step(&search->progress, PAIR_WORK))
-    return false;
-  const struct geom_triangle pf = sheet_corners(sheet, f),
-                             pg = sheet_corners(sheet, g);
-  const struct coarse_plane plane_f = coarse_plane_of(&search->sweep.all, pf.p),
-                            plane_g = coarse_plane_of(&search->sweep.all, pg.p);
-  if (coarse_plane_is_straddled(&plane_f, pg.p) &&
-      coarse_plane_is_straddled(&plane_g, pf.p))
-    return add_pierced_segment(search, f, g, &plane_f, &plane_g);
-  hf = prepare_triangle(search, f);
-  cg = corner_counts_of(hf, pg.p);
   if (!straddles(cg) && !ends_on_plane(cg))
     return true;
   occluder_init(&hg, sheet, g);
@@ -132,6 +121,19 @@ static bool decide_pair(void *user, uint32_t f, uint32_t g) {
     return false;
   return edge_crossings_add_slanted(&search->crossings, sheet, f, g, &hg) &&
          edge_crossings_add_slanted(&search->crossings, sheet, g, f, hf);
+}
+
+/* Decides a candidate pair exactly; either triangle may be SHEET_EDGE_ON. */
+static bool decide_pair(void *user, const struct swept_triangle *f,
+                        const struct swept_triangle *g, bool straddle) {
+  struct intersection_search *search = user;
+  if (sheet_is_one_face(search->sheet, f->triangle, g->triangle))
+    return true;
+  search->counts.pairs++;
+  if (!progress_step(&search->progress, PAIR_WORK))
+    return false;
+  return straddle ? add_pierced_segment(search, f, g)
+                  : decide_contact(search, f->triangle, g->triangle);
 }
 
 /* ---- Edges of the sheet -------------------------------------------------- */

@@ -114,34 +114,37 @@ coarse_plane_contact_sign_between(const struct coarse_plane *plane,
   return ((a > most) & (b > most)) - ((a < -most) & (b < -most));
 }
 
-/* Is a triangle with these corners certainly on both sides of the plane, no
- * corner in contact with it? */
-static inline bool
-coarse_plane_is_straddled(const struct coarse_plane *plane,
-                          const struct geom_point corner[3]) {
-  int behind = 0, in_front = 0;
+/* The corners of a triangle that are certainly behind the plane, in front of
+ * it, and in contact with it. */
+struct coarse_counts {
+  int behind, in_front, touching;
+};
+
+static inline struct coarse_counts
+coarse_plane_counts(const struct coarse_plane *plane,
+                    const struct geom_point corner[3]) {
+  struct coarse_counts count = {0, 0, 0};
   for (int k = 0; k < 3; k++) {
     double value = coarse_plane_value(plane, corner[k]);
-    behind += value < -plane->most;
-    in_front += value > plane->most;
+    count.behind += value < -plane->most;
+    count.in_front += value > plane->most;
+    count.touching += fabs(value) < plane->least;
   }
-  return behind + in_front == 3 && behind % 3 != 0;
+  return count;
 }
 
-/* May a triangle with these corners straddle the plane or end on it, as
- * plane_filter_may_intersect has it?  False is certain. */
-static inline bool
-coarse_plane_may_intersect(const struct coarse_plane *plane,
-                           const struct geom_point corner[3]) {
-  int behind = 0, in_front = 0, touching = 0;
-  for (int k = 0; k < 3; k++) {
-    double value = coarse_plane_value(plane, corner[k]);
-    behind += value < -plane->most;
-    in_front += value > plane->most;
-    touching += fabs(value) < plane->least;
-  }
-  return behind + in_front + touching < 3 || (behind > 0 && in_front > 0) ||
-         touching == 2;
+/* Is the triangle certainly on both sides of the plane, no corner in contact
+ * with it? */
+static inline bool coarse_counts_straddle(struct coarse_counts count) {
+  return count.behind + count.in_front == 3 && count.behind % 3 != 0;
+}
+
+/* May the triangle straddle the plane or end on it, as
+ * plane_filter_may_intersect has it?  False is certain; it is true where the
+ * triangle certainly straddles. */
+static inline bool coarse_counts_may_intersect(struct coarse_counts count) {
+  return count.behind + count.in_front + count.touching < 3 ||
+         (count.behind > 0 && count.in_front > 0) || count.touching == 2;
 }
 
 #endif
