@@ -15,47 +15,81 @@
  * small inputs get smaller cells. */
 enum { ENTRIES_PER_SIDE = 4, ENTRIES_PER_SIDE_MAX = 16, SMALL_SIZE = 1 << 20 };
 
+enum { SORTED_BY_INSERTION = 24 }; /* entries of a cell, at most */
+
 /* Grid units; exceeds the error of a corner's doubles (line.c). */
 #define MARGIN 2.0
 
 /* The triangles whose sides are to be indexed. */
 struct gathered_sides {
+  struct line_index *index;
   const struct sheet *sheet;
   const uint32_t *triangle;
   size_t count;
-  uint32_t *line; /* the keys of their lines, three a triangle */
+  uint32_t *line;             /* the keys of their lines, three a triangle */
+  struct side_extent *extent; /* one a worker */
+  bool is_shared;             /* several threads count and store */
 };
 
-/* Finds the ends of side k of triangle t.  Returns whether it is an edge of the
- * sheet and the triangle is not edge-on. */
+/* What is measured of sides: their bounding box, and the sum of the widths and
+ * heights of their boxes. */
+struct side_extent {
+  struct box2 box;
+  int64_t length;
+};
+
+/* Finds the ends of side k of a triangle that is not edge-on.  Returns whether
+ * the side is an edge of the sheet. */
 static bool is_edge(const struct sheet *sheet, uint32_t t, int k,
                     struct geom_point end[2]) {
   const struct sheet_triangle *triangle = &sheet->triangle.item[t];
   end[0] = sheet->point.item[triangle->point[k]];
   end[1] = sheet->point.item[triangle->point[geom_next_corner(k)]];
-  return sheet_triangle_sides(sheet, t)[k] != SHEET_NONE &&
-         !sheet_is_edge_on(sheet, t);
+  return sheet_triangle_sides(sheet, t)[k] != SHEET_NONE;
+}
+
+/* ---- The cells ----------------------------------------------------------- */
+
+static uint32_t key_of_ends(const struct geom_point end[2]) {
+  struct geom_line line;
+  uint64_t key = 0;
+  geom_line_through(&line, end[0], end[1]);
+  (void)geom_line_key(&line, &key);
+  return (uint32_t)key;
+}
+
+/* Measures the sides of a range of triangles, and finds the keys of their
+ * lines. */
+static bool measure_range(void *user, struct parallel_range range) {
+  const struct gathered_sides *sides = user;
+  struct side_extent extent = sides->extent[range.worker];
+  for (size_t i = range.begin; i < range.end; i++) {
+    uint32_t t = sides->triangle[i];
+    struct geom_point end[2];
+    if (i + MEM_PREFETCH_AHEAD < range.end)
+      sheet_prefetch_corners(sides->sheet,
+                             sides->triangle[i + MEM_PREFETCH_AHEAD]);
+    for (int k = 0; k < 3 && !sheet_is_edge_on(sides->sheet, t); k++)
+      if (is_edge(sides->sheet, t, k, end)) {
+        struct box2 b = box2_of_segment(end[0], end[1]);
+        extent.length += ((int64_t)b.x1 - b.x0) + ((int64_t)b.y1 - b.y0);
+        extent.box = box2_union(extent.box, b);
+        sides->line[3 * i + (size_t)k] = key_of_ends(end);
+      }
+  }
+  sides->extent[range.worker] = extent;
+  return true;
 }
 
 /* Chooses the smallest cells that keep to the limit on the entries. */
-static void choose_shape(struct line_index *index,
-                         const struct gathered_sides *sides) {
-  struct box2 box = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
-  double length = 0, count = 3 * (double)sides->count;
+static void choose_shape(struct line_index *index, struct side_extent extent,
+                         size_t triangles) {
+  struct box2 box = extent.box;
+  double length = (double)extent.length, count = 3 * (double)triangles;
   double entries_max = fmax(ENTRIES_PER_SIDE * count,
                             fmin(ENTRIES_PER_SIDE_MAX * count, SMALL_SIZE)),
          width, height;
   int shift = 30;
-  for (size_t i = 0; i < sides->count; i++)
-    for (int k = 0; k < 3; k++) {
-      struct geom_point end[2];
-      struct box2 b;
-      if (!is_edge(sides->sheet, sides->triangle[i], k, end))
-        continue;
-      b = box2_of_segment(end[0], end[1]);
-      length += ((double)b.x1 - b.x0) + ((double)b.y1 - b.y0);
-      box = box2_union(box, b);
-    }
   if (box.x0 > box.x1)
     box = (struct box2){0, 0, 0, 0};
   width = (double)box.x1 - box.x0;
@@ -75,108 +109,150 @@ static void choose_shape(struct line_index *index,
       .rows = (int)(((int64_t)box.y1 - box.y0) >> shift) + 1};
 }
 
-/* The sort keys: the cell in the upper 32 bits and the key of the line in the
- * lower; the value is the side. */
-typedef ARRAY(struct sort_key) side_keys;
-
-static uint32_t key_of_ends(const struct geom_point end[2]) {
-  struct geom_line line;
-  uint64_t key = 0;
-  geom_line_through(&line, end[0], end[1]);
-  (void)geom_line_key(&line, &key);
-  return (uint32_t)key;
+static bool measure(struct gathered_sides *sides, int workers) {
+  const struct side_extent none = {{INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN},
+                                   0};
+  struct side_extent all = none;
+  sides->extent = mem_alloc((size_t)workers, sizeof *sides->extent);
+  bool ok = sides->extent != NULL;
+  for (int w = 0; ok && w < workers; w++)
+    sides->extent[w] = none;
+  ok = ok && parallel_ranges(workers, sides->count, PARALLEL_ITEMS,
+                             measure_range, sides);
+  for (int w = 0; ok && w < workers; w++) {
+    all.box = box2_union(all.box, sides->extent[w].box);
+    all.length += sides->extent[w].length;
+  }
+  mem_free(sides->extent);
+  if (ok)
+    choose_shape(sides->index, all, sides->count);
+  return ok;
 }
 
-/* Finds the keys of the lines of the sides of a range of triangles. */
-static bool find_line_keys(void *user, struct parallel_range range) {
-  const struct gathered_sides *sides = user;
-  for (size_t i = range.begin; i < range.end; i++)
-    for (int k = 0; k < 3; k++) {
-      struct geom_point end[2];
-      if (is_edge(sides->sheet, sides->triangle[i], k, end))
-        sides->line[3 * i + (size_t)k] = key_of_ends(end);
-    }
-  return true;
+/* ---- The lists ----------------------------------------------------------- */
+
+/* Counts an entry of a cell or, once there is room, stores it. */
+static inline void put_entry(const struct gathered_sides *sides, uint32_t *end,
+                             uint64_t entry) {
+  uint64_t *stored = sides->index->entry;
+  if (stored == NULL && sides->is_shared)
+    (void)__atomic_add_fetch(end, 1, __ATOMIC_RELAXED);
+  else if (stored == NULL)
+    ++*end;
+  else
+    stored[sides->is_shared ? __atomic_sub_fetch(end, 1, __ATOMIC_RELAXED)
+                            : --*end] = entry;
 }
 
-static bool index_side(const struct line_index *index,
-                       const struct geom_point end[2], uint32_t side,
-                       uint32_t key, side_keys *keys) {
-  const struct triangle_grid *shape = &index->shape;
+static void put_side(const struct gathered_sides *sides,
+                     const struct geom_point end[2], uint64_t entry) {
+  const struct triangle_grid *shape = &sides->index->shape;
   struct cell_range r =
       triangle_grid_cells(shape, box2_of_segment(end[0], end[1]));
   for (int y = r.y0; y <= r.y1; y++) {
     int x0, x1;
     triangle_grid_row(shape, end[0], end[1], r, y, &x0, &x1);
-    for (int x = x0; x <= x1; x++) {
-      uint64_t cell = (uint64_t)y * (uint64_t)shape->columns + (uint64_t)x;
-      struct sort_key entry = {cell << 32 | key, side};
-      if (!ARRAY_PUSH(keys, entry))
-        return false;
-    }
+    for (int x = x0; x <= x1; x++)
+      put_entry(sides, &sides->index->start[triangle_grid_index(shape, x, y)],
+                entry);
+  }
+}
+
+static bool put_range(void *user, struct parallel_range range) {
+  const struct gathered_sides *sides = user;
+  for (size_t i = range.begin; i < range.end; i++) {
+    uint32_t t = sides->triangle[i];
+    struct geom_point end[2];
+    if (i + MEM_PREFETCH_AHEAD < range.end)
+      sheet_prefetch_corners(sides->sheet,
+                             sides->triangle[i + MEM_PREFETCH_AHEAD]);
+    for (uint32_t k = 0; k < 3 && !sheet_is_edge_on(sides->sheet, t); k++)
+      if (is_edge(sides->sheet, t, (int)k, end))
+        put_side(sides, end,
+                 (uint64_t)sides->line[3 * i + k] << 32 | (3 * t + k));
   }
   return true;
 }
 
-static bool gather_keys(const struct line_index *index,
-                        const struct gathered_sides *sides, side_keys *keys) {
-  for (size_t i = 0; i < sides->count; i++) {
-    if (!poll_at(i))
+/* Lets each list begin where it ends; returns false where memory ran out, or
+ * where there are 2^32 entries. */
+static bool allocate_lists(struct line_index *index, size_t cells) {
+  size_t sum = 0;
+  for (size_t i = 0; i < cells; i++)
+    index->start[i] = (uint32_t)(sum += index->start[i]);
+  if (sum > UINT32_MAX)
+    return false;
+  index->start[cells] = (uint32_t)sum;
+  index->entry = mem_alloc(sum, sizeof *index->entry);
+  return index->entry != NULL;
+}
+
+/* Sorts the entries of a cell: few as a rule. */
+static bool sort_cell(uint64_t *entry, size_t count) {
+  if (count > SORTED_BY_INSERTION) {
+    struct sort_key *key = mem_alloc(count, sizeof *key);
+    for (size_t i = 0; key != NULL && i < count; i++)
+      key[i] = (struct sort_key){entry[i], 0};
+    bool ok = key != NULL && sort_keys_alone(key, count);
+    for (size_t i = 0; ok && i < count; i++)
+      entry[i] = key[i].key;
+    mem_free(key);
+    return ok;
+  }
+  for (size_t i = 1; i < count; i++) {
+    uint64_t moving = entry[i];
+    size_t hole = i;
+    for (; hole > 0 && entry[hole - 1] > moving; hole--)
+      entry[hole] = entry[hole - 1];
+    entry[hole] = moving;
+  }
+  return true;
+}
+
+/* The order in which threads stored the entries of a cell does not matter, as
+ * no two are equal. */
+static bool sort_range(void *user, struct parallel_range range) {
+  const struct line_index *index = user;
+  for (size_t c = range.begin; c < range.end; c++)
+    if (!sort_cell(index->entry + index->start[c],
+                   index->start[c + 1] - index->start[c]))
       return false;
-    for (int k = 0; k < 3; k++) {
-      uint32_t t = sides->triangle[i];
-      struct geom_point end[2];
-      if (is_edge(sides->sheet, t, k, end) &&
-          !index_side(index, end, 3 * t + (uint32_t)k,
-                      sides->line[3 * i + (size_t)k], keys))
-        return false;
-    }
-  }
   return true;
 }
 
-/* Builds the lists of the cells from the sorted keys. */
-static bool make_lists(struct line_index *index, const side_keys *keys) {
+static bool make_lists(struct gathered_sides *sides, int workers) {
+  struct line_index *index = sides->index;
   size_t cells = triangle_grid_cell_count(&index->shape);
   index->start = mem_calloc(cells + 1, sizeof *index->start);
-  index->item = mem_alloc(keys->count, sizeof *index->item);
-  index->key = mem_alloc(keys->count, sizeof *index->key);
-  if (index->start == NULL || index->item == NULL || index->key == NULL)
-    return false;
-  for (size_t i = 0; i < keys->count; i++) {
-    if (!poll_at(i))
-      return false;
-    index->start[(keys->item[i].key >> 32) + 1]++;
-    index->item[i] = keys->item[i].value;
-    index->key[i] = (uint32_t)keys->item[i].key;
-  }
-  for (size_t i = 0; i < cells; i++)
-    index->start[i + 1] += index->start[i];
-  return true;
+  sides->is_shared = workers > 1;
+  return index->start != NULL &&
+         parallel_ranges(workers, sides->count, PARALLEL_ITEMS, put_range,
+                         sides) &&
+         allocate_lists(index, cells) &&
+         parallel_ranges(workers, sides->count, PARALLEL_ITEMS, put_range,
+                         sides) &&
+         parallel_ranges(parallel_workers(cells, PARALLEL_ITEMS), cells,
+                         PARALLEL_ITEMS, sort_range, index);
 }
 
 bool line_index_init(struct line_index *index, const struct sheet *sheet,
                      const uint32_t *triangle, size_t count) {
-  struct gathered_sides sides = {sheet, triangle, count,
-                                 mem_alloc(3 * count, sizeof *sides.line)};
-  side_keys keys = {0};
+  struct gathered_sides sides = {
+      .index = index, .sheet = sheet, .triangle = triangle, .count = count};
+  int workers = parallel_workers(count, PARALLEL_ITEMS);
   memset(index, 0, sizeof *index);
-  choose_shape(index, &sides);
-  bool ok = sides.line != NULL &&
-            parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
-                            PARALLEL_ITEMS, find_line_keys, &sides) &&
-            gather_keys(index, &sides, &keys);
+  sides.line = mem_alloc(3 * count, sizeof *sides.line);
+  bool ok = sides.line != NULL && measure(&sides, workers) &&
+            make_lists(&sides, workers);
   mem_free(sides.line);
-  ok = ok && sort_keys_alone(keys.item, keys.count) && make_lists(index, &keys);
-  ARRAY_FREE(&keys);
   return ok;
 }
 
 void line_index_fini(struct line_index *index) {
   mem_free(index->start);
-  mem_free(index->item);
-  mem_free(index->key);
-  index->start = index->item = index->key = NULL;
+  mem_free(index->entry);
+  index->start = NULL;
+  index->entry = NULL;
 }
 
 /* The row or column that contains coordinate v, clamped to the index. */
@@ -190,8 +266,9 @@ static void find_index_columns(const struct triangle_grid *shape,
                                const struct geom_corner *p,
                                const struct geom_corner *q, int y, int *x0,
                                int *x1) {
-  double low = shape->y0 + ldexp(y, shape->shift) - MARGIN;
-  double high = shape->y0 + ldexp(y + 1, shape->shift) + MARGIN;
+  double side = (double)(INT64_C(1) << shape->shift);
+  double low = shape->y0 + y * side - MARGIN;
+  double high = shape->y0 + (y + 1.0) * side + MARGIN;
   double dy = q->y - p->y, from = 0, to = 1, a, b;
   if (fabs(dy) > MARGIN) {
     double s = (low - p->y) / dy, t = (high - p->y) / dy;
@@ -210,9 +287,10 @@ static void find_index_columns(const struct triangle_grid *shape,
 static bool find_in_cell(const struct line_index *index, size_t cell,
                          uint32_t key, side_list *found) {
   size_t i, end = index->start[cell + 1];
-  LOWER_BOUND(i, index->start[cell], end, index->key[i] < key);
-  for (; i < end && index->key[i] == key; i++)
-    if (!ARRAY_PUSH(found, index->item[i]))
+  uint64_t first = (uint64_t)key << 32;
+  LOWER_BOUND(i, index->start[cell], end, index->entry[i] < first);
+  for (; i < end && index->entry[i] >> 32 == key; i++)
+    if (!ARRAY_PUSH(found, (uint32_t)index->entry[i]))
       return false;
   return true;
 }

@@ -17,14 +17,15 @@ typedef ARRAY(uint32_t) side_list;
 
 struct line_index {
   struct triangle_grid shape; /* the cells; its own lists are not used */
-  uint32_t *start, *item;     /* of cell c: item[start[c] .. start[c + 1]) */
-  uint32_t *key; /* one per item: that of its line, ascending in a cell */
+  uint32_t *start;            /* of cell c: entry[start[c] .. start[c + 1]), */
+  uint64_t *entry; /* ascending: the key of the line in the upper 32 bits, the
+                      side in the lower */
 };
 
 /* Indexes the triangle sides that are edges of the sheet.
  * triangle  `count` triangles of the sheet without duplicates; those seen
  *           edge-on are left out
- * Returns false when memory ran out. */
+ * Returns false when memory ran out, or the caller cancelled. */
 USE_RESULT bool line_index_init(struct line_index *index,
                                 const struct sheet *sheet,
                                 const uint32_t *triangle, size_t count);
