@@ -109,7 +109,7 @@ static void choose_shape(struct line_index *index, struct side_extent extent,
       .rows = (int)(((int64_t)box.y1 - box.y0) >> shift) + 1};
 }
 
-static bool measure(struct gathered_sides *sides, int workers) {
+static bool measure_sides(struct gathered_sides *sides, int workers) {
   const struct side_extent none = {{INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN},
                                    0};
   struct side_extent all = none;
@@ -132,8 +132,8 @@ static bool measure(struct gathered_sides *sides, int workers) {
 /* ---- The lists ----------------------------------------------------------- */
 
 /* Counts an entry of a cell or, once there is room, stores it. */
-static inline void put_entry(const struct gathered_sides *sides, uint32_t *end,
-                             uint64_t entry) {
+static inline void put_side_entry(const struct gathered_sides *sides,
+                                  uint32_t *end, uint64_t entry) {
   uint64_t *stored = sides->index->entry;
   if (stored == NULL && sides->is_shared)
     (void)__atomic_add_fetch(end, 1, __ATOMIC_RELAXED);
@@ -153,8 +153,8 @@ static void put_side(const struct gathered_sides *sides,
     int x0, x1;
     triangle_grid_row(shape, end[0], end[1], r, y, &x0, &x1);
     for (int x = x0; x <= x1; x++)
-      put_entry(sides, &sides->index->start[triangle_grid_index(shape, x, y)],
-                entry);
+      put_side_entry(
+          sides, &sides->index->start[triangle_grid_index(shape, x, y)], entry);
   }
 }
 
@@ -211,7 +211,7 @@ static bool sort_cell(uint64_t *entry, size_t count) {
 
 /* The order in which threads stored the entries of a cell does not matter, as
  * no two are equal. */
-static bool sort_range(void *user, struct parallel_range range) {
+static bool sort_cells_of_range(void *user, struct parallel_range range) {
   const struct line_index *index = user;
   for (size_t c = range.begin; c < range.end; c++)
     if (!sort_cell(index->entry + index->start[c],
@@ -232,7 +232,7 @@ static bool make_lists(struct gathered_sides *sides, int workers) {
          parallel_ranges(workers, sides->count, PARALLEL_ITEMS, put_range,
                          sides) &&
          parallel_ranges(parallel_workers(cells, PARALLEL_ITEMS), cells,
-                         PARALLEL_ITEMS, sort_range, index);
+                         PARALLEL_ITEMS, sort_cells_of_range, index);
 }
 
 bool line_index_init(struct line_index *index, const struct sheet *sheet,
@@ -242,7 +242,7 @@ bool line_index_init(struct line_index *index, const struct sheet *sheet,
   int workers = parallel_workers(count, PARALLEL_ITEMS);
   memset(index, 0, sizeof *index);
   sides.line = mem_alloc(3 * count, sizeof *sides.line);
-  bool ok = sides.line != NULL && measure(&sides, workers) &&
+  bool ok = sides.line != NULL && measure_sides(&sides, workers) &&
             make_lists(&sides, workers);
   mem_free(sides.line);
   return ok;
