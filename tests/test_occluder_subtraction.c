@@ -90,6 +90,35 @@ static void what_is_left_is_what_brute_force_leaves(void **state) {
   assert_true(sum.exact > 1000);
 }
 
+/* A square face of two triangles in front of a third one, which lies across
+ * either diagonal, and whose right corner is at x. */
+static bool is_covered_by_square(int x) {
+  const int square[4][3] = {
+      {0, 0, 80}, {100, 0, 80}, {100, 100, 80}, {0, 100, 80}};
+  const int behind[3][3] = {{20, 50, 10}, {x, 30, 10}, {60, 80, 10}};
+  struct occluder_subtraction subtraction;
+  struct sheet sheet;
+  exact_sheet_init(&sheet);
+  exact_add_face(&sheet, square, 4, 1024);
+  exact_add_face(&sheet, behind, 3, 1024);
+  assert_int_equal(sheet.triangle.count, 3);
+  occluder_subtraction_init(&subtraction, &sheet);
+  take_all(&subtraction, 2, true);
+  bool covered = subtraction.covered;
+  assert_int_equal(covered, subtraction.left.count == 0);
+  occluder_subtraction_fini(&subtraction);
+  exact_sheet_fini(&sheet);
+  return covered;
+}
+
+static void
+two_triangles_of_a_face_cover_what_lies_across_their_diagonal(void **state) {
+  (void)state;
+  assert_true(is_covered_by_square(80));
+  assert_true(is_covered_by_square(100));
+  assert_false(is_covered_by_square(101));
+}
+
 /* A long bar, and n short ones across it, in front or behind. */
 static void lay_bars(struct sheet *sheet, int n, int depth) {
   const int long_bar[4][3] = {
@@ -177,6 +206,8 @@ static void memory_may_run_out_anywhere(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(what_is_left_is_what_brute_force_leaves),
+      cmocka_unit_test(
+          two_triangles_of_a_face_cover_what_lies_across_their_diagonal),
       cmocka_unit_test(a_split_leaves_what_brute_force_leaves),
       cmocka_unit_test(bars_across_a_bar_are_tested_only_near_it),
       cmocka_unit_test(what_is_behind_is_no_occluder),

@@ -28,9 +28,8 @@ void occluder_subtraction_fini(struct occluder_subtraction *subtraction) {
   arena_fini(&subtraction->arena);
 }
 
-bool occluder_subtraction_start(struct occluder_subtraction *subtraction,
-                                uint32_t triangle,
-                                const struct geom_convex *part) {
+void occluder_subtraction_begin(struct occluder_subtraction *subtraction,
+                                uint32_t triangle) {
   arena_reset(&subtraction->arena);
   subtraction->triangle = triangle;
   subtraction->plane = triangle_plane_of(subtraction->sheet, triangle);
@@ -40,13 +39,25 @@ bool occluder_subtraction_start(struct occluder_subtraction *subtraction,
   geom_depth_range(subtraction->plane.p, &subtraction->low, &subtraction->high);
   subtraction->covered = subtraction->interpenetrating = false;
   subtraction->occluder.count = subtraction->left.count = 0;
+  subtraction->whole = true;
+}
+
+bool occluder_subtraction_take(struct occluder_subtraction *subtraction,
+                               const struct geom_convex *part) {
   subtraction->whole = part == NULL;
   if (part != NULL)
     return ARRAY_PUSH(&subtraction->left, *part);
   struct geom_convex piece;
-  return triangle_as_convex(subtraction->sheet, triangle, &piece,
+  return triangle_as_convex(subtraction->sheet, subtraction->triangle, &piece,
                             &subtraction->arena) &&
          ARRAY_PUSH(&subtraction->left, piece);
+}
+
+bool occluder_subtraction_start(struct occluder_subtraction *subtraction,
+                                uint32_t triangle,
+                                const struct geom_convex *part) {
+  occluder_subtraction_begin(subtraction, triangle);
+  return occluder_subtraction_take(subtraction, part);
 }
 
 /* ---- Collecting the occluders -------------------------------------------- */
@@ -85,14 +96,49 @@ static bool filtered_depth_order(const struct occluder_subtraction *subtraction,
   return sides >= 0 && others >= 0;
 }
 
-/* Returns whether triangle g contains triangle f on the page. */
-static bool contains_triangle(const struct geom_point g[3],
-                              const struct geom_point f[3]) {
+/* Returns whether triangle f is on the left of all sides of triangle g but one;
+ * side 3: of all, so that g contains f on the page. */
+static bool is_left_of_sides(const struct geom_point g[3], int but,
+                             const struct geom_point f[3]) {
   for (int k = 0; k < 3; k++)
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3 && k != but; i++)
       if (geom_orient2d(g[k], g[geom_next_corner(k)], f[i]) < 0)
         return false;
   return true;
+}
+
+/* Returns whether two triangles that share a side contain triangle f together:
+ * what is on the left of all other sides of a simple polygon lies in it. */
+static bool is_within_pair(const struct sheet *sheet, uint32_t g, uint32_t h,
+                           const struct geom_point f[3]) {
+  const uint32_t *p = sheet->triangle.item[g].point,
+                 *q = sheet->triangle.item[h].point;
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      if (p[i] == q[geom_next_corner(j)] && p[geom_next_corner(i)] == q[j])
+        return is_left_of_sides(sheet_corners(sheet, g).p, i, f) &&
+               is_left_of_sides(sheet_corners(sheet, h).p, j, f);
+  return false;
+}
+
+/* Whether an occluder that is nearer everywhere covers all of the current
+ * triangle, alone or with the one that was collected before it. */
+static bool covers_triangle(const struct occluder_subtraction *subtraction,
+                            const struct triangle_occluder *occluder,
+                            const struct geom_point p[3]) {
+  const struct geom_point *f = subtraction->plane.p;
+  uint32_t g = occluder->triangle;
+  if (is_left_of_sides(p, 3, f))
+    return true;
+  if (subtraction->occluder.count == 0)
+    return false;
+  const struct triangle_occluder *last =
+      &subtraction->occluder.item[subtraction->occluder.count - 1];
+  return (last->triangle + 1 == g || g + 1 == last->triangle) &&
+         !last->crosses &&
+         box2_contains(box2_union(last->box, occluder->box),
+                       subtraction->box) &&
+         is_within_pair(subtraction->sheet, g, last->triangle, f);
 }
 
 bool occluder_subtraction_collect(struct occluder_subtraction *subtraction,
@@ -129,7 +175,7 @@ bool occluder_subtraction_collect(struct occluder_subtraction *subtraction,
     subtraction->counts.crossings++;
     subtraction->interpenetrating = true;
     occluder.crosses = true;
-  } else if (contains_triangle(plane.p, subtraction->plane.p)) {
+  } else if (covers_triangle(subtraction, &occluder, plane.p)) {
     subtraction->covered = true;
   }
   return ARRAY_PUSH(&subtraction->occluder, occluder);

@@ -57,7 +57,9 @@ struct occluder_subtraction {
   struct plane_filter filter;
   struct box2 box;
   int64_t low, high;     /* its depth range */
-  bool covered;          /* one occluder alone hides all of it */
+  bool covered;          /* one occluder alone hides all of it, or two of
+                            consecutive numbers that share a side, as those of
+                            a face of four corners do */
   bool interpenetrating; /* it overlaps a triangle that is not entirely, and
                             strictly, on one side of its plane */
   ARRAY(struct triangle_occluder) occluder; /* those collected */
@@ -83,6 +85,15 @@ void occluder_subtraction_fini(struct occluder_subtraction *subtraction);
 USE_RESULT bool
 occluder_subtraction_start(struct occluder_subtraction *subtraction,
                            uint32_t triangle, const struct geom_convex *part);
+
+/* The same without any part to subtract from: that is taken later. */
+void occluder_subtraction_begin(struct occluder_subtraction *subtraction,
+                                uint32_t triangle);
+
+/* Takes the part to start with, after occluder_subtraction_begin. */
+USE_RESULT bool
+occluder_subtraction_take(struct occluder_subtraction *subtraction,
+                          const struct geom_convex *part);
 
 /* Tests whether triangle g, which is not edge-on and not the current one,
  * occludes the current one, and collects it if it does.  Exact. */

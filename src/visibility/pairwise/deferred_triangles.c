@@ -241,7 +241,7 @@ static bool find_near_triangles(struct triangle_solver *solver) {
 /* ---- Solving ------------------------------------------------------------- */
 
 /* Tests the candidates as occluders, until one hides the current triangle
- * completely. */
+ * completely, or one and the one before it. */
 static bool test_candidates(struct triangle_solver *solver) {
   struct occluder_subtraction *subtraction = &solver->subtraction;
   enum { AHEAD = 4 }; /* lists are short */
@@ -269,8 +269,8 @@ static bool mark_hidden(struct triangle_solver *solver, uint32_t triangle) {
 static bool solve_triangle(struct triangle_solver *solver, uint32_t triangle) {
   struct occluder_subtraction *subtraction = &solver->subtraction;
   struct deferred_triangles_counts *counts = &solver->counts;
-  if (!occluder_subtraction_start(subtraction, triangle, NULL) ||
-      !find_near_triangles(solver) || !test_candidates(solver))
+  occluder_subtraction_begin(subtraction, triangle);
+  if (!find_near_triangles(solver) || !test_candidates(solver))
     return false;
   const uint32_t *candidate = solver->query.found.item;
   size_t count = solver->query.found.count;
@@ -281,7 +281,8 @@ static bool solve_triangle(struct triangle_solver *solver, uint32_t triangle) {
       counts->uncrossed++;
       return mark_hidden(solver, triangle);
     }
-    if (!occluder_subtraction_subtract_all(subtraction))
+    if (!occluder_subtraction_take(subtraction, NULL) ||
+        !occluder_subtraction_subtract_all(subtraction))
       return false;
     if (subtraction->left.count == 0)
       return mark_hidden(solver, triangle);

@@ -55,4 +55,9 @@ static inline bool box2_disjoint(struct box2 a, struct box2 b) {
   return a.x1 < b.x0 || b.x1 < a.x0 || a.y1 < b.y0 || b.y1 < a.y0;
 }
 
+/* Whether all of b lies in a. */
+static inline bool box2_contains(struct box2 a, struct box2 b) {
+  return a.x0 <= b.x0 && b.x1 <= a.x1 && a.y0 <= b.y0 && b.y1 <= a.y1;
+}
+
 #endif
