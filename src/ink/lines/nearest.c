@@ -79,12 +79,14 @@ static struct nearest_box bound(const struct nearest *t, uint32_t low,
   struct nearest_box box = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}, 0};
   for (uint32_t i = low; i < high; i++) {
     (void)poll_at(i);
-    for (int axis = 0; axis < 2 && !t->item[i].deleted; axis++) {
-      double c = item_coordinate(t, i, axis);
-      box.low[axis] = c < box.low[axis] ? c : box.low[axis];
-      box.high[axis] = c > box.high[axis] ? c : box.high[axis];
-    }
-    box.left += !t->item[i].deleted;
+    if (t->item[i].deleted)
+      continue;
+    const struct drawing_point p = t->item[i].at;
+    box.low[0] = p.x < box.low[0] ? p.x : box.low[0];
+    box.low[1] = p.y < box.low[1] ? p.y : box.low[1];
+    box.high[0] = p.x > box.high[0] ? p.x : box.high[0];
+    box.high[1] = p.y > box.high[1] ? p.y : box.high[1];
+    box.left++;
   }
   return box;
 }
@@ -226,15 +228,19 @@ static double limit(const struct search *s) {
   return s->count < s->wanted ? s->most2 : s->distance2[s->count - 1];
 }
 
+/* How far a coordinate is from an interval, 0 within it: without branches,
+ * which could not be predicted. */
+static inline double interval_distance(double low, double high, double at) {
+  double below = low - at, above = at - high;
+  double farther = below > above ? below : above;
+  return farther > 0 ? farther : 0;
+}
+
 /* The squared distance of a point from a box, 0 inside it. */
 static double box_distance2(const struct nearest_box *box,
                             struct drawing_point p) {
-  double dx = p.x < box->low[0]    ? box->low[0] - p.x
-              : p.x > box->high[0] ? p.x - box->high[0]
-                                   : 0;
-  double dy = p.y < box->low[1]    ? box->low[1] - p.y
-              : p.y > box->high[1] ? p.y - box->high[1]
-                                   : 0;
+  double dx = interval_distance(box->low[0], box->high[0], p.x);
+  double dy = interval_distance(box->low[1], box->high[1], p.y);
   return dx * dx + dy * dy;
 }
 

@@ -33,12 +33,15 @@ enum { NEIGHBOURS = 8, RUN_MAX = 3 };
 struct cyclic_tour {
   const struct drawing_point *end;
   struct drawing_point start;
-  uint32_t count;     /* of stops; the last index is the depot */
-  uint32_t *stop;     /* in order */
-  uint32_t *position; /* of each stop: its index in `stop` */
-  bool *reversed;     /* of each stop: drawn from its second end */
-  /* Of each end NEIGHBOURS ends, nearest first, padded with NEAREST_NONE. */
+  uint32_t count;         /* of stops; the last index is the depot */
+  uint32_t *stop;         /* in order */
+  uint32_t *position;     /* of each stop: its index in `stop` */
+  bool *reversed;         /* of each stop: drawn from its second end */
+  struct nearest nearest; /* of the ends */
+  /* Of each end up to NEIGHBOURS ends, nearest first, padded with NEAREST_NONE:
+   * those nearer than `known`, which a gap at the end was wider than at most. */
   uint32_t *neighbour;
+  double *known;
   uint32_t *queue; /* circular, of stops for which moves are to be tried */
   bool *queued;    /* of each stop: in the queue */
   uint32_t queue_head, queue_count;
@@ -196,6 +199,27 @@ static void enqueue(struct cyclic_tour *r, uint32_t stop) {
   r->queued[stop] = true;
 }
 
+/* ---- Neighbours ---------------------------------------------------------- */
+
+/* The neighbours of an end of a gap, and possibly others that are no nearer
+ * than the gap is wide.  They are sought only then, as most gaps are narrow:
+ * the pen was led to what is nearest. */
+static const uint32_t *find_neighbours(struct cyclic_tour *r, uint32_t end,
+                                       double wide) {
+  uint32_t *found = r->neighbour + (size_t)end * NEIGHBOURS;
+  uint32_t depot_in = 2 * (r->count - 1);
+  if (wide <= r->known[end])
+    return found;
+  /* The margin is more than rounding can make of one distance. */
+  uint32_t count =
+      nearest_list(&r->nearest, end < depot_in ? r->end[end] : r->start,
+                   end / 2, wide + TOLERANCE_TRAVEL_MM, found, NEIGHBOURS);
+  r->known[end] = count < NEIGHBOURS ? wide : INFINITY;
+  for (; count < NEIGHBOURS; count++)
+    found[count] = NEAREST_NONE;
+  return found;
+}
+
 /* ---- Moves --------------------------------------------------------------- */
 
 /* A candidate move: the gap from stop c to its successor d has length `wide`;
@@ -264,7 +288,9 @@ static bool try_neighbours(struct cyclic_tour *r, uint32_t c) {
   uint32_t from = exit_end(r, c), d = after(r, c);
   struct tour_candidate t = {
       .c = c, .d = d, .wide = gap(r, from, entry_end(r, d))};
-  const uint32_t *neighbour = r->neighbour + (size_t)from * NEIGHBOURS;
+  if (t.wide == 0) /* as at the depot */
+    return false;
+  const uint32_t *neighbour = find_neighbours(r, from, t.wide);
   for (int i = 0; i < NEIGHBOURS && neighbour[i] != NEAREST_NONE; i++) {
     t.x = neighbour[i] / 2;
     t.near = gap(r, from, neighbour[i]);
@@ -302,26 +328,6 @@ static void improve(struct cyclic_tour *r) {
 
 /* ---- From the open to the cyclic tour and back --------------------------- */
 
-/* Fills the neighbour lists of all ends, in the order of the tour: consecutive
- * searches are then close to each other, and their data in the cache. */
-static bool find_neighbours(struct cyclic_tour *r) {
-  uint32_t depot_in = 2 * (r->count - 1);
-  struct nearest nearest;
-  bool ok = nearest_init(&nearest, r->end, depot_in);
-  for (uint32_t i = 0; ok && i < 2 * r->count; i++) {
-    uint32_t e = 2 * r->stop[i / 2] + i % 2, count = 0;
-    ok = poll_at(i);
-    uint32_t *found = r->neighbour + (size_t)e * NEIGHBOURS;
-    if (e != depot_in)
-      count = nearest_list(&nearest, e < depot_in ? r->end[e] : r->start, e / 2,
-                           INFINITY, found, NEIGHBOURS);
-    for (; count < NEIGHBOURS; count++)
-      found[count] = NEAREST_NONE;
-  }
-  nearest_fini(&nearest);
-  return ok;
-}
-
 /* Makes the initial cyclic tour, with the depot last. */
 static void close_tour(struct cyclic_tour *r, const struct tour *tour) {
   for (uint32_t i = 0; i < r->count; i++) {
@@ -357,15 +363,15 @@ bool tour_improve(struct tour *tour, const struct tour_effort *effort) {
   r.position = mem_alloc(count, sizeof *r.position);
   r.reversed = mem_alloc(count, sizeof *r.reversed);
   r.neighbour = mem_alloc(count, 2 * NEIGHBOURS * sizeof *r.neighbour);
+  r.known = mem_calloc(count, 2 * sizeof *r.known);
   r.queue = mem_alloc(count, sizeof *r.queue);
   r.queued = mem_calloc(count, sizeof *r.queued);
   bool ok = r.stop != NULL && r.position != NULL && r.reversed != NULL &&
-            r.neighbour != NULL && r.queue != NULL && r.queued != NULL;
+            r.neighbour != NULL && r.known != NULL && r.queue != NULL &&
+            r.queued != NULL &&
+            nearest_init(&r.nearest, r.end, 2 * tour->count);
   if (ok) {
     close_tour(&r, tour);
-    ok = find_neighbours(&r);
-  }
-  if (ok) {
     improve(&r);
     open_tour(&r, tour);
   }
@@ -373,6 +379,8 @@ bool tour_improve(struct tour *tour, const struct tour_effort *effort) {
   mem_free(r.position);
   mem_free(r.reversed);
   mem_free(r.neighbour);
+  mem_free(r.known);
+  nearest_fini(&r.nearest);
   mem_free(r.queue);
   mem_free(r.queued);
   return ok;
