@@ -135,6 +135,11 @@ static inline bool kdop8_is_behind(uint64_t lanes) {
   return lanes >> (9 * KDOP8_LANE - 1) == 0;
 }
 
+/* May it overlap the query's on the page?  False is certain. */
+static inline bool kdop8_overlaps_page(uint64_t lanes) {
+  return (lanes | UINT64_C(1) << (9 * KDOP8_LANE - 1)) == KDOP8_GUARDS;
+}
+
 /* May the 8-DOP of a key overlap that of a query?  False is certain. */
 static inline bool kdop8_overlaps(uint64_t key, uint64_t query) {
   return kdop8_compare(key, query) == KDOP8_GUARDS;

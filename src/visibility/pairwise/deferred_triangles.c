@@ -126,6 +126,7 @@ struct triangle_solver {
   struct deferred_triangles *d;
   struct triangle_grid_query query;
   struct occluder_subtraction subtraction;
+  struct kdop8 kdop; /* of the current triangle */
   struct deferred_triangles_counts counts;
   struct progress progress;
   struct fragments part;
@@ -136,22 +137,6 @@ static bool is_hidden(const struct triangle_solver *solver, uint32_t triangle) {
   uint8_t state =
       __atomic_load_n(&solver->d->state[triangle], __ATOMIC_RELAXED);
   return state == MAP_HIDDEN || state == solver->mark;
-}
-
-/* Returns false only if segment pq has no point inside triangle f: a
- * conservative test. */
-static bool may_intersect_segment(const struct geom_point f[3],
-                                  struct geom_point p, struct geom_point q) {
-  int64_t a = geom_orient2d(p, q, f[0]), b = geom_orient2d(p, q, f[1]),
-          c = geom_orient2d(p, q, f[2]);
-  if ((a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0))
-    return false;
-  for (int k = 0; k < 3; k++) {
-    struct geom_point from = f[k], to = f[geom_next_corner(k)];
-    if (geom_orient2d(from, to, p) <= 0 && geom_orient2d(from, to, q) <= 0)
-      return false;
-  }
-  return true;
 }
 
 /* Returns whether a contour that is not behind the current triangle may cross
@@ -169,7 +154,7 @@ static bool is_crossed(const struct triangle_solver *solver) {
         struct geom_segment s = sheet_ends(
             sheet, sheet->contour.item[solver->d->contours.item[i]].point);
         if ((s.p.z >= subtraction->low || s.q.z >= subtraction->low) &&
-            may_intersect_segment(subtraction->plane.p, s.p, s.q))
+            triangle_may_meet_segment(subtraction->plane.p, s.p, s.q))
           return true;
       }
     }
@@ -205,37 +190,74 @@ static bool find_in_bsp(struct triangle_solver *solver, uint32_t root) {
   return true;
 }
 
-/* Finds the triangles that may overlap the current one on the page, at any
- * depth, since a triangle behind it may be in contact with it. */
-static bool find_near_triangles(struct triangle_solver *solver) {
+/* Finds the triangles in a cell that may overlap the current one on the page and
+ * are not certainly behind it. */
+static bool find_in_cell(struct triangle_solver *solver, int x, int y) {
   const struct tile_candidates *lists = solver->d->lists;
-  const struct triangle_grid *grid = &lists->grid;
-  const struct occluder_subtraction *subtraction = &solver->subtraction;
-  struct cell_range r = triangle_grid_cells(grid, subtraction->box);
-  struct kdop8 kdop = kdop8_of_point(subtraction->plane.p[0]);
-  kdop8_add(&kdop, subtraction->plane.p[1]);
-  kdop8_add(&kdop, subtraction->plane.p[2]);
-  triangle_grid_query_start(grid, &solver->query);
-  for (int y = r.y0; y <= r.y1; y++)
-    for (int x = r.x0; x <= r.x1; x++) {
-      size_t cell = triangle_grid_index(grid, x, y);
-      uint32_t i = grid->lists.start[cell], end = grid->lists.start[cell + 1];
-      if (i == end)
-        continue;
-      if (triangle_grid_bsp(grid, cell) != SHEET_NONE) {
-        if (!find_in_bsp(solver, triangle_grid_bsp(grid, cell)))
-          return false;
-        continue;
-      }
-      struct kdop8_range range = tile_candidates_range(lists, x, y);
-      kdop.low = range.z0;
-      uint64_t kdop_query = kdop8_query(&range, &kdop);
-      for (; i < end; i++)
-        if (kdop8_overlaps(lists->key[i], kdop_query) &&
-            !add_candidate(solver, grid->lists.item[i]))
-          return false;
+  size_t cell = triangle_grid_index(&lists->grid, x, y);
+  uint32_t i = lists->grid.lists.start[cell],
+           end = lists->grid.lists.start[cell + 1];
+  if (i == end)
+    return true;
+  if (triangle_grid_bsp(&lists->grid, cell) != SHEET_NONE)
+    return find_in_bsp(solver, triangle_grid_bsp(&lists->grid, cell));
+  bool is_sorted = tile_candidates_is_sorted(lists, cell);
+  struct kdop8_range range = tile_candidates_range(lists, x, y);
+  uint64_t query = kdop8_query(&range, &solver->kdop);
+  for (; i < end; i++) {
+    uint64_t lanes = kdop8_compare(lists->key[i], query);
+    if (lanes == KDOP8_GUARDS) {
+      if (!add_candidate(solver, lists->grid.lists.item[i]))
+        return false;
+    } else if (is_sorted && kdop8_is_behind(lanes)) {
+      break; /* so are all that follow */
     }
+  }
   return true;
+}
+
+/* Finds the others, which are behind it, as some may be in contact with it. */
+static bool find_behind_in_cell(struct triangle_solver *solver, int x, int y) {
+  const struct tile_candidates *lists = solver->d->lists;
+  size_t cell = triangle_grid_index(&lists->grid, x, y);
+  uint32_t begin = lists->grid.lists.start[cell],
+           i = lists->grid.lists.start[cell + 1];
+  if (i == begin || triangle_grid_bsp(&lists->grid, cell) != SHEET_NONE)
+    return true;
+  bool is_sorted = tile_candidates_is_sorted(lists, cell);
+  struct kdop8_range range = tile_candidates_range(lists, x, y);
+  uint64_t query = kdop8_query(&range, &solver->kdop);
+  while (i-- > begin) {
+    uint64_t lanes = kdop8_compare(lists->key[i], query);
+    if (!kdop8_is_behind(lanes) && is_sorted)
+      break;
+    if (kdop8_is_behind(lanes) && kdop8_overlaps_page(lanes) &&
+        !add_candidate(solver, lists->grid.lists.item[i]))
+      return false;
+  }
+  return true;
+}
+
+static bool find_in_cells(struct triangle_solver *solver,
+                          bool (*find)(struct triangle_solver *solver, int x,
+                                       int y)) {
+  struct cell_range r =
+      triangle_grid_cells(&solver->d->lists->grid, solver->subtraction.box);
+  for (int y = r.y0; y <= r.y1; y++)
+    for (int x = r.x0; x <= r.x1; x++)
+      if (!find(solver, x, y))
+        return false;
+  return true;
+}
+
+/* Finds what may be an occluder. */
+static bool find_candidates(struct triangle_solver *solver) {
+  const struct geom_point *p = solver->subtraction.plane.p;
+  triangle_grid_query_start(&solver->d->lists->grid, &solver->query);
+  solver->kdop = kdop8_of_point(p[0]);
+  kdop8_add(&solver->kdop, p[1]);
+  kdop8_add(&solver->kdop, p[2]);
+  return find_in_cells(solver, find_in_cell);
 }
 
 /* ---- Solving ------------------------------------------------------------- */
@@ -265,20 +287,36 @@ static bool mark_hidden(struct triangle_solver *solver, uint32_t triangle) {
   return true;
 }
 
-/* Solves a triangle, and adds its visible pieces to the solver's part. */
-static bool solve_triangle(struct triangle_solver *solver, uint32_t triangle) {
-  struct occluder_subtraction *subtraction = &solver->subtraction;
-  struct deferred_triangles_counts *counts = &solver->counts;
-  occluder_subtraction_begin(subtraction, triangle);
-  if (!find_near_triangles(solver) || !test_candidates(solver))
+/* Adds what is visible of a triangle: all of it, or the pieces left.  What is
+ * behind it may be in contact with it. */
+static bool add_visible(struct triangle_solver *solver, uint32_t triangle) {
+  const struct occluder_subtraction *subtraction = &solver->subtraction;
+  if (solver->part.contact && !find_in_cells(solver, find_behind_in_cell))
     return false;
   const uint32_t *candidate = solver->query.found.item;
   size_t count = solver->query.found.count;
+  if (subtraction->whole) {
+    solver->counts.whole++;
+    return fragments_add_with_candidates(&solver->part, triangle, NULL, 0,
+                                         candidate, count);
+  }
+  solver->counts.mixed++;
+  return fragments_add_with_candidates(
+      &solver->part, triangle, subtraction->left.item, subtraction->left.count,
+      candidate, count);
+}
+
+/* Solves a triangle, and adds its visible pieces to the solver's part. */
+static bool solve_triangle(struct triangle_solver *solver, uint32_t triangle) {
+  struct occluder_subtraction *subtraction = &solver->subtraction;
+  occluder_subtraction_begin(subtraction, triangle);
+  if (!find_candidates(solver) || !test_candidates(solver))
+    return false;
   if (subtraction->covered)
     return mark_hidden(solver, triangle);
   if (subtraction->occluder.count > 0) {
     if (!subtraction->interpenetrating && !is_crossed(solver)) {
-      counts->uncrossed++;
+      solver->counts.uncrossed++;
       return mark_hidden(solver, triangle);
     }
     if (!occluder_subtraction_take(subtraction, NULL) ||
@@ -286,16 +324,8 @@ static bool solve_triangle(struct triangle_solver *solver, uint32_t triangle) {
       return false;
     if (subtraction->left.count == 0)
       return mark_hidden(solver, triangle);
-    if (!subtraction->whole) {
-      counts->mixed++;
-      return fragments_add_with_candidates(
-          &solver->part, triangle, subtraction->left.item,
-          subtraction->left.count, candidate, count);
-    }
   }
-  counts->whole++;
-  return fragments_add_with_candidates(&solver->part, triangle, NULL, 0,
-                                       candidate, count);
+  return add_visible(solver, triangle);
 }
 
 /* ---- Rounds -------------------------------------------------------------- */

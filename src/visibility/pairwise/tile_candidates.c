@@ -270,8 +270,7 @@ static bool add_keys_of_range(void *user, struct parallel_range range) {
     if (from == to)
       continue;
     compute_keys(work->list, work->sheet, cell, grid->lists.start[range.end]);
-    if (to - from < TRIANGLE_GRID_SPLIT &&
-        tile_candidates_bvh(work->list, cell) == NULL)
+    if (tile_candidates_is_sorted(work->list, cell))
       sort_list(work->list, from, to, scratch);
   }
   return true;

@@ -51,6 +51,15 @@ tile_candidates_bvh(const struct tile_candidates *list, size_t cell) {
              : &list->bvh[list->bvh_of[cell]];
 }
 
+/* Whether the list of a cell is sorted from near to far: those of other cells
+ * have trees, or are long. */
+static inline bool tile_candidates_is_sorted(const struct tile_candidates *list,
+                                             size_t cell) {
+  const uint32_t *start = list->grid.lists.start + cell;
+  return start[1] - start[0] < TRIANGLE_GRID_SPLIT &&
+         tile_candidates_bvh(list, cell) == NULL;
+}
+
 /* The range that the keys of a cell's list, which is not empty, are relative
  * to. */
 struct kdop8_range tile_candidates_range(const struct tile_candidates *list,

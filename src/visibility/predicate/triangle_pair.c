@@ -32,6 +32,20 @@ bool triangle_corners_disjoint(const struct geom_point f[3],
   return is_separated_by_side(f, g) || is_separated_by_side(g, f);
 }
 
+bool triangle_may_meet_segment(const struct geom_point f[3],
+                               struct geom_point p, struct geom_point q) {
+  int64_t a = geom_orient2d(p, q, f[0]), b = geom_orient2d(p, q, f[1]),
+          c = geom_orient2d(p, q, f[2]);
+  if ((a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0))
+    return false;
+  for (int k = 0; k < 3; k++) {
+    struct geom_point from = f[k], to = f[geom_next_corner(k)];
+    if (geom_orient2d(from, to, p) <= 0 && geom_orient2d(from, to, q) <= 0)
+      return false;
+  }
+  return true;
+}
+
 bool triangles_disjoint(const struct sheet *sheet, uint32_t f, uint32_t g) {
   struct geom_triangle p = sheet_corners(sheet, f), q = sheet_corners(sheet, g);
   return triangle_corners_disjoint(p.p, q.p);

@@ -31,6 +31,11 @@ bool triangles_disjoint(const struct sheet *sheet, uint32_t f, uint32_t g);
 bool triangle_corners_disjoint(const struct geom_point f[3],
                                const struct geom_point g[3]);
 
+/* Returns false only if segment pq has no point inside triangle f: a
+ * conservative test. */
+bool triangle_may_meet_segment(const struct geom_point f[3],
+                               struct geom_point p, struct geom_point q);
+
 /* The lines through the sides of a triangle, which lies on their left, and the
  * same lines reversed. */
 void triangle_lines(const struct sheet *sheet, uint32_t triangle,
