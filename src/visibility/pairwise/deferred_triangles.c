@@ -192,7 +192,7 @@ static bool find_in_bsp(struct triangle_solver *solver, uint32_t root) {
 
 /* Finds the triangles in a cell that may overlap the current one on the page and
  * are not certainly behind it. */
-static bool find_in_cell(struct triangle_solver *solver, int x, int y) {
+static bool find_nearer_in_cell(struct triangle_solver *solver, int x, int y) {
   const struct tile_candidates *lists = solver->d->lists;
   size_t cell = triangle_grid_index(&lists->grid, x, y);
   uint32_t i = lists->grid.lists.start[cell],
@@ -257,7 +257,7 @@ static bool find_candidates(struct triangle_solver *solver) {
   solver->kdop = kdop8_of_point(p[0]);
   kdop8_add(&solver->kdop, p[1]);
   kdop8_add(&solver->kdop, p[2]);
-  return find_in_cells(solver, find_in_cell);
+  return find_in_cells(solver, find_nearer_in_cell);
 }
 
 /* ---- Solving ------------------------------------------------------------- */
