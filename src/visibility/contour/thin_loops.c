@@ -26,6 +26,13 @@ enum { FOLD_SEGMENTS_MAX = 32 };
  * 0.15 at most, those of the surfaces 0.23 at least. */
 #define THIN_SHARE 0.2
 
+/* A thin loop that goes so far to and fro, as a multiple of that height, over
+ * so many segments is a fold of the surface: noise makes short ones.  Where a
+ * loop is a part of a curve its ends alone are lost, which are spurs. */
+#define LONG_CURVE_HEIGHTS 8
+#define LONG_LOOP_HEIGHTS 16
+enum { LONG_SEGMENTS_MIN = 24 };
+
 /* The faces of a body for each segment of a loop that is none of its
  * contours. */
 enum { BODY_FACES = 4 };
@@ -107,10 +114,17 @@ static bool measure_segment(struct thin_loops *l, size_t i) {
 
 /* ---- Thin loops ---------------------------------------------------------- */
 
-/* Whether the loop is thin that begins on segment `from`, at `s` of it, and
- * ends on segment `to` there. */
-static bool is_thin(const struct thin_loops *l, size_t from, size_t to,
-                    double s) {
+/* A loop on the page, grid units. */
+struct page_loop {
+  double area, length; /* twice its area */
+  double height;       /* the mean of its triangles' */
+  size_t segments;
+};
+
+/* Measures the loop that begins on segment `from`, at `s` of it, and ends on
+ * segment `to` there. */
+static struct page_loop measure_loop(const struct thin_loops *l, size_t from,
+                                     size_t to, double s) {
   struct page_segment first = stack_image(l, from);
   double x0 = first.p.x + s * ((double)first.q.x - first.p.x);
   double y0 = first.p.y + s * ((double)first.q.y - first.p.y);
@@ -125,8 +139,22 @@ static bool is_thin(const struct thin_loops *l, size_t from, size_t to,
     y = next_y;
   }
   length += hypot(x, y);
-  /* The loop's area over half of its length is its mean width. */
-  return fabs(area) < THIN_SHARE * length * (heights / (double)(to - from));
+  return (struct page_loop){fabs(area), length, heights / (double)(to - from),
+                            to - from};
+}
+
+/* Whether a loop is thin: its area over half of its length is its mean
+ * width. */
+static bool is_thin(const struct page_loop *loop) {
+  return loop->area < THIN_SHARE * loop->length * loop->height;
+}
+
+/* Whether a loop is a fold however thin it is: it is long, and something can be
+ * drawn between its two sides. */
+static bool is_long(const struct page_loop *loop, double heights) {
+  return loop->segments >= LONG_SEGMENTS_MIN &&
+         loop->length >= 2 * heights * loop->height &&
+         loop->area >= RECTO_FINEST_MM * SHEET_UNITS_PER_MM * loop->length;
 }
 
 /* ---- The stack ----------------------------------------------------------- */
@@ -209,7 +237,8 @@ static bool take_off_loops(struct thin_loops *l) {
     if (box2_disjoint(box2_of_segment(a.p, a.q), box) ||
         !page_segments_cross(&a, &b, &s, &t))
       continue;
-    if (!is_thin(l, i, last, s)) {
+    struct page_loop loop = measure_loop(l, i, last, s);
+    if (!is_thin(&loop) || is_long(&loop, LONG_LOOP_HEIGHTS)) {
       l->lowest = i + 1;
       return true;
     }
@@ -339,8 +368,10 @@ static bool take_off_curve(struct thin_loops *l) {
   const struct contour_step *step = l->step.item;
   size_t last = l->step.count - 1, segments = last - l->first, faces;
   if (segments < 3 || segments > LOOP_SEGMENTS_MAX || l->lowest > l->first ||
-      step[last].node != step[l->first].node ||
-      !is_thin(l, l->first, last - 1, 0))
+      step[last].node != step[l->first].node)
+    return true;
+  struct page_loop loop = measure_loop(l, l->first, last - 1, 0);
+  if (!is_thin(&loop) || is_long(&loop, LONG_CURVE_HEIGHTS))
     return true;
   uint32_t face = l->set->segment.item[step[l->first].segment].face;
   if (!part_size_count(&l->part, face, BODY_FACES * segments, &faces))

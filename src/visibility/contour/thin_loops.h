@@ -11,6 +11,7 @@
  * the normals.  If its mean width is less than a share of its triangles'
  * heights, the curve goes on at the crossing instead.  A whole curve that is
  * such a loop is left out, unless it is the contour of a body of few faces.
+ * Long loops are folds of the surface, and stay.
  * set     the curves'; gets nodes and segments
  * Exact   whether two segments cross; where is rounded
  * Bound   what is left out lies in such a loop

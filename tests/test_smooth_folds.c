@@ -1,0 +1,86 @@
+/* test_smooth_folds.c - folds of a smooth surface that are thin, but long, are
+ * drawn: they are no noise. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "tests/smooth_surfaces.h"
+
+enum { SIDES = 64 };
+
+/* A square of waves, two units wide, of SIDES x SIDES quads. */
+static recto_scene *waves(void) {
+  static double point[(SIDES + 1) * (SIDES + 1)][3];
+  static uint32_t corner[SIDES * SIDES * 4];
+  size_t corners = 0;
+  recto_scene *scene;
+  for (uint32_t i = 0; i <= SIDES; i++)
+    for (uint32_t j = 0; j <= SIDES; j++) {
+      double *p = point[i * (SIDES + 1) + j];
+      p[0] = 2.0 * i / SIDES - 1;
+      p[2] = 1 - 2.0 * j / SIDES;
+      p[1] = 0.25 * sin(5 * p[0]) * cos(5 * p[2]);
+      uint32_t at = i * (SIDES + 1) + j;
+      const uint32_t quad[4] = {at, at + SIDES + 1, at + SIDES + 2, at + 1};
+      for (int k = 0; i < SIDES && j < SIDES && k < 4; k++)
+        corner[corners++] = quad[k];
+    }
+  const recto_mesh mesh = {.points = point[0],
+                           .point_count = (SIDES + 1) * (SIDES + 1),
+                           .corners = corner,
+                           .corner_count = corners,
+                           .face_size = 4};
+  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+  assert_int_equal(recto_scene_add_mesh(scene, &mesh, NULL), RECTO_OK);
+  return scene;
+}
+
+static double length_of(const recto_stroke *stroke) {
+  double sum = 0;
+  for (size_t i = 2; i < 2 * stroke->count; i += 2)
+    sum += hypot(stroke->points[i] - stroke->points[i - 2],
+                 stroke->points[i + 1] - stroke->points[i - 1]);
+  return sum;
+}
+
+/* Seen from below the waves' sides fold over by less than their triangles are
+ * high; what of that is long in an exact drawing is in that by default, too. */
+static void long_folds_are_drawn_however_thin(void **state) {
+  (void)state;
+  const double long_mm = 10, near_mm = 0.2;
+  recto_scene *scene = waves();
+  for (int view = 0; view < 9; view++) {
+    recto_options options;
+    smooth_view(&options, 0);
+    options.camera.azimuth_deg = 220;
+    options.camera.elevation_deg = view - 47;
+    recto_drawing *exact = smooth_draw(scene, &options);
+    options.ink.exact = false;
+    recto_drawing *drawing = smooth_draw(scene, &options);
+    for (size_t s = 0; s < recto_drawing_stroke_count(exact); s++) {
+      recto_stroke stroke;
+      assert_true(recto_drawing_stroke(exact, s, &stroke));
+      if (length_of(&stroke) < long_mm)
+        continue;
+      const double *middle = stroke.points + stroke.count / 2 * 2;
+      double mm = smooth_distance_to_ink(drawing, RECTO_EDGES_ALL, middle);
+      if (!(mm < near_mm))
+        fail_msg("view %d: a fold of %g mm is %g mm from ink", view,
+                 length_of(&stroke), mm);
+    }
+    recto_drawing_destroy(exact);
+    recto_drawing_destroy(drawing);
+  }
+  recto_scene_destroy(scene);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(long_folds_are_drawn_however_thin),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
