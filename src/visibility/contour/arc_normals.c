@@ -18,7 +18,9 @@ enum {
 struct smooth_fan {
   uint32_t face[MOST_FACES], corner[MOST_FACES];
   double way[MOST_FACES][3]; /* to the faces' next corners */
-  double far; /* to the farthest corner of a face with more than three */
+  double square[MOST_FACES]; /* of the lengths of these */
+  double far;     /* to the farthest corner of a face with more than three */
+  double longest; /* the square of the greatest of all these lengths */
   size_t count;
 };
 
@@ -99,12 +101,15 @@ static bool find_faces_about(const struct facing *f, uint32_t face,
 static void find_ways(const struct facing *f, const double at[3],
                       struct smooth_fan *fan) {
   double square = 0, p[3];
+  fan->longest = 0;
   for (size_t i = 0; i < fan->count; i++) {
     uint32_t face = fan->face[i], end = scene_face_start(f->scene, face + 1);
     uint32_t start = scene_face_start(f->scene, face);
     uint32_t next = scene_next_corner(f->scene, face, fan->corner[i]);
     facing_position(f, facing_point(f, next), p);
     subtract(p, at, fan->way[i]);
+    fan->square[i] = vector_dot(fan->way[i], fan->way[i]);
+    fan->longest = max_number(fan->longest, fan->square[i]);
     for (uint32_t c = start; end - start > 3 && c < end; c++) {
       facing_position(f, facing_point(f, c), p);
       subtract(p, at, p);
@@ -112,6 +117,13 @@ static void find_ways(const struct facing *f, const double at[3],
     }
   }
   fan->far = sqrt(square);
+  fan->longest = max_number(fan->longest, square);
+}
+
+/* A filter for may_reach, of the edge to a face's next corner: false only where
+ * no corner may be twice as far as that. */
+static bool may_be_short(const struct smooth_fan *fan, size_t i) {
+  return 4 * fan->square[i] < fan->longest * (1 + 0x1p-30);
 }
 
 /* Whether a corner of a fan's faces may be farther than this the other way. */
@@ -362,8 +374,9 @@ void facing_turn_normal(struct facing *f, uint32_t face, uint32_t corner) {
   for (size_t i = 0; i < fan.count; i++) {
     uint32_t of = fan.face[i], c = fan.corner[i];
     uint32_t last = previous_corner(f, of, c);
-    any |= add_arc_lean(f, &fan, of, c, scene_next_corner(f->scene, of, c),
-                        normal, &s);
+    if (may_be_short(&fan, i))
+      any |= add_arc_lean(f, &fan, of, c, scene_next_corner(f->scene, of, c),
+                          normal, &s);
     if (facing_is_feature(f, f->topology->corner_edge[last]))
       any |= add_arc_lean(f, &fan, of, c, last, normal, &s);
   }

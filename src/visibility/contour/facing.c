@@ -12,14 +12,11 @@
 
 uint32_t facing_corner_of_edge(const struct facing *f, uint32_t face,
                                uint32_t edge) {
-  const uint32_t *point = f->topology->edge.item[edge].point;
-  for (uint32_t c = scene_face_start(f->scene, face);
-       c < scene_face_start(f->scene, face + 1); c++) {
-    uint32_t p = facing_point(f, c);
-    uint32_t q = facing_point(f, scene_next_corner(f->scene, face, c));
-    if ((p == point[0] && q == point[1]) || (p == point[1] && q == point[0]))
+  const uint32_t *edges = f->topology->corner_edge;
+  uint32_t end = scene_face_start(f->scene, face + 1);
+  for (uint32_t c = scene_face_start(f->scene, face); c < end; c++)
+    if (edges[c] == edge)
       return c;
-  }
   return SHEET_NONE;
 }
 
@@ -319,20 +316,20 @@ static bool find_normals(struct facing *f) {
   return split_at_features(f) && number_needed(f) && facing_find_normals(f);
 }
 
-/* Finds normals and values, again where no normal stands for all faces about a
- * point: bent ones are told by mean normals, contradictions by what is final.
+/* Finds normals and values, normals again where none stands for all faces about
+ * a point: bent ones are told by mean normals, contradictions by what is final.
  * Returns false when memory ran out or the caller cancelled. */
 static bool find_facings(struct facing *f, double crease_deg) {
   if (!find_normals(f))
     return false;
   bool is_bent = facing_mark_bent(f, crease_deg);
-  if (!facing_find_values(f))
-    return false;
-  if (!facing_mark_contradicted(f) && !is_bent)
-    return true;
-  facing_crease_apices(f);
-  free_slots(f);
-  return find_normals(f) && facing_find_values(f);
+  if (facing_mark_contradicted(f) || is_bent) {
+    facing_crease_apices(f);
+    free_slots(f);
+    if (!find_normals(f))
+      return false;
+  }
+  return facing_find_values(f);
 }
 
 recto_status facing_init(struct facing *f, const struct sheet *sheet,

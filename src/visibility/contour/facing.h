@@ -55,7 +55,7 @@ struct facing {
   uint8_t *signs;     /* one a set, by its root: as of points */
   uint32_t *place; /* slot -> its normal and value, from 1 on; 0: not needed */
   double (*normal)[3];   /* unit length, or 0, 0, 0 */
-  double *value;         /* g */
+  double *value;         /* g; NaN until it is found */
   size_t count;          /* of normals and values */
   ARRAY(uint32_t) mixed; /* the faces about whose slots both signs are;
                             ascending */
@@ -80,9 +80,11 @@ USE_RESULT recto_status facing_init(struct facing *facing,
 void facing_fini(struct facing *facing);
 
 /* Parts of facing_init: the mean normals of slots by their places; then their
- * values, for which normals are turned.
+ * values, for which normals are turned: of a corner's slot, if that is needed
+ * and was not found before, and of all slots.
  * Return false when memory ran out or the caller cancelled. */
 USE_RESULT bool facing_find_normals(struct facing *facing);
+void facing_find_value(struct facing *facing, uint32_t face, uint32_t corner);
 USE_RESULT bool facing_find_values(struct facing *facing);
 
 /* Marks the points about which a face bends away from the mean normal by more
@@ -91,7 +93,8 @@ USE_RESULT bool facing_find_values(struct facing *facing);
 bool facing_mark_bent(struct facing *facing, double crease_deg);
 
 /* Marks the points of creases that clearly are contours of the mesh where the
- * facing on either side says that the surface does not fold over there.
+ * facing on either side, which is found if it was not, says that the surface
+ * does not fold over there.
  * Returns whether there are such points. */
 bool facing_mark_contradicted(struct facing *facing);
 

@@ -58,13 +58,16 @@ bool facing_mark_contradicted(struct facing *f) {
       continue;
     const struct topology_edge *e = &f->topology->edge.item[edge];
     bool is_back = f->face_sign[e->first] == FACING_BACK;
-    for (int k = 0; k < 2; k++)
+    for (int k = 0; k < 2; k++) {
+      facing_find_value(f, e->first, pair[k][0]);
+      facing_find_value(f, e->second, pair[k][1]);
       if (facing_slot(f, pair[k][0]) != facing_slot(f, pair[k][1]) &&
           (facing_is_back(f, pair[k][0]) != is_back ||
            facing_is_back(f, pair[k][1]) == is_back)) {
         f->point_flags[facing_point(f, pair[k][0])] |= FACING_APEX;
         any = true;
       }
+    }
   }
   return any;
 }

@@ -2,13 +2,14 @@
 #include "visibility/contour/occluders.h"
 
 static bool hides(const struct sheet *sheet, uint32_t t, struct geom_point p) {
-  struct geom_triangle of = sheet_corners(sheet, t);
-  bool inside = !sheet_is_edge_on(sheet, t);
-  for (int k = 0; inside && k < 3; k++)
-    inside = geom_orient2d(of.p[k], of.p[geom_next_corner(k)], p) > 0;
-  if (!inside)
+  const uint32_t *corner = sheet->triangle.item[t].point;
+  const struct geom_point *a = &sheet->point.item[corner[0]];
+  const struct geom_point *b = &sheet->point.item[corner[1]];
+  const struct geom_point *c = &sheet->point.item[corner[2]];
+  if (geom_orient2d(*a, *b, p) <= 0 || geom_orient2d(*b, *c, p) <= 0 ||
+      geom_orient2d(*c, *a, p) <= 0 || sheet_is_edge_on(sheet, t))
     return false;
-  struct geom_plane plane = geom_plane_of(of.p[0], of.p[1], of.p[2]);
+  struct geom_plane plane = geom_plane_of(*a, *b, *c);
   return geom_plane_value(&plane, p) < 0;
 }
 

@@ -2,6 +2,7 @@
 #include "visibility/contour/facing.h"
 
 #include <float.h>
+#include <math.h>
 
 #include "base/poll.h"
 
@@ -61,29 +62,21 @@ static bool find_all_shares(struct facing *f) {
   return f->share != NULL;
 }
 
-/* Turns the normals of those slots of a face that are the next ones by their
- * places, as slots are numbered in the order of these faces, and sets their
- * values.
- * set  how many have values */
-static void set_values(struct facing *f, uint32_t face, uint32_t *set) {
-  for (uint32_t c = scene_face_start(f->scene, face);
-       c < scene_face_start(f->scene, face + 1); c++) {
-    uint32_t slot = facing_slot(f, c), place = facing_place(f, slot);
-    double at[3], v[3];
-    if (place != *set)
-      continue;
-    ++*set;
-    facing_turn_normal(f, face, c);
-    facing_position(f, facing_point(f, c), at);
-    facing_view(f->camera, at, v);
-    double g = facing_of_normal(f->normal[place], v);
-    /* Rounding does not change a sign on which all faces agree. */
-    if (facing_signs(f, slot) == FACING_BACK)
-      g = fmax(g, 0);
-    else if (facing_signs(f, slot) == FACING_FRONT)
-      g = fmin(g, -DBL_MIN);
-    f->value[place] = g;
-  }
+void facing_find_value(struct facing *f, uint32_t face, uint32_t corner) {
+  uint32_t slot = facing_slot(f, corner), place = f->place[slot];
+  double at[3], v[3];
+  if (place == 0 || !isnan(f->value[place - 1]))
+    return;
+  facing_turn_normal(f, face, corner);
+  facing_position(f, facing_point(f, corner), at);
+  facing_view(f->camera, at, v);
+  double g = facing_of_normal(f->normal[place - 1], v);
+  /* Rounding does not change a sign on which all faces agree. */
+  if (facing_signs(f, slot) == FACING_BACK)
+    g = fmax(g, 0);
+  else if (facing_signs(f, slot) == FACING_FRONT)
+    g = fmin(g, -DBL_MIN);
+  f->value[place - 1] = g;
 }
 
 /* Adds the shares of all near faces. */
@@ -97,20 +90,24 @@ static void add_shares(struct facing *f) {
 
 bool facing_find_normals(struct facing *f) {
   f->normal = mem_calloc(f->count, sizeof *f->normal);
-  if (f->normal == NULL || (f->share == NULL && !find_all_shares(f)))
+  f->value = mem_alloc(f->count, sizeof *f->value);
+  if (f->normal == NULL || f->value == NULL ||
+      (f->share == NULL && !find_all_shares(f)))
     return false;
   add_shares(f);
-  for (size_t i = 0; i < f->count; i++)
+  for (size_t i = 0; i < f->count; i++) {
     (void)vector_normalise(f->normal[i]);
+    f->value[i] = NAN;
+  }
   return !poll_is_cancelled();
 }
 
 bool facing_find_values(struct facing *f) {
-  uint32_t set = 0;
-  f->value = mem_calloc(f->count, sizeof *f->value);
-  if (f->value == NULL)
-    return false;
-  for (size_t i = 0; i < f->mixed.count; i++)
-    set_values(f, f->mixed.item[i], &set);
+  for (size_t i = 0; i < f->mixed.count; i++) {
+    uint32_t face = f->mixed.item[i];
+    for (uint32_t c = scene_face_start(f->scene, face);
+         c < scene_face_start(f->scene, face + 1); c++)
+      facing_find_value(f, face, c);
+  }
   return !poll_is_cancelled();
 }
