@@ -12,7 +12,12 @@
 
 /* How often the parameters are improved: more rarely turns a curve that is
  * outside the tolerance into one that is inside. */
-enum { ROUNDS = 4 };
+enum { ROUNDS = 6 };
+
+/* The sine of the largest angle by which rounding may turn a handle, 0.9
+ * degrees, and a number of decimals beyond those that are tried. */
+#define TURN_MAX (1 / 64.0)
+#define DECIMALS_TRIED 2.5
 
 typedef struct drawing_point point;
 
@@ -62,8 +67,10 @@ static point second_derivative(const point p[4], double t) {
 
 /* Sets the handles to the lengths that minimise the weighted squares of the
  * distances between the targets and the curve at their parameters. */
-static void set_handles(const struct fit_sample *sample, size_t samples,
-                        const double *t, point start, point end, point c[4]) {
+static void set_handles(const struct cubic_fit *fit, const double *t,
+                        point c[4]) {
+  const struct fit_sample *sample = fit->sample;
+  size_t samples = fit->samples;
   double a00 = 0, a01 = 0, a11 = 0, b0 = 0, b1 = 0;
   for (size_t i = 1; i + 1 < samples; i++) {
     double s = 1 - t[i], u = t[i];
@@ -71,8 +78,8 @@ static void set_handles(const struct fit_sample *sample, size_t samples,
         fmax(fmin(sample[i].from, sample[i - 1].to), TOLERANCE_FIT_WEIGHT_MM);
     double weight = 1 / (distance * distance);
     double near = s * s * s + 3 * s * s * u, far = 3 * s * u * u + u * u * u;
-    point one = point_scaled(start, 3 * s * s * u),
-          two = point_scaled(end, -3 * s * u * u);
+    point one = point_scaled(fit->start, 3 * s * s * u),
+          two = point_scaled(fit->end, -3 * s * u * u);
     point rest =
         point_difference(sample[i].target, point_sum(point_scaled(c[0], near),
                                                      point_scaled(c[3], far)));
@@ -91,8 +98,8 @@ static void set_handles(const struct fit_sample *sample, size_t samples,
   double last = (b1 * a00 - b0 * a01) / determinant;
   if (!(first > 0 && first <= length && last > 0 && last <= length))
     first = last = third;
-  c[1] = point_sum(c[0], point_scaled(start, first));
-  c[2] = point_sum(c[3], point_scaled(end, -last));
+  c[1] = point_sum(c[0], point_scaled(fit->start, first));
+  c[2] = point_sum(c[3], point_scaled(fit->end, -last));
 }
 
 /* Moves each parameter towards that of the point of the curve that is nearest
@@ -153,18 +160,90 @@ static bool keeps_within(const struct fit_sample *sample, size_t samples,
   return true;
 }
 
-bool cubic_fit(const struct fit_sample *sample, size_t samples,
-               double tolerance, point start, point end, double *t,
-               point curve[4]) {
+/* ---- Rounding ------------------------------------------------------------ */
+
+/* The point with offsets from another one that are multiples of the step. */
+static point round_from(point origin, point p, double step) {
+  return (point){origin.x + step * round((p.x - origin.x) / step),
+                 origin.y + step * round((p.y - origin.y) / step)};
+}
+
+/* The same of a point that has been moved from its place, back towards that. */
+static point round_back(point origin, point p, point place, double step) {
+  point q = {(p.x - origin.x) / step, (p.y - origin.y) / step};
+  q.x = p.x > place.x ? floor(q.x) : ceil(q.x);
+  q.y = p.y > place.y ? floor(q.y) : ceil(q.y);
+  return point_sum(origin, point_scaled(q, step));
+}
+
+static bool is_turned_little(point before, point after) {
+  double across = before.x * after.y - before.y * after.x;
+  return fabs(across) <= TURN_MAX * point_dot(before, after);
+}
+
+/* Puts a rounded curve in the place of one if it keeps within the distances,
+ * too, and its handles hardly turn.  Returns whether it does. */
+static bool accept_rounded(const struct cubic_fit *fit, const double *t,
+                           const point rounded[4], point curve[4]) {
+  bool ok = is_turned_little(point_difference(curve[1], curve[0]),
+                             point_difference(rounded[1], rounded[0])) &&
+            is_turned_little(point_difference(curve[3], curve[2]),
+                             point_difference(rounded[3], rounded[2])) &&
+            keeps_within(fit->sample, fit->samples, fit->tolerance, t, rounded);
+  for (int i = 1; ok && i < 4; i++)
+    curve[i] = rounded[i];
+  return ok;
+}
+
+static bool round_handles(const struct cubic_fit *fit, const double *t,
+                          double step, point curve[4]) {
+  const point rounded[4] = {curve[0], round_from(curve[0], curve[1], step),
+                            round_from(curve[0], curve[2], step), curve[3]};
+  return accept_rounded(fit, t, rounded, curve);
+}
+
+static bool round_end(const struct cubic_fit *fit, const double *t, double step,
+                      point curve[4]) {
+  point place = fit->sample[fit->samples - 1].at;
+  point end = round_from(curve[0], curve[3], step);
+  if (drawing_distance(end, place) > fit->end_limit)
+    end = round_back(curve[0], curve[3], place, step);
+  const point rounded[4] = {curve[0], curve[1], curve[2], end};
+  return drawing_distance(end, place) <= fit->end_limit &&
+         accept_rounded(fit, t, rounded, curve);
+}
+
+/* Rounds the handles of a curve, and its end if that may move, to the fewest
+ * decimals that are within the distances.  As they are offsets from its start,
+ * the output may round that as it likes: what is relative to it stays short. */
+static void round_curve(const struct cubic_fit *fit, const double *t,
+                        point curve[4]) {
+  double most = pow(10, floor(log10(fit->tolerance)));
+  double least = most * pow(10, -DECIMALS_TRIED);
+  for (double step = most; step > least; step /= 10)
+    if (round_handles(fit, t, step, curve))
+      break;
+  for (double step = most; fit->end_limit > 0 && step > least; step /= 10)
+    if (round_end(fit, t, step, curve))
+      break;
+}
+
+/* ---- The whole ----------------------------------------------------------- */
+
+bool cubic_fit(const struct cubic_fit *fit, double *t, point curve[4]) {
+  const struct fit_sample *sample = fit->sample;
+  size_t samples = fit->samples;
   double from = sample[0].along, to = sample[samples - 1].along;
   for (size_t i = 0; i < samples; i++)
     t[i] = (sample[i].along - from) / (to - from);
   curve[0] = sample[0].target;
   curve[3] = sample[samples - 1].target;
   for (int round = 0; round < ROUNDS; round++) {
-    set_handles(sample, samples, t, start, end, curve);
-    if (keeps_within(sample, samples, tolerance, t, curve))
+    set_handles(fit, t, curve);
+    if (keeps_within(sample, samples, fit->tolerance, t, curve)) {
+      round_curve(fit, t, curve);
       return true;
+    }
     improve_parameters(sample, samples, curve, t);
   }
   return false;

@@ -13,17 +13,25 @@ struct fit_sample {
   double from, to;
 };
 
-/* Fits a curve to the targets, from the first to the last one, in the
- * directions of the unit vectors there, by least squares over the lengths of
- * its handles and, alternately, the parameters of the samples.
- * samples    at least 2
- * parameter  memory for as many
+/* What a curve is fitted to. */
+struct cubic_fit {
+  const struct fit_sample *sample;
+  size_t samples;                  /* at least 2 */
+  double tolerance;                /* mm, from each sample */
+  struct drawing_point start, end; /* the directions there, unit vectors */
+  double end_limit; /* mm: how far its end may be from the last sample, rather
+                       than at its target; 0: it may not move */
+};
+
+/* Fits a curve to the targets, from the first to the last one, by least squares
+ * over the lengths of its handles and, alternately, the parameters of the
+ * samples.  The offsets of its handles from its start, and of its end if that
+ * may move, have as few decimals, in mm, as the distances leave.
+ * parameter  memory for one a sample
  * Returns whether there is one that is nowhere farther from the polyline than
- * the samples allow, nor any sample farther than the tolerance, mm, from it.
+ * the samples allow, nor any sample farther than the tolerance from it.
  * Source   [Schneider1990], with each sample weighted by its distance */
-bool cubic_fit(const struct fit_sample *sample, size_t samples,
-               double tolerance, struct drawing_point start,
-               struct drawing_point end, double *parameter,
+bool cubic_fit(const struct cubic_fit *fit, double *parameter,
                struct drawing_point curve[4]);
 
 #endif

@@ -96,6 +96,15 @@ struct part_ends {
   struct drawing_point start, end;
 };
 
+/* The unit vector from one point towards another one. */
+static struct drawing_point unit_towards(struct drawing_point a,
+                                         struct drawing_point b) {
+  double length = drawing_distance(a, b);
+  return length > 0 ? (struct drawing_point){(b.x - a.x) / length,
+                                             (b.y - a.y) / length}
+                    : (struct drawing_point){1, 0};
+}
+
 /* The direction of the part at a sample, from the samples within `before` mm
  * before it and `after` mm after it: that of the parabola through it that is
  * nearest to them by least squares. */
@@ -128,9 +137,7 @@ static struct drawing_point find_direction(const struct curves *c, size_t at,
   struct drawing_point run = {x1, y1};
   if (determinant > TOLERANCE_PARABOLA_SHARE * s2 * s4)
     run = (struct drawing_point){s4 * x1 - s3 * x2, s4 * y1 - s3 * y2};
-  double length = hypot(run.x, run.y);
-  return length > 0 ? (struct drawing_point){run.x / length, run.y / length}
-                    : (struct drawing_point){1, 0};
+  return unit_towards((struct drawing_point){0, 0}, run);
 }
 
 static bool is_prescribed(struct drawing_point direction) {
@@ -153,8 +160,18 @@ static bool fit(struct curves *c, const struct part_ends *ends, size_t from,
     piece->end = ends->end;
   else
     piece->end = find_direction(c, to, length / 2, 0);
-  return cubic_fit(&c->of.sample.item[from], to - from + 1, c->tolerance, start,
-                   piece->end, c->parameter.item, piece->control);
+  const struct cubic_fit problem = {
+      .sample = &c->of.sample.item[from],
+      .samples = to - from + 1,
+      .tolerance = c->tolerance,
+      .start = start,
+      .end = piece->end,
+      .end_limit = to < last ? fit_targets_limit(&c->of.targets, to) : 0};
+  if (!cubic_fit(&problem, c->parameter.item, piece->control))
+    return false;
+  if (to < last)
+    piece->end = unit_towards(piece->control[2], piece->control[3]);
+  return true;
 }
 
 /* Finds the most knots after `from` that one curve passes.  Returns the last of
@@ -226,6 +243,7 @@ static bool fit_part(struct curves *c, const struct part_ends *ends) {
     if (is_curve) {
       saved = points - CURVE_POINTS;
       c->has_curves = true;
+      c->of.sample.item[to].target = piece.control[3];
       ok = add_curve_piece(c, piece.control);
     } else {
       double reach = LINE_DIRECTION * c->tolerance;

@@ -157,6 +157,7 @@ bool fit_targets_set(struct fit_targets *targets, struct fit_sample *sample,
                      size_t samples, const uint8_t *knot, double tolerance) {
   for (size_t i = 0; i < samples; i++)
     sample[i].target = sample[i].at;
+  targets->limit.count = 0;
   if (samples < SAMPLES_MIN)
     return true;
   if (!reserve(targets, samples))
@@ -167,6 +168,7 @@ bool fit_targets_set(struct fit_targets *targets, struct fit_sample *sample,
   for (size_t i = 0; i < samples; i++)
     targets->line.item[i] = sample[i].at;
   size_t counted = set_limits(&s, knot);
+  targets->limit.count = samples;
   double window = fmin(WINDOW_TOLERANCES * tolerance, s.length / 2);
   for (; counted > 0 && window > tolerance; window /= WINDOW_RATIO) {
     if (!poll_now())
@@ -177,6 +179,10 @@ bool fit_targets_set(struct fit_targets *targets, struct fit_sample *sample,
   for (size_t i = 0; i < samples; i++)
     sample[i].target = sample[i].at;
   return true;
+}
+
+double fit_targets_limit(const struct fit_targets *targets, size_t i) {
+  return i < targets->limit.count ? targets->limit.item[i] : 0;
 }
 
 void fit_targets_fini(struct fit_targets *targets) {

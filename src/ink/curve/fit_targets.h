@@ -22,6 +22,8 @@ struct fit_targets {
 USE_RESULT bool fit_targets_set(struct fit_targets *targets,
                                 struct fit_sample *sample, size_t samples,
                                 const uint8_t *knot, double tolerance);
+/* How far from a sample, mm, whatever stands for it may be. */
+double fit_targets_limit(const struct fit_targets *targets, size_t sample);
 void fit_targets_fini(struct fit_targets *targets);
 
 #endif

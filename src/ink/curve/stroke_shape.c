@@ -12,6 +12,11 @@
  * degrees.  The same as for dashes. */
 #define CORNER_RADIANS (3.141592653589793 / 6)
 
+/* How high the arc of a side may be, as a multiple of the tolerance: the curve
+ * runs on both sides of the line, at its ends by half of the tolerance, as the
+ * targets do (fit_targets.c). */
+#define ARC_HEIGHT 1.5
+
 /* The length of these chords as a multiple of the tolerance. */
 #define CORNER_CHORD 4
 
@@ -82,7 +87,7 @@ struct smooth_part {
 };
 
 /* A side of the part stays a line if an arc that turns by as much as the stroke
- * does about the side's ends would leave the tolerance. */
+ * does about the side's ends is too high for the tolerance. */
 static bool is_straight(const struct stroke_shape *shape,
                         struct smooth_part part, const struct stroke_vertex *v,
                         double tolerance) {
@@ -93,7 +98,7 @@ static bool is_straight(const struct stroke_shape *shape,
     if (chord > 0)
       angle = fmax(angle, chord_turn(shape, along, chord));
   }
-  return angle == 0 || side / 2 * tan(angle / 4) > tolerance;
+  return angle == 0 || side / 2 * tan(angle / 4) > ARC_HEIGHT * tolerance;
 }
 
 static void find_straight_sides(struct stroke_shape *shape, double tolerance) {
