@@ -113,6 +113,100 @@ counts_missing() {
 }
 claim "normals that are missing are told of every face" counts_missing
 
+# as_ply - writes marked/prism.ply, the marked prism with a vertex a corner.
+as_ply() {
+  awk '
+    $1 == "v" { at[++points] = $2 " " $3 " " $4 }
+    $1 == "vn" { normal[++normals] = $2 " " $3 " " $4 }
+    $1 == "f" {
+      face[++faces] = NF - 1
+      for (i = 2; i <= NF; i++) {
+        split($i, part, "//")
+        face[faces] = face[faces] " " corners + 0
+        corner[corners++] = at[part[1]] " " normal[part[2]]
+      }
+    }
+    END {
+      print "ply\nformat ascii 1.0\nelement vertex", corners
+      split("x y z nx ny nz", name, " ")
+      for (i = 1; i <= 6; i++) print "property float", name[i]
+      print "element face", faces
+      print "property list uchar int vertex_indices\nend_header"
+      for (i = 0; i < corners; i++) print corner[i]
+      for (i = 1; i <= faces; i++) print face[i]
+    }' marked/prism.obj >marked/prism.ply
+}
+
+# as_dae - writes marked/prism.dae, of Collada, with the prism's own normals,
+# in a node that turns and stretches it.
+as_dae() {
+  awk '
+    function put_source(id, list, count) {
+      printf "<source id=\"%s\"><float_array id=\"%sa\" count=\"%d\">%s",
+        id, id, 3 * count, substr(list, 2)
+      printf "</float_array><technique_common><accessor source=\"#%sa\"", id
+      printf " count=\"%d\" stride=\"3\">", count
+      for (i = 0; i < 3; i++)
+        printf "<param name=\"%s\" type=\"float\"/>", substr("XYZ", i + 1, 1)
+      print "</accessor></technique_common></source>"
+    }
+    $1 == "v" { at = at " " $2 / 2 " " $4 " " (-$3); points++ }
+    $1 == "vn" { normal = normal " " $2 * 2 " " $4 " " (-$3); normals++ }
+    $1 == "f" {
+      count = count " " NF - 1
+      faces++
+      for (i = 2; i <= NF; i++) {
+        split($i, part, "//")
+        corner = corner " " part[1] - 1 " " part[2] - 1
+      }
+    }
+    END {
+      print "<COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\""
+      print " version=\"1.4.1\"><asset><up_axis>Y_UP</up_axis></asset>"
+      print "<library_geometries><geometry id=\"g\"><mesh>"
+      put_source("p", at, points)
+      put_source("n", normal, normals)
+      print "<vertices id=\"v\"><input semantic=\"POSITION\" source=\"#p\"/>"
+      printf "</vertices><polylist count=\"%d\"><input offset=\"0\"", faces
+      print " semantic=\"VERTEX\" source=\"#v\"/><input offset=\"1\""
+      print " semantic=\"NORMAL\" source=\"#n\"/><vcount>" substr(count, 2) "</vcount>"
+      print "<p>" substr(corner, 2) "</p></polylist></mesh></geometry>"
+      print "</library_geometries><library_visual_scenes><visual_scene id=\"s\">"
+      print "<node id=\"o\"><rotate>1 0 0 90</rotate><scale>2 1 1</scale>"
+      print "<instance_geometry url=\"#g\"/></node></visual_scene>"
+      print "</library_visual_scenes><scene>"
+      print "<instance_visual_scene url=\"#s\"/></scene></COLLADA>"
+    }' marked/prism.obj >marked/prism.dae
+}
+
+# has_strokes_as FORMAT DEG ARGUMENT... - whether the prism in that format has
+# the lines of each class that the plain one has with that crease angle.
+has_strokes_as() {
+  run 0 "marked/prism.$1" -o marked.svg "${@:3}" && silent &&
+    run 0 plain/prism.obj -o plain.svg --crease "$2" "${@:3}" &&
+    grep -oE '<path|class="[a-z]*' marked.svg >marked.lines &&
+    grep -oE '<path|class="[a-z]*' plain.svg >plain.lines &&
+    cmp marked.lines plain.lines && test -s plain.lines
+}
+prism 8 normals
+as_ply
+claim "normals of PLY mark edges" has_strokes_as ply 60
+claim "also where it is cut" has_strokes_as ply 60 --cut x=0.3
+claim "not where marks are none" has_strokes_as ply 30 --crease-marks none
+claim "the judge agrees about those of PLY" \
+  run 0 marked/prism.ply -o judged.svg --verify
+as_dae
+if "$recto" marked/prism.dae -o marked.svg --quiet 2>err; then
+  claim "normals of Collada, through Assimp, do" has_strokes_as dae 60
+  claim "but none where marks are none" \
+    has_strokes_as dae 30 --crease-marks none
+else
+  skip "normals of Collada, through Assimp, do" "no Assimp that reads it"
+fi
+prism 8 smooth
+as_ply
+claim "smooth normals of PLY say nothing" has_strokes_as ply 30
+
 # Faces may come before their normals.
 draws_with_late_normals() {
   mkdir late && grep -v '^vn' marked/prism.obj >late/prism.obj &&

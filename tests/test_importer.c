@@ -18,6 +18,7 @@
 
 #include <cmocka.h>
 
+#include "scene/corner_normals.h"
 #include "scene/import_format.h"
 #include "scene/read.h"
 #include "tests/polled.h"
@@ -351,6 +352,8 @@ static void mutated_models_are_survived(void **state) {
 static size_t make_form(char *bytes) {
   static const double point[4][3] = {
       {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  static const float normal[4][3] = {
+      {0, 0, 2}, {0, 0, 2}, {0, 0, 0}, {-1, 0, 0}};
   static const uint32_t size[3] = {3, 2, 4},
                         corner[9] = {0, 1, 2, 0, 3, 0, 1, 3, 2};
   struct import_record mesh = {.kind = IMPORT_MESH,
@@ -358,6 +361,7 @@ static size_t make_form(char *bytes) {
                                .has_colour = 1,
                                .name_length = 4,
                                .points = 4,
+                               .normals = 4,
                                .elements = 3,
                                .corners = 9},
                        done = {.kind = IMPORT_DONE};
@@ -367,6 +371,7 @@ static size_t make_form(char *bytes) {
   to = (char *)memcpy(to, &mesh, sizeof mesh) + sizeof mesh;
   to = (char *)memcpy(to, "part", 4) + 4;
   PUT(point);
+  PUT(normal);
   PUT(size);
   PUT(corner);
 #undef PUT
@@ -379,6 +384,7 @@ static void read_form(struct reading *r, const char *bytes, size_t count) {
   assert_non_null(block);
   memcpy(block, bytes, count);
   reading_init(r);
+  r->scene.needs_crease_marks = true;
   r->status = import_format_read(&r->scene, block, count, "file", "off", 7,
                                  &r->diagnostics, &r->error);
   free(block);
@@ -394,7 +400,26 @@ static void the_form_becomes_a_scene(void **state) {
   assert_int_equal(scene_wire_count(&r.scene), 1);
   assert_string_equal(r.scene.group.item[0].name, "part");
   assert_int_equal(r.scene.group.item[0].colour, 0x102030);
+  assert_int_equal(r.scene.point_normal.count, 4);
+  assert_int_equal(r.scene.point_normal.item[0], corner_normal_encode(0, 0, 1));
+  assert_int_equal(r.scene.point_normal.item[2], 0);
+  assert_int_equal(r.scene.point_normal.item[3],
+                   corner_normal_encode(-1, 0, 0));
   reading_fini(&r);
+}
+
+static void a_form_with_too_few_normals_is_refused(void **state) {
+  char bytes[500];
+  size_t count = make_form(bytes);
+  struct reading r;
+  (void)state;
+  for (uint64_t normals = 1; normals < 4; normals++) {
+    memcpy(bytes + 8 + offsetof(struct import_record, normals), &normals,
+           sizeof normals);
+    read_form(&r, bytes, count);
+    assert_int_equal(r.status, RECTO_ERROR_FORMAT);
+    reading_fini(&r);
+  }
 }
 
 static void a_form_cut_short_is_refused(void **state) {
@@ -447,6 +472,7 @@ int main(void) {
       T(a_model_that_needs_too_much_memory_is_an_error),
       T(mutated_models_are_survived),
       T(the_form_becomes_a_scene),
+      T(a_form_with_too_few_normals_is_refused),
       T(a_form_cut_short_is_refused),
       T(a_form_of_any_bytes_is_survived),
   };

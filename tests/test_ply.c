@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "scene/corner_normals.h"
 #include "scene/ply_colour.h"
 #include "scene/read.h"
 #include "tests/memory_faults.h"
@@ -298,6 +299,66 @@ static void strips_become_triangles(void **state) {
                 0);
   }
   reading_fini(&r);
+}
+
+/* ---- Normals ------------------------------------------------------------- */
+
+#define NORMAL "property float nx\nproperty float ny\nproperty float nz\n"
+
+static void read_with_normals(struct reading *r, const char *text) {
+  reading_init(r);
+  r->scene.needs_crease_marks = true;
+  (void)reading_bytes(r, &reader_ply, text, strlen(text));
+  assert_read(r);
+}
+
+static const char face_with_normals[] =
+    "ply\nformat ascii 1.0\nelement vertex 3\n" XYZ NORMAL
+    "element face 1\n" CORNERS "end_header\n0 0 0 0 0 3\n1 0 0 nan 0 1\n"
+    "1 1 0 -2 0 0\n3 0 1 2\n";
+
+static void vertices_give_corners_their_normals(void **state) {
+  struct reading r;
+  (void)state;
+  read_with_normals(&r, face_with_normals);
+  assert_int_equal(corner_normal_of(&r.scene, 0),
+                   corner_normal_encode(0, 0, 1));
+  assert_int_equal(corner_normal_of(&r.scene, 1), 0);
+  assert_int_equal(corner_normal_of(&r.scene, 2),
+                   corner_normal_encode(-1, 0, 0));
+  reading_fini(&r);
+}
+
+static void normals_that_are_not_wanted_take_no_memory(void **state) {
+  struct reading r;
+  (void)state;
+  reading_init(&r);
+  r.scene.needs_crease_marks = false;
+  (void)reading_bytes(&r, &reader_ply, face_with_normals,
+                      strlen(face_with_normals));
+  assert_read(&r);
+  assert_int_equal(r.scene.point_normal.count, 0);
+  reading_fini(&r);
+}
+
+/* Two of three coordinates, or a list for one of them, are no normal. */
+static void normals_that_make_no_sense_are_none(void **state) {
+  static const char *const text[] = {
+      "ply\nformat ascii 1.0\nelement vertex 3\n" XYZ
+      "property float nx\nproperty float ny\nelement face 1\n" CORNERS
+      "end_header\n0 0 0 0 3\n1 0 0 0 1\n1 1 0 -2 0\n3 0 1 2\n",
+      "ply\nformat ascii 1.0\nelement vertex 3\n" XYZ
+      "property float nx\nproperty float ny\n"
+      "property list uchar float nz\nelement face 1\n" CORNERS
+      "end_header\n0 0 0 0 3 0\n1 0 0 0 1 1 2\n1 1 0 -2 0 0\n3 0 1 2\n"};
+  (void)state;
+  for (int i = 0; i < 2; i++) {
+    struct reading r;
+    read_with_normals(&r, text[i]);
+    assert_int_equal(scene_face_count(&r.scene), 1);
+    assert_int_equal(r.scene.point_normal.count, 0);
+    reading_fini(&r);
+  }
 }
 
 /* ---- Colours ------------------------------------------------------------- */
@@ -630,6 +691,9 @@ int main(void) {
       cmocka_unit_test(faces_may_stand_before_their_vertices),
       cmocka_unit_test(edges_are_polylines),
       cmocka_unit_test(strips_become_triangles),
+      cmocka_unit_test(vertices_give_corners_their_normals),
+      cmocka_unit_test(normals_that_are_not_wanted_take_no_memory),
+      cmocka_unit_test(normals_that_make_no_sense_are_none),
       cmocka_unit_test(faces_of_one_colour_are_a_group),
       cmocka_unit_test(colours_that_are_not_wanted_make_no_groups),
       cmocka_unit_test(a_face_has_the_mean_colour_of_its_corners),

@@ -394,7 +394,7 @@ const struct option_entry option_table[] = {
      "faces that meet at more make a crease (30)", .parse = parse_crease,
      .use = {USED_BY_CREASE}, .of_parts = true},
     {OPTION_WORD, "crease-marks", 0, "WHICH", "auto, none or all",
-     "an OBJ's normals, groups: auto (default) none all",
+     "a file's normals, groups: auto (default) none all",
      .offset = AT(options.mesh.crease_marks), .words = "auto none all",
      .use = {USED_BY_CREASE}, .of_parts = true},
     {OPTION_WORD, "contours", 0, "HOW", "mesh or smooth",

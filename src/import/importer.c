@@ -131,6 +131,33 @@ static void put_points(FILE *to, const struct aiMesh *mesh,
   }
 }
 
+/* Writes the normals of a mesh, turned as its planes are: by the matrix of the
+ * cofactors, which is the inverse transposed but for the determinant. */
+static void put_normals(FILE *to, const struct aiMesh *mesh,
+                        const struct transform *transform) {
+  double cofactor[3][3];
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) {
+      const double *a = transform->row[(i + 1) % 3];
+      const double *b = transform->row[(i + 2) % 3];
+      cofactor[i][j] =
+          a[(j + 1) % 3] * b[(j + 2) % 3] - a[(j + 2) % 3] * b[(j + 1) % 3];
+    }
+  double determinant = 0;
+  for (int k = 0; k < 3; k++)
+    determinant += transform->row[0][k] * cofactor[0][k];
+  for (unsigned i = 0; i < mesh->mNumVertices; i++) {
+    const struct aiVector3D *n = &mesh->mNormals[i];
+    float turned[3];
+    for (int k = 0; k < 3; k++) {
+      double along =
+          cofactor[k][0] * n->x + cofactor[k][1] * n->y + cofactor[k][2] * n->z;
+      turned[k] = (float)(determinant < 0 ? -along : along);
+    }
+    write_bytes(to, turned, sizeof turned);
+  }
+}
+
 /* The id of the object of a 3MF model that Assimp calls Object_ID, and its mesh
  * ID; 0 where it is none. */
 static uint32_t object_of(const struct aiNode *node,
@@ -164,16 +191,20 @@ static void put_mesh(struct import *import, const struct aiNode *node,
                      const struct transform *transform) {
   struct name own;
   const char *name = name_group(import, node, mesh, &own);
-  struct import_record record = {.kind = IMPORT_MESH,
-                                 .name_length = strlen(name),
-                                 .points = mesh->mNumVertices,
-                                 .elements = mesh->mNumFaces};
+  struct import_record record = {
+      .kind = IMPORT_MESH,
+      .name_length = strlen(name),
+      .points = mesh->mNumVertices,
+      .normals = mesh->mNormals != NULL ? mesh->mNumVertices : 0,
+      .elements = mesh->mNumFaces};
   find_colour(import, mesh, &record);
   for (unsigned i = 0; i < mesh->mNumFaces; i++)
     record.corners += mesh->mFaces[i].mNumIndices;
   write_bytes(import->to, &record, sizeof record);
   write_bytes(import->to, name, (size_t)record.name_length);
   put_points(import->to, mesh, transform);
+  if (mesh->mNormals != NULL)
+    put_normals(import->to, mesh, transform);
   for (unsigned i = 0; i < mesh->mNumFaces; i++) {
     uint32_t count = mesh->mFaces[i].mNumIndices;
     write_bytes(import->to, &count, sizeof count);

@@ -33,8 +33,8 @@ bool corner_normals_agree(uint32_t a, uint32_t b) {
   return dot > 0 && dot * dot >= TOLERANCE_NORMAL_SQUARED_COSINE * squares;
 }
 
-/* Makes room for a normal of each point; those that are new have none. */
-static bool list_point_normals(struct scene *scene) {
+/* Points that are new have none. */
+bool corner_normals_begin_points(struct scene *scene) {
   size_t points = scene->point.count;
   if (!ARRAY_RESERVE(&scene->point_normal, points - scene->point_normal.count))
     return false;
@@ -80,7 +80,7 @@ static bool note_several_normals(struct scene *scene, size_t first,
                                  const uint32_t *normal) {
   if (normal == NULL || scene->has_several_normals)
     return true;
-  if (!list_point_normals(scene))
+  if (!corner_normals_begin_points(scene))
     return false;
   for (size_t c = first; c < scene->corner.count; c++) {
     uint32_t *own = &scene->point_normal.item[scene->corner.item[c]];
@@ -94,7 +94,7 @@ static bool note_several_normals(struct scene *scene, size_t first,
 
 /* Begins with the normals of a file at its first face that has some. */
 static bool begin_normals(struct scene *scene, size_t first) {
-  bool ok = list_point_normals(scene);
+  bool ok = corner_normals_begin_points(scene);
   if (ok && first > scene->first_file_corner) /* faces before have none */
     ok = list_corner_normals(scene, first);
   scene->has_file_normals = ok;
@@ -112,7 +112,7 @@ bool corner_normals_add(struct scene *scene, size_t first,
     return normal == NULL;
   if (!scene->lists_normals) {
     /* Points may have come since the last face with normals. */
-    if (normal != NULL && !list_point_normals(scene))
+    if (normal != NULL && !corner_normals_begin_points(scene))
       return false;
     if (normal != NULL && take_point_normals(scene, first, normal))
       return true;

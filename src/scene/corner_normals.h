@@ -49,6 +49,11 @@ void corner_normals_turn(struct scene *scene, size_t first_point,
 USE_RESULT bool corner_normals_copy(struct scene *to, size_t first,
                                     const struct scene *from, uint32_t face);
 
+/* Makes point_normal hold a normal of each point so far: then those of the
+ * points that a file adds may be appended, instead of normals of corners, if
+ * each has one in all of its faces.  Returns false when memory ran out. */
+USE_RESULT bool corner_normals_begin_points(struct scene *scene);
+
 /* Notes the normals of corners that were added last, from `first` on.
  * normal  of each; NULL: they have none
  * Returns false when memory ran out. */

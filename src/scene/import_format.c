@@ -8,6 +8,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "scene/corner_normals.h"
 #include "scene/diagnostics.h"
 #include "scene/limit.h"
 #include "scene/unusable.h"
@@ -18,7 +19,7 @@ struct import_parser {
   const char *path, *format;
   long mb;
   struct import_record record; /* the current one */
-  const char *name, *point, *count, *index;
+  const char *name, *point, *normal, *count, *index;
   ARRAY(uint32_t) corner;
   struct unusable unusable;
   struct diagnostics *diagnostics;
@@ -54,9 +55,11 @@ static bool next_record(struct import_parser *f) {
     return false;
   memcpy(r, start, sizeof *r);
   if (r->kind != IMPORT_MESH)
-    r->points = r->elements = r->corners = 0;
-  return (f->name = next_items(f, r->name_length, 1)) != NULL &&
+    r->points = r->normals = r->elements = r->corners = 0;
+  return (r->normals == 0 || r->normals == r->points) &&
+         (f->name = next_items(f, r->name_length, 1)) != NULL &&
          (f->point = next_items(f, r->points, 3 * sizeof(double))) != NULL &&
+         (f->normal = next_items(f, r->normals, 3 * sizeof(float))) != NULL &&
          (f->count = next_items(f, r->elements, sizeof(uint32_t))) != NULL &&
          (f->index = next_items(f, r->corners, sizeof(uint32_t))) != NULL;
 }
@@ -98,6 +101,22 @@ static recto_status add_import_points(struct import_parser *f) {
   return RECTO_OK;
 }
 
+/* Adds the normals of the points that were added last. */
+static recto_status add_import_normals(struct import_parser *f, size_t first) {
+  struct scene *scene = f->scene;
+  if (!scene->needs_crease_marks || f->record.normals == 0)
+    return RECTO_OK;
+  if (!corner_normals_begin_points(scene))
+    return error_memory(f->error);
+  for (size_t i = first; i < scene->point.count; i++) {
+    float n[3];
+    memcpy(n, f->normal + (i - first) * sizeof n, sizeof n);
+    scene->point_normal.item[i] =
+        corner_normal_encode((double)n[0], (double)n[1], (double)n[2]);
+  }
+  return RECTO_OK;
+}
+
 /* Adds the element whose corners are the `count` indices from `start` on. */
 static recto_status add_element(struct import_parser *f, size_t first,
                                 uint64_t start, uint32_t count) {
@@ -127,6 +146,8 @@ static recto_status add_mesh(struct import_parser *f) {
   recto_status status = use_import_group(f);
   if (status == RECTO_OK)
     status = add_import_points(f);
+  if (status == RECTO_OK)
+    status = add_import_normals(f, first);
   uint64_t start = 0;
   for (size_t i = 0; i < f->record.elements && status == RECTO_OK; i++) {
     uint32_t count = load(f->count, i);

@@ -3,7 +3,8 @@
  *
  * IMPORT_MAGIC, then records, numbers in native byte order:
  *   IMPORT_MESH    the record, its name, its points (three doubles each, scene
- *                  units), the number of corners of each of its elements
+ *                  units), if it has some the normal of each (three floats, of
+ *                  any length), the number of corners of each of its elements
  *                  (uint32_t), and the corners of all of them (uint32_t,
  *                  indices of its own points)
  *   IMPORT_FILES   the record, and in place of its name the files that were
@@ -16,7 +17,7 @@
 
 #include "scene/scene.h"
 
-#define IMPORT_MAGIC "recto i3"
+#define IMPORT_MAGIC "recto i4"
 
 enum import_kind { IMPORT_MESH = 1, IMPORT_FILES, IMPORT_FAILED, IMPORT_DONE };
 
@@ -28,6 +29,7 @@ struct import_record {
   uint32_t why;        /* enum import_why */
   uint32_t colour;     /* 0xRRGGBB */
   uint32_t has_colour; /* 0 or 1 */
+  uint64_t normals;    /* 0, or as many as points */
   double unit_mm;      /* of IMPORT_DONE: of the model's unit; 0: unknown */
   uint64_t name_length, points, elements, corners;
 };

@@ -107,6 +107,9 @@ static enum ply_role role_of(enum ply_kind kind, struct header_word word) {
              {"diffuse_red", PLY_RED, 1 << PLY_VERTEX | 1 << PLY_FACE},
              {"diffuse_green", PLY_GREEN, 1 << PLY_VERTEX | 1 << PLY_FACE},
              {"diffuse_blue", PLY_BLUE, 1 << PLY_VERTEX | 1 << PLY_FACE},
+             {"nx", PLY_NX, 1 << PLY_VERTEX},
+             {"ny", PLY_NY, 1 << PLY_VERTEX},
+             {"nz", PLY_NZ, 1 << PLY_VERTEX},
              {"vertex1", PLY_VERTEX1, 1 << PLY_EDGE},
              {"vertex2", PLY_VERTEX2, 1 << PLY_EDGE},
              {"vertex_indices", PLY_CORNERS,
@@ -159,15 +162,16 @@ static recto_status read_element_line(struct header_parser *p) {
 }
 
 /* Whether the property may have its role: a list must be one, and what each
- * element has once must not come twice.  A second colour has no role. */
+ * element has once must not come twice.  A second colour or normal has no
+ * role. */
 static recto_status check_role(struct header_parser *p, struct header_word name,
                                const struct ply_element *element,
                                struct ply_property *property) {
   bool list = property->count_type != PLY_NO_TYPE;
-  bool colour = property->role >= PLY_RED && property->role <= PLY_BLUE;
+  bool is_extra = property->role >= PLY_RED && property->role <= PLY_NZ;
   if (property->role == PLY_OTHER)
     return RECTO_OK;
-  if (colour && (list || element->has[property->role])) {
+  if (is_extra && (list || element->has[property->role])) {
     property->role = PLY_OTHER;
     return RECTO_OK;
   }

@@ -26,6 +26,9 @@ enum ply_role {
   PLY_RED,
   PLY_GREEN,
   PLY_BLUE,
+  PLY_NX, /* a vertex's normal */
+  PLY_NY,
+  PLY_NZ,
   PLY_VERTEX1, /* the ends of an edge */
   PLY_VERTEX2,
   PLY_CORNERS, /* the list of a face's, an edge's or a strip's corners */

@@ -6,6 +6,9 @@
  * over.  Faces may stand before the vertices: what comes before these is read
  * after them.
  *
+ * Normals of vertices, where they are wanted, are those of the corners there;
+ * where they differ, a place has several vertices.
+ *
  * Colours, where they are wanted: of a face its own, else the mean of those of
  * its corners; they make groups (ply_colour.h) but no lines.
  *
@@ -17,6 +20,7 @@
 
 #include <math.h>
 
+#include "scene/corner_normals.h"
 #include "scene/limit.h"
 #include "scene/ply_colour.h"
 #include "scene/ply_value.h"
@@ -90,6 +94,18 @@ static bool add_vertex(struct ply_parser *p, bool ok,
   return finite;
 }
 
+static bool has_normal(const struct ply_parser *p,
+                       const struct ply_element *element) {
+  return p->scene->needs_crease_marks && element->has[PLY_NX] &&
+         element->has[PLY_NY] && element->has[PLY_NZ];
+}
+
+/* The normal of the vertex that was taken last; 0: none. */
+static uint32_t normal_of_vertex(const struct ply_parser *p) {
+  return corner_normal_encode(p->value[PLY_NX], p->value[PLY_NY],
+                              p->value[PLY_NZ]);
+}
+
 static recto_status read_vertex(struct ply_parser *p,
                                 const struct ply_element *element,
                                 size_t number) {
@@ -104,6 +120,8 @@ static recto_status read_vertex(struct ply_parser *p,
        !ARRAY_PUSH(&p->unusable.point, (uint32_t)p->scene->point.count)) ||
       (colour &&
        !ARRAY_PUSH(&p->vertex_colour, ok ? ply_colour_of(p, element) : 0)) ||
+      (has_normal(p, element) &&
+       !ARRAY_PUSH(&p->scene->point_normal, ok ? normal_of_vertex(p) : 0)) ||
       !ARRAY_PUSH(&p->scene->point, point))
     return error_memory(p->error);
   return RECTO_OK;
@@ -134,7 +152,8 @@ static recto_status read_vertices(struct ply_parser *p,
   if (most > SCENE_LIMIT - p->first)
     return error_set(p->error, RECTO_ERROR_LIMIT, p->path, 0,
                      "the scene has more than 2^31 points");
-  if (!ARRAY_RESERVE(&p->scene->point, most))
+  if (!ARRAY_RESERVE(&p->scene->point, most) ||
+      (has_normal(p, element) && !corner_normals_begin_points(p->scene)))
     return error_memory(p->error);
   recto_status status = RECTO_OK;
   for (size_t i = 0; i < element->count && status == RECTO_OK; i++) {
