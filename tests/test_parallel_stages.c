@@ -93,6 +93,31 @@ static void write_mixed(FILE *to) {
   }
 }
 
+/* The squares in two strips of every other one, so that both sides of an edge
+ * are used far apart: quadrilaterals that are not planar and fold, pairs of
+ * triangles, faces with a repeated corner, and some of many corners. */
+static void write_polygons(FILE *to) {
+  write_points(to, SIDE, 0.06);
+  for (int strip = 0; strip < 2; strip++)
+    for (int s = strip; s < SIDE * SIDE; s += 2) {
+      int c[3];
+      corners_of_face(2 * s + 1, SIDE, c);
+      if (s % 7 == 3) {
+        write_face(to, 2 * s, SIDE);
+        write_face(to, 2 * s + 1, SIDE);
+      } else if (s % 1009 == 5 && s % SIDE < SIDE - 40) {
+        fprintf(to, "f");
+        for (int k = 0; k < 40; k++)
+          fprintf(to, " %d", c[0] + k);
+        for (int k = 40; k-- > 0;)
+          fprintf(to, " %d", c[0] + k + SIDE + 1);
+        fprintf(to, "\n");
+      } else
+        fprintf(to, "f %d %d %d %d\n", c[0], s % 11 == 7 ? c[0] : c[0] + 1,
+                c[1], c[2]);
+    }
+}
+
 /* Triangles that stand on sides of the surface come before it, so that edges of
  * three faces are used at both ends of the file. */
 static void write_fins(FILE *to) {
@@ -131,11 +156,10 @@ static void write_soup(FILE *to) {
 static const struct model {
   const char *name, *kinds;
   void (*write)(FILE *to);
-} models[] = {{"surface", "lfe", write_surface},
-              {"shuffled", "lh", write_shuffled},
-              {"mixed", "lfhe", write_mixed},
-              {"fins", "l", write_fins},
-              {"soup", "l", write_soup}};
+} models[] = {
+    {"surface", "lfe", write_surface}, {"shuffled", "lh", write_shuffled},
+    {"mixed", "lfhe", write_mixed},    {"polygons", "l", write_polygons},
+    {"fins", "l", write_fins},         {"soup", "l", write_soup}};
 
 /* The model as text of OBJ, *length bytes, to be freed by the caller. */
 static char *text_of_model(const struct model *model, size_t *length) {

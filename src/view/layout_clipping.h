@@ -32,10 +32,11 @@ static inline void
 layout_record_triangle_side(struct layout *layout,
                             const struct layout_triangle *triangle, int k,
                             int sign) {
-  uint8_t *sides = triangle->side[k] != SHEET_NONE
-                       ? &layout->sides[triangle->side[k]]
-                       : &layout->diagonal.item[triangle->diagonal[k]].sides;
-  layout_record_side(sides, triangle->forward[k], sign);
+  if (triangle->side[k] != SHEET_NONE)
+    layout_record_edge(layout, triangle->side[k], triangle->forward[k], sign);
+  else
+    layout_record_side(&layout->diagonal.item[triangle->diagonal[k]].sides,
+                       triangle->forward[k], sign);
 }
 
 /* The end of the arrays of triangles, as a local variable, so that a loop which

@@ -142,6 +142,12 @@ struct layout_fold {
   uint32_t face;
 };
 
+/* On which side of an edge of an earlier range a face lies. */
+struct layout_late_side {
+  uint32_t edge; /* of the topology */
+  uint8_t sides; /* LAYOUT_..., of one face */
+};
+
 /* The map from topology edges to sheet edges, as a bit vector with rank: a bit
  * says whether the edge was made, and as sheet edges are in the same order, the
  * number of bits set before it is its index.  It is queried for every side of
@@ -187,10 +193,16 @@ struct layout {
                           faces say it (layout_face_ranges.h) */
   uint8_t *class_masks; /* likewise; once they are chosen, the class of each.
                            NULL where no class of them was requested */
+  bool is_clipped;      /* a point that is used is outside */
   uint8_t *coarse;      /* of topology_coarse_parts; or NULL */
   struct layout_edge_ids ids;
   struct face_range *face_range; /* of layout_face_ranges.h; NULL: triangles are
                                     there before the edges */
+  /* Of a range of faces that is laid out for itself (layout_polygon_ranges.h):
+   * the topology edges before this one belong to earlier ranges, and what is
+   * recorded of them is listed, for which there is room.  Else 0. */
+  uint32_t first_edge;
+  ARRAY(struct layout_late_side) late;
   bool leaves_out_sides; /* triangles are numbered as faces, and their sides are
                             not made: edges refer to the faces at once */
   /* Topology edge -> clipped; SHEET_NONE: not yet clipped; NULL until the first
@@ -225,10 +237,26 @@ static inline struct view_point layout_view(const struct layout *layout,
   return camera_view(&layout->sheet->camera, &layout->scene->point.item[point]);
 }
 
+/* Records on which side of a topology edge a face of this orientation lies, as
+ * layout_record_side. */
+static inline void layout_record_edge(struct layout *layout, uint32_t edge,
+                                      bool forward, int sign) {
+  if (edge >= layout->first_edge) {
+    layout_record_side(&layout->sides[edge], forward, sign);
+    return;
+  }
+  struct layout_late_side late = {.edge = edge};
+  layout_record_side(&late.sides, forward, sign);
+  layout->late.item[layout->late.count++] = late;
+}
+
 /* All fail with RECTO_ERROR_MEMORY or RECTO_ERROR_LIMIT. */
 USE_RESULT recto_status layout_classes(struct layout *layout);
 USE_RESULT recto_status layout_points(struct layout *layout);
 USE_RESULT recto_status layout_triangles(struct layout *layout);
+
+/* Adds the triangles of a face, for which phase triangles is. */
+USE_RESULT recto_status layout_face(struct layout *layout, uint32_t face);
 USE_RESULT recto_status layout_edges(struct layout *layout);
 USE_RESULT recto_status layout_wires(struct layout *layout);
 

@@ -27,7 +27,8 @@ static size_t count_used(const uint8_t *used, size_t count) {
 struct projection_work {
   struct layout *layout;
   const uint8_t *used;
-  atomic_bool found_other; /* a point is not used, or outside */
+  atomic_bool found_other;   /* a point is not used, or outside */
+  atomic_bool found_outside; /* one that is used is */
 };
 
 /* Projects the points of a range, each to the place of its own number. */
@@ -36,7 +37,7 @@ static bool project_range(void *user, struct parallel_range range) {
   struct layout *layout = work->layout;
   const struct projection projection = layout->projection;
   struct geom_point *point = layout->sheet->point.item;
-  bool all = true;
+  bool all = true, outside = false;
   for (size_t p = range.begin; p < range.end; p++) {
     all = all && work->used[p];
     if (!work->used[p])
@@ -44,6 +45,7 @@ static bool project_range(void *user, struct parallel_range range) {
     struct view_point at = layout_view(layout, (uint32_t)p);
     uint8_t outcode = clip_outcode(&projection, at);
     all = all && outcode == 0;
+    outside = outside || outcode != 0;
     if (outcode == 0)
       point[p] = project_point(&projection, at);
     else
@@ -51,6 +53,8 @@ static bool project_range(void *user, struct parallel_range range) {
   }
   if (!all)
     atomic_store(&work->found_other, true);
+  if (outside)
+    atomic_store(&work->found_outside, true);
   return true;
 }
 
@@ -76,6 +80,7 @@ static recto_status project_points(struct layout *layout, const uint8_t *used) {
   if (!parallel_ranges(parallel_workers(points, PARALLEL_ITEMS), points,
                        PARALLEL_ITEMS, project_range, &work))
     return error_cancelled(layout->error);
+  layout->is_clipped = atomic_load(&work.found_outside);
   if (atomic_load(&work.found_other)) {
     layout->point_map = mem_alloc(points, sizeof *layout->point_map);
     if (layout->point_map == NULL)

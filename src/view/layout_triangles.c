@@ -11,6 +11,7 @@
 #include "view/coordinate_error.h"
 #include "view/layout_clipping.h"
 #include "view/layout_face_ranges.h"
+#include "view/layout_polygon_ranges.h"
 #include "view/layout_unclipped.h"
 
 static inline void set_side(const struct layout *layout,
@@ -341,7 +342,7 @@ static recto_status add_polygon_face(struct layout *layout, uint32_t face,
   return status == RECTO_OK ? add_folds(layout, face, first, folds) : status;
 }
 
-static recto_status layout_face(struct layout *layout, uint32_t face) {
+recto_status layout_face(struct layout *layout, uint32_t face) {
   uint32_t start = scene_face_start(layout->scene, face);
   uint32_t count = scene_face_start(layout->scene, face + 1) - start;
   unsigned any = 0, all = ~0u, beyond = 0;
@@ -378,6 +379,23 @@ static recto_status layout_face(struct layout *layout, uint32_t face) {
   return RECTO_OK;
 }
 
+/* The faces one after the other, as clipping adds points. */
+static recto_status add_faces_in_order(struct layout *layout) {
+  uint32_t faces = scene_face_count(layout->scene);
+  recto_status status = RECTO_OK;
+  for (uint32_t face = 0; status == RECTO_OK && face < faces; face++) {
+    uint32_t next = (face | (POLL_ITEMS - 1)) + 1;
+    face = layout_unclipped_faces(layout, face, next < faces ? next : faces);
+    if (face < faces)
+      status = layout_face(layout, face);
+    if (status == RECTO_OK && !poll_at(face))
+      status = error_cancelled(layout->error);
+    if (layout->sheet->triangle.count > SHEET_NONE / 2)
+      break;
+  }
+  return status;
+}
+
 recto_status layout_triangles(struct layout *layout) {
   uint32_t faces = scene_face_count(layout->scene);
   size_t triangles = layout->scene->corner.count - 2 * (size_t)faces;
@@ -389,19 +407,10 @@ recto_status layout_triangles(struct layout *layout) {
       mem_calloc(layout->topology->edge.count, sizeof *layout->sides);
   if (layout->sides == NULL || !layout_reserve(layout, triangles))
     return error_memory(layout->error);
-  for (uint32_t face = 0; face < faces; face++) {
-    uint32_t next = (face | (POLL_ITEMS - 1)) + 1;
-    face = layout_unclipped_faces(layout, face, next < faces ? next : faces);
-    if (face == faces)
-      break;
-    recto_status status = layout_face(layout, face);
-    if (status != RECTO_OK)
-      return status;
-    if (!poll_at(face))
-      return error_cancelled(layout->error);
-    if (layout->sheet->triangle.count > SHEET_NONE / 2)
-      return error_set(layout->error, RECTO_ERROR_LIMIT, NULL, 0,
+  recto_status status = layout->is_clipped ? add_faces_in_order(layout)
+                                           : layout_polygon_ranges(layout);
+  if (status == RECTO_OK && layout->sheet->triangle.count > SHEET_NONE / 2)
+    status = error_set(layout->error, RECTO_ERROR_LIMIT, NULL, 0,
                        "the drawing has more than 2^31 triangles");
-  }
-  return RECTO_OK;
+  return status;
 }

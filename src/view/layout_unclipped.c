@@ -6,7 +6,7 @@
 #include "view/layout_clipping.h"
 
 /* As layout_unclipped_faces, to an end of the arrays of triangles. */
-static inline uint32_t add_unclipped_faces(const struct layout *layout,
+static inline uint32_t add_unclipped_faces(struct layout *layout,
                                            struct layout_triangle_sink *to,
                                            uint32_t face, uint32_t end) {
   enum { AHEAD = 3 * MEM_PREFETCH_AHEAD };
@@ -14,7 +14,6 @@ static inline uint32_t add_unclipped_faces(const struct layout *layout,
   const uint32_t *own = scene->corner.item;
   const uint32_t *corner_edge = layout->topology->corner_edge;
   struct layout_triangle_sink sink = *to; /* in registers */
-  uint8_t *sides = layout->sides;
   const size_t corners = scene->corner.count;
   for (; face < end && sink.remaining > 0; face++) {
     uint32_t c = scene_face_start(scene, face), corner[3], point[3];
@@ -30,9 +29,9 @@ static inline uint32_t add_unclipped_faces(const struct layout *layout,
       break;
     const uint32_t *edge = corner_edge + c;
     int sign = geom_sign64(layout_sink_triangle(&sink, face, point, edge));
-    layout_record_side(&sides[edge[0]], corner[0] < corner[1], sign);
-    layout_record_side(&sides[edge[1]], corner[1] < corner[2], sign);
-    layout_record_side(&sides[edge[2]], corner[2] < corner[0], sign);
+    layout_record_edge(layout, edge[0], corner[0] < corner[1], sign);
+    layout_record_edge(layout, edge[1], corner[1] < corner[2], sign);
+    layout_record_edge(layout, edge[2], corner[2] < corner[0], sign);
   }
   *to = sink;
   return face;

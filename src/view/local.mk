@@ -16,6 +16,7 @@ librecto_core_la_SOURCES += \
   %D%/layout_clipping.c %D%/layout_clipping.h \
   %D%/layout_phases.h \
   %D%/layout_points.c \
+  %D%/layout_polygon_ranges.c %D%/layout_polygon_ranges.h \
   %D%/layout_range.c \
   %D%/layout_triangles.c \
   %D%/layout_unclipped.c %D%/layout_unclipped.h \
