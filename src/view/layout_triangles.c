@@ -4,13 +4,11 @@
  * Until layout_edges has run, the sides of the triangles refer to topology
  * edges.
  */
-#include <math.h>
-#include <stdlib.h>
-
 #include "base/poll.h"
 #include "view/coordinate_error.h"
 #include "view/layout_clipping.h"
 #include "view/layout_face_ranges.h"
+#include "view/layout_face_sign.h"
 #include "view/layout_polygon_ranges.h"
 #include "view/layout_unclipped.h"
 
@@ -125,107 +123,6 @@ static struct layout_triangle nth_triangle(struct layout *layout, uint32_t face,
                           &layout->triangulation.triangle.item[t]);
 }
 
-/* How far the contact tolerance moves a point of this depth on the page, in
- * grid units, with one unit for rounding. */
-static double contact_units(const struct sheet *sheet, uint32_t face,
-                            int64_t z) {
-  const struct camera *camera = &sheet->camera;
-  double inverse_depth =
-      camera->perspective ? (double)z / sheet->z_scale + 1 / camera->d_max : 1;
-  return coordinate_error_contact(sheet, face) * sheet->units_per_view *
-             inverse_depth +
-         1;
-}
-
-static const struct geom_point *corner_point(const struct layout *layout,
-                                             uint32_t corner) {
-  uint32_t point = layout_weld(layout, layout->scene->corner.item[corner]);
-  return &layout->sheet->point.item[layout_sheet_point(layout, point)];
-}
-
-static uint32_t farthest_corner(const struct layout *layout, uint32_t start,
-                                uint32_t count, uint32_t from) {
-  const struct geom_point *a = corner_point(layout, from);
-  double most = -1;
-  for (uint32_t c = start; c < start + count; c++) {
-    const struct geom_point *p = corner_point(layout, c);
-    double x = (double)p->x - a->x, y = (double)p->y - a->y;
-    if (x * x + y * y > most) {
-      most = x * x + y * y;
-      from = c;
-    }
-  }
-  return from;
-}
-
-/* Whether the face is seen edge-on within the contact tolerance: all of its
- * corners are that close to the line through two that are far apart. */
-static bool is_face_edge_on(const struct layout *layout, uint32_t face,
-                            uint32_t start, uint32_t count) {
-  uint32_t from = farthest_corner(layout, start, count, start);
-  const struct geom_point *a = corner_point(layout, from),
-                          *b = corner_point(
-                              layout,
-                              farthest_corner(layout, start, count, from));
-  double length = hypot((double)b->x - a->x, (double)b->y - a->y);
-  for (uint32_t c = start; c < start + count; c++) {
-    const struct geom_point *p = corner_point(layout, c);
-    double off = fabs((double)geom_orient2d(*a, *b, *p));
-    if (off > length * contact_units(layout->sheet, face, p->z))
-      return false;
-  }
-  return true;
-}
-
-/* Whether a triangle is so thin that rounding its corners to the page grid, by
- * up to half a unit, may have turned it. */
-static bool is_sign_unsure(const struct sheet *sheet, size_t triangle) {
-  struct geom_triangle c = sheet_corners(sheet, triangle);
-  int64_t area = geom_orient2d(c.p[0], c.p[1], c.p[2]), perimeter = 0;
-  for (int k = 0; k < 3; k++) {
-    struct geom_point a = c.p[k], b = c.p[geom_next_corner(k)];
-    perimeter += llabs((int64_t)b.x - a.x) + llabs((int64_t)b.y - a.y);
-  }
-  return 2 * area <= perimeter + 4; /* sheet triangles are not clockwise */
-}
-
-/* The orientation of a face on the page, whose triangles start at `first`.
- *   All triangles whose sign is sure have one sign: that is the face's.  A
- *     polygon of many corners has triangles that rounding turns, and with two
- *     signs their diagonals would be drawn as silhouettes.
- *   The signs differ: the face folds over, and each triangle has its own sign.
- *   The signs differ, but the face is seen edge-on within the contact
- *     tolerance: only rounding made them differ, and the sign is 0.
- * Returns false where each triangle has its own sign. */
-static bool face_sign(const struct layout *layout, uint32_t face, size_t first,
-                      uint32_t start, uint32_t count, int *sign) {
-  bool plus = false, minus = false;
-  for (int unsure = 0; unsure <= 1 && !plus && !minus; unsure++)
-    for (size_t t = first; t < layout->flags.count; t++) {
-      uint8_t flags = layout->flags.item[t];
-      if (unsure || !is_sign_unsure(layout->sheet, t)) {
-        plus = plus || flags == 0;
-        minus = minus || flags == SHEET_FLIPPED;
-      }
-    }
-  *sign = plus - minus;
-  return *sign != 0 || (plus && is_face_edge_on(layout, face, start, count));
-}
-
-/* The sign that all triangles from `first` on have whose sign is sure; 0 where
- * there is none, or they differ. */
-static int sure_sign(const struct layout *layout, size_t first) {
-  bool plus = false, minus = false;
-  for (size_t t = first; t < layout->flags.count; t++) {
-    bool flipped = layout->flags.item[t] & SHEET_FLIPPED;
-    if (!is_sign_unsure(layout->sheet, t)) {
-      plus = plus || !flipped;
-      minus = minus || flipped;
-    }
-  }
-  return plus - minus;
-}
-
 /* Makes the sides of a sheet triangle contours. */
 static recto_status add_contours(struct layout *layout, size_t triangle) {
   const uint32_t *p = layout->sheet->triangle.item[triangle].point;
@@ -249,7 +146,7 @@ static recto_status add_whole_face(struct layout *layout, uint32_t face,
     layout_add_whole(layout, &triangle);
   }
   int common;
-  bool is_common = face_sign(layout, face, first, start, count, &common);
+  bool is_common = layout_face_sign(layout, face, first, &common);
   recto_status status = RECTO_OK;
   for (size_t t = 0; t < triangles; t++) {
     struct layout_triangle triangle =
@@ -281,7 +178,7 @@ static recto_status add_clipped_face(struct layout *layout, uint32_t face,
     status = layout_add_clipped(layout, &triangle,
                                 &layout->part.item[layout->part.count++]);
   }
-  int common = sure_sign(layout, first);
+  int common = layout_sure_sign(layout, first);
   size_t end = layout->flags.count;
   for (size_t t = triangles; status == RECTO_OK && t-- > 0;) {
     struct layout_triangle triangle =
@@ -320,26 +217,70 @@ static void mark_coplanar(struct layout *layout, size_t first) {
     layout->flags.item[t] |= SHEET_COPLANAR;
 }
 
+/* Adds a quadrilateral that needs no clipping, whose two triangles have one
+ * orientation on the page: nothing is in doubt, and its diagonal is no fold.
+ * Returns false, having added nothing, where it is none; capacity must have
+ * been reserved. */
+static bool add_quadrilateral(struct layout *layout, uint32_t face,
+                              uint32_t start, const uint32_t *corner) {
+  const struct triangulation_triangle *t = layout->triangulation.triangle.item;
+  const uint32_t *edge = layout->topology->corner_edge + start;
+  struct layout_triangle_sink sink = layout_sink_of(layout);
+  uint32_t point[2][3], side[2][3];
+  int sign[2];
+  for (int i = 0; i < 2; i++) {
+    for (int k = 0; k < 3; k++) {
+      point[i][k] = layout_sheet_point(layout, corner[t[i].corner[k]]);
+      side[i][k] = t[i].side[k] < 4 ? edge[t[i].side[k]] : SHEET_NONE;
+    }
+    sign[i] = geom_sign64(geom_orient2d(sink.point[point[i][0]],
+                                        sink.point[point[i][1]],
+                                        sink.point[point[i][2]]));
+  }
+  if (sign[0] != sign[1] || sign[0] == 0)
+    return false;
+  for (int i = 0; i < 2; i++)
+    (void)layout_sink_triangle(&sink, face, point[i], side[i]);
+  layout_sink_close(layout, &sink);
+  for (int k = 0; k < 4; k++)
+    layout_record_edge(layout, edge[k], corner[k] < corner[(k + 1) % 4],
+                       sign[0]);
+  return true;
+}
+
+static recto_status add_triangulated_face(struct layout *layout, uint32_t face,
+                                          uint32_t start, uint32_t count,
+                                          bool clipped) {
+  size_t first = layout->sheet->triangle.count;
+  uint32_t folds = (uint32_t)layout->fold.count;
+  if (!start_diagonals(layout, count - 3))
+    return error_memory(layout->error);
+  recto_status status = clipped ? add_clipped_face(layout, face, start, count)
+                                : add_whole_face(layout, face, start, count);
+  return status == RECTO_OK ? add_folds(layout, face, first, folds) : status;
+}
+
 static recto_status add_polygon_face(struct layout *layout, uint32_t face,
                                      uint32_t start, uint32_t count,
                                      bool clipped) {
   struct triangulation *triangulation = &layout->triangulation;
   const uint32_t *corner = welded_corners(layout, start, count);
   size_t first = layout->sheet->triangle.count;
-  uint32_t folds = (uint32_t)layout->fold.count;
   if (corner == NULL ||
       !triangulate(triangulation, layout->scene->point.item, corner, count) ||
       !layout_reserve(layout, triangulation->triangle.count) ||
-      !start_diagonals(layout, count - 3) ||
       !coordinate_error_store(layout->sheet, face))
     return error_memory(layout->error);
   layout->sheet->warped += triangulation->warped;
   layout->sheet->empty += triangulation->triangle.count == 0;
-  recto_status status = clipped ? add_clipped_face(layout, face, start, count)
-                                : add_whole_face(layout, face, start, count);
-  if (triangulation->off_plane <= coordinate_error_contact(layout->sheet, face))
+  recto_status status = RECTO_OK;
+  if (clipped || count != 4 || triangulation->triangle.count != 2 ||
+      !add_quadrilateral(layout, face, start, corner))
+    status = add_triangulated_face(layout, face, start, count, clipped);
+  if (triangulation->off_plane == 0 ||
+      triangulation->off_plane <= coordinate_error_contact(layout->sheet, face))
     mark_coplanar(layout, first);
-  return status == RECTO_OK ? add_folds(layout, face, first, folds) : status;
+  return status;
 }
 
 recto_status layout_face(struct layout *layout, uint32_t face) {

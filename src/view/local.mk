@@ -15,6 +15,7 @@ librecto_core_la_SOURCES += \
   %D%/layout_face_ranges.c %D%/layout_face_ranges.h \
   %D%/layout_clipping.c %D%/layout_clipping.h \
   %D%/layout_phases.h \
+  %D%/layout_face_sign.c %D%/layout_face_sign.h \
   %D%/layout_points.c \
   %D%/layout_polygon_ranges.c %D%/layout_polygon_ranges.h \
   %D%/layout_range.c \
