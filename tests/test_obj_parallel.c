@@ -43,6 +43,8 @@ static const char *const odd_faces[] = {"f 1 2 2\n",
                                         "f 1 2 3 4\n",
                                         "f -1 -2 -3\n",
                                         "f 1//3 2//4 3//5\n",
+                                        "f 5//1 6//2 9\n",
+                                        "f 5//1 6 9//2\n",
                                         "f 1/2/3 4/5/6 7\n",
                                         "f 1 2 x\n",
                                         "f 7 8 12 \r\n",
@@ -100,20 +102,49 @@ static void put_face(struct text *text, struct random *random) {
   put(text, statement);
 }
 
-/* One statement in `rarity` is odd; 0: none is. */
+/* Points of a grid, with numbers of many lengths, for quadrilaterals. */
+enum { COLUMNS = 300 };
+
+static void put_grid_point(struct text *text, struct random *random, int i) {
+  char statement[LONGEST];
+  snprintf(statement, sizeof statement, "v %d %d.5 %.*g\n", i % COLUMNS,
+           i / COLUMNS, random_int(random, 1, 12),
+           random_between(random, 0, 0.1));
+  put(text, statement);
+}
+
+static void put_quadrilateral(struct text *text, struct random *random) {
+  char statement[LONGEST];
+  int c = random_int(random, 1, POINTS - COLUMNS - 20);
+  snprintf(statement, sizeof statement,
+           random_below(random, 4) ? "f %d//1 %d//2 %d/5/3 %d\n"
+                                   : "f %d/1 %d/2 %d/3 %d/1\n",
+           c, c + 1, c + COLUMNS + 1, c + COLUMNS);
+  put(text, statement);
+}
+
+/* One statement in `rarity` is odd; 0: none is.  Faces are triangles, or by odd
+ * seeds quadrilaterals. */
 static struct text write_file(uint64_t seed, uint32_t rarity) {
   struct random random = {seed};
+  bool is_grid = seed % 2 == 1;
   struct text text = {malloc(((size_t)POINTS + FACES) * 64 + (1 << 22)), 0};
   assert_non_null(text.bytes);
   put(&text, "vn 1 0 0\nvn 0 1 0\nvn 1 1 1\n");
   for (int i = 0; i < POINTS; i++) {
-    put_point(&text, &random);
+    if (is_grid)
+      put_grid_point(&text, &random, i);
+    else
+      put_point(&text, &random);
     if (rarity > 0 && random_below(&random, rarity) == 0)
       put(&text, odd_points[random_below(&random, sizeof odd_points /
                                                       sizeof *odd_points)]);
   }
   for (int i = 0; i < FACES; i++) {
-    put_face(&text, &random);
+    if (is_grid)
+      put_quadrilateral(&text, &random);
+    else
+      put_face(&text, &random);
     if (rarity > 0 && random_below(&random, rarity) == 0)
       put(&text, odd_faces[random_below(&random,
                                         sizeof odd_faces / sizeof *odd_faces)]);

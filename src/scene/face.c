@@ -26,23 +26,6 @@ static bool on_one_line(const struct scene *scene, uint32_t a, uint32_t b,
 
 /* ---- Checks -------------------------------------------------------------- */
 
-/* Whether triangles a, b, c and a, c, d turn the same way, so that b and d lie
- * on either side of the diagonal and the sides cannot cross.  Rounding may
- * give a false no, which costs a closer look, or, where the two are all but
- * square to each other, a yes that a closer look would have given too. */
-static bool halves_agree(const struct scene_point *a,
-                         const struct scene_point *b,
-                         const struct scene_point *c,
-                         const struct scene_point *d) {
-  double bx = b->x - a->x, by = b->y - a->y, bz = b->z - a->z;
-  double cx = c->x - a->x, cy = c->y - a->y, cz = c->z - a->z;
-  double dx = d->x - a->x, dy = d->y - a->y, dz = d->z - a->z;
-  double x = (by * cz - bz * cy) * (cy * dz - cz * dy);
-  double y = (bz * cx - bx * cz) * (cz * dx - cx * dz);
-  double z = (bx * cy - by * cx) * (cx * dy - cy * dx);
-  return x + y + z > 0;
-}
-
 /* A fast test: true where the face has no fault; false: undecided. */
 static bool is_certainly_valid(const struct scene *scene,
                                const uint32_t *corner, size_t count) {
@@ -51,8 +34,8 @@ static bool is_certainly_valid(const struct scene *scene,
     return !on_one_line(scene, corner[0], corner[1], corner[2]);
   return count == 4 && !on_one_line(scene, corner[0], corner[1], corner[2]) &&
          !on_one_line(scene, corner[0], corner[2], corner[3]) &&
-         halves_agree(&point[corner[0]], &point[corner[1]], &point[corner[2]],
-                      &point[corner[3]]);
+         exact_halves_agree(&point[corner[0]], &point[corner[1]],
+                            &point[corner[2]], &point[corner[3]]);
 }
 
 /* Copies the corners but for those at the position of the one before them.

@@ -173,9 +173,12 @@ static const uint32_t *normals_of_face(struct obj_parser *p,
                       length, p->missing_normal, p->normal.count);
     return NULL;
   }
-  return p->corner_normal.count > 0 && p->corner_normal.count == p->corner.count
-             ? p->corner_normal.item
-             : NULL;
+  if (p->corner_normal.count != p->corner.count)
+    return NULL;
+  for (size_t c = 0; c < p->corner.count; c++)
+    if (p->corner_normal.item[c] == 0)
+      return NULL;
+  return p->corner_normal.item;
 }
 
 recto_status obj_add_face(struct obj_parser *p, unsigned long line) {

@@ -177,10 +177,19 @@ USE_RESULT recto_status obj_add_triangle(struct obj_parser *p,
 static inline bool obj_is_surely_bent(const struct scene *scene,
                                       const uint32_t corner[3]) {
   const struct scene_point *point = scene->point.item;
+  return exact_surely_not_on_one_line(&point[corner[0]], &point[corner[1]],
+                                      &point[corner[2]]);
+}
+
+/* Whether a quadrilateral has none. */
+static inline bool obj_is_surely_plain(const struct scene *scene,
+                                       const uint32_t corner[4]) {
+  const struct scene_point *point = scene->point.item;
   const struct scene_point *a = &point[corner[0]], *b = &point[corner[1]],
-                           *c = &point[corner[2]];
-  return exact_surely_not_collinear(a->x, a->y, b->x, b->y, c->x, c->y) ||
-         exact_surely_not_collinear(a->y, a->z, b->y, b->z, c->y, c->z);
+                           *c = &point[corner[2]], *d = &point[corner[3]];
+  return exact_surely_not_on_one_line(a, b, c) &&
+         exact_surely_not_on_one_line(a, c, d) &&
+         exact_halves_agree(a, b, c, d);
 }
 
 /* ---- Hard and smooth edges (obj_marks.c) --------------------------------- */

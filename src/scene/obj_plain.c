@@ -1,6 +1,6 @@
-/* obj_plain.c - plain points and faces of an OBJ file: "v x y z" and "f a b c"
- * that are like those before them, read without the tests that only others
- * need. */
+/* obj_plain.c - plain points and faces of an OBJ file: "v x y z", "f a b c" and
+ * "f a b c d" that are like those before them, read without the tests that only
+ * others need. */
 #include "scene/obj_plain.h"
 
 #include <math.h>
@@ -138,12 +138,14 @@ static inline const char *read_plain_index(const struct obj_parser *p,
              : at;
 }
 
-/* Reads "f a b c" to its end; NULL where it is something else. */
+/* Reads "f a b c", or one index more, to its end; NULL where it is something
+ * else.
+ * corners  of the face: 3 or 4, here and below */
 static inline const char *read_plain_face(const struct obj_parser *p,
-                                          const char *start,
-                                          uint32_t corner[3]) {
+                                          const char *start, int corners,
+                                          uint32_t *corner) {
   const char *at = start + 1;
-  for (int k = 0; k < 3; k++) {
+  for (int k = 0; k < corners; k++) {
     at = read_plain_index(p, at, &corner[k]);
     if (at == NULL || at - start > PLAIN_ROOM / 2)
       return NULL;
@@ -151,13 +153,20 @@ static inline const char *read_plain_face(const struct obj_parser *p,
   return *at == '\n' ? at + 1 : NULL;
 }
 
+static inline bool is_surely_valid(const struct scene *scene,
+                                   const uint32_t *corner, size_t corners) {
+  return corners == 3 ? obj_is_surely_bent(scene, corner)
+                      : obj_is_surely_plain(scene, corner);
+}
+
 /* Reads the faces of a run.  Their points lie anywhere in memory: those of a
  * face are looked at when some more were read, and they have been fetched. */
-static void read_corners_of_faces(const struct obj_parser *p,
-                                  struct obj_run *run) {
+static inline void read_corners_of_faces(const struct obj_parser *p,
+                                         struct obj_run *run,
+                                         const size_t corners) {
   struct scene *scene = p->scene;
-  size_t corners = scene->corner.count + 3 * run->before, read = 0;
-  uint32_t *corner = scene->corner.item + corners;
+  size_t before = scene->corner.count + corners * run->before, read = 0;
+  uint32_t *corner = scene->corner.item + before;
   size_t face = scene->face_count + run->before;
   uint32_t *start =
       scene->face_start.count > 0 ? scene->face_start.item + face + 1 : NULL;
@@ -169,20 +178,20 @@ static void read_corners_of_faces(const struct obj_parser *p,
     begin[read % MEM_PREFETCH_AHEAD] = run->at;
     const char *past =
         goes_on && read < run->most && has_short_statement(run, 'f')
-            ? read_plain_face(p, run->at, &corner[3 * read])
+            ? read_plain_face(p, run->at, (int)corners, &corner[corners * read])
             : NULL;
     goes_on = past != NULL;
-    for (int k = 0; goes_on && k < 3; k++)
-      MEM_PREFETCH(&scene->point.item[corner[3 * read + (size_t)k]]);
+    for (size_t k = 0; goes_on && k < corners; k++)
+      MEM_PREFETCH(&scene->point.item[corner[corners * read + k]]);
     read += goes_on;
     run->at = goes_on ? past : run->at;
     if (goes_on && read - run->count < MEM_PREFETCH_AHEAD)
       continue;
     if (run->count == read ||
-        !obj_is_surely_bent(scene, &corner[3 * run->count]))
+        !is_surely_valid(scene, &corner[corners * run->count], corners))
       break;
     if (start != NULL)
-      start[run->count] = (uint32_t)(corners + 3 * (run->count + 1));
+      start[run->count] = (uint32_t)(before + corners * (run->count + 1));
     if (group != NULL)
       group[run->count] = scene->current_group;
     run->count++;
@@ -221,60 +230,117 @@ static inline const char *read_plain_normal(const struct obj_parser *p,
   return *at == ' ' || *at == '\n' ? at : NULL;
 }
 
+/* Reads the normals of the corners of "f a b c"; of a face without a normal at
+ * one of them, none.  Returns where it ends; NULL where one is not plain.
+ * any  gets the bits of those that it has, beside those that it had */
+static inline const char *read_normals_of_face(const struct obj_parser *p,
+                                               const char *at, size_t corners,
+                                               uint32_t *normal,
+                                               uint32_t *any) {
+  bool all = true;
+  uint32_t bits = 0;
+  at++;
+  for (size_t k = 0; k < corners; k++) {
+    at = read_plain_normal(p, at + 1, &normal[k]);
+    if (at == NULL)
+      return NULL;
+    all = all && normal[k] != 0;
+    bits |= normal[k];
+  }
+  for (size_t k = 0; k < corners && !all; k++)
+    normal[k] = 0;
+  *any |= all ? bits : 0;
+  return at + 1;
+}
+
 /* Reads the normals of the faces of a run, which begins at `at`; the run ends
  * before the first face with one that is not plain. */
 static void read_normals_of_faces(const struct obj_parser *p,
-                                  struct obj_run *run, const char *at) {
-  uint32_t *normal = p->run_normal.item + 3 * run->before;
-  uint32_t any = 0;
-  for (size_t f = 0; f < run->count; f++, at++) {
-    const char *start = at++;
-    for (int k = 0; k < 3; k++, any |= *normal++) {
-      at = read_plain_normal(p, at + 1, normal);
-      if (at == NULL) {
-        run->count = f;
-        run->at = start;
-        run->has_normals = any != 0;
-        return;
-      }
+                                  struct obj_run *run, const char *at,
+                                  size_t corners) {
+  uint32_t *normal = p->run_normal.item + corners * run->before, any = 0;
+  for (size_t f = 0; f < run->count; f++) {
+    const char *past =
+        read_normals_of_face(p, at, corners, &normal[corners * f], &any);
+    if (past == NULL) {
+      run->count = f;
+      run->at = at;
+      break;
     }
+    at = past;
   }
   run->has_normals = any != 0;
 }
 
-static bool read_faces(const struct obj_parser *p, struct obj_run *run) {
+static inline bool read_faces(const struct obj_parser *p, struct obj_run *run,
+                              const size_t corners) {
   const char *start = run->at;
-  read_corners_of_faces(p, run);
+  read_corners_of_faces(p, run, corners);
   if (wants_normals(p))
-    read_normals_of_faces(p, run, start);
+    read_normals_of_faces(p, run, start, corners);
   return true;
 }
 
-static bool add_run_faces(struct obj_parser *p, const struct obj_run *run) {
+static bool add_run_faces(struct obj_parser *p, const struct obj_run *run,
+                          size_t corners) {
   struct scene *scene = p->scene;
   size_t first = scene->corner.count;
-  scene->corner.count += 3 * run->count;
+  scene->corner.count += corners * run->count;
   scene->face_count += (uint32_t)run->count;
   if (scene->face_start.count > 0)
     scene->face_start.count += run->count;
   if (scene->face_group.count > 0)
     scene->face_group.count += run->count;
   return !scene->needs_crease_marks ||
-         corner_normals_add(
-             scene, first,
-             run->has_normals ? p->run_normal.item + 3 * run->before : NULL);
+         corner_normals_add(scene, first,
+                            run->has_normals
+                                ? p->run_normal.item + corners * run->before
+                                : NULL);
 }
 
-static bool reserve_faces(struct obj_parser *p, size_t count) {
+static bool reserve_faces(struct obj_parser *p, size_t count, size_t corners) {
   struct scene *scene = p->scene;
   return (scene->current_group == 0 || scene_list_groups(scene)) &&
-         scene_reserve_faces(scene, count, 3 * count) &&
-         (!wants_normals(p) || ARRAY_RESERVE(&p->run_normal, 3 * count));
+         scene_reserve_faces(scene, count, corners * count) &&
+         (!wants_normals(p) || ARRAY_RESERVE(&p->run_normal, corners * count));
+}
+
+/* ---- Kinds --------------------------------------------------------------- */
+
+static bool reserve_triangles(struct obj_parser *p, size_t count) {
+  return reserve_faces(p, count, 3);
+}
+
+static bool read_triangles(const struct obj_parser *p, struct obj_run *run) {
+  return read_faces(p, run, 3);
+}
+
+static bool add_triangles_of_run(struct obj_parser *p,
+                                 const struct obj_run *run) {
+  return add_run_faces(p, run, 3);
+}
+
+static bool reserve_quadrilaterals(struct obj_parser *p, size_t count) {
+  return reserve_faces(p, count, 4);
+}
+
+static bool read_quadrilaterals(const struct obj_parser *p,
+                                struct obj_run *run) {
+  return read_faces(p, run, 4);
+}
+
+static bool add_quadrilaterals_of_run(struct obj_parser *p,
+                                      const struct obj_run *run) {
+  return add_run_faces(p, run, 4);
 }
 
 const struct obj_run_kind obj_plain_points = {reserve_points, read_points,
                                               add_points},
-                          obj_plain_faces = {reserve_faces, read_faces,
-                                             add_run_faces};
+                          obj_plain_triangles = {reserve_triangles,
+                                                 read_triangles,
+                                                 add_triangles_of_run},
+                          obj_plain_quadrilaterals = {
+                              reserve_quadrilaterals, read_quadrilaterals,
+                              add_quadrilaterals_of_run};
 
 #endif

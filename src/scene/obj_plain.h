@@ -29,6 +29,7 @@ struct obj_run_kind {
   bool (*add)(struct obj_parser *p, const struct obj_run *run);
 };
 
-extern const struct obj_run_kind obj_plain_points, obj_plain_faces;
+extern const struct obj_run_kind obj_plain_points, obj_plain_triangles,
+    obj_plain_quadrilaterals;
 
 #endif

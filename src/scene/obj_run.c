@@ -243,7 +243,7 @@ static recto_status read_ahead(struct obj_parser *p,
   count = count < PARTS_MAX ? count : PARTS_MAX;
   *plain = false;
   if (workers == 1 || count == 0 ||
-      p->scene->corner.count + 3 * (left / STATEMENT_BYTES) > SCENE_LIMIT ||
+      p->scene->corner.count + 4 * (left / STATEMENT_BYTES) > SCENE_LIMIT ||
       p->scene->point.count + left / STATEMENT_BYTES > SCENE_LIMIT)
     return RECTO_OK;
   struct parts parts = {.p = p, .kind = kind, .count = count, .broken = count};
@@ -304,12 +304,16 @@ recto_status obj_run_points(struct obj_parser *p) {
              : read_run(p, &obj_plain_points);
 }
 
+/* Those that follow a triangle or a quadrilateral, and have as many corners. */
 recto_status obj_run_faces(struct obj_parser *p) {
   const struct scene *scene = p->scene;
   if (p->bad.count || p->renamed || scene->face_count == 0 ||
-      scene->corner.count > SCENE_LIMIT - 3 * PLAIN_RUN)
+      scene->corner.count > SCENE_LIMIT - 4 * PLAIN_RUN)
     return RECTO_OK;
-  return read_run(p, &obj_plain_faces);
+  uint32_t corners = scene_face_corners(scene, scene->face_count - 1);
+  return corners == 3   ? read_run(p, &obj_plain_triangles)
+         : corners == 4 ? read_run(p, &obj_plain_quadrilaterals)
+                        : RECTO_OK;
 }
 
 #else

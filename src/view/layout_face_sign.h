@@ -5,8 +5,8 @@
 
 #include "view/layout_phases.h"
 
-/* The orientation of a face on the page, whose triangles are the last ones, from
- * `first` on.
+/* The orientation of a face on the page, whose triangles are the last ones,
+ * from `first` on.
  *   All triangles whose sign is sure have one sign: that is the face's.  A
  *     polygon of many corners has triangles that rounding turns, and with two
  *     signs their diagonals would be drawn as silhouettes.
