@@ -504,6 +504,40 @@ static void hairs_within_half_a_pen_are_covered(void **state) {
   }
 }
 
+/* With smooth contours fills end at hairs, too; the longer line, 0.6 mm wide,
+ * must cover their seams. */
+static void hairs_beyond_which_seams_are_seen_are_drawn(void **state) {
+  (void)state;
+  const struct {
+    double away;
+    recto_fill fill;
+    recto_contours contours;
+    double seam;
+    bool covered;
+  } hair[] = {{0.09, RECTO_FILL_PAINT, RECTO_CONTOURS_SMOOTH, 0.4, true},
+              {0.11, RECTO_FILL_PAINT, RECTO_CONTOURS_SMOOTH, 0.4, false},
+              {0.11, RECTO_FILL_SHADE, RECTO_CONTOURS_SMOOTH, 0.4, false},
+              {0.14, RECTO_FILL_PAINT, RECTO_CONTOURS_SMOOTH, 0, true},
+              {0.14, RECTO_FILL_PAINT, RECTO_CONTOURS_SMOOTH, 0.6, true},
+              {0.14, RECTO_FILL_PAINT, RECTO_CONTOURS_MESH, 0.4, true},
+              {0.14, RECTO_FILL_HATCH, RECTO_CONTOURS_SMOOTH, 0.4, true}};
+  for (size_t i = 0; i < sizeof hair / sizeof *hair; i++) {
+    struct ink_fixture k;
+    start(&k);
+    k.options.ink.has_weights = false;
+    k.options.ink.min_stroke_mm = -1;
+    k.options.ink.fill = hair[i].fill;
+    k.options.ink.contours = hair[i].contours;
+    k.options.ink.seam_mm = hair[i].seam;
+    double y = 50 + hair[i].away;
+    ink_fixture_line(&k, 10, 50, 90, 50, SILHOUETTE);
+    ink_fixture_line(&k, 20, y, 22, y, SILHOUETTE);
+    ink_fixture_draw(&k);
+    assert_int_equal(k.drawing.counts.covered, hair[i].covered);
+    ink_fixture_end(&k);
+  }
+}
+
 static void a_hair_that_sticks_out_is_drawn(void **state) {
   static const unsigned of[2] = {SILHOUETTE, SILHOUETTE};
   (void)state;
@@ -601,6 +635,7 @@ int main(void) {
       cmocka_unit_test(shallow_lines_are_long_and_smooth),
       cmocka_unit_test(closed_lines_stay),
       cmocka_unit_test(hairs_within_half_a_pen_are_covered),
+      cmocka_unit_test(hairs_beyond_which_seams_are_seen_are_drawn),
       cmocka_unit_test(a_hair_that_sticks_out_is_drawn),
       cmocka_unit_test(what_covers_is_of_the_same_pen_and_as_wide),
       cmocka_unit_test(something_of_a_stack_of_hairs_stays),

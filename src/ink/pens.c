@@ -104,6 +104,16 @@ static void set_weights(struct pens *pens, const recto_options *options) {
         options->ink.weight[i].weight;
 }
 
+/* Fills end at smooth contours; at those of the mesh they end in any case.
+ * Hatching has no seams. */
+static double seam_under_lines(const recto_options *options) {
+  bool filled = options->ink.fill == RECTO_FILL_PAINT ||
+                options->ink.fill == RECTO_FILL_SHADE;
+  return filled && options->ink.contours == RECTO_CONTOURS_SMOOTH
+             ? fmax(options->ink.seam_mm, 0)
+             : 0;
+}
+
 recto_status pens_init(struct pens *pens, const struct scene *scene,
                        const recto_options *options, recto_error *error) {
   *pens = (struct pens){.of_hidden = PENS_NONE,
@@ -112,6 +122,7 @@ recto_status pens_init(struct pens *pens, const struct scene *scene,
                         .own_count = options->ink.pen_count,
                         .width_mm = options->ink.pen_mm,
                         .shortest_mm = options->ink.min_stroke_mm,
+                        .seam_mm = seam_under_lines(options),
                         .dashed = dash_pattern_classes(options),
                         .exact = options->ink.exact};
   for (int i = 0; i < RECTO_EDGE_CLASS_COUNT; i++)
@@ -152,6 +163,13 @@ uint32_t pens_of_hatch(const struct pens *pens, uint32_t group) {
 double pens_width_mm(const struct pens *pens, uint32_t pen) {
   double own = pen < pens->own_count ? pens->own[pen].width_mm : 0;
   return own > 0 ? own : pens->width_mm;
+}
+
+double pens_ink_reach_mm(const struct pens *pens, uint32_t pen,
+                         unsigned edge_class) {
+  double half = pens_width_mm(pens, pen) / 2;
+  double beside = pens_weight(pens, edge_class) * half - pens->seam_mm / 2;
+  return pens->seam_mm > 0 && beside > half / 8 ? fmin(half, beside) : half;
 }
 
 double pens_shortest_hatch_mm(const struct pens *pens, uint32_t pen) {

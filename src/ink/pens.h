@@ -27,6 +27,7 @@ struct pens {
                                             the bit */
   unsigned dashed;                       /* classes drawn as dashes, a mask */
   double width_mm, shortest_mm;          /* from the options */
+  double seam_mm; /* of fills whose outline lines must cover; 0: none */
   bool exact;
 };
 
@@ -67,6 +68,12 @@ static inline uint32_t pens_of_group(const struct pens *pens, uint32_t group) {
 }
 
 double pens_width_mm(const struct pens *pens, uint32_t pen);
+
+/* How far from a line of the pen and class, at most, a shorter one lies in its
+ * ink: half a pen, and no more than is left of the line beside a seam, so that
+ * it covers outlines of fills there; half a pen where next to nothing is. */
+double pens_ink_reach_mm(const struct pens *pens, uint32_t pen,
+                         unsigned edge_class);
 
 /* The lengths below which strokes of the pen are dropped: any line, at most
  * half the pen; chains of creases with a free end; lines of hatching. */

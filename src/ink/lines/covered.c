@@ -9,8 +9,9 @@
  *   5 decide   from the longest hair to the shortest those of which that says
  *              nothing yet, as they may be covered by hairs that are not drawn
  * A hair is divided into pieces of a quarter of a pen, and each must have both
- * ends within half a pen of one side of a longer path that is drawn; then all
- * of it is, as what is within a distance of a straight side is convex.
+ * ends within half a pen of one side of a longer path that is drawn, or within
+ * what the side covers beside a seam; then all of it is, as what is within a
+ * distance of a straight side is convex.
  * Cost  n log n in the sides; of a cell with many sides those of the longest
  *   paths alone are tried. */
 #include "ink/lines/paths.h"
@@ -33,7 +34,7 @@ enum {
 enum verdict { NOT_COVERED, COVERED, UNDECIDED }; /* the first of no hair */
 
 struct measured_path {
-  double length, near; /* grid units; near: half of its pen */
+  double length, near; /* grid units; near: what covers it is, at most */
   uint32_t rank;       /* 0: the longest */
   uint32_t layer;
   float weight;
@@ -93,7 +94,8 @@ static struct measured_path measure_path(const struct covering *c,
     m.length += distance(p[path->count - 1], p[0]);
   double mm = m.length / SHEET_UNITS_PER_MM;
   double shortest = pens_shortest_crease_mm(c->pens, m.layer);
-  m.near = pens_width_mm(c->pens, m.layer) / 2 * SHEET_UNITS_PER_MM;
+  m.near = pens_ink_reach_mm(c->pens, m.layer, edge->edge_class) *
+           SHEET_UNITS_PER_MM;
   m.is_drawn = mm >= pens_shortest_line_mm(c->pens, m.layer) &&
                !path->is_weak && !(path->is_free && mm < shortest);
   m.is_hair = m.is_drawn && mm < shortest && !path->closed;
@@ -233,8 +235,8 @@ static bool list_side(struct covering *c, uint32_t path, struct ink_point a,
                       struct ink_point b) {
   const struct measured_path *m = &c->measured[path];
   struct cover_side side = {a, b, m->rank, m->layer, m->weight, m->is_hair};
-  double reach = 2 * m->near, y0 = min_number(a.y, b.y),
-         y1 = max_number(a.y, b.y);
+  double reach = pens_width_mm(c->pens, m->layer) * SHEET_UNITS_PER_MM,
+         y0 = min_number(a.y, b.y), y1 = max_number(a.y, b.y);
   uint32_t number = (uint32_t)c->side.count;
   bool found = false;
   for (int64_t row = cell_along(c, 1, y0 - reach);
