@@ -213,8 +213,9 @@ static void keys_exclude_only_disjoint_triangles(void **state) {
   int denied = 0, met = 0;
   (void)state;
   for (int i = 0; i < 20000; i++) {
-    struct kdop8_range range = {number(10), number(10), i % 12,
-                                (int64_t)(exact_random(&seed) >> 50), i % 10};
+    struct kdop8_range range = {
+        number(10), number(10), i % 12, (int64_t)(exact_random(&seed) >> 50),
+        i % 10,     false};
     struct geom_point p[3], q[3];
     for (int k = 0; k < 3; k++) {
       p[k] = place(11, 15);
@@ -230,6 +231,49 @@ static void keys_exclude_only_disjoint_triangles(void **state) {
   }
   assert_true(denied > 1000);
   assert_true(met > 1000);
+}
+
+/* A difference of a cell's corner and a coordinate, of any magnitude that fits
+ * into lanes, and often the greatest. */
+static int32_t difference_in_lanes(void) {
+  const int32_t most = (1 << 29) - 1;
+  int32_t d = number(4 + (int)(exact_random(&seed) % 26));
+  return exact_random(&seed) % 8 == 0 ? (d < 0 ? -most : most)
+         : d < -most                  ? -most
+         : d > most                   ? most
+                                      : d;
+}
+
+/* For any size of cell and all differences for which lanes are used. */
+static void keys_and_queries_in_lanes_are_those_of_numbers(void **state) {
+  int inner = 0;
+  (void)state;
+  assert_false(kdop8_fits_lanes(6, 1 << 20));
+  assert_false(kdop8_fits_lanes(20, (1 << 29) + 1));
+  for (int i = 0; i < 20000; i++) {
+    struct kdop8_range range = {.x0 = number(29),
+                                .y0 = number(29),
+                                .shift = 7 + i % 23,
+                                .z0 = number(20),
+                                .z_shift = i % 10};
+    struct geom_point p[3];
+    assert_true(kdop8_fits_lanes(range.shift, 1 << 29));
+    for (int k = 0; k < 3; k++)
+      p[k] = (struct geom_point){range.x0 + difference_in_lanes(),
+                                 range.y0 + difference_in_lanes(), number(25)};
+    struct kdop8 kdop = kdop8_of(p, 3);
+    uint64_t key = kdop8_key(&range, &kdop);
+    assert_true(key == kdop8_key_of_triangle(&range, &p[0], &p[1], &p[2]));
+    inner += (key & 63) != 0 && (key & 63) != 63;
+    for (int k = 0; k < 4; k++) {
+      kdop.least[k] -= 2;
+      kdop.most[k] += 2;
+    }
+    uint64_t query = kdop8_query(&range, &kdop);
+    range.fits_lanes = true;
+    assert_true(query == kdop8_query(&range, &kdop));
+  }
+  assert_true(inner > 1000);
 }
 
 /* Also where two triangles have one slot. */
@@ -259,6 +303,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(doubles_are_right_or_undecided),
       cmocka_unit_test(keys_exclude_only_disjoint_triangles),
+      cmocka_unit_test(keys_and_queries_in_lanes_are_those_of_numbers),
       cmocka_unit_test(a_cached_plane_is_that_of_its_triangle),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

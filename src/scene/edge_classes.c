@@ -260,22 +260,34 @@ static inline struct crease_direction direction_of(struct face_normal n) {
                                    round_direction(n.z * scale)};
 }
 
-/* Where all faces are triangles these are looked at without the tests that only
- * others need. */
 static bool find_normal_directions(void *user, struct parallel_range range) {
   const struct crease_work *work = user;
   const struct scene *scene = work->scene;
-  const struct scene_point *point = scene->point.item;
-  bool triangles = scene->face_start.count == 0;
   for (size_t f = range.begin; f < range.end; f++) {
     if (f + MEM_PREFETCH_AHEAD < range.end)
       prefetch_corners(scene, (uint32_t)f + MEM_PREFETCH_AHEAD);
-    struct face_normal n = {0, 0, 0, 0};
-    if (triangles)
-      n = area_of_corners(point, scene->corner.item + 3 * f);
+    work->direction[f] = direction_of(normal_of_face(scene, (uint32_t)f));
+  }
+  return true;
+}
+
+/* The same where all faces are triangles, without the tests that only others
+ * need. */
+static bool find_triangle_directions(void *user, struct parallel_range range) {
+  const struct crease_work *work = user;
+  const struct scene_point *point = work->scene->point.item;
+  const uint32_t *corner = work->scene->corner.item + 3 * range.begin;
+  struct crease_direction *direction = work->direction;
+  for (size_t f = range.begin; f < range.end; f++, corner += 3) {
+    if (f + MEM_PREFETCH_AHEAD < range.end) {
+      MEM_PREFETCH(&point[corner[3 * MEM_PREFETCH_AHEAD]]);
+      MEM_PREFETCH(&point[corner[3 * MEM_PREFETCH_AHEAD + 1]]);
+      MEM_PREFETCH(&point[corner[3 * MEM_PREFETCH_AHEAD + 2]]);
+    }
+    struct face_normal n = area_of_corners(point, corner);
     if (!is_in_range(n.square))
-      n = normal_of_face(scene, (uint32_t)f);
-    work->direction[f] = direction_of(n);
+      n = normal_of_odd_face(work->scene, (uint32_t)f);
+    direction[f] = direction_of(n);
   }
   return true;
 }
@@ -371,11 +383,14 @@ bool topology_class_masks(const struct topology *topology,
       .class_masks = class_masks,
   };
   int workers = parallel_workers(faces, PARALLEL_ITEMS);
-  bool ok = work.direction != NULL &&
-            parallel_ranges(workers, faces, PARALLEL_ITEMS,
-                            find_normal_directions, &work) &&
-            parallel_ranges(workers, topology->edge.count, PARALLEL_ITEMS,
-                            find_masks, &work);
+  bool ok =
+      work.direction != NULL &&
+      parallel_ranges(workers, faces, PARALLEL_ITEMS,
+                      scene->face_start.count == 0 ? find_triangle_directions
+                                                   : find_normal_directions,
+                      &work) &&
+      parallel_ranges(workers, topology->edge.count, PARALLEL_ITEMS, find_masks,
+                      &work);
   mem_free(work.direction);
   if (ok)
     crease_marks_apply(topology, class_masks);

@@ -19,7 +19,7 @@
 #ifndef VISIBILITY_INDEX_KDOP8_H
 #define VISIBILITY_INDEX_KDOP8_H
 
-#include "geom/predicate.h"
+#include "visibility/predicate/point_lanes.h"
 
 /* The cell and the depth range to which keys are relative. */
 struct kdop8_range {
@@ -27,7 +27,16 @@ struct kdop8_range {
   int shift;   /* the cell's side is 2^shift */
   int64_t z0;  /* the least depth */
   int z_shift; /* depths are quantised to steps of 2^z_shift */
+  /* Coordinates differ from x0 and y0 by so little, and a step of x + y is so
+   * large, that the four extents are found at once, in lanes of 32 bits. */
+  bool fits_lanes;
 };
+
+/* Whether it does for a cell of that side, where coordinates differ from its
+ * corner by less than `extent`; a few more are allowed for rounding. */
+static inline bool kdop8_fits_lanes(int shift, int64_t extent) {
+  return shift > 6 && extent <= INT64_C(1) << 29;
+}
 
 enum {
   KDOP8_LANE = 7, /* bits of a lane, guard bit included */
@@ -91,6 +100,54 @@ static inline int kdop8_steps(const struct kdop8_range *f, int k) {
   return steps > 0 ? steps : 0;
 }
 
+/* The four extents of a point less their least values in the cell, x and y
+ * doubled so that all have the same steps; in lanes. */
+static inline point_lanes kdop8_extents(const struct kdop8_range *f, int32_t x,
+                                        int32_t y) {
+  x -= f->x0;
+  y -= f->y0;
+  return (point_lanes){2 * x, 2 * y, x + y, x - y + (1 << f->shift)};
+}
+
+/* What kdop8_lanes makes of all extents, from such lanes. */
+static inline uint64_t kdop8_all_lanes(const struct kdop8_range *f,
+                                       point_lanes first,
+                                       point_lanes complemented) {
+  const point_lanes most = {KDOP8_MAX, KDOP8_MAX, KDOP8_MAX, KDOP8_MAX},
+                    none = {0, 0, 0, 0};
+  first = point_lanes_max(point_lanes_min(first >> (f->shift - 5), most), none);
+  complemented = point_lanes_max(
+      point_lanes_min(complemented >> (f->shift - 5), most), none);
+  point_lanes both = first | (most - complemented) << KDOP8_LANE;
+  return (uint64_t)both[0] | (uint64_t)both[1] << 2 * KDOP8_LANE |
+         (uint64_t)both[2] << 4 * KDOP8_LANE |
+         (uint64_t)both[3] << 6 * KDOP8_LANE;
+}
+
+/* The key of a triangle, as kdop8_key has it, where all fits into lanes. */
+static inline uint64_t kdop8_key_of_triangle(const struct kdop8_range *f,
+                                             const struct geom_point *a,
+                                             const struct geom_point *b,
+                                             const struct geom_point *c) {
+  point_lanes p = kdop8_extents(f, a->x, a->y),
+              q = kdop8_extents(f, b->x, b->y),
+              r = kdop8_extents(f, c->x, c->y);
+  int64_t high = a->z > b->z ? a->z : b->z;
+  high = c->z > high ? c->z : high;
+  return kdop8_lane((high - f->z0) >> f->z_shift, 8) |
+         kdop8_all_lanes(f, point_lanes_max(point_lanes_max(p, q), r),
+                         point_lanes_min(point_lanes_min(p, q), r));
+}
+
+/* The ends of an 8-DOP's extents, as kdop8_extents has those of a point. */
+static inline point_lanes kdop8_extents_of_ends(const struct kdop8_range *f,
+                                                const int64_t end[4]) {
+  int64_t x = f->x0, y = f->y0;
+  return (point_lanes){(int32_t)(2 * (end[0] - x)), (int32_t)(2 * (end[1] - y)),
+                       (int32_t)(end[2] - x - y),
+                       (int32_t)(end[3] - x + y + (1 << f->shift))};
+}
+
 /* The key of an 8-DOP that is stored in an index. */
 static inline uint64_t kdop8_key(const struct kdop8_range *f,
                                  const struct kdop8 *o) {
@@ -110,6 +167,9 @@ static inline uint64_t kdop8_key(const struct kdop8_range *f,
 static inline uint64_t kdop8_query(const struct kdop8_range *f,
                                    const struct kdop8 *o) {
   uint64_t query = kdop8_lane((o->low - f->z0) >> f->z_shift, 8);
+  if (f->fits_lanes)
+    return query | kdop8_all_lanes(f, kdop8_extents_of_ends(f, o->least),
+                                   kdop8_extents_of_ends(f, o->most));
   KDOP8_UNROLL
   for (int k = 0; k < 4; k++) {
     int64_t origin = kdop8_origin(f, k);

@@ -194,10 +194,16 @@ struct kdop8_range tile_candidates_range(const struct tile_candidates *list,
   int low = __builtin_ctzll(z_buckets),
       buckets = 64 - __builtin_clzll(z_buckets) - low;
   int bits = buckets > 1 ? 32 - __builtin_clz((unsigned)buckets - 1) : 0;
-  return (struct kdop8_range){(int32_t)(grid->x0 + ((int64_t)x << grid->shift)),
-                              (int32_t)(grid->y0 + ((int64_t)y << grid->shift)),
-                              grid->shift, (int64_t)low << TILE_BUCKET_SHIFT,
-                              TILE_BUCKET_SHIFT + bits - 6};
+  int side = grid->columns > grid->rows ? grid->columns : grid->rows;
+  return (struct kdop8_range){
+      .x0 = (int32_t)(grid->x0 + ((int64_t)x << grid->shift)),
+      .y0 = (int32_t)(grid->y0 + ((int64_t)y << grid->shift)),
+      .shift = grid->shift,
+      .z0 = (int64_t)low << TILE_BUCKET_SHIFT,
+      .z_shift = TILE_BUCKET_SHIFT + bits - 6,
+      /* No point of the sheet is outside of the grid. */
+      .fits_lanes =
+          kdop8_fits_lanes(grid->shift, (int64_t)side << grid->shift)};
 }
 
 /* Fetches a triangle that comes later in the lists, and the corners of one that
@@ -213,6 +219,17 @@ MEM_PREFETCH_INLINE void prefetch_triangles(const struct tile_candidates *list,
   sheet_prefetch_corners(sheet, list->grid.lists.item[i + MEM_PREFETCH_AHEAD]);
 }
 
+/* The key of a triangle of any size in a cell of any size. */
+static uint64_t key_of_triangle(const struct kdop8_range *range,
+                                const struct geom_point *a,
+                                const struct geom_point *b,
+                                const struct geom_point *c) {
+  struct kdop8 kdop = kdop8_of_point(*a);
+  kdop8_add(&kdop, *b);
+  kdop8_add(&kdop, *c);
+  return kdop8_key(range, &kdop);
+}
+
 /* Computes the keys of a cell's list.  A triangle that is seen edge-on
  * and occludes nothing, gets the key 0, which overlaps next to no query.
  * end  of the lists of the range of cells */
@@ -221,16 +238,18 @@ static void compute_keys(struct tile_candidates *list,
   size_t columns = (size_t)list->grid.columns,
          from = list->grid.lists.start[cell],
          to = list->grid.lists.start[cell + 1];
+  const struct geom_point *point = sheet->point.item;
   struct kdop8_range range =
       tile_candidates_range(list, (int)(cell % columns), (int)(cell / columns));
   for (size_t i = from; i < to; i++) {
     uint32_t t = list->grid.lists.item[i];
     const uint32_t *p = sheet->triangle.item[t].point;
     prefetch_triangles(list, sheet, i, end);
-    struct kdop8 kdop = kdop8_of_point(sheet->point.item[p[0]]);
-    kdop8_add(&kdop, sheet->point.item[p[1]]);
-    kdop8_add(&kdop, sheet->point.item[p[2]]);
-    list->key[i] = sheet_is_edge_on(sheet, t) ? 0 : kdop8_key(&range, &kdop);
+    const struct geom_point *a = &point[p[0]], *b = &point[p[1]],
+                            *c = &point[p[2]];
+    list->key[i] = sheet_is_edge_on(sheet, t) ? 0
+                   : range.fits_lanes ? kdop8_key_of_triangle(&range, a, b, c)
+                                      : key_of_triangle(&range, a, b, c);
   }
 }
 
