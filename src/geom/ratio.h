@@ -15,8 +15,15 @@ struct ratio {
 /* ratio_compare where some number has more than 64 bits. */
 int ratio_compare_wide(struct ratio a, struct ratio b);
 
+/* Whether a number has 64 bits.  Compared by its halves: from a comparison with
+ * itself, cut to 64 bits, compilers conclude that they are the same, and
+ * multiply 128 bits where 64 are enough. */
+static inline bool ratio_fits(int128 a) {
+  return (int64_t)(a >> 64) == (int64_t)a >> 63;
+}
+
 static inline bool ratio_is_narrow(struct ratio a) {
-  return a.num == (int64_t)a.num && a.den == (int64_t)a.den;
+  return ratio_fits(a.num) && ratio_fits(a.den);
 }
 
 /* The sign of a - b.  Exact: products are formed in 256 bits where 128 are too

@@ -111,7 +111,8 @@ static void clip_after(struct occluded_interval *interval, struct ratio t) {
 static bool clip_to_sides(const int64_t s[3], const int64_t t[3],
                           struct occluded_interval *interval) {
   int64_t from = 0, from_den = 1, to = 1, to_den = 1;
-  for (int k = 0; k < 3; k++) {
+  UNROLL_CORNERS /* the first time the parameters are known */
+      for (int k = 0; k < 3; k++) {
     int64_t den = s[k] < 0 ? t[k] - s[k] : s[k] - t[k];
     if (s[k] < 0 && (int128)from * den < (int128)-s[k] * from_den) {
       from = -s[k];
