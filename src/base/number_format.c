@@ -70,31 +70,59 @@ size_t number_format(char text[NUMBER_TEXT_SIZE], double value, int decimals) {
   return put_fixed_point(text, value < 0, whole, part, decimals);
 }
 
+/* The numbers from 00 to 99. */
+static const char pairs_of_digits[] =
+    "000102030405060708091011121314151617181920212223242526272829"
+    "303132333435363738394041424344454647484950515253545556575859"
+    "606162636465666768697071727374757677787980818283848586878889"
+    "90919293949596979899";
+
+static inline char *put_pair_before(char *end, uint32_t pair) {
+  memcpy(end - 2, pairs_of_digits + 2 * pair, 2);
+  return end - 2;
+}
+
+/* Writes the digits of `value` so that they end there, none of 0; returns where
+ * they begin. */
+static inline char *put_digits_before(char *end, uint64_t value) {
+  for (; value > UINT32_MAX; value /= 100)
+    end = put_pair_before(end, (uint32_t)(value % 100));
+  uint32_t rest = (uint32_t)value;
+  for (; rest >= 100; rest /= 100)
+    end = put_pair_before(end, rest % 100);
+  if (rest >= 10)
+    return put_pair_before(end, rest);
+  if (rest > 0)
+    *--end = (char)('0' + rest);
+  return end;
+}
+
 /* The digits before and after the point are one number's, which takes no
- * division by a power of ten that is not known to the compiler. */
+ * division by a power of ten that is not known to the compiler.  As many bytes
+ * are always copied as there may be, which takes no call; what is too much is
+ * written over, or left behind the end. */
 size_t number_format_scaled(char text[NUMBER_TEXT_SIZE], int64_t value,
                             int decimals) {
   assert(decimals >= 0 && decimals <= 9);
-  uint64_t rest = value < 0 ? 0 - (uint64_t)value : (uint64_t)value;
-  char digits[DIGITS_MAX], *end = digits + sizeof digits, *first = end;
-  for (; rest > UINT32_MAX; rest /= 10)
-    *--first = (char)('0' + rest % 10);
-  for (uint32_t low = (uint32_t)rest; low != 0; low /= 10)
-    *--first = (char)('0' + low % 10);
+  enum { WHOLE_MAX = 24, PART_MAX = 16 };
+  char digits[DIGITS_MAX + WHOLE_MAX] = {0}, *end = digits + DIGITS_MAX;
+  char *first =
+      put_digits_before(end, value < 0 ? 0 - (uint64_t)value : (uint64_t)value);
   while (end - first <= decimals)
     *--first = '0';
   const char *point = end - decimals;
   while (end > point && end[-1] == '0')
     end--;
   char *p = text;
-  if (value < 0)
-    *p++ = '-';
-  while (first < point)
-    *p++ = *first++;
-  if (first < end)
+  *p = '-';
+  p += value < 0;
+  memcpy(p, first, WHOLE_MAX);
+  p += point - first;
+  if (point < end) {
     *p++ = '.';
-  while (first < end)
-    *p++ = *first++;
+    memcpy(p, point, PART_MAX);
+    p += end - point;
+  }
   *p = '\0';
   return (size_t)(p - text);
 }
