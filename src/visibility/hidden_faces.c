@@ -34,7 +34,7 @@ enum {
   BOX_PER_AREA = 4, /* a typical triangle's box has this multiple of its area */
   LARGE_SHARE = 1 << 10, /* of the scene's square size: the least large face */
   LARGE_MAX = 1 << 12,   /* as many large faces are laid out */
-  CELLS_FOR = 1 << 16,   /* the cells are those of so many triangles */
+  CELLS_FOR = 1 << 15,   /* the cells are those of so many triangles */
   LIKE_LARGEST = 16,     /* one part of so many of the largest face's size */
   SHARE_MAX = 4,         /* one part of so many of all faces are that large */
   ROUNDS_MAX = 16        /* of restoring connected runs */
