@@ -90,19 +90,35 @@ static bool do_bands(struct culling_work *work, parallel_task *task) {
 
 /* ---- Test ---------------------------------------------------------------- */
 
+/* A triangle, and how each of its sides runs: x per y. */
+struct run_triangle {
+  struct geom_triangle corners;
+  double run[3]; /* not used of a side along x */
+};
+
+static struct run_triangle run_triangle_of(const struct sheet *sheet,
+                                           uint32_t triangle) {
+  struct run_triangle t = {.corners = sheet_corners(sheet, triangle)};
+  for (int k = 0; k < 3; k++) {
+    struct geom_point p = t.corners.p[k], q = t.corners.p[geom_next_corner(k)];
+    t.run[k] = ((double)q.x - p.x) / ((double)q.y - p.y);
+  }
+  return t;
+}
+
 /* The columns of a row that the triangle meets, or comes close to. */
 static bool columns_in_row(const struct culling_work *work,
-                           const struct geom_triangle *corners, int y, int *x0,
+                           const struct run_triangle *triangle, int y, int *x0,
                            int *x1) {
+  const struct geom_point *corner = triangle->corners.p;
   const struct triangle_grid *cells = &work->buffer->cells;
   int64_t side = INT64_C(1) << cells->shift;
   double low = (double)(cells->y0 + y * side - work->xy_margin),
          high = (double)(cells->y0 + (y + 1) * side + work->xy_margin),
          least = INFINITY, most = -INFINITY;
   for (int k = 0; k < 3; k++) {
-    struct geom_point p = corners->p[k], q = corners->p[geom_next_corner(k)];
-    double from = p.y, to = q.y, x = p.x,
-           run = ((double)q.x - p.x) / (to - from);
+    double from = corner[k].y, to = corner[geom_next_corner(k)].y,
+           x = corner[k].x, run = triangle->run[k];
     if (from >= low && from <= high) {
       least = min_number(least, x);
       most = max_number(most, x);
@@ -128,7 +144,7 @@ static bool columns_in_row(const struct culling_work *work,
 /* A triangle to be tested, and its plane once that is needed. */
 struct tested_triangle {
   const struct culling_candidate *candidate;
-  struct geom_triangle corners;
+  struct run_triangle triangle;
   int32_t farthest; /* its farthest depth, with the margin, in steps */
   bool has_plane;
   struct depth_plane plane;
@@ -139,7 +155,7 @@ static double margin_of(const struct culling_work *work,
                         const struct tested_triangle *tested) {
   double margin = work->margin;
   if (work->fragments)
-    margin += culling_thickness(&work->contact, &tested->corners);
+    margin += culling_thickness(&work->contact, &tested->triangle.corners);
   return margin;
 }
 
@@ -148,9 +164,9 @@ begin_test(const struct culling_work *work,
            const struct culling_candidate *candidate) {
   struct tested_triangle tested = {
       .candidate = candidate,
-      .corners = sheet_corners(work->sheet, candidate->triangle)};
+      .triangle = run_triangle_of(work->sheet, candidate->triangle)};
   int64_t low, high;
-  geom_depth_range(tested.corners.p, &low, &high);
+  geom_depth_range(tested.triangle.corners.p, &low, &high);
   tested.farthest =
       sheet_is_edge_on(work->sheet, candidate->triangle)
           ? candidate->nearest
@@ -163,7 +179,7 @@ begin_test(const struct culling_work *work,
 static int32_t nearest_in_cell(const struct culling_work *work,
                                struct tested_triangle *tested, int x, int y) {
   const struct triangle_grid *cells = &work->buffer->cells;
-  const struct geom_point *p = tested->corners.p;
+  const struct geom_point *p = tested->triangle.corners.p;
   double side = (double)(INT64_C(1) << cells->shift),
          margin = (double)work->xy_margin;
   if (!tested->has_plane) {
@@ -219,7 +235,7 @@ static bool is_triangle_hidden(struct band_work *work,
     if (occlusion_buffer_hides_in_blocks(buffer, part, candidate->nearest))
       continue;
     for (int y = part.y0, x0, x1; y <= part.y1; y++) {
-      if (!columns_in_row(work->work, &tested.corners, y, &x0, &x1))
+      if (!columns_in_row(work->work, &tested.triangle, y, &x0, &x1))
         continue;
       work->tests -= 1 + ((x1 - x0) >> OCCLUSION_BLOCK_SHIFT);
       if (work->tests < 0 || !is_hidden_in_row(work, &tested, y, x0, x1))
@@ -260,15 +276,16 @@ static void add_thickness(struct band_work *work,
                           const struct culling_candidate *candidate) {
   const struct culling_work *all = work->work;
   const struct triangle_grid *cells = &work->buffer->cells;
-  struct geom_triangle corners = sheet_corners(all->sheet, candidate->triangle);
+  struct run_triangle triangle =
+      run_triangle_of(all->sheet, candidate->triangle);
   struct cell_range r = rows_in_band(work, candidate);
   int32_t steps =
-      occlusion_steps_up(culling_thickness(&all->contact, &corners));
+      occlusion_steps_up(culling_thickness(&all->contact, &triangle.corners));
   if (steps <= all->thickness_min || work->tests < 0 ||
       sheet_is_edge_on(all->sheet, candidate->triangle))
     return;
   for (int y = r.y0, x0, x1; y <= r.y1; y++)
-    if (columns_in_row(all, &corners, y, &x0, &x1)) {
+    if (columns_in_row(all, &triangle, y, &x0, &x1)) {
       work->tests -= 1 + ((x1 - x0) >> OCCLUSION_BLOCK_SHIFT);
       for (int x = x0; x <= x1; x++) {
         int32_t *at =

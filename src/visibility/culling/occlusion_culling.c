@@ -189,13 +189,16 @@ void occlusion_culling_fini(struct occlusion_culling *culling) {
  * is to be hidden may be off it. */
 struct tested_segment {
   double x, y, z, dx, dy, dz, xy_off, z_off;
+  double per_x, per_y;       /* the parameter's changes: 1 / dx, 1 / dy, or 0 */
+  double side, per_side;     /* that of a cell, and 1 / side, which is exact */
   int32_t nearest, farthest; /* of its depths, with the margin, in steps */
 };
 
-/* The parameter at which a segment that starts at `from` and runs by `delta`
+/* The parameter at which a segment that starts at `from` and runs by 1 / `per`
  * leaves a cell from `low` to `high`; 1 where it does not. */
-static double leaves_at(double from, double delta, double low, double high) {
-  double t = delta == 0 ? 1 : ((delta > 0 ? high : low) - from) / delta;
+static inline double leaves_at(double from, double per, double low,
+                               double high) {
+  double t = per == 0 ? 1 : ((per > 0 ? high : low) - from) * per;
   return t < 1 ? t : 1;
 }
 
@@ -204,29 +207,35 @@ static int32_t nearest_of_segment(const struct occlusion_culling *culling,
                                   const struct tested_segment *s, int x,
                                   int y) {
   const struct triangle_grid *cells = &culling->buffer.cells;
-  double side = (double)(INT64_C(1) << cells->shift),
-         left = cells->x0 + x * side, low = cells->y0 + y * side,
-         off = s->xy_off,
-         at_x = leaves_at(s->x, s->dx, left - off, left + side + off),
-         at_y = leaves_at(s->y, s->dy, low - off, low + side + off),
+  double side = s->side, left = cells->x0 + x * side,
+         low = cells->y0 + y * side, off = s->xy_off,
+         at_x = leaves_at(s->x, s->per_x, left - off, left + side + off),
+         at_y = leaves_at(s->y, s->per_y, low - off, low + side + off),
          t = at_x < at_y ? at_x : at_y, z = t > 0 ? s->z + t * s->dz : s->z;
   return occlusion_steps_up(z + 1 + s->z_off);
 }
 
-static struct tested_segment begin_segment(struct geom_point p,
-                                           struct geom_point q, double xy_off,
-                                           double z_off) {
+static struct tested_segment
+begin_segment(const struct occlusion_culling *culling, struct geom_point p,
+              struct geom_point q, double xy_off, double z_off) {
   struct geom_point far = p.z < q.z ? p : q, near = p.z < q.z ? q : p;
-  return (struct tested_segment){far.x,
-                                 far.y,
-                                 (double)far.z,
-                                 (double)near.x - far.x,
-                                 (double)near.y - far.y,
-                                 (double)(near.z - far.z),
-                                 xy_off,
-                                 z_off,
-                                 occlusion_steps_up((double)near.z + z_off),
-                                 occlusion_steps_up((double)far.z + z_off)};
+  double dx = (double)near.x - far.x, dy = (double)near.y - far.y,
+         side = (double)(INT64_C(1) << culling->buffer.cells.shift);
+  return (struct tested_segment){
+      .x = far.x,
+      .y = far.y,
+      .z = (double)far.z,
+      .dx = dx,
+      .dy = dy,
+      .dz = (double)(near.z - far.z),
+      .xy_off = xy_off,
+      .z_off = z_off,
+      .per_x = dx != 0 ? 1 / dx : 0,
+      .per_y = dy != 0 ? 1 / dy : 0,
+      .side = side,
+      .per_side = 1 / side,
+      .nearest = occlusion_steps_up((double)near.z + z_off),
+      .farthest = occlusion_steps_up((double)far.z + z_off)};
 }
 
 static bool is_hidden_in_cell(const struct occlusion_culling *culling,
@@ -237,9 +246,10 @@ static bool is_hidden_in_cell(const struct occlusion_culling *culling,
 }
 
 /* The column of an x, within a range. */
-static int column_of(const struct triangle_grid *cells, struct cell_range r,
-                     double x) {
-  double column = (x - cells->x0) / (double)(INT64_C(1) << cells->shift);
+static inline int column_of(const struct triangle_grid *cells,
+                            const struct tested_segment *s, struct cell_range r,
+                            double x) {
+  double column = (x - cells->x0) * s->per_side;
   return column < r.x0 ? r.x0 : column > r.x1 ? r.x1 : (int)column;
 }
 
@@ -248,19 +258,17 @@ static int column_of(const struct triangle_grid *cells, struct cell_range r,
 static void columns_near(const struct triangle_grid *cells,
                          const struct tested_segment *s, struct cell_range r,
                          int y, int *x0, int *x1) {
-  double side = (double)(INT64_C(1) << cells->shift),
-         low = cells->y0 + y * side - s->xy_off,
-         high = low + side + 2 * s->xy_off, off = s->xy_off + 1,
-         run = s->dy != 0 ? 1 / s->dy : 0, a = (low - s->y) * run,
-         b = (high - s->y) * run;
-  if (s->dy == 0) {
+  double low = cells->y0 + y * s->side - s->xy_off,
+         high = low + s->side + 2 * s->xy_off, off = s->xy_off + 1,
+         a = (low - s->y) * s->per_y, b = (high - s->y) * s->per_y;
+  if (s->per_y == 0) {
     a = 0;
     b = 1;
   }
   a = s->x + s->dx * (a < 0 ? 0 : a > 1 ? 1 : a);
   b = s->x + s->dx * (b < 0 ? 0 : b > 1 ? 1 : b);
-  *x0 = column_of(cells, r, (a < b ? a : b) - off);
-  *x1 = column_of(cells, r, (a < b ? b : a) + off);
+  *x0 = column_of(cells, s, r, (a < b ? a : b) - off);
+  *x1 = column_of(cells, s, r, (a < b ? b : a) + off);
 }
 
 bool occlusion_culling_hides_near(const struct occlusion_culling *culling,
@@ -269,7 +277,8 @@ bool occlusion_culling_hides_near(const struct occlusion_culling *culling,
   const struct triangle_grid *cells = &culling->buffer.cells;
   if (culling->culled == NULL || !(xy < SHEET_XY_MAX / 2))
     return false;
-  struct tested_segment s = begin_segment(p, q, xy, z + culling->margin);
+  struct tested_segment s =
+      begin_segment(culling, p, q, xy, z + culling->margin);
   struct box2 box = box2_of_segment(p, q);
   int32_t off = (int32_t)ceil(xy);
   struct cell_range r =
@@ -349,7 +358,7 @@ occlusion_culling_rest(const struct occlusion_culling *culling,
   struct segment_part rest = {OCCLUSION_PARTS, 0};
   if (culling->culled == NULL)
     return (struct segment_part){0, OCCLUSION_PARTS};
-  struct tested_segment s = begin_segment(p, q, 0, culling->margin);
+  struct tested_segment s = begin_segment(culling, p, q, 0, culling->margin);
   struct cell_range r =
       triangle_grid_cells(&culling->buffer.cells, box2_of_segment(p, q));
   int y0 = r.y0, y1 = r.y1;
