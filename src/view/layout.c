@@ -22,6 +22,7 @@ static void free_layout(struct layout *layout) {
   mem_free(layout->clipped_ends.slot);
   ARRAY_FREE(&layout->diagonal);
   ARRAY_FREE(&layout->part);
+  ARRAY_FREE(&layout->whole);
   ARRAY_FREE(&layout->fold);
   ARRAY_FREE(&layout->corner);
   triangulation_fini(&layout->triangulation);

@@ -214,6 +214,7 @@ struct layout {
   struct triangulation triangulation;
   ARRAY(struct layout_diagonal) diagonal;     /* of the current face */
   ARRAY(struct layout_clipped_triangle) part; /* likewise, if it is clipped */
+  ARRAY(struct layout_triangle) whole;        /* its triangles, if it is not */
   ARRAY(struct layout_fold) fold;
   ARRAY(uint32_t) corner; /* of the current face, welded */
   recto_error *error;

@@ -140,21 +140,21 @@ static recto_status add_whole_face(struct layout *layout, uint32_t face,
                                    uint32_t start, uint32_t count) {
   size_t triangles = layout->triangulation.triangle.count;
   size_t first = layout->flags.count;
+  layout->whole.count = 0;
+  if (!ARRAY_RESERVE(&layout->whole, triangles))
+    return error_memory(layout->error);
   for (size_t t = 0; t < triangles; t++) {
-    struct layout_triangle triangle =
-        nth_triangle(layout, face, start, count, t);
-    layout_add_whole(layout, &triangle);
+    layout->whole.item[t] = nth_triangle(layout, face, start, count, t);
+    layout_add_whole(layout, &layout->whole.item[t]);
   }
   int common;
   bool is_common = layout_face_sign(layout, face, first, &common);
   recto_status status = RECTO_OK;
   for (size_t t = 0; t < triangles; t++) {
-    struct layout_triangle triangle =
-        nth_triangle(layout, face, start, count, t);
     uint8_t flags = layout->flags.item[first + t];
     int own = flags & SHEET_EDGE_ON ? 0 : flags & SHEET_FLIPPED ? -1 : 1;
     int sign = is_common ? common : own;
-    layout_record_triangle_sides(layout, &triangle, sign);
+    layout_record_triangle_sides(layout, &layout->whole.item[t], sign);
     if (sign != own && status == RECTO_OK)
       status = add_contours(layout, first + t);
   }

@@ -38,8 +38,8 @@ struct cyclic_tour {
   uint32_t *position;     /* of each stop: its index in `stop` */
   bool *reversed;         /* of each stop: drawn from its second end */
   struct nearest nearest; /* of the ends */
-  /* Of each end up to NEIGHBOURS ends, nearest first, padded with NEAREST_NONE:
-   * those nearer than `known`, which a gap at the end was wider than at most. */
+  /* Of each end up to NEIGHBOURS ends, nearest first, padded with
+   * NEAREST_NONE: those nearer than `known`, the widest gap tried there. */
   uint32_t *neighbour;
   double *known;
   uint32_t *queue; /* circular, of stops for which moves are to be tried */

@@ -190,8 +190,8 @@ static bool find_in_bsp(struct triangle_solver *solver, uint32_t root) {
   return true;
 }
 
-/* Finds the triangles in a cell that may overlap the current one on the page and
- * are not certainly behind it. */
+/* Finds the triangles in a cell that may overlap the current one on the page,
+ * but for those that are behind it. */
 static bool find_nearer_in_cell(struct triangle_solver *solver, int x, int y) {
   const struct tile_candidates *lists = solver->d->lists;
   size_t cell = triangle_grid_index(&lists->grid, x, y);
