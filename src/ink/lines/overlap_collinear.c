@@ -6,11 +6,12 @@
  *                 consecutive, the best is kept
  *   2 search      if two segments overlap otherwise, an end of one is inside
  *                 the other, so each segment visits the nodes along it, row by
- *                 row; a segment that starts there and overlaps it joins its
- *                 cluster
+ *                 row, by ranges of segments; a segment that starts there and
+ *                 overlaps it joins its cluster
  *   3 resolve     each cluster is replaced by disjoint pieces (overlap.c)
  *   4 rebuild     the segments
  * Cost  On a mesh without overlaps phase 2 takes nearly all of the time. */
+#include "base/parallel.h"
 #include "base/poll.h"
 #include "ink/lines/segment_graph.h"
 
@@ -19,9 +20,21 @@
 #include "ink/lines/overlap.h"
 #include "ink/lines/nodes_near_segment.h"
 
+struct overlap_pair {
+  uint32_t segment, other;
+};
+
+/* What a range of segments finds. */
+struct overlap_search {
+  const struct overlap_finder *finder;
+  ARRAY(struct overlap_pair) pair; /* in order of the first */
+};
+
 struct overlap_finder {
   struct segment_graph *graph;
-  uint8_t *dropped; /* one a segment: removed or replaced */
+  const struct node_rows *rows;
+  struct overlap_search *search; /* one a range */
+  uint8_t *dropped;              /* one a segment: removed or replaced */
   size_t dropped_count;
   /* Union-find of clusters: the parent's number plus one; 0: a root.  So the
    * pages of segments without overlaps are never touched. */
@@ -72,15 +85,51 @@ static bool join_clusters(struct overlap_finder *w, uint32_t a, uint32_t b) {
 
 /* Node k is near the segment's line: finds the overlapping segments there. */
 static bool test_overlap(void *user, uint32_t segment, uint32_t k) {
-  struct overlap_finder *w = user;
+  struct overlap_search *search = user;
+  const struct overlap_finder *w = search->finder;
   const struct segment_graph *graph = w->graph;
   for (uint32_t i = graph->ends.start[k]; i < graph->ends.start[k + 1]; i++) {
-    uint32_t other = graph->ends.item[i] >> 1;
-    if (!w->dropped[other] && overlap_is_along(graph, segment, other) &&
-        !join_clusters(w, segment, other))
+    struct overlap_pair pair = {segment, graph->ends.item[i] >> 1};
+    if (!w->dropped[pair.other] &&
+        overlap_is_along(graph, segment, pair.other) &&
+        !ARRAY_PUSH(&search->pair, pair))
       return false;
   }
   return true;
+}
+
+/* Finds the pairs of a range of segments. */
+static bool search_pairs_of_range(void *user, struct parallel_range range) {
+  const struct overlap_finder *w = user;
+  const struct segment_graph *graph = w->graph;
+  struct overlap_search *own = &w->search[range.begin / PARALLEL_ITEMS];
+  const struct node_search search = {graph, w->rows, TOLERANCE_COINCIDENT_UNITS,
+                                     test_overlap, own};
+  own->finder = w;
+  for (size_t i = range.begin; i < range.end; i++)
+    if (!w->dropped[i] && (graph->has_near == NULL || graph->has_near[i]) &&
+        !nodes_near_segment_visit(&search, (uint32_t)i))
+      return false;
+  return true;
+}
+
+/* Finds the clusters of segments that overlap. */
+static bool find_clusters(struct overlap_finder *w) {
+  size_t count = w->graph->segment.count,
+         ranges = parallel_range_count(count, PARALLEL_ITEMS);
+  w->search = mem_calloc(ranges, sizeof *w->search);
+  bool ok = w->search != NULL &&
+            parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
+                            PARALLEL_ITEMS, search_pairs_of_range, w);
+  for (size_t r = 0; w->search != NULL && r < ranges; r++) {
+    struct overlap_search *search = &w->search[r];
+    for (size_t i = 0; ok && i < search->pair.count; i++)
+      ok = join_clusters(w, search->pair.item[i].segment,
+                         search->pair.item[i].other);
+    ARRAY_FREE(&search->pair);
+  }
+  mem_free(w->search);
+  return ok;
 }
 
 /* ---- 3 Resolve ----------------------------------------------------------- */
@@ -154,9 +203,7 @@ recto_status segment_graph_drop_collinear(struct segment_graph *graph,
                                           const struct node_rows *rows,
                                           recto_error *error) {
   size_t count = graph->segment.count;
-  struct overlap_finder w = {.graph = graph};
-  const struct node_search search = {graph, rows, TOLERANCE_COINCIDENT_UNITS,
-                                     test_overlap, &w};
+  struct overlap_finder w = {.graph = graph, .rows = rows};
   recto_status status = segment_graph_index_ends(graph, error);
   if (status != RECTO_OK)
     return status;
@@ -165,10 +212,7 @@ recto_status segment_graph_drop_collinear(struct segment_graph *graph,
   bool ok = w.dropped != NULL && w.parent != NULL;
   if (ok)
     drop_duplicate_runs(&w);
-  for (uint32_t i = 0; ok && i < count; i++)
-    ok = poll_at(i) &&
-         (w.dropped[i] || (graph->has_near != NULL && !graph->has_near[i]) ||
-          nodes_near_segment_visit(&search, i));
+  ok = ok && find_clusters(&w);
   if (ok && w.member.count)
     ok = replace_clusters(&w);
   else if (ok && w.dropped_count)
