@@ -29,6 +29,7 @@ librecto_core_la_SOURCES += \
   %D%/lines/chain.c \
   %D%/lines/changed_cells.c %D%/lines/changed_cells.h \
   %D%/lines/continued_ends.c \
+  %D%/lines/cover_side.c %D%/lines/cover_side.h \
   %D%/lines/covered.c \
   %D%/lines/crease_lines.c %D%/lines/crease_lines.h \
   %D%/lines/dash.c \

@@ -21,8 +21,8 @@
 
 #include "base/poll.h"
 #include "base/sort.h"
-#include "geom/nearest.h"
 #include "geom/vector.h"
+#include "ink/lines/cover_side.h"
 #include "ink/pens.h"
 
 enum {
@@ -41,19 +41,6 @@ struct measured_path {
   bool is_hair, is_drawn;
 };
 
-/* A side of a path, which may cover a hair. */
-struct cover_side {
-  struct ink_point a, b;
-  uint32_t rank, layer; /* of its path */
-  float weight;
-  bool is_hair;
-};
-
-/* A side in a cell. */
-struct cover_listed {
-  uint32_t cell, side;
-};
-
 struct covering {
   struct ink_paths *paths;
   const struct sheet *sheet;
@@ -66,9 +53,9 @@ struct covering {
   uint8_t *marked; /* one a cell */
   double cell, low[2], widest;
   int64_t count[2];              /* of cells, in x and in y */
+  struct cover_lists *lists;     /* one a range of paths */
   ARRAY(struct cover_side) side; /* the shortest path's first */
-  ARRAY(struct cover_listed) listed;
-  struct number_lists sides; /* of each cell, the longest path's first */
+  struct number_lists sides;     /* of each cell, the longest path's first */
 };
 
 static double distance(struct ink_point a, struct ink_point b) {
@@ -231,13 +218,13 @@ static void mark_hair(const struct covering *c, uint32_t number) {
 /* ---- 3 List -------------------------------------------------------------- */
 
 /* Lists a side in the marked cells within its pen's width of it. */
-static bool list_side(struct covering *c, uint32_t path, struct ink_point a,
-                      struct ink_point b) {
+static bool list_side(const struct covering *c, struct cover_lists *lists,
+                      uint32_t path, struct ink_point a, struct ink_point b) {
   const struct measured_path *m = &c->measured[path];
   struct cover_side side = {a, b, m->rank, m->layer, m->weight, m->is_hair};
   double reach = pens_width_mm(c->pens, m->layer) * SHEET_UNITS_PER_MM,
          y0 = min_number(a.y, b.y), y1 = max_number(a.y, b.y);
-  uint32_t number = (uint32_t)c->side.count;
+  uint32_t number = (uint32_t)lists->side.count;
   bool found = false;
   for (int64_t row = cell_along(c, 1, y0 - reach);
        row <= cell_along(c, 1, y1 + reach); row++) {
@@ -252,71 +239,86 @@ static bool list_side(struct covering *c, uint32_t path, struct ink_point a,
     for (int64_t i = cell_along(c, 0, min_number(x[0], x[1]) - reach); i <= end;
          i++) {
       struct cover_listed listed = {(uint32_t)(row * c->count[0] + i), number};
-      if (c->marked[listed.cell] && !ARRAY_PUSH(&c->listed, listed))
+      if (c->marked[listed.cell] && !ARRAY_PUSH(&lists->listed, listed))
         return false;
       found = found || c->marked[listed.cell];
     }
   }
-  return !found || ARRAY_PUSH(&c->side, side);
+  return !found || ARRAY_PUSH(&lists->side, side);
 }
 
-static void put_listed(struct covering *c) {
-  for (size_t i = 0; i < c->listed.count; i++) {
-    (void)poll_at(i);
-    number_lists_put(&c->sides, c->listed.item[i].cell, c->listed.item[i].side);
+/* Lists the sides of a range of paths, from the shortest on. */
+static bool list_sides_of_range(void *user, struct parallel_range range) {
+  const struct covering *c = user;
+  struct cover_lists *lists = &c->lists[range.begin / PARALLEL_ITEMS];
+  for (size_t n = range.begin; n < range.end; n++) {
+    uint32_t i = c->by_rank[c->paths->path.count - 1 - n];
+    const struct ink_path *path = &c->paths->path.item[i];
+    const struct ink_point *p = c->paths->point.item + path->point;
+    for (uint32_t k = path->count; c->measured[i].is_drawn && k-- > 0;)
+      if ((k + 1 < path->count || path->closed) &&
+          !list_side(c, lists, i, p[k], p[(k + 1) % path->count]))
+        return false;
+  }
+  return true;
+}
+
+/* Puts the sides together. */
+static bool join_sides(struct covering *c, size_t ranges) {
+  size_t sum = 0;
+  for (size_t r = 0; r < ranges; r++) {
+    c->lists[r].before = (uint32_t)sum;
+    sum += c->lists[r].side.count;
+  }
+  if (!ARRAY_RESERVE(&c->side, sum))
+    return false;
+  c->side.count = sum;
+  for (size_t r = 0; r < ranges; r++) {
+    struct cover_lists *lists = &c->lists[r];
+    if (lists->side.count > 0)
+      memcpy(c->side.item + lists->before, lists->side.item,
+             lists->side.count * sizeof *c->side.item);
+    ARRAY_FREE(&lists->side);
+  }
+  return true;
+}
+
+static void put_listed(struct covering *c, size_t ranges) {
+  for (size_t r = 0; r < ranges; r++) {
+    const struct cover_lists *lists = &c->lists[r];
+    for (size_t i = 0; i < lists->listed.count; i++) {
+      (void)poll_at(i);
+      number_lists_put(&c->sides, lists->listed.item[i].cell,
+                       lists->before + lists->listed.item[i].side);
+    }
   }
 }
 
 /* The last side of the shortest path comes first, as number_lists reverses the
  * order. */
 static bool list_sides(struct covering *c) {
-  size_t cells = (size_t)(c->count[0] * c->count[1]);
-  for (uint32_t r = (uint32_t)c->paths->path.count; r-- > 0;) {
-    uint32_t i = c->by_rank[r];
-    const struct ink_path *path = &c->paths->path.item[i];
-    const struct ink_point *p = c->paths->point.item + path->point;
-    bool ok = poll_at(r);
-    for (uint32_t k = path->count; ok && c->measured[i].is_drawn && k-- > 0;)
-      if (k + 1 < path->count || path->closed)
-        ok = list_side(c, i, p[k], p[(k + 1) % path->count]);
-    if (!ok)
-      return false;
+  size_t cells = (size_t)(c->count[0] * c->count[1]),
+         count = c->paths->path.count,
+         ranges = parallel_range_count(count, PARALLEL_ITEMS);
+  c->lists = mem_calloc(ranges, sizeof *c->lists);
+  bool ok = c->lists != NULL &&
+            parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
+                            PARALLEL_ITEMS, list_sides_of_range, c) &&
+            join_sides(c, ranges) && number_lists_init(&c->sides, cells);
+  if (ok)
+    put_listed(c, ranges);
+  ok = ok && number_lists_allocate(&c->sides, cells);
+  if (ok)
+    put_listed(c, ranges);
+  for (size_t r = 0; c->lists != NULL && r < ranges; r++) {
+    ARRAY_FREE(&c->lists[r].side);
+    ARRAY_FREE(&c->lists[r].listed);
   }
-  if (!number_lists_init(&c->sides, cells))
-    return false;
-  put_listed(c);
-  if (!number_lists_allocate(&c->sides, cells))
-    return false;
-  put_listed(c);
-  return true;
+  mem_free(c->lists);
+  return ok;
 }
 
 /* ---- 4 Judge, 5 Decide --------------------------------------------------- */
-
-static bool is_near_side(const struct cover_side *side, double x, double y,
-                         double near) {
-  double dx = (double)side->b.x - side->a.x, dy = (double)side->b.y - side->a.y;
-  double px = x - side->a.x, py = y - side->a.y;
-  double t = geom_nearest_parameter(dx, dy, px, py);
-  px -= t * dx;
-  py -= t * dy;
-  return px * px + py * py <= near * near;
-}
-
-/* Is the side near both ends of a piece of a hair?  One whose box is farther
- * away by a grid unit, more than rounding can bring it nearer, is not. */
-static bool is_near_piece(const struct cover_side *side, const double at[4],
-                          double near) {
-  const double a[2] = {side->a.x, side->a.y}, b[2] = {side->b.x, side->b.y};
-  for (int k = 0; k < 2; k++) {
-    double low = (a[k] < b[k] ? a[k] : b[k]) - near - 1;
-    double high = (a[k] < b[k] ? b[k] : a[k]) + near + 1;
-    if (at[k] < low || at[k + 2] < low || at[k] > high || at[k + 2] > high)
-      return false;
-  }
-  return is_near_side(side, at[0], at[1], near) &&
-         is_near_side(side, at[2], at[3], near);
-}
 
 /* The sides that are tried for a piece of a hair. */
 struct cover_trial {
@@ -346,7 +348,7 @@ static const struct cover_side *next_cover(const struct covering *c,
              !(decided && side->is_hair &&
                !c->measured[c->by_rank[side->rank]].is_drawn)) {
       trial->tried++;
-      if (is_near_piece(side, at, hair->near))
+      if (cover_side_is_near(side, at, hair->near))
         return side;
     }
   }
@@ -360,7 +362,7 @@ static bool covers_again(const struct last_cover *last,
                          const struct cover_trial *trial,
                          const struct measured_path *hair, const double at[4]) {
   return last->side != NULL && trial->end - trial->side <= SIDES_TRIED_MAX &&
-         is_near_piece(last->side, at, hair->near);
+         cover_side_is_near(last->side, at, hair->near);
 }
 
 /* Of a piece, as if all hairs were drawn.  A path that is none is drawn in any
@@ -441,7 +443,6 @@ bool paths_find_covered(struct ink_paths *paths, const struct sheet *sheet,
   mem_free(c.hair);
   mem_free(c.marked);
   ARRAY_FREE(&c.side);
-  ARRAY_FREE(&c.listed);
   number_lists_fini(&c.sides);
   return ok;
 }
