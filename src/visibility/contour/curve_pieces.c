@@ -7,8 +7,10 @@
 /* A piece that is not longer, between two that are alike, is like them. */
 enum { SHORT_SEGMENTS = 6 };
 
-/* The length of a short run, as a multiple of its triangles' heights. */
+/* The length of a short run, as a multiple of its triangles' heights: of one
+ * that is visible, of one that begins or ends at a crossing, and of a gap. */
 #define SHORT_HEIGHTS 2
+#define CROSSED_HEIGHTS 1
 #define GAP_HEIGHTS 0.5
 
 /* ---- Short pieces -------------------------------------------------------- */
@@ -61,6 +63,15 @@ static double length_in_heights(const struct curve_pieces *pieces,
   return heights > 0 ? length / (heights / steps) : 0;
 }
 
+/* How long a run between two pieces is not to be absorbed, in heights. */
+static double long_heights(const struct contour_piece *from,
+                           const struct contour_piece *to) {
+  if (!from->is_visible)
+    return GAP_HEIGHTS;
+  return from->from.crossing || to->to.crossing ? CROSSED_HEIGHTS
+                                                : SHORT_HEIGHTS;
+}
+
 /* Absorbs the short runs that are visible, or hidden. */
 static void absorb(struct curve_pieces *pieces, const struct camera *camera,
                    bool visible) {
@@ -83,8 +94,7 @@ static void absorb(struct curve_pieces *pieces, const struct camera *camera,
           length_in_heights(pieces, &piece[(first + end) % count], camera);
     const struct contour_piece *from = &piece[(first + i) % count];
     const struct contour_piece *to = &piece[(first + end - 1) % count];
-    if (from->is_visible != visible ||
-        length >= (visible ? SHORT_HEIGHTS : GAP_HEIGHTS) ||
+    if (from->is_visible != visible || length >= long_heights(from, to) ||
         (!closed && (i == 0 || end == count)) ||
         (from->from.crossing && to->to.crossing))
       continue;

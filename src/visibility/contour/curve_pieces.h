@@ -31,8 +31,9 @@ static inline double contour_position(struct contour_cut cut) {
  * both ends are crossings or creases, which are known to be some. */
 void curve_pieces_absorb_short(struct curve_pieces *pieces);
 
-/* Makes what is hidden, and then what is visible, over less than two heights of
- * the triangles like what is beside it; not between two crossings. */
+/* Makes what is hidden over less than half a height of the triangles, and then
+ * what is visible over less than two, or over less than one from or to a
+ * crossing, like what is beside it; not between two crossings. */
 void curve_pieces_absorb_runs(struct curve_pieces *pieces,
                               const struct camera *camera);
 
