@@ -42,6 +42,7 @@ librecto_core_la_SOURCES += \
   %D%/culling/space_box.c %D%/culling/space_box.h \
   %D%/culling/potentially_visible.c %D%/culling/potentially_visible.h \
   %D%/contour/arc_normals.c \
+  %D%/contour/contour_creases.c %D%/contour/contour_creases.h \
   %D%/contour/contour_cusps.c %D%/contour/contour_cusps.h \
   %D%/culling/vertex_fans.c %D%/culling/vertex_fans.h \
   %D%/culling/contact_bounds.c %D%/culling/contact_bounds.h \

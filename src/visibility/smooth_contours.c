@@ -11,6 +11,7 @@
 #include "base/sort.h"
 #include "base/tolerance.h"
 #include "view/clip.h"
+#include "visibility/contour/contour_creases.h"
 #include "visibility/contour/contour_cusps.h"
 #include "visibility/contour/curve_pieces.h"
 #include "visibility/contour/divided_curves.h"
@@ -276,6 +277,7 @@ static bool add_pieces(struct contour_pieces *c) {
                                c->options.exact
                                    ? RECTO_FINEST_MM * SHEET_UNITS_PER_MM
                                    : TOLERANCE_OUTLINE_UNITS) &&
+         contour_creases_leave_out(c->sheet, c->map, first) &&
          close_gaps(c, first, first_point);
 }
 
