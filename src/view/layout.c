@@ -6,7 +6,16 @@
 
 #include "view/layout_face_ranges.h"
 
+void layout_free_face(struct layout *layout) {
+  ARRAY_FREE(&layout->diagonal);
+  ARRAY_FREE(&layout->part);
+  ARRAY_FREE(&layout->whole);
+  ARRAY_FREE(&layout->corner);
+  triangulation_fini(&layout->triangulation);
+}
+
 static void free_layout(struct layout *layout) {
+  layout_free_face(layout);
   mem_free(layout->point_map);
   mem_free(layout->outcode);
   mem_free(layout->sides);
@@ -20,12 +29,7 @@ static void free_layout(struct layout *layout) {
   ARRAY_FREE(&layout->flags);
   ARRAY_FREE(&layout->clipped_ends.list);
   mem_free(layout->clipped_ends.slot);
-  ARRAY_FREE(&layout->diagonal);
-  ARRAY_FREE(&layout->part);
-  ARRAY_FREE(&layout->whole);
   ARRAY_FREE(&layout->fold);
-  ARRAY_FREE(&layout->corner);
-  triangulation_fini(&layout->triangulation);
 }
 
 /* Gives the memory of the topology's edges to the triangles, which need about

@@ -258,6 +258,9 @@ USE_RESULT recto_status layout_triangles(struct layout *layout);
 
 /* Adds the triangles of a face, for which phase triangles is. */
 USE_RESULT recto_status layout_face(struct layout *layout, uint32_t face);
+
+/* Frees what that keeps from face to face. */
+void layout_free_face(struct layout *layout);
 USE_RESULT recto_status layout_edges(struct layout *layout);
 USE_RESULT recto_status layout_wires(struct layout *layout);
 

@@ -84,9 +84,7 @@ static bool add_faces_of_range(void *user, struct parallel_range faces) {
     ok = face == end || layout_face(own, face) == RECTO_OK;
   }
   own->error = NULL;
-  triangulation_fini(&own->triangulation);
-  ARRAY_FREE(&own->diagonal);
-  ARRAY_FREE(&own->corner);
+  layout_free_face(own);
   ARRAY_FREE(&own->clipped);
   return ok;
 }
