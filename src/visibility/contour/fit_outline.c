@@ -5,9 +5,10 @@
  *   1 move the corners of the fragments' outline onto drawn ones
  *   2 put points of these into its sides, and where the nearest outline
  *     changes within one, of the way to where the two meet
- *   3 put points of them also into the other sides of the fragments that this
- *     has turned over: they lay between such a side and the mesh's outline,
- *     beyond the drawn one
+ *   3 move the other corners of the fragments that this has turned over, where
+ *     they are beyond a drawn contour
+ *   4 put points of the outlines also into the other sides of such fragments:
+ *     they lay between such a side and the mesh's outline, beyond the drawn one
  * Beyond a side of the outline there is no fragment, so that its shape is free;
  * a corner is moved with all that are at its place. */
 #include "visibility/contour/fit_outline.h"
@@ -97,8 +98,7 @@ static int compare_places(const void *a, const void *b, void *user) {
   return (p[1] > q[1]) - (p[1] < q[1]);
 }
 
-/* Finds the moves of the places at which sides of the outline start, in the
- * order of the places. */
+/* Finds the moves of the places at which sides of the outline start. */
 static bool find_place_moves(struct outline_fit *f) {
   for (uint32_t h = 0; h < f->map->half_edge.count; h++) {
     double from[2], next[2];
@@ -114,8 +114,7 @@ static bool find_place_moves(struct outline_fit *f) {
     if (is_off(&move.to) && !ARRAY_PUSH(&f->move, move))
       return false;
   }
-  return sort_stable(f->move.item, f->move.count, sizeof *f->move.item,
-                     compare_places, NULL);
+  return true;
 }
 
 /* Moves a corner if its place is; of several moves, by the shortest one. */
@@ -134,6 +133,16 @@ static void move_corner(struct outline_fit *f, uint32_t corner) {
     return;
   f->changes.is_moved[corner] = 1;
   memcpy(f->changes.to[corner], best->at, sizeof best->at);
+}
+
+/* Moves all corners whose places are. */
+static bool move_all_places(struct outline_fit *f) {
+  if (!sort_stable(f->move.item, f->move.count, sizeof *f->move.item,
+                   compare_places, NULL))
+    return false;
+  for (uint32_t c = 0; f->move.count > 0 && c < f->map->corner.count; c++)
+    move_corner(f, c);
+  return true;
 }
 
 /* ---- 2 Sides ------------------------------------------------------------- */
@@ -217,7 +226,7 @@ static bool bend_sides(struct outline_fit *f) {
   return true;
 }
 
-/* ---- 3 Fragments that are turned over ------------------------------------ */
+/* ---- Areas --------------------------------------------------------------- */
 
 /* Twice the signed area between a half-edge and the origin. */
 static double area_of_half(const struct outline_fit *f, uint32_t h) {
@@ -238,6 +247,42 @@ static void find_areas(const struct outline_fit *f, double *area) {
   for (uint32_t h = 0; h < f->map->half_edge.count; h++)
     area[f->map->half_edge.item[h].fragment] += area_of_half(f, h);
 }
+
+/* ---- 3 Corners beyond ---------------------------------------------------- */
+
+/* Whether a place lies beyond the contour that is the nearest line to it. */
+static bool is_beyond_contour(const struct outline_fit *f, const double from[2],
+                              const struct drawn_place *to) {
+  const struct sheet *sheet = f->sheet;
+  if (!is_off(to) || to->edge < f->drawn->first)
+    return false;
+  struct geom_segment s = sheet_ends(sheet, sheet->edge.item[to->edge].point);
+  return ((double)s.q.x - s.p.x) * (from[1] - s.p.y) <
+         ((double)s.q.y - s.p.y) * (from[0] - s.p.x);
+}
+
+/* Moves the corners of fragments that are turned over which still lie beyond a
+ * contour: those that they share with others.
+ * area  of each fragment */
+static bool move_corners_beyond(struct outline_fit *f, const double *area) {
+  static const double any[2] = {0, 0};
+  f->move.count = 0;
+  for (uint32_t h = 0; h < f->map->half_edge.count; h++) {
+    const struct map_half_edge *half = &f->map->half_edge.item[h];
+    if (area[half->fragment] >= 0 || f->changes.is_moved[half->origin])
+      continue;
+    const struct map_corner *c = &f->map->corner.item[half->origin];
+    double radius = fmin(radius_about(f, h), SHARED_RADIUS);
+    struct place_move move = {.from = {c->x, c->y}};
+    move.to = drawn_outlines_find(f->drawn, move.from, any, radius);
+    if (!poll_at(h) || (is_beyond_contour(f, move.from, &move.to) &&
+                        !ARRAY_PUSH(&f->move, move)))
+      return false;
+  }
+  return move_all_places(f);
+}
+
+/* ---- 4 Fragments that are turned over ------------------------------------ */
 
 /* The half-edge on whose right a fragment is turned over, of one that two
  * fragments share and its twin; SHEET_NONE. */
@@ -278,8 +323,8 @@ static bool bend_shared_sides(struct outline_fit *f, const uint32_t *start,
 static bool collapse_turned_over(struct outline_fit *f, double *area,
                                  uint32_t *start, struct side_point *point) {
   size_t fragments = f->map->fragment.count, halves = f->map->half_edge.count;
-  bool ok = true;
   find_areas(f, area);
+  bool ok = move_corners_beyond(f, area);
   memcpy(start, f->changes.start, (halves + 1) * sizeof *start);
   if (start[halves] > 0)
     memcpy(point, f->changes.point.item, start[halves] * sizeof *point);
@@ -315,11 +360,9 @@ static bool bend_turned_over(struct outline_fit *f) {
 bool fit_outline(struct map *map, const struct sheet *sheet,
                  const struct drawn_outlines *drawn) {
   struct outline_fit f = {.map = map, .sheet = sheet, .drawn = drawn};
-  bool ok = loop_changes_init(&f.changes, map) && find_place_moves(&f);
-  for (uint32_t c = 0; ok && c < map->corner.count; c++)
-    move_corner(&f, c);
-  ok = ok && bend_sides(&f) && bend_turned_over(&f) &&
-       loop_changes_apply(&f.changes);
+  bool ok = loop_changes_init(&f.changes, map) && find_place_moves(&f) &&
+            move_all_places(&f) && bend_sides(&f) && bend_turned_over(&f) &&
+            loop_changes_apply(&f.changes);
   loop_changes_fini(&f.changes);
   ARRAY_FREE(&f.move);
   return ok;
