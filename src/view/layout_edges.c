@@ -36,18 +36,25 @@ static unsigned class_mask_of(const struct scene *scene,
   return (still & ~(unsigned)RECTO_EDGE_SMOOTH) | RECTO_EDGE_SILHOUETTE;
 }
 
-/* The sheet points of a topology edge; SHEET_NONE: all of it is clipped. */
-static recto_status find_end_points(struct layout *layout, uint32_t edge,
+/* The sheet points of an edge of which an end is outside. */
+static recto_status clip_end_points(struct layout *layout, uint32_t edge,
                                     struct layout_clipped *ends) {
   const uint32_t *point = layout->topology->edge.item[edge].point;
-  *ends = (struct layout_clipped){{layout_sheet_point(layout, point[0]),
-                                   layout_sheet_point(layout, point[1])}};
-  if (ends->point[0] != SHEET_NONE && ends->point[1] != SHEET_NONE)
-    return RECTO_OK;
   ends->point[0] = ends->point[1] = SHEET_NONE;
   if (layout->outcode[point[0]] & layout->outcode[point[1]])
     return RECTO_OK;
   return layout_clip_edge(layout, edge, ends);
+}
+
+/* The sheet points of a topology edge; SHEET_NONE: all of it is clipped. */
+static inline recto_status find_end_points(struct layout *layout, uint32_t edge,
+                                           struct layout_clipped *ends) {
+  const uint32_t *point = layout->topology->edge.item[edge].point;
+  *ends = (struct layout_clipped){{layout_sheet_point(layout, point[0]),
+                                   layout_sheet_point(layout, point[1])}};
+  return ends->point[0] != SHEET_NONE && ends->point[1] != SHEET_NONE
+             ? RECTO_OK
+             : clip_end_points(layout, edge, ends);
 }
 
 /* Edges that a thread takes at once: whole words of that map. */
@@ -129,16 +136,40 @@ static inline uint8_t look_up_sides(const struct edge_sides *of, uint32_t e) {
              : sides_of_edge(of->layout, e);
 }
 
+/* The requested class of an edge, of those that it has whatever the view. */
+static unsigned requested_class(const struct layout *layout, uint32_t e,
+                                uint8_t sides) {
+  const struct topology_edge *edge = &layout->topology->edge.item[e];
+  unsigned wanted = layout->options->ink.edges & LAYOUT_FACE_CLASSES;
+  if (!has_mesh_contours(layout->coarse, edge->point[0]))
+    wanted &= ~(unsigned)RECTO_EDGE_SILHOUETTE;
+  return topology_class_of_mask(
+      class_mask_of(layout->scene, edge, layout->class_masks[e], sides) &
+      wanted);
+}
+
+/* Whether no edge leaves the page: all faces were found to be on it. */
+static bool is_all_on_page(const struct layout *layout) {
+  return layout->face_range != NULL &&
+         layout->flags.count == scene_face_count(layout->scene);
+}
+
+static bool leaves_page(const struct layout *layout, uint32_t e) {
+  const uint32_t *point = layout->topology->edge.item[e].point;
+  return layout_sheet_point(layout, point[0]) == SHEET_NONE ||
+         layout_sheet_point(layout, point[1]) == SHEET_NONE;
+}
+
 /* Chooses the requested edges of a range, and contours.  Most have a face on
  * each side, and are nothing but smooth. */
 static bool choose_edges(void *user, struct parallel_range range) {
   struct edge_layout *work = user;
   const struct layout *layout = work->layout;
-  unsigned wanted = layout->options->ink.edges & LAYOUT_FACE_CLASSES;
-  unsigned silhouette = RECTO_EDGE_SILHOUETTE;
   uint8_t *class_masks = layout->class_masks;
-  bool skips_smooth = class_masks != NULL && !layout->all_edges &&
-                      !(wanted & RECTO_EDGE_SMOOTH);
+  uint64_t *bits = layout->ids.bits, *special = work->special;
+  bool all_on_page = is_all_on_page(layout), all_edges = layout->all_edges;
+  const unsigned smooth = layout->options->ink.edges & RECTO_EDGE_SMOOTH;
+  bool skips_smooth = class_masks != NULL && !all_edges && smooth == 0;
   const struct edge_sides of = {
       .layout = layout,
       .edge = layout->topology->edge.item,
@@ -147,29 +178,24 @@ static bool choose_edges(void *user, struct parallel_range range) {
       .edges = (uint32_t)layout->topology->edge.count,
   };
   for (uint32_t e = (uint32_t)range.begin; e < range.end; e++) {
-    const struct topology_edge *edge = &of.edge[e];
     uint8_t sides = look_up_sides(&of, e);
-    bool contour = is_contour(edge, sides), made = layout->all_edges;
+    bool contour = is_contour(&of.edge[e], sides), made = all_edges;
     uint64_t bit = UINT64_C(1) << e % 64;
     if (skips_smooth && !contour && class_masks[e] == RECTO_EDGE_SMOOTH) {
       class_masks[e] = 0;
       continue;
     }
     if (class_masks != NULL) {
-      unsigned edge_class = topology_class_of_mask(
-          class_mask_of(layout->scene, edge, class_masks[e], sides) &
-          (has_mesh_contours(layout->coarse, edge->point[0])
-               ? wanted
-               : wanted & ~silhouette));
+      unsigned edge_class = !contour && class_masks[e] == RECTO_EDGE_SMOOTH
+                                ? smooth
+                                : requested_class(layout, e, sides);
       class_masks[e] = (uint8_t)edge_class;
       made |= edge_class != 0;
     }
     if (made)
-      layout->ids.bits[e / 64] |= bit;
-    if (contour ||
-        (made && (layout_sheet_point(layout, edge->point[0]) == SHEET_NONE ||
-                  layout_sheet_point(layout, edge->point[1]) == SHEET_NONE)))
-      work->special[e / 64] |= bit;
+      bits[e / 64] |= bit;
+    if (contour || (made && !all_on_page && leaves_page(layout, e)))
+      special[e / 64] |= bit;
   }
   return true;
 }
