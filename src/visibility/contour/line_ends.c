@@ -30,6 +30,9 @@ struct line_ends {
   uint8_t *degree;      /* one a point of contours: how many of their edges meet
                       there, at most 2 */
   ARRAY(struct line_crossing) crossing;
+  uint8_t *reached; /* one a point: a visible border reaches it; NULL: not asked
+                     */
+  ARRAY(struct line_crossing) shown; /* where hidden borders are to end */
 };
 
 /* ---- Crossings ----------------------------------------------------------- */
@@ -61,7 +64,9 @@ static bool list_drawn_lines(struct line_ends *l) {
       return false;
   l->grid.contours = l->grid.segment.count;
   for (uint32_t e = 0; e < l->first; e++)
-    if (l->map->edge_state[e] != MAP_HIDDEN && sheet_edge_is_drawn(sheet, e) &&
+    if ((l->map->edge_state[e] != MAP_HIDDEN ||
+         sheet->edge.item[e].edge_class == RECTO_EDGE_BORDER) &&
+        sheet_edge_is_drawn(sheet, e) &&
         !segment_grid_add(&l->grid,
                           sheet_ends(sheet, sheet->edge.item[e].point), e))
       return false;
@@ -268,12 +273,74 @@ static bool cut_whole(struct map *map, const struct line_crossing *crossing,
   return ARRAY_PUSH(&map->interval, whole) && ARRAY_PUSH(&map->mixed, made);
 }
 
+/* ---- Hidden borders ------------------------------------------------------ */
+
+/* Marks the points which visible borders reach. */
+static bool find_reached(struct line_ends *l) {
+  const struct map *map = l->map;
+  size_t next = 0;
+  l->reached = mem_calloc(l->sheet->point.count, 1);
+  for (uint32_t e = 0; l->reached != NULL && e < l->first; e++) {
+    const struct sheet_edge *edge = &l->sheet->edge.item[e];
+    struct map_interval from = {ratio_of(0, 1), ratio_of(1, 1)}, to = from;
+    if (map->edge_state[e] == MAP_MIXED) {
+      const struct map_mixed *own = &map->mixed.item[next++];
+      from = map->interval.item[own->interval];
+      to = map->interval.item[own->interval + own->count - 1];
+    }
+    if (map->edge_state[e] == MAP_HIDDEN ||
+        edge->edge_class != RECTO_EDGE_BORDER)
+      continue;
+    l->reached[edge->point[0]] |= from.t0.num == 0;
+    l->reached[edge->point[1]] |= to.t1.num == to.t1.den;
+  }
+  return l->reached != NULL;
+}
+
+/* Finds the hidden borders on which contours end next to where a visible one
+ * ends: the mesh folds over the border there, beyond its contour. */
+static bool find_shown(struct line_ends *l) {
+  for (size_t i = 0; i < l->crossing.count; i++) {
+    const struct line_crossing *c = &l->crossing.item[i];
+    double length = c->leaves ? c->t : 1 - c->t;
+    size_t count = l->shown.count;
+    if (l->map->edge_state[c->edge] != MAP_HIDDEN || !c->at_end ||
+        !(length > 0) || !(length < fmin(1, c->bound)) ||
+        (count > 0 && l->shown.item[count - 1].edge == c->edge))
+      continue;
+    if (l->reached == NULL && !find_reached(l))
+      return false;
+    uint32_t from = l->sheet->edge.item[c->edge].point[c->leaves ? 0 : 1];
+    if (l->reached[from] && !ARRAY_PUSH(&l->shown, *c))
+      return false;
+  }
+  return true;
+}
+
+/* Makes what lies between the two visible. */
+static bool show_borders(struct line_ends *l) {
+  struct map *map = l->map;
+  for (size_t i = 0; i < l->shown.count; i++) {
+    const struct line_crossing *c = &l->shown.item[i];
+    struct map_interval part = {ratio_of(0, 1), ratio_of(1, 1)};
+    struct map_mixed made = {c->edge, (uint32_t)map->interval.count, 1};
+    *(c->leaves ? &part.t1 : &part.t0) = ratio_near(c->t);
+    map->edge_state[c->edge] = MAP_MIXED;
+    if (!ARRAY_PUSH(&map->interval, part) || !ARRAY_PUSH(&map->mixed, made))
+      return false;
+  }
+  return true;
+}
+
+/* ---- The whole ----------------------------------------------------------- */
+
 static bool move_all(struct line_ends *l) {
   struct map *map = l->map;
   const struct line_crossing *all = l->crossing.item;
   size_t mixed = 0, known = map->mixed.count;
   if (!sort_stable(l->crossing.item, l->crossing.count, sizeof *all,
-                   compare_line_crossings, NULL))
+                   compare_line_crossings, NULL) ||
+      !find_shown(l))
     return false;
   for (size_t i = 0, j; i < l->crossing.count; i = j) {
     for (j = i + 1; j < l->crossing.count && all[j].edge == all[i].edge;)
@@ -288,7 +355,7 @@ static bool move_all(struct line_ends *l) {
       move_ends(&map->interval.item[own->interval], own->count, &all[i], j - i);
     }
   }
-  return map_sort_mixed(map);
+  return show_borders(l) && map_sort_mixed(map);
 }
 
 bool line_ends_move(struct map *map, const struct sheet *sheet,
@@ -300,6 +367,8 @@ bool line_ends_move(struct map *map, const struct sheet *sheet,
        (segment_grid_make(&l.grid) && find_crossings(&l) && move_all(&l)));
   segment_grid_fini(&l.grid);
   mem_free(l.degree);
+  mem_free(l.reached);
   ARRAY_FREE(&l.crossing);
+  ARRAY_FREE(&l.shown);
   return ok;
 }
