@@ -219,7 +219,7 @@ static void with_ids_the_line_decides(void **state) {
     k.options.ink.ids = true;
     uint32_t p = ink_fixture_point(&k, 10, 10);
     for (int i = 1; i <= edges; i++) {
-      uint32_t q = ink_fixture_point(&k, 10 + i, 10 + i % 2);
+      uint32_t q = ink_fixture_point(&k, 10 + i, 10 + i % 2 * 0.3);
       ink_fixture_edge(&k, p, q, CREASE);
       p = q;
     }
@@ -421,6 +421,17 @@ static void lines_of_short_pieces_are_not_drawn(void **state) {
 
 /* Nowhere above 60 degrees: 30 pens at least, and two edges a piece from four
  * pieces on. */
+/* Sharp as they are, of a line below thirty pens that ends free. */
+static void short_saws_are_not_drawn(void **state) {
+  (void)state;
+  assert_int_equal(draw_steps(4, 1, 1.5, 65), 0);
+  assert_int_equal(draw_steps(3, 3, 0.8, 65), 0);
+  assert_int_equal(draw_steps(4, 1, 2.2, 65), 0);
+  assert_int_equal(draw_steps(4, 1, 2.3, 65), 1); /* 9.2 mm */
+  assert_int_equal(draw_steps(2, 1, 2, 65), 1);   /* it turns once */
+  assert_int_equal(draw_steps(2, 1, 4, 65), 1);
+}
+
 static void shallow_lines_are_long_and_smooth(void **state) {
   (void)state;
   assert_int_equal(draw_steps(1, 4, 2.2, 55), 0);
@@ -632,6 +643,7 @@ int main(void) {
       cmocka_unit_test(a_gap_is_closed_once),
       cmocka_unit_test(zigzags_must_be_sharper_than_other_lines),
       cmocka_unit_test(lines_of_short_pieces_are_not_drawn),
+      cmocka_unit_test(short_saws_are_not_drawn),
       cmocka_unit_test(shallow_lines_are_long_and_smooth),
       cmocka_unit_test(closed_lines_stay),
       cmocka_unit_test(hairs_within_half_a_pen_are_covered),

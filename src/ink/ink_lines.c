@@ -84,6 +84,8 @@ static recto_status make_paths(const struct ink *ink, struct ink_paths *paths,
     status = error_memory(error);
   if (status != RECTO_OK)
     return status;
+  if (tidy)
+    paths_find_zigzags(paths, ink->sheet, ink->pens, &angles);
   paths_find_continued(paths, graph);
   paths_straighten(paths, step);
   if (ink->options->ink.simplify_mm > 0)

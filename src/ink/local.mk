@@ -57,6 +57,6 @@ librecto_core_la_SOURCES += \
   %D%/lines/straighten.c \
   %D%/lines/stroke.c %D%/lines/stroke.h \
   %D%/lines/vertex_snapping.c %D%/lines/vertex_snapping.h \
-  %D%/lines/weak_creases.c \
+  %D%/lines/weak_creases.c %D%/lines/zigzag_creases.c \
   %D%/order/stroke_order.c %D%/order/stroke_order.h \
   %D%/order/tour.c %D%/order/tour.h

@@ -74,6 +74,15 @@ USE_RESULT bool paths_find_weak(struct ink_paths *paths,
                                 const struct sheet *sheet,
                                 const struct crease_angles *angles);
 
+/* Sets is_weak of the paths of creases that are free and shorter than
+ * pens_short_cycle_mm, if more than half of them are teeth, and short legs
+ * beside these: what is shorter than pens_shortest_crease_mm between two turns
+ * by more than 45 degrees on the page, a tooth if these are to opposite sides.
+ * Cost  linear in the points */
+void paths_find_zigzags(struct ink_paths *paths, const struct sheet *sheet,
+                        const struct pens *pens,
+                        const struct crease_angles *angles);
+
 /* Sets is_continued of the ends of hidden open paths at which a visible line
  * goes on in about their direction (stroke_turns_sharply): it passes behind
  * something there.
