@@ -82,7 +82,7 @@ void paths_find_zigzags(struct ink_paths *paths, const struct sheet *sheet,
     return;
   for (size_t i = 0; i < paths->path.count && poll_at(i); i++) {
     struct ink_path *path = &paths->path.item[i];
-    uint32_t group = sheet->edge.item[path->edge].group;
+    uint32_t group = sheet_edge_group(sheet, &sheet->edge.item[path->edge]);
     uint32_t pen = pens_of_line(pens, RECTO_EDGE_CREASE, group);
     if (path->is_free && path->classes == RECTO_EDGE_CREASE)
       path->is_weak = path->is_weak || is_zigzag(paths, path, pens, pen);
