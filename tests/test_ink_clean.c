@@ -322,8 +322,9 @@ static void short_pieces_of_a_long_chain_stay(void **state) {
   ink_fixture_start(&k);
   k.options.ink.min_stroke_mm = 5;
   for (int i = 0; i < 100; i++)
-    ink_fixture_line(&k, 10 + 0.1 * i, 10 + (i % 2) * 0.1, 10.1 + 0.1 * i,
-                     10 + (1 - i % 2) * 0.1, CREASE);
+    ink_fixture_line(&k, 10 + 2 * cos(0.05 * i), 10 + 2 * sin(0.05 * i),
+                     10 + 2 * cos(0.05 * (i + 1)), 10 + 2 * sin(0.05 * (i + 1)),
+                     CREASE);
   ink_fixture_draw(&k);
   assert_int_equal(k.drawing.stroke.count, 1);
   assert_int_equal(k.drawing.stroke.item[0].count, 101);

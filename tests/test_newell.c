@@ -20,14 +20,18 @@ struct ordered {
   struct newell_order order;
 };
 
-/* In the order in which faces can be painted.
+/* In the order in which faces can be painted, which are in the grid.
  * tests  how many of them; 0: all, with splitting */
-static recto_status put_in_order(struct ordered *o, int tests) {
+static recto_status order_grid(struct ordered *o, int tests) {
   const struct solver_request request = {
       .fragments = true, .threads = 1, .newell_tests = tests};
   recto_error error;
-  assert_true(triangle_grid_init(&o->grid, &o->sheet));
   return newell_order_init(&o->order, &o->sheet, &o->grid, &request, &error);
+}
+
+static recto_status put_in_order(struct ordered *o, int tests) {
+  assert_true(triangle_grid_init(&o->grid, &o->sheet));
+  return order_grid(o, tests);
 }
 
 static void ordered_fini(struct ordered *o) {
@@ -453,8 +457,9 @@ static void progress_may_say_stop(void **state) {
   (void)state;
   exact_sheet_init(&o.sheet);
   exact_add_face(&o.sheet, bars[0], 3, SCALE);
+  assert_true(triangle_grid_init(&o.grid, &o.sheet));
   polled_begin(&polled, say_stop, NULL);
-  assert_int_equal(put_in_order(&o, 0), RECTO_ERROR_CANCELLED);
+  assert_int_equal(order_grid(&o, 0), RECTO_ERROR_CANCELLED);
   polled_end(&polled);
   ordered_fini(&o);
 }
