@@ -23,7 +23,7 @@ struct triangle_grid {
 };
 
 /* Indexes the boxes of all triangles of the sheet.  False when memory ran
- * out. */
+ * out, or the caller cancelled. */
 USE_RESULT bool triangle_grid_init(struct triangle_grid *grid,
                                    const struct sheet *sheet);
 void triangle_grid_fini(struct triangle_grid *grid);
@@ -67,7 +67,7 @@ static inline double triangle_grid_cost_of_list(uint32_t count) {
  * subset  `n` triangles
  * cost    the cost of the lists at the present size; gets that at the size
  *         chosen
- * Returns false when memory ran out, or the caller cancelled. */
+ * Returns false when memory ran out. */
 USE_RESULT bool triangle_grid_enlarge(struct triangle_grid *grid,
                                       const struct sheet *sheet,
                                       const uint32_t *subset, size_t n,
@@ -76,7 +76,7 @@ USE_RESULT bool triangle_grid_enlarge(struct triangle_grid *grid,
 /* Makes the lists of a subset of the triangles, ascending.
  * footprint  one an item of the subset; NULL: they are computed
  * wanted     as of triangle_grid_fill; NULL: all cells get lists
- * False when memory ran out. */
+ * False when memory ran out, or the caller cancelled. */
 USE_RESULT bool triangle_grid_fill_some(struct triangle_grid *grid,
                                         const struct sheet *sheet,
                                         const uint32_t *subset, size_t count,
@@ -86,7 +86,7 @@ USE_RESULT bool triangle_grid_fill_some(struct triangle_grid *grid,
 /* Makes a BSP of each list of TRIANGLE_GRID_SPLIT triangles or more.
  * planes  split by planes too: a query then finds what may hide its shape, not
  *         what the shape may hide (bsp.h)
- * Returns false when memory ran out, or the caller cancelled. */
+ * Returns false when memory ran out. */
 USE_RESULT bool triangle_grid_split(struct triangle_grid *grid, bool planes);
 
 static inline size_t
@@ -216,7 +216,7 @@ struct triangle_span {
 /* Finds every triangle whose box holds the point p, and maybe others, each
  * once.
  * found  gets a list of the grid or of the query, until the next query
- * Returns false when memory ran out, or the caller cancelled. */
+ * Returns false when memory ran out. */
 USE_RESULT static inline bool
 triangle_grid_find_at(const struct triangle_grid *grid, struct geom_point p,
                       struct triangle_grid_query *query,
