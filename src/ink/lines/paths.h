@@ -75,9 +75,10 @@ USE_RESULT bool paths_find_weak(struct ink_paths *paths,
                                 const struct crease_angles *angles);
 
 /* Sets is_weak of the paths of creases that are free and shorter than
- * pens_short_cycle_mm, if more than half of them are teeth, and short legs
- * beside these: what is shorter than pens_shortest_crease_mm between two turns
- * by more than 45 degrees on the page, a tooth if these are to opposite sides.
+ * pens_short_cycle_mm, if more than half of their length are reversing legs,
+ * and short ones beside these: a leg is what lies between two turns by more
+ * than 45 degrees on the page, short if it is shorter than
+ * pens_shortest_crease_mm, and reversing if the turns are to opposite sides, too.
  * Cost  linear in the points */
 void paths_find_zigzags(struct ink_paths *paths, const struct sheet *sheet,
                         const struct pens *pens,

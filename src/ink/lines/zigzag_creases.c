@@ -2,13 +2,13 @@
  * legs.
  *
  * Where a scan folds, creases of two rows of edges are joined by the edges
- * across: what is left of such a ladder without its cycles (short_cycles.c) is
- * a saw.  A line that a draughtsman would draw has no teeth as short as a
- * speckle.
+ * across: what is left of these without their cycles (short_cycles.c) is a
+ * zigzag.  A line that a draughtsman would draw does not turn to and fro within
+ * the length of a speckle.
  *
  * A leg is what lies between two turns by more than 45 degrees on the page.  It
- * is a tooth if it is short and the chain turns to one side at one of its ends
- * and to the other at the other. */
+ * is reversing if it is short and the chain turns to one side at one of its
+ * ends and to the other at the other. */
 #include "ink/lines/paths.h"
 
 #include <math.h>
@@ -20,14 +20,14 @@
 #define LEG_END_COSINE 0.70710678118654752
 
 struct leg_walk {
-  double leg, teeth, whole; /* lengths: of the leg so far, of all teeth and the
-                               short legs beside them, of all */
-  double shortest; /* of a leg that is not short; grid units as those */
-  int turned;      /* to which side the chain turned where the leg
-                               begins: a sign; 0: the chain begins there */
-  bool was_tooth;  /* the leg before was one */
-  double before;   /* its length, if it is short and not of the
-                               teeth so far; else 0 */
+  double leg, zigzag, whole; /* lengths: of the leg so far, of all reversing
+                                legs and the short ones beside them, of all */
+  double shortest;           /* of a leg that is not short; all in grid units */
+  double before;      /* the length of the leg before, if it is short and is not
+                         counted as zigzag so far; else 0 */
+  int turned;         /* to which side the chain turned where the leg begins: a
+                         sign; 0: the chain begins there */
+  bool was_reversing; /* the leg before was */
 };
 
 /* To which side a chain turns at a point by more than a leg may: a sign. */
@@ -43,19 +43,19 @@ static int turn_at(const struct ink_point *p) {
 /* Ends a leg where the chain turns to one side; 0: where it ends. */
 static void end_leg(struct leg_walk *w, int turn) {
   bool is_short = w->leg < w->shortest;
-  bool is_tooth = is_short && turn * w->turned < 0;
-  if (is_tooth)
-    w->teeth += w->leg + w->before;
-  else if (is_short && w->was_tooth)
-    w->teeth += w->leg;
-  w->before = is_short && !is_tooth && !w->was_tooth ? w->leg : 0;
-  w->was_tooth = is_tooth;
+  bool is_reversing = is_short && turn * w->turned < 0;
+  if (is_reversing)
+    w->zigzag += w->leg + w->before;
+  else if (is_short && w->was_reversing)
+    w->zigzag += w->leg;
+  w->before = is_short && !is_reversing && !w->was_reversing ? w->leg : 0;
+  w->was_reversing = is_reversing;
   w->turned = turn;
   w->leg = 0;
 }
 
-/* Whether more than half of an open chain that is not long are teeth, and short
- * legs beside these. */
+/* Whether more than half of an open chain that is not long are reversing legs,
+ * and short ones beside these. */
 static bool is_zigzag(const struct ink_paths *paths,
                       const struct ink_path *path, const struct pens *pens,
                       uint32_t pen) {
@@ -72,7 +72,7 @@ static bool is_zigzag(const struct ink_paths *paths,
     if (turn != 0 || i + 1 == path->count)
       end_leg(&walk, turn);
   }
-  return walk.whole < longest && 2 * walk.teeth > walk.whole;
+  return walk.whole < longest && 2 * walk.zigzag > walk.whole;
 }
 
 void paths_find_zigzags(struct ink_paths *paths, const struct sheet *sheet,
