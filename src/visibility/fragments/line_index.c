@@ -48,6 +48,14 @@ static bool is_edge(const struct sheet *sheet, uint32_t t, int k,
   return sheet_triangle_sides(sheet, t)[k] != SHEET_NONE;
 }
 
+/* Fetches the corners of a triangle that comes later in a range. */
+MEM_PREFETCH_INLINE void prefetch_later(const struct gathered_sides *sides,
+                                        size_t i, size_t end) {
+  if (i + MEM_PREFETCH_AHEAD < end)
+    sheet_prefetch_corners(sides->sheet,
+                           sides->triangle[i + MEM_PREFETCH_AHEAD]);
+}
+
 /* ---- The cells ----------------------------------------------------------- */
 
 static uint32_t key_of_ends(const struct geom_point end[2]) {
@@ -66,9 +74,7 @@ static bool measure_range(void *user, struct parallel_range range) {
   for (size_t i = range.begin; i < range.end; i++) {
     uint32_t t = sides->triangle[i];
     struct geom_point end[2];
-    if (i + MEM_PREFETCH_AHEAD < range.end)
-      sheet_prefetch_corners(sides->sheet,
-                             sides->triangle[i + MEM_PREFETCH_AHEAD]);
+    prefetch_later(sides, i, range.end);
     for (int k = 0; k < 3 && !sheet_is_edge_on(sides->sheet, t); k++)
       if (is_edge(sides->sheet, t, k, end)) {
         struct box2 b = box2_of_segment(end[0], end[1]);
@@ -163,9 +169,7 @@ static bool put_range(void *user, struct parallel_range range) {
   for (size_t i = range.begin; i < range.end; i++) {
     uint32_t t = sides->triangle[i];
     struct geom_point end[2];
-    if (i + MEM_PREFETCH_AHEAD < range.end)
-      sheet_prefetch_corners(sides->sheet,
-                             sides->triangle[i + MEM_PREFETCH_AHEAD]);
+    prefetch_later(sides, i, range.end);
     for (uint32_t k = 0; k < 3 && !sheet_is_edge_on(sides->sheet, t); k++)
       if (is_edge(sides->sheet, t, (int)k, end))
         put_side(sides, end,
