@@ -14,8 +14,8 @@ librecto_core_la_SOURCES += \
   %D%/links.c %D%/links.h \
   %D%/memory.c %D%/memory.h \
   %D%/number.c %D%/number.h \
-  %D%/number_format.c \
   %D%/number_filter.c %D%/number_filter.h \
+  %D%/number_format.c \
   %D%/number_lists.c %D%/number_lists.h \
   %D%/parallel.c %D%/parallel.h \
   %D%/parallel_read.c %D%/parallel_read.h \

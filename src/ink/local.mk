@@ -36,6 +36,7 @@ librecto_core_la_SOURCES += \
   %D%/lines/free_ends.c \
   %D%/lines/gaps.c \
   %D%/lines/isolated.c \
+  %D%/lines/loose_ends.c %D%/lines/loose_ends.h \
   %D%/lines/nearest.c %D%/lines/nearest.h \
   %D%/lines/nodes.c \
   %D%/lines/nodes_near_segment.c %D%/lines/nodes_near_segment.h \
@@ -50,7 +51,6 @@ librecto_core_la_SOURCES += \
   %D%/lines/segment_order.c \
   %D%/lines/segments.c \
   %D%/lines/short_cycles.c \
-  %D%/lines/loose_ends.c %D%/lines/loose_ends.h \
   %D%/lines/short_spurs.c %D%/lines/short_spurs.h \
   %D%/lines/speckled_creases.c \
   %D%/lines/simplify.c \
