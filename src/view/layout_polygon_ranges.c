@@ -76,9 +76,9 @@ static bool add_faces_of_range(void *user, struct parallel_range faces) {
   begin_range(work->layout, range, faces);
   recto_error error;
   own->error = &error;
-  bool ok = ARRAY_RESERVE(
-      &own->late, scene_face_start(own->scene, end) -
-                      scene_face_start(own->scene, (uint32_t)faces.begin));
+  /* Three for each triangle at most: a polygon that touches itself may have
+   * diagonals that are sides of it, too. */
+  bool ok = ARRAY_RESERVE(&own->late, 3 * range->sheet.triangle.capacity);
   for (uint32_t face = (uint32_t)faces.begin; ok && face < end; face++) {
     face = layout_unclipped_faces(own, face, end);
     ok = face == end || layout_face(own, face) == RECTO_OK;
