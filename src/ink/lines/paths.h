@@ -78,7 +78,8 @@ USE_RESULT bool paths_find_weak(struct ink_paths *paths,
  * pens_short_cycle_mm, if more than half of their length are reversing legs,
  * and short ones beside these: a leg is what lies between two turns by more
  * than 45 degrees on the page, short if it is shorter than
- * pens_shortest_crease_mm, and reversing if the turns are to opposite sides, too.
+ * pens_shortest_crease_mm, and reversing if the turns are to opposite sides,
+ * too.
  * Cost  linear in the points */
 void paths_find_zigzags(struct ink_paths *paths, const struct sheet *sheet,
                         const struct pens *pens,
