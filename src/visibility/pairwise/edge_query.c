@@ -87,18 +87,10 @@ static void remember(struct edge_query *query, uint32_t t) {
   query->recent[0] = t;
 }
 
-/* Does the edge belong to triangle t, as occlusion_is_own has it? */
-static inline bool is_triangle_of_edge(const struct edge_query *query,
-                                       uint32_t t) {
-  uint32_t face = query->sheet->triangle.item[t].face;
-  return (face == query->face[0] || face == query->face[1]) &&
-         occlusion_is_own(query->sheet, query->edge, t);
-}
-
 /* Tests triangle t, which may overlap the edge, and adds what it occludes. */
 static bool add_triangle_occlusion(struct edge_query *query, uint32_t t) {
   struct occluded_interval part;
-  if (is_triangle_of_edge(query, t) ||
+  if (occlusion_is_own(query->sheet, query->edge, t) ||
       (query->several_cells && !triangle_grid_query_first(&query->found, t)) ||
       !occlude_by_triangle(query, t, &part))
     return true;
@@ -179,6 +171,54 @@ static bool test_bvh(struct edge_query *query, const struct bvh *bvh,
   return true;
 }
 
+/* How many entries of a list are compared before the first is tested. */
+enum { ENTRIES_AT_ONCE = 32 };
+
+/* Gathers the entries from `from` to before `end` whose 8-DOPs overlap that of
+ * the edge, without a jump for each, as no processor predicts which do.
+ * end     gets where entries begin that are behind the edge, if any do
+ * Returns how many there are. */
+static inline size_t gather_overlapping(const uint64_t *key,
+                                        uint64_t kdop_query, uint32_t from,
+                                        uint32_t *end,
+                                        uint32_t found[ENTRIES_AT_ONCE]) {
+  size_t count = 0;
+  for (uint32_t i = from; i < *end; i++) {
+    uint64_t lanes = kdop8_compare(key[i], kdop_query);
+    if (kdop8_is_behind(lanes)) {
+      *end = i;
+      break;
+    }
+    found[count] = i;
+    count += lanes == KDOP8_GUARDS;
+  }
+  return count;
+}
+
+/* Drops the entries whose projections certainly do not overlap the edge, and
+ * its own triangles, without a jump for each: most triangles that are near an
+ * edge have a corner in common with it, and nothing more.
+ * item  the triangles of the list
+ * Returns how many are left. */
+static inline size_t drop_beside(struct edge_query *query, const uint32_t *item,
+                                 uint32_t found[ENTRIES_AT_ONCE], size_t n) {
+  const struct sheet_triangle *triangle = query->sheet->triangle.item;
+  const struct geom_point *point = query->sheet->point.item, p = query->p,
+                          q = query->q;
+  uint32_t first = query->edge->triangle[0], second = query->edge->triangle[1];
+  size_t count = 0;
+  for (size_t k = 0; k < n; k++) {
+    uint32_t i = found[k], t = item[i];
+    const uint32_t *corner = triangle[t].point;
+    bool is_beside = occlusion_is_beside(&point[corner[0]], &point[corner[1]],
+                                         &point[corner[2]], p, q);
+    found[count] = i;
+    count += !is_beside & (t != first) & (t != second);
+    query->counts.pairs += is_beside;
+  }
+  return count;
+}
+
 /* Tests the triangles listed in a cell whose 8-DOPs overlap that of the
  * edge. */
 static bool test_cell(struct edge_query *query, int x, int y) {
@@ -194,19 +234,23 @@ static bool test_cell(struct edge_query *query, int x, int y) {
   const struct bvh *bvh = tile_candidates_bvh(list, cell);
   if (bvh != NULL)
     return test_bvh(query, bvh, &at);
-  for (; !query->intervals.occluded; i++) {
-    uint64_t lanes = 0;
-    while (i < end && (lanes = kdop8_compare(list->key[i], at.kdop_query)) !=
-                          KDOP8_GUARDS) {
-      if (kdop8_is_behind(lanes))
-        return true; /* so are all that follow */
-      i++;
+  while (i < end && !query->intervals.occluded) {
+    uint32_t found[ENTRIES_AT_ONCE],
+        last = end - i > ENTRIES_AT_ONCE ? i + ENTRIES_AT_ONCE : end,
+        past = last;
+    size_t n = gather_overlapping(list->key, at.kdop_query, i, &past, found);
+    if (list->occluder == NULL)
+      n = drop_beside(query, list->grid.lists.item, found, n);
+    for (size_t k = 0; k < n && !query->intervals.occluded; k++) {
+      if (!kdop8_overlaps(list->key[found[k]], at.kdop_query))
+        continue; /* the edge was shortened */
+      if (!add_triangle_occlusion(query, list->grid.lists.item[found[k]]))
+        return false;
+      update_kdop_query(&at, query);
     }
-    if (i == end)
-      return true;
-    if (!add_triangle_occlusion(query, list->grid.lists.item[i]))
-      return false;
-    update_kdop_query(&at, query);
+    if (past < last)
+      return true; /* all that follow are behind the edge */
+    i = last;
   }
   return true;
 }
@@ -236,10 +280,6 @@ static bool occlude_by_buffer(struct edge_query *query) {
 static bool begin_edge(struct edge_query *query, uint32_t e) {
   const struct sheet_edge *edge = &query->sheet->edge.item[e];
   query->edge = edge;
-  for (int k = 0; k < 2; k++)
-    query->face[k] = edge->triangle[k] == SHEET_NONE
-                         ? SHEET_NONE
-                         : query->sheet->triangle.item[edge->triangle[k]].face;
   query->p = query->sheet->point.item[edge->point[0]];
   query->q = query->sheet->point.item[edge->point[1]];
   query->kdop = kdop8_of_point(query->p);

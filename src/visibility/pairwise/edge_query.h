@@ -36,7 +36,6 @@ struct edge_query {
   size_t recent_count;
   /* The current edge. */
   const struct sheet_edge *edge;
-  uint32_t face[2]; /* those of its triangles; SHEET_NONE */
   struct geom_point p, q;
   /* The remaining part of the edge, outside of which it is known to be
    * hidden. */

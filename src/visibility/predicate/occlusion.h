@@ -109,6 +109,21 @@ static inline bool occlusion_is_possible(const struct sheet *sheet,
   return !box2_disjoint(box, box2_of_triangle(sheet, triangle));
 }
 
+/* Is a triangle on one side of the line through an edge p-q on the page, with
+ * at most one corner on it?  Then its projection does not overlap the edge. */
+static inline bool occlusion_is_beside(const struct geom_point *a,
+                                       const struct geom_point *b,
+                                       const struct geom_point *c,
+                                       struct geom_point p,
+                                       struct geom_point q) {
+  int64_t dx = (int64_t)q.x - p.x, dy = (int64_t)q.y - p.y;
+  int64_t at_a = dx * ((int64_t)a->y - p.y) - dy * ((int64_t)a->x - p.x),
+          at_b = dx * ((int64_t)b->y - p.y) - dy * ((int64_t)b->x - p.x),
+          at_c = dx * ((int64_t)c->y - p.y) - dy * ((int64_t)c->x - p.x);
+  bool one_side = ((at_a | at_b | at_c) >= 0) | ((-at_a | -at_b | -at_c) >= 0);
+  return one_side & ((at_a == 0) + (at_b == 0) + (at_c == 0) <= 1);
+}
+
 /* Sides of a directed edge. */
 enum { OCCLUDED_LEFT = 1, OCCLUDED_RIGHT = 2, OCCLUDED_BOTH = 3 };
 

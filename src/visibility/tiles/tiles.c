@@ -91,6 +91,22 @@ static void close_last_edge(struct map *map, const struct tiles_work *work) {
   map->interval.count = (size_t)last->interval + last->count;
 }
 
+/* Fetches a deferred edge that comes later in a batch, and the ends of one that
+ * comes sooner: in the order of the tiles they are anywhere in memory.
+ * end  of the batch */
+MEM_PREFETCH_INLINE void prefetch_edge(const struct tiles_work *work, size_t i,
+                                       size_t end) {
+  const struct sheet *sheet = work->sheet;
+  const uint32_t *edge = work->states.edge.item;
+  if (i + MEM_PREFETCH_AHEAD >= end)
+    return;
+  MEM_PREFETCH(&sheet->edge.item[edge[i + MEM_PREFETCH_AHEAD]]);
+  const uint32_t *point =
+      sheet->edge.item[edge[i + MEM_PREFETCH_AHEAD / 2]].point;
+  MEM_PREFETCH(&sheet->point.item[point[0]]);
+  MEM_PREFETCH(&sheet->point.item[point[1]]);
+}
+
 static bool solve_batch(void *user, struct parallel_range range) {
   const struct edge_batches *batches = user;
   const struct tiles_work *work = batches->work;
@@ -100,6 +116,7 @@ static bool solve_batch(void *user, struct parallel_range range) {
   query->recent_count = 0; /* the counts are to be those of any thread */
   for (size_t i = range.begin; i < range.end; i++) {
     progress.share = (double)i / (double)work->states.edge.count;
+    prefetch_edge(work, i, range.end);
     if ((i % POLL_INTERVAL == 0 && !progress_poll(&progress)) ||
         !edge_query_solve(query, work->states.edge.item[i]) ||
         !edge_intervals_store(&query->intervals, work->states.edge.item[i],
