@@ -61,6 +61,47 @@ static bool check_sides_left_out(const struct sheet_fixture *fixture) {
   return are_left_out;
 }
 
+/* Finds the sides of the sheet's triangles again. */
+static void find_sides_again(struct sheet *sheet) {
+  size_t n = sheet->triangle.count;
+  struct sheet_sides *made = malloc(n * sizeof *made);
+  assert_non_null(made);
+  memcpy(made, sheet->sides.item, n * sizeof *made);
+  sheet->sides.count = 0;
+  assert_true(sheet_find_sides(sheet));
+  assert_memory_equal(sheet->sides.item, made, n * sizeof *made);
+  free(made);
+}
+
+/* Of 5,000 triangles around one edge, or 5,000 folds around one point, each
+ * side is compared with few edges, wherever the points of which very many have
+ * a side are numbered. */
+static void sides_at_one_point_are_found_with_few_comparisons(void **state) {
+  (void)state;
+  enum { TRIANGLES = 5000 };
+  for (int kind = 0; kind < 4; kind++) {
+    struct sheet_fixture fixture;
+    uint32_t shared[2] = {0, 1}, first = kind < 2 ? 2 : 0;
+    sheet_fixture_start(&fixture);
+    if (kind >= 2)
+      shared[0] = TRIANGLES + 1, shared[1] = TRIANGLES + 2;
+    for (uint32_t i = 0; i < TRIANGLES + 3; i++) {
+      double angle = 6 * (i - first) / (double)TRIANGLES;
+      bool is_shared = i == shared[0] || i == shared[1];
+      build_point(&fixture.scene, is_shared ? 0 : cos(angle),
+                  is_shared ? 0 : sin(angle), is_shared ? i == shared[1] : 2);
+    }
+    for (uint32_t i = 0; i < TRIANGLES; i++)
+      build_triangle(&fixture.scene, shared[0],
+                     kind % 2 == 0 ? shared[1] : first + i + 1, first + i);
+    sheet_fixture_out(&fixture, true);
+    assert_int_equal(fixture.sheet.triangle.count, TRIANGLES);
+    find_sides_again(&fixture.sheet);
+    assert_true(fixture.sheet.sides_compared < 6 * TRIANGLES);
+    sheet_fixture_fini(&fixture);
+  }
+}
+
 static void sides_that_are_left_out_are_found(void **state) {
   (void)state;
   int left_out = 0;
@@ -934,6 +975,7 @@ static void every_failed_allocation_is_reported(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_scenes_keep_every_invariant),
+      cmocka_unit_test(sides_at_one_point_are_found_with_few_comparisons),
       cmocka_unit_test(sides_that_are_left_out_are_found),
       cmocka_unit_test(random_scenes_keep_every_invariant),
       cmocka_unit_test(clipped_scenes_keep_every_invariant),

@@ -88,8 +88,10 @@ struct sheet {
   ARRAY(struct sheet_triangle) triangle;
   ARRAY(struct sheet_sides) sides; /* one a triangle; none where they were left
                                       out: sheet_find_sides */
-  bool triangles_are_faces;        /* each has the number of its face */
-  uint8_t *triangle_flags;         /* one a triangle */
+  uint64_t sides_compared;   /* how often that compared a side with an edge that
+                              it is not */
+  bool triangles_are_faces;  /* each has the number of its face */
+  uint8_t *triangle_flags;   /* one a triangle */
   bool triangles_dropped;    /* the triangles were freed: edge.triangle then has
                               scene faces instead */
   const struct scene *scene; /* borrowed, not owned; for the precision of its

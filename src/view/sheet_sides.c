@@ -1,59 +1,85 @@
 /* sheet_sides.c - finds the sides of a sheet's triangles among its edges.
  *
  * Few drawings need them: so they are left out where triangles are made, and
- * found here by those that do. */
+ * found here by those that do.
+ *
+ * Each edge is listed at that of its ends which has fewer edges.  So the hub of
+ * a fan has a short list, and so have the ends of an edge that very many
+ * triangles share: the lesser degrees of the ends of a planar graph's edges add
+ * up to at most six times the number of edges.
+ *
+ * Source  [Chiba1985]. */
+#include <stdatomic.h>
 #include <string.h>
 
 #include "base/parallel.h"
 #include "view/sheet.h"
 
-/* The edges of faces, listed by their lower points. */
+/* The edges of faces, listed by points. */
 struct side_lists {
   struct sheet *sheet;
-  uint32_t *head; /* one a point: the last of its edges, or SHEET_NONE */
-  uint32_t *next; /* one an edge */
+  uint32_t *degree; /* one a point: how many of these edges end there */
+  uint32_t *head;   /* one a point: the last edge of its list, or SHEET_NONE */
+  uint32_t *next;   /* one an edge */
+  _Atomic uint64_t compared;
 };
 
-static uint32_t lower_of(const uint32_t point[2]) {
-  return point[0] < point[1] ? point[0] : point[1];
+/* The point that lists an edge: the one with fewer edges, the lower of two with
+ * as many. */
+static uint32_t listing_point(const struct side_lists *lists, uint32_t p,
+                              uint32_t q) {
+  uint32_t of_p = lists->degree[p], of_q = lists->degree[q];
+  return of_p != of_q ? (of_p < of_q ? p : q) : (p < q ? p : q);
 }
 
 /* Wires and intersections are no sides. */
+static bool is_face_edge(const struct sheet_edge *edge) {
+  return edge->triangle[0] != SHEET_NONE && edge->source != SHEET_NONE;
+}
+
 static void list_face_edges(struct side_lists *lists) {
   const struct sheet *sheet = lists->sheet;
+  for (size_t e = 0; e < sheet->edge.count; e++) {
+    const struct sheet_edge *edge = &sheet->edge.item[e];
+    lists->degree[edge->point[0]] += is_face_edge(edge);
+    lists->degree[edge->point[1]] += is_face_edge(edge);
+  }
   memset(lists->head, 0xff, sheet->point.count * sizeof *lists->head);
   for (uint32_t e = 0; e < sheet->edge.count; e++) {
     const struct sheet_edge *edge = &sheet->edge.item[e];
-    if (edge->triangle[0] == SHEET_NONE || edge->source == SHEET_NONE)
+    if (!is_face_edge(edge))
       continue;
-    uint32_t *head = &lists->head[lower_of(edge->point)];
+    uint32_t *head =
+        &lists->head[listing_point(lists, edge->point[0], edge->point[1])];
     lists->next[e] = *head;
     *head = e;
   }
 }
 
+/* The edge between two points, or SHEET_NONE; counts the others compared. */
 static uint32_t find_side(const struct side_lists *lists, uint32_t p,
-                          uint32_t q) {
-  const uint32_t point[2] = {p, q};
-  uint32_t e = lists->head[lower_of(point)];
-  while (e != SHEET_NONE) {
+                          uint32_t q, uint64_t *compared) {
+  uint32_t e = lists->head[listing_point(lists, p, q)];
+  for (; e != SHEET_NONE; e = lists->next[e], ++*compared) {
     const uint32_t *of = lists->sheet->edge.item[e].point;
     if ((of[0] == p && of[1] == q) || (of[0] == q && of[1] == p))
       break;
-    e = lists->next[e];
   }
   return e;
 }
 
 static bool find_sides_of_range(void *user, struct parallel_range range) {
-  const struct side_lists *lists = user;
+  struct side_lists *lists = user;
   const struct sheet *sheet = lists->sheet;
+  uint64_t compared = 0;
   for (size_t t = range.begin; t < range.end; t++) {
     const uint32_t *p = sheet->triangle.item[t].point;
-    sheet->sides.item[t] = (struct sheet_sides){{find_side(lists, p[0], p[1]),
-                                                 find_side(lists, p[1], p[2]),
-                                                 find_side(lists, p[2], p[0])}};
+    struct sheet_sides *sides = &sheet->sides.item[t];
+    for (int k = 0; k < 3; k++)
+      sides->edge[k] =
+          find_side(lists, p[k], p[geom_next_corner(k)], &compared);
   }
+  lists->compared += compared;
   return true;
 }
 
@@ -61,18 +87,23 @@ bool sheet_find_sides(struct sheet *sheet) {
   size_t n = sheet->triangle.count;
   if (sheet->sides.count == n)
     return true;
-  struct side_lists lists = {sheet,
-                             mem_alloc(sheet->point.count, sizeof(uint32_t)),
-                             mem_alloc(sheet->edge.count, sizeof(uint32_t))};
-  bool ok = lists.head != NULL && lists.next != NULL &&
+  struct side_lists lists = {
+      .sheet = sheet,
+      .degree = mem_calloc(sheet->point.count, sizeof(uint32_t)),
+      .head = mem_alloc(sheet->point.count, sizeof(uint32_t)),
+      .next = mem_alloc(sheet->edge.count, sizeof(uint32_t))};
+  bool ok = lists.degree != NULL && lists.head != NULL && lists.next != NULL &&
             ARRAY_RESERVE(&sheet->sides, n);
   if (ok) {
     list_face_edges(&lists);
     ok = parallel_ranges(parallel_workers(n, PARALLEL_ITEMS), n, PARALLEL_ITEMS,
                          find_sides_of_range, &lists);
   }
-  if (ok)
+  if (ok) {
     sheet->sides.count = n;
+    sheet->sides_compared = lists.compared;
+  }
+  mem_free(lists.degree);
   mem_free(lists.head);
   mem_free(lists.next);
   return ok;
