@@ -21,6 +21,9 @@
  * edges that a side has to pass by more than that. */
 enum { FEW_SIDES = 24, MANY_EDGES = 48 };
 
+/* Where points are as they are, sides may pass by that many on the average. */
+enum { MANY_PASSED = 8 };
+
 /* ---- Hubs ---------------------------------------------------------------- */
 
 /* A side of a hub. */
@@ -182,33 +185,27 @@ static bool number_edges(struct edge_range *range) {
   return true;
 }
 
-/* ---- Triangles ----------------------------------------------------------- */
+/* ---- Points as they are -------------------------------------------------- */
 
-/* What the loop over triangles uses, in registers. */
-struct triangle_loop {
-  const uint32_t *corner;
+/* What the loop over faces uses, in registers. */
+struct face_loop {
   uint32_t *head, *next;
   struct topology_edge *edge;
   uint32_t edges;
-  int longest; /* edges that a side had to pass by */
+  size_t passed; /* edges that sides had to pass by */
 };
 
 /* The edge of a side, which is added where it is new; there is room for it. */
-static inline uint32_t number_side(struct triangle_loop *loop, uint32_t from,
+static inline uint32_t number_side(struct face_loop *loop, uint32_t from,
                                    uint32_t to, uint32_t face) {
   bool forward = from < to;
   uint32_t lower = forward ? from : to, upper = forward ? to : from;
-  uint32_t first = loop->head[lower], e = first;
-  int passed = 0;
-  while (e != SCENE_NONE && loop->edge[e].point[1] != upper) {
-    e = loop->next[e];
-    passed++;
-  }
-  loop->longest = passed > loop->longest ? passed : loop->longest;
-  if (e != SCENE_NONE) {
-    topology_use_edge(&loop->edge[e], face, forward);
-    return e;
-  }
+  uint32_t first = loop->head[lower], e;
+  for (e = first; e != SCENE_NONE; e = loop->next[e], loop->passed++)
+    if (loop->edge[e].point[1] == upper) {
+      topology_use_edge(&loop->edge[e], face, forward);
+      return e;
+    }
   e = loop->edges++;
   loop->edge[e] = topology_new_edge(lower, upper, face, forward);
   loop->next[e] = first;
@@ -218,7 +215,7 @@ static inline uint32_t number_side(struct triangle_loop *loop, uint32_t from,
 
 /* Fetches the list of a point of a face that comes later, and the first edge of
  * one that comes sooner. */
-MEM_PREFETCH_INLINE void prefetch_side(const struct triangle_loop *loop,
+MEM_PREFETCH_INLINE void prefetch_side(const struct face_loop *loop,
                                        const uint32_t *corner) {
   MEM_PREFETCH(&loop->head[corner[2 * MEM_PREFETCH_AHEAD]]);
   uint32_t e = loop->head[corner[MEM_PREFETCH_AHEAD]];
@@ -228,24 +225,42 @@ MEM_PREFETCH_INLINE void prefetch_side(const struct triangle_loop *loop,
   }
 }
 
+/* Begins to number sides, for so many of which it makes room; false when memory
+ * ran out, or where the caller cancelled. */
+static inline bool begin_sides(struct edge_range *range, struct face_loop *loop,
+                               size_t sides) {
+  if (!poll_now() || !ARRAY_RESERVE(&range->edge, sides))
+    return false;
+  *loop = (struct face_loop){.head = range->head,
+                             .next = range->next,
+                             .edge = range->edge.item,
+                             .edges = (uint32_t)range->edge.count};
+  return true;
+}
+
+/* Ends to number so many.  Where these had to pass by few edges on the average,
+ * it does not matter that some had to pass by many. */
+static inline void end_sides(struct edge_range *range,
+                             const struct face_loop *loop, size_t sides) {
+  range->edge.count = loop->edges;
+  range->overfull |= loop->passed > MANY_PASSED * sides;
+}
+
 /* The same as number_edges, where all faces are triangles, no point is welded
  * to another, and there are no hubs. */
 static bool number_edges_of_triangles(struct edge_range *range) {
-  struct triangle_loop loop = {.corner = range->scene->corner.item,
-                               .head = range->head,
-                               .next = range->next};
+  struct face_loop loop;
   enum { BLOCK = POLL_ITEMS / 3 }; /* as many sides as elsewhere */
   size_t corners = range->scene->corner.count;
   for (uint32_t f = range->face; f < range->end_face && !range->overfull;) {
     uint32_t left = range->end_face - f;
     uint32_t end = f + (left < BLOCK ? left : BLOCK);
-    if (!poll_now() || !ARRAY_RESERVE(&range->edge, 3 * (end - f)))
+    size_t sides = 3 * (size_t)(end - f);
+    if (!begin_sides(range, &loop, sides))
       return false;
-    loop.edge = range->edge.item;
-    loop.edges = (uint32_t)range->edge.count;
-    for (; f < end; f++) {
-      const uint32_t *corner = loop.corner + 3 * (size_t)f;
-      uint32_t *edge = range->corner_edge + 3 * (size_t)f;
+    const uint32_t *corner = range->scene->corner.item + 3 * (size_t)f;
+    uint32_t *edge = range->corner_edge + 3 * (size_t)f;
+    for (; f < end; f++, corner += 3, edge += 3) {
       if (3 * (size_t)f + 2 * MEM_PREFETCH_AHEAD + 3 <= corners) {
         prefetch_side(&loop, corner);
         prefetch_side(&loop, corner + 1);
@@ -255,8 +270,63 @@ static bool number_edges_of_triangles(struct edge_range *range) {
       edge[1] = number_side(&loop, corner[1], corner[2], f);
       edge[2] = number_side(&loop, corner[2], corner[0], f);
     }
-    range->edge.count = loop.edges;
-    range->overfull = loop.longest > MANY_EDGES;
+    end_sides(range, &loop, sides);
+  }
+  return true;
+}
+
+/* Numbers the sides of a polygon. */
+static inline void number_sides_of_face(const struct edge_range *range,
+                                        struct face_loop *loop, uint32_t face,
+                                        uint32_t start, uint32_t end) {
+  const struct scene *scene = range->scene;
+  const uint32_t *corner = scene->corner.item;
+  uint32_t *edge = range->corner_edge, c = start, from = corner[start];
+  if (end + 2 * (size_t)MEM_PREFETCH_AHEAD <= scene->corner.count)
+    for (uint32_t k = start; k < end; k++)
+      prefetch_side(loop, corner + k);
+  for (; c + 1 < end; c++) {
+    uint32_t to = corner[c + 1];
+    edge[c] = number_side(loop, from, to, face);
+    from = to;
+  }
+  edge[c] = number_side(loop, from, corner[start], face);
+}
+
+/* Numbers the sides of a polygon of many, block by block, so that there need
+ * not be room for an edge a side. */
+static bool number_sides_of_large_face(struct edge_range *range,
+                                       uint32_t face) {
+  const struct scene *scene = range->scene;
+  const uint32_t *corner = scene->corner.item;
+  uint32_t start = scene_face_start(scene, face),
+           last = scene_face_start(scene, face + 1);
+  for (uint32_t c = start; c < last && !range->overfull;) {
+    struct face_loop loop;
+    uint32_t sides = last - c < POLL_ITEMS ? last - c : POLL_ITEMS;
+    if (!begin_sides(range, &loop, sides))
+      return false;
+    for (uint32_t end = c + sides; c < end; c++)
+      range->corner_edge[c] = number_side(
+          &loop, corner[c], corner[c + 1 < last ? c + 1 : start], face);
+    end_sides(range, &loop, sides);
+  }
+  return true;
+}
+
+/* The same as number_edges_of_triangles, of polygons. */
+static bool number_edges_of_polygons(struct edge_range *range) {
+  const uint32_t *start = range->scene->face_start.item;
+  for (uint32_t f = range->face; f < range->end_face && !range->overfull;) {
+    struct face_loop loop;
+    uint32_t first = start[f];
+    if (!begin_sides(range, &loop, POLL_ITEMS))
+      return false;
+    for (; f < range->end_face && start[f + 1] - first <= POLL_ITEMS; f++)
+      number_sides_of_face(range, &loop, f, start[f], start[f + 1]);
+    end_sides(range, &loop, start[f] - first);
+    if (start[f] == first && !number_sides_of_large_face(range, f++))
+      return false;
   }
   return true;
 }
@@ -278,9 +348,10 @@ bool edge_range_find(struct edge_range *range, bool with_hubs) {
     return false;
   if (!with_hubs)
     memset(range->head, 0xff, points * sizeof *range->head);
-  return !with_hubs && range->weld == NULL && scene->face_start.count == 0
-             ? number_edges_of_triangles(range)
-             : number_edges(range);
+  if (with_hubs || range->weld != NULL)
+    return number_edges(range);
+  return scene->face_start.count == 0 ? number_edges_of_triangles(range)
+                                      : number_edges_of_polygons(range);
 }
 
 void edge_range_drop_lists(struct edge_range *range) {

@@ -39,9 +39,10 @@ static inline void topology_use_edge(struct topology_edge *edge, uint32_t face,
   if (edge->uses == 1) {
     edge->second = face & TOPOLOGY_FACE_BITS;
     edge->same_way = edge->same_way == forward;
+    edge->uses = 2;
+  } else {
+    edge->uses = 3;
   }
-  if (edge->uses < 3)
-    edge->uses++;
 }
 
 #endif
