@@ -30,7 +30,9 @@ librecto_core_la_SOURCES += \
   %D%/lines/changed_cells.c %D%/lines/changed_cells.h \
   %D%/lines/continued_ends.c \
   %D%/lines/cover_side.c %D%/lines/cover_side.h \
+  %D%/lines/cover_verdict.c \
   %D%/lines/covered.c \
+  %D%/lines/covering.h \
   %D%/lines/crease_lines.c %D%/lines/crease_lines.h \
   %D%/lines/dash.c \
   %D%/lines/free_ends.c \

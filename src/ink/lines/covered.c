@@ -8,60 +8,23 @@
  *   4 judge    in parallel, each hair as if all others were drawn
  *   5 decide   from the longest hair to the shortest those of which that says
  *              nothing yet, as they may be covered by hairs that are not drawn
+ *              (both in cover_verdict.c)
  * A hair is divided into pieces of a quarter of a pen, and each must have both
  * ends within half a pen of one side of a longer path that is drawn, or within
  * what the side covers beside a seam; then all of it is, as what is within a
  * distance of a straight side is convex.
  * Cost  n log n in the sides; of a cell with many sides those of the longest
  *   paths alone are tried. */
-#include "ink/lines/paths.h"
-
-#include <math.h>
 #include <string.h>
 
 #include "base/poll.h"
-#include "base/sort.h"
 #include "geom/vector.h"
-#include "ink/lines/cover_side.h"
-#include "ink/pens.h"
+#include "ink/lines/covering.h"
 
 enum {
-  SIDES_TRIED_MAX = 256,
   GRID_MAX = 1 << 10, /* cells along each side of the page */
   PENS_IN_CELL = 4
 };
-
-enum verdict { NOT_COVERED, COVERED, UNDECIDED }; /* the first of no hair */
-
-struct measured_path {
-  double length, near; /* grid units; near: what covers it is, at most */
-  uint32_t rank;       /* 0: the longest */
-  uint32_t layer;
-  float weight;
-  bool is_hair, is_drawn;
-};
-
-struct covering {
-  struct ink_paths *paths;
-  const struct sheet *sheet;
-  const struct pens *pens;
-  struct measured_path *measured; /* one a path */
-  uint32_t *by_rank;
-  uint8_t *verdict;      /* one a path */
-  struct sort_key *hair; /* the cells in which hairs begin, and their paths */
-  size_t hairs;
-  uint8_t *marked; /* one a cell */
-  double cell, low[2], widest;
-  int64_t count[2];              /* of cells, in x and in y */
-  struct cover_lists *lists;     /* one a range of paths */
-  ARRAY(struct cover_side) side; /* the shortest path's first */
-  struct number_lists sides;     /* of each cell, the longest path's first */
-};
-
-static double distance(struct ink_point a, struct ink_point b) {
-  double dx = (double)b.x - a.x, dy = (double)b.y - a.y;
-  return sqrt(dx * dx + dy * dy);
-}
 
 /* ---- 1 Measure ----------------------------------------------------------- */
 
@@ -76,9 +39,9 @@ static struct measured_path measure_path(const struct covering *c,
       .weight = (float)pens_weight(c->pens, edge->edge_class)};
   const struct ink_point *p = c->paths->point.item + path->point;
   for (uint32_t i = 0; i + 1 < path->count; i++)
-    m.length += distance(p[i], p[i + 1]);
+    m.length += covering_distance(p[i], p[i + 1]);
   if (path->closed)
-    m.length += distance(p[path->count - 1], p[0]);
+    m.length += covering_distance(p[path->count - 1], p[0]);
   double mm = m.length / SHEET_UNITS_PER_MM;
   double shortest = pens_shortest_crease_mm(c->pens, m.layer);
   m.near = pens_ink_reach_mm(c->pens, m.layer, edge->edge_class) *
@@ -89,28 +52,64 @@ static struct measured_path measure_path(const struct covering *c,
   return m;
 }
 
-/* Returns false when memory ran out. */
+/* What measuring a range of paths gives. */
+struct measured_range {
+  size_t hairs;
+  double widest;
+};
+
+struct path_measuring {
+  struct covering *c;
+  struct sort_key *key;         /* one a path: of its length */
+  struct measured_range *range; /* one a range */
+};
+
+static bool measure_range(void *user, struct parallel_range range) {
+  const struct path_measuring *of = user;
+  const struct covering *c = of->c;
+  struct measured_range *own = &of->range[range.begin / PARALLEL_ITEMS];
+  for (size_t i = range.begin; i < range.end; i++) {
+    struct measured_path *m = &c->measured[i];
+    *m = measure_path(c, &c->paths->path.item[i]);
+    own->hairs += m->is_hair;
+    own->widest = fmax(own->widest, m->near);
+    of->key[i] =
+        (struct sort_key){UINT64_MAX - (uint64_t)m->length, (uint32_t)i};
+  }
+  return true;
+}
+
+/* Returns false when memory ran out or the caller cancelled. */
+static bool measure_all(struct path_measuring *of) {
+  struct covering *c = of->c;
+  size_t count = c->paths->path.count,
+         ranges = parallel_range_count(count, PARALLEL_ITEMS);
+  of->range = mem_calloc(ranges, sizeof *of->range);
+  bool ok = of->range != NULL &&
+            parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
+                            PARALLEL_ITEMS, measure_range, of);
+  for (size_t r = 0; ok && r < ranges; r++) {
+    c->hairs += of->range[r].hairs;
+    c->widest = fmax(c->widest, of->range[r].widest);
+  }
+  mem_free(of->range);
+  return ok;
+}
+
+/* Returns false when memory ran out or the caller cancelled. */
 static bool measure_paths(struct covering *c) {
   size_t count = c->paths->path.count;
-  struct sort_key *key = mem_alloc(count, sizeof *key);
+  struct path_measuring of = {.c = c, .key = mem_alloc(count, sizeof *of.key)};
   struct sort_key *scratch = mem_alloc(count, sizeof *scratch);
-  bool ok = key != NULL && scratch != NULL;
-  for (size_t i = 0; ok && i < count; i++) {
-    struct measured_path *m = &c->measured[i];
-    (void)poll_at(i);
-    *m = measure_path(c, &c->paths->path.item[i]);
-    c->hairs += m->is_hair;
-    c->widest = fmax(c->widest, m->near);
-    key[i] = (struct sort_key){UINT64_MAX - (uint64_t)m->length, (uint32_t)i};
-  }
+  bool ok = of.key != NULL && scratch != NULL && measure_all(&of);
   if (ok && c->hairs > 0) {
-    sort_keys(key, scratch, count);
+    sort_keys(of.key, scratch, count);
     for (uint32_t r = 0; r < count; r++) {
-      c->by_rank[r] = key[r].value;
-      c->measured[key[r].value].rank = r;
+      c->by_rank[r] = of.key[r].value;
+      c->measured[of.key[r].value].rank = r;
     }
   }
-  mem_free(key);
+  mem_free(of.key);
   mem_free(scratch);
   return ok;
 }
@@ -131,23 +130,6 @@ static bool make_cells(struct covering *c) {
   return c->marked != NULL;
 }
 
-/* The cell's index along an axis, moved into the page. */
-static int64_t cell_along(const struct covering *c, int axis, double at) {
-  double i = (at - c->low[axis]) / c->cell;
-  return !(i >= 0)                    ? 0
-         : i < (double)c->count[axis] ? (int64_t)i
-                                      : c->count[axis] - 1;
-}
-
-static int64_t cell_of_place(const struct covering *c, double x, double y) {
-  return cell_along(c, 1, y) * c->count[0] + cell_along(c, 0, x);
-}
-
-/* The side that covered the piece of a hair before this one; NULL: none did. */
-struct last_cover {
-  const struct cover_side *side;
-};
-
 /* Lists the hairs by the cells in which they begin: those of one cell are
  * tested with the same sides, which are in the cache then.  Returns false when
  * memory ran out. */
@@ -159,40 +141,9 @@ static bool list_hairs(struct covering *c) {
         c->paths->point.item + c->paths->path.item[i].point;
     if (c->measured[i].is_hair)
       c->hair[n++] =
-          (struct sort_key){(uint64_t)cell_of_place(c, p->x, p->y), i};
+          (struct sort_key){(uint64_t)covering_cell(c, p->x, p->y), i};
   }
   return c->hair != NULL && sort_keys_alone(c->hair, n);
-}
-
-/* What a piece of a hair, from at[0], at[1] to at[2], at[3], gives. */
-typedef enum verdict piece_fn(const struct covering *c,
-                              const struct measured_path *hair,
-                              const double at[4], struct last_cover *last);
-
-/* Calls do_piece for the pieces of a path, until one is NOT_COVERED; returns
- * that, or UNDECIDED where one is, or COVERED. */
-static enum verdict for_all_pieces(const struct covering *c, uint32_t number,
-                                   piece_fn *do_piece) {
-  const struct ink_path *path = &c->paths->path.item[number];
-  const struct measured_path *hair = &c->measured[number];
-  enum verdict all = COVERED;
-  struct last_cover last = {NULL};
-  for (uint32_t i = 0; i + 1 < path->count; i++) {
-    const struct ink_point *p = &c->paths->point.item[path->point + i];
-    double pieces = ceil(distance(p[0], p[1]) / hair->near * 2);
-    double dx = ((double)p[1].x - p[0].x) / pieces;
-    double dy = ((double)p[1].y - p[0].y) / pieces;
-    for (double k = 0; k < pieces; k++) {
-      const double at[4] = {p->x + k * dx, p->y + k * dy, p->x + (k + 1) * dx,
-                            p->y + (k + 1) * dy};
-      enum verdict verdict = do_piece(c, hair, at, &last);
-      if (verdict == NOT_COVERED)
-        return verdict;
-      if (verdict == UNDECIDED)
-        all = verdict;
-    }
-  }
-  return all;
 }
 
 /* ---- 2 Mark -------------------------------------------------------------- */
@@ -205,8 +156,8 @@ static void mark_hair(const struct covering *c, uint32_t number) {
   for (uint32_t i = 0; i + 1 < path->count; i++) {
     int64_t x[2], y[2];
     for (int k = 0; k < 2; k++) {
-      x[k] = cell_along(c, 0, p[i + (uint32_t)k].x);
-      y[k] = cell_along(c, 1, p[i + (uint32_t)k].y);
+      x[k] = covering_cell_along(c, 0, p[i + (uint32_t)k].x);
+      y[k] = covering_cell_along(c, 1, p[i + (uint32_t)k].y);
     }
     int left = x[0] > x[1], low = y[0] > y[1];
     for (int64_t row = y[low]; row <= y[!low]; row++)
@@ -226,8 +177,8 @@ static bool list_side(const struct covering *c, struct cover_lists *lists,
          y0 = min_number(a.y, b.y), y1 = max_number(a.y, b.y);
   uint32_t number = (uint32_t)lists->side.count;
   bool found = false;
-  for (int64_t row = cell_along(c, 1, y0 - reach);
-       row <= cell_along(c, 1, y1 + reach); row++) {
+  for (int64_t row = covering_cell_along(c, 1, y0 - reach);
+       row <= covering_cell_along(c, 1, y1 + reach); row++) {
     /* The part of the side beside the row. */
     double low = c->low[1] + (double)row * c->cell - reach;
     double high = low + c->cell + 2 * reach, x[2] = {a.x, b.x};
@@ -235,9 +186,9 @@ static bool list_side(const struct covering *c, struct cover_lists *lists,
       double y = min_number(high, max_number(low, k ? b.y : a.y));
       x[k] = a.x + ((double)b.x - a.x) * (y - a.y) / ((double)b.y - a.y);
     }
-    int64_t end = cell_along(c, 0, max_number(x[0], x[1]) + reach);
-    for (int64_t i = cell_along(c, 0, min_number(x[0], x[1]) - reach); i <= end;
-         i++) {
+    int64_t end = covering_cell_along(c, 0, max_number(x[0], x[1]) + reach);
+    for (int64_t i = covering_cell_along(c, 0, min_number(x[0], x[1]) - reach);
+         i <= end; i++) {
       struct cover_listed listed = {(uint32_t)(row * c->count[0] + i), number};
       if (c->marked[listed.cell] && !ARRAY_PUSH(&lists->listed, listed))
         return false;
@@ -318,110 +269,6 @@ static bool list_sides(struct covering *c) {
   return ok;
 }
 
-/* ---- 4 Judge, 5 Decide --------------------------------------------------- */
-
-/* The sides that are tried for a piece of a hair. */
-struct cover_trial {
-  const uint32_t *side, *end;
-  int tried;
-};
-
-static struct cover_trial trial_at(const struct covering *c,
-                                   const double at[4]) {
-  int64_t cell = cell_of_place(c, (at[0] + at[2]) / 2, (at[1] + at[3]) / 2);
-  return (struct cover_trial){c->sides.item + c->sides.start[cell],
-                              c->sides.item + c->sides.start[cell + 1], 0};
-}
-
-/* The next side that is near the piece, of a path that is longer than the hair
- * and could take its place; NULL: there is none.
- * decided  hairs are as decided; else all are taken for drawn */
-static const struct cover_side *next_cover(const struct covering *c,
-                                           struct cover_trial *trial,
-                                           const struct measured_path *hair,
-                                           const double at[4], bool decided) {
-  while (trial->side < trial->end && trial->tried < SIDES_TRIED_MAX) {
-    const struct cover_side *side = &c->side.item[*trial->side++];
-    if (side->rank >= hair->rank)
-      trial->side = trial->end;
-    else if (side->layer == hair->layer && side->weight >= hair->weight &&
-             !(decided && side->is_hair &&
-               !c->measured[c->by_rank[side->rank]].is_drawn)) {
-      trial->tried++;
-      if (cover_side_is_near(side, at, hair->near))
-        return side;
-    }
-  }
-  return NULL;
-}
-
-/* Does the side that covered the last piece cover this one?  It would be found
- * in this cell, too, as it is listed in all that it is near; only where so many
- * are that not all are tried it might not. */
-static bool covers_again(const struct last_cover *last,
-                         const struct cover_trial *trial,
-                         const struct measured_path *hair, const double at[4]) {
-  return last->side != NULL && trial->end - trial->side <= SIDES_TRIED_MAX &&
-         cover_side_is_near(last->side, at, hair->near);
-}
-
-/* Of a piece, as if all hairs were drawn.  A path that is none is drawn in any
- * case, and would be tried at this place or before. */
-static enum verdict judge_piece(const struct covering *c,
-                                const struct measured_path *hair,
-                                const double at[4], struct last_cover *last) {
-  struct cover_trial trial = trial_at(c, at);
-  const struct cover_side *side;
-  bool found = false;
-  if (covers_again(last, &trial, hair, at))
-    return COVERED;
-  while ((side = next_cover(c, &trial, hair, at, false)) != NULL) {
-    if (!side->is_hair) {
-      last->side = side;
-      return COVERED;
-    }
-    found = true;
-  }
-  return found || trial.tried == SIDES_TRIED_MAX ? UNDECIDED : NOT_COVERED;
-}
-
-static enum verdict decide_piece(const struct covering *c,
-                                 const struct measured_path *hair,
-                                 const double at[4], struct last_cover *last) {
-  struct cover_trial trial = trial_at(c, at);
-  if (covers_again(last, &trial, hair, at))
-    return COVERED;
-  last->side = next_cover(c, &trial, hair, at, true);
-  return last->side != NULL ? COVERED : NOT_COVERED;
-}
-
-static bool judge_range(void *user, struct parallel_range range) {
-  const struct covering *c = user;
-  for (size_t i = range.begin; i < range.end; i++) {
-    uint32_t path = c->hair[i].value;
-    c->verdict[path] = (uint8_t)for_all_pieces(c, path, judge_piece);
-  }
-  return true;
-}
-
-/* Returns false when the caller cancelled. */
-static bool decide(struct covering *c) {
-  size_t count = c->paths->path.count;
-  if (!parallel_ranges(parallel_workers(c->hairs, PATHS_IN_RANGE), c->hairs,
-                       PATHS_IN_RANGE, judge_range, c))
-    return false;
-  for (size_t r = 0; r < count; r++) {
-    uint32_t i = c->by_rank[r];
-    enum verdict verdict = c->verdict[i];
-    (void)poll_at(r);
-    if (verdict == UNDECIDED)
-      verdict = for_all_pieces(c, i, decide_piece);
-    c->paths->path.item[i].is_covered = verdict == COVERED;
-    c->measured[i].is_drawn &= verdict != COVERED;
-  }
-  return true;
-}
-
 bool paths_find_covered(struct ink_paths *paths, const struct sheet *sheet,
                         const struct pens *pens) {
   struct covering c = {.paths = paths, .sheet = sheet, .pens = pens};
@@ -435,12 +282,13 @@ bool paths_find_covered(struct ink_paths *paths, const struct sheet *sheet,
     ok = make_cells(&c) && list_hairs(&c);
     for (size_t i = 0; ok && i < c.hairs; i++)
       mark_hair(&c, c.hair[i].value);
-    ok = ok && list_sides(&c) && decide(&c);
+    ok = ok && list_sides(&c) && covering_decide(&c);
   }
   mem_free(c.measured);
   mem_free(c.by_rank);
   mem_free(c.verdict);
   mem_free(c.hair);
+  ARRAY_FREE(&c.undecided);
   mem_free(c.marked);
   ARRAY_FREE(&c.side);
   number_lists_fini(&c.sides);
