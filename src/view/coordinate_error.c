@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "base/parallel.h"
 #include "base/sort.h"
 #include "base/tolerance.h"
 #include "geom/vector.h"
@@ -98,17 +99,30 @@ void coordinate_error_of_triangle(const struct sheet *sheet, uint32_t triangle,
     coordinate_error_of_face(sheet, sheet->triangle.item[triangle].face, error);
 }
 
+struct error_storing {
+  const struct sheet *sheet;
+  double (*error)[3]; /* one a triangle */
+};
+
+static bool store_errors_of_range(void *user, struct parallel_range range) {
+  const struct error_storing *storing = user;
+  for (uint32_t t = (uint32_t)range.begin; t < range.end; t++)
+    coordinate_error_of_triangle(storing->sheet, t, storing->error[t]);
+  return true;
+}
+
 bool coordinate_error_store_all(struct sheet *sheet) {
   size_t count = sheet->triangle.count;
-  double(*error)[3] = NULL;
   if (sheet->scene == NULL || sheet->camera.error > 0 ||
       sheet->camera.contact >= 0)
     return true;
-  error = mem_alloc(count, sizeof *error);
-  for (uint32_t t = 0; error != NULL && t < count; t++)
-    coordinate_error_of_triangle(sheet, t, error[t]);
-  sheet->triangle_error = error;
-  return error != NULL;
+  struct error_storing storing = {sheet,
+                                  mem_alloc(count, sizeof *storing.error)};
+  bool ok = storing.error != NULL &&
+            parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
+                            PARALLEL_ITEMS, store_errors_of_range, &storing);
+  sheet->triangle_error = storing.error;
+  return ok;
 }
 
 double coordinate_error_contact(const struct sheet *sheet, uint32_t face) {

@@ -41,6 +41,7 @@ librecto_core_la_SOURCES += \
   %D%/culling/occlusion_culling.c %D%/culling/occlusion_culling.h \
   %D%/culling/space_box.c %D%/culling/space_box.h \
   %D%/culling/potentially_visible.c %D%/culling/potentially_visible.h \
+  %D%/culling/potentially_visible_restore.c \
   %D%/contour/arc_normals.c \
   %D%/contour/contour_creases.c %D%/contour/contour_creases.h \
   %D%/contour/contour_cusps.c %D%/contour/contour_cusps.h \

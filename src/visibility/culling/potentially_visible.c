@@ -7,22 +7,42 @@
  *   3 list the points
  *   4 list the contours
  *   5 number points and edges anew
+ * In parallel  Ranges of triangles, edges and points first count what they
+ *   leave, so that each is stored where it belongs: in the same order for any
+ *   number of threads.
  */
 #include "visibility/culling/potentially_visible.h"
 
 #include <string.h>
 
+#include "base/parallel.h"
 #include "base/poll.h"
 #include "base/sort.h"
 #include "view/coordinate_error.h"
 
+/* What a range of triangles, edges or points leaves. */
+struct part_range {
+  size_t left, before; /* before: what the ranges before it leave */
+  uint8_t flags;       /* of triangles: of the culled ones after its last that
+                          is left, then after the last one before it */
+};
+
 /* The numbers in the part, plus 1, of what is in it, else 0; before it is
- * numbered, 1. */
+ * numbered, 1 or EDGE_DRAWN. */
 struct numbering {
+  struct potentially_visible *part;
   const struct sheet *whole;
   const struct occlusion_culling *culling;
   uint32_t *point, *triangle, *edge;
+  struct part_range *range;
 };
+
+enum { EDGE_DRAWN = 2 };
+
+/* Several threads mark what others do, too. */
+static void mark(uint32_t *number) {
+  __atomic_store_n(number, 1, __ATOMIC_RELAXED);
+}
 
 static bool is_triangle_culled(const struct numbering *numbering,
                                uint32_t triangle) {
@@ -32,42 +52,107 @@ static bool is_triangle_culled(const struct numbering *numbering,
 
 typedef ARRAY(struct sort_key) inner_sides;
 
+static struct part_range *part_range_of(const struct numbering *numbering,
+                                        struct parallel_range range) {
+  return &numbering->range[range.begin / PARALLEL_ITEMS];
+}
+
+static bool for_ranges(struct numbering *numbering, size_t count,
+                       parallel_task *task) {
+  return parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
+                         PARALLEL_ITEMS, task, numbering);
+}
+
+/* Counts what the ranges of `count` items leave; *left gets the sum.  Returns
+ * false when memory ran out or the caller cancelled. */
+static bool count_left(struct numbering *numbering, size_t count,
+                       parallel_task *task, size_t *left) {
+  size_t ranges = parallel_range_count(count, PARALLEL_ITEMS);
+  mem_free(numbering->range);
+  numbering->range = mem_calloc(ranges, sizeof *numbering->range);
+  if (numbering->range == NULL || !for_ranges(numbering, count, task))
+    return false;
+  *left = 0;
+  for (size_t r = 0; r < ranges; r++) {
+    numbering->range[r].before = *left;
+    *left += numbering->range[r].left;
+  }
+  return true;
+}
+
 /* ---- 1. Triangles -------------------------------------------------------- */
 
-static bool list_triangles(struct potentially_visible *part,
-                           const struct numbering *numbering) {
+static bool count_triangles(void *user, struct parallel_range range) {
+  const struct numbering *numbering = user;
+  struct part_range *own = part_range_of(numbering, range);
+  for (size_t t = range.begin; t < range.end; t++)
+    if (is_triangle_culled(numbering, (uint32_t)t)) {
+      own->flags |= numbering->whole->triangle_flags[t];
+    } else {
+      own->left++;
+      own->flags = 0;
+    }
+  return true;
+}
+
+/* Hands the flags on from range to range: each gets those of the culled
+ * triangles right before it. */
+static void hand_flags_on(struct numbering *numbering) {
+  size_t ranges =
+      parallel_range_count(numbering->whole->triangle.count, PARALLEL_ITEMS);
+  uint8_t before = 0;
+  for (size_t r = 0; r < ranges; r++) {
+    struct part_range *own = &numbering->range[r];
+    uint8_t after = own->left > 0 ? own->flags : own->flags | before;
+    own->flags = before;
+    before = after;
+  }
+}
+
+static bool store_triangles(void *user, struct parallel_range range) {
+  const struct numbering *numbering = user;
   const struct sheet *whole = numbering->whole;
+  const struct part_range *own = part_range_of(numbering, range);
+  struct potentially_visible *part = numbering->part;
+  size_t n = own->before;
+  uint8_t flags = own->flags; /* of the pieces of a triangle that are left */
+  for (size_t t = range.begin; t < range.end; t++) {
+    flags |= whole->triangle_flags[t];
+    if (is_triangle_culled(numbering, (uint32_t)t))
+      continue;
+    const struct sheet_triangle *triangle = &whole->triangle.item[t];
+    const uint32_t *side = sheet_triangle_sides(whole, t);
+    part->sheet.triangle.item[n] = *triangle;
+    part->sheet.sides.item[n] = whole->sides.item[t];
+    part->sheet.triangle_flags[n] =
+        whole->triangle_flags[t] | (flags & SHEET_FIRST_PIECE);
+    flags = 0;
+    part->triangle[n] = (uint32_t)t;
+    numbering->triangle[t] = (uint32_t)++n;
+    for (int k = 0; k < 3; k++) {
+      mark(&numbering->point[triangle->point[k]]);
+      if (side[k] != SHEET_NONE)
+        mark(&numbering->edge[side[k]]);
+    }
+  }
+  return true;
+}
+
+static bool list_triangles(struct numbering *numbering) {
+  struct potentially_visible *part = numbering->part;
   struct sheet *sheet = &part->sheet;
-  size_t left = whole->triangle.count - numbering->culling->count;
+  size_t count = numbering->whole->triangle.count, left;
+  if (!count_left(numbering, count, count_triangles, &left))
+    return false;
+  hand_flags_on(numbering);
   sheet->triangle_flags = mem_alloc(left, 1);
   part->triangle = mem_alloc(left, sizeof *part->triangle);
   if (!ARRAY_RESERVE(&sheet->triangle, left) ||
       !ARRAY_RESERVE(&sheet->sides, left) || sheet->triangle_flags == NULL ||
       part->triangle == NULL)
     return false;
-  uint8_t first = 0; /* of the pieces of a triangle that are left */
-  for (uint32_t t = 0; t < whole->triangle.count; t++) {
-    if (!poll_at(t))
-      return false;
-    first |= whole->triangle_flags[t] & SHEET_FIRST_PIECE;
-    if (is_triangle_culled(numbering, t))
-      continue;
-    const struct sheet_triangle *triangle = &whole->triangle.item[t];
-    size_t n = sheet->triangle.count++;
-    const uint32_t *side = sheet_triangle_sides(whole, t);
-    sheet->triangle.item[n] = *triangle;
-    sheet->sides.item[n] = whole->sides.item[t];
-    sheet->triangle_flags[n] = whole->triangle_flags[t] | first;
-    first = 0;
-    part->triangle[n] = t;
-    numbering->triangle[t] = (uint32_t)n + 1;
-    for (int k = 0; k < 3; k++) {
-      numbering->point[triangle->point[k]] = 1;
-      if (side[k] != SHEET_NONE)
-        numbering->edge[side[k]] = 1;
-    }
-  }
-  return true;
+  sheet->triangle.count = left;
+  return for_ranges(numbering, count, store_triangles);
 }
 
 /* ---- 2. Edges ------------------------------------------------------------ */
@@ -81,48 +166,85 @@ static bool is_edge_culled(const struct numbering *numbering,
          occlusion_culling_hides(numbering->culling, s.p, s.q);
 }
 
-static bool list_edges(struct potentially_visible *part,
-                       const struct numbering *numbering) {
+static bool count_edges(void *user, struct parallel_range range) {
+  const struct numbering *numbering = user;
   const struct sheet *whole = numbering->whole;
-  ARRAY(uint32_t) number = {0};
-  bool ok = true;
-  for (uint32_t e = 0; ok && e < whole->edge.count; e++) {
-    struct sheet_edge edge = whole->edge.item[e];
-    bool drawn =
-        sheet_edge_is_drawn(whole, e) && !is_edge_culled(numbering, &edge);
-    ok = poll_at(e);
-    if (!drawn && numbering->edge[e] == 0)
+  struct part_range *own = part_range_of(numbering, range);
+  for (uint32_t e = (uint32_t)range.begin; e < range.end; e++) {
+    if (!poll_at(e))
+      return false;
+    if (sheet_edge_is_drawn(whole, e) &&
+        !is_edge_culled(numbering, &whole->edge.item[e]))
+      numbering->edge[e] = EDGE_DRAWN;
+    own->left += numbering->edge[e] != 0;
+  }
+  return true;
+}
+
+static bool store_edges(void *user, struct parallel_range range) {
+  const struct numbering *numbering = user;
+  struct potentially_visible *part = numbering->part;
+  size_t n = part_range_of(numbering, range)->before;
+  for (size_t e = range.begin; e < range.end; e++) {
+    struct sheet_edge edge = numbering->whole->edge.item[e];
+    if (numbering->edge[e] == 0)
       continue;
-    edge.edge_class = drawn ? edge.edge_class : 0;
+    if (numbering->edge[e] != EDGE_DRAWN)
+      edge.edge_class = 0;
     for (int k = 0; k < 2; k++) {
-      numbering->point[edge.point[k]] = 1;
+      mark(&numbering->point[edge.point[k]]);
       if (edge.triangle[k] != SHEET_NONE) /* 0 becomes SHEET_NONE */
         edge.triangle[k] = numbering->triangle[edge.triangle[k]] - 1;
     }
-    ok = ok && ARRAY_PUSH(&number, e) && ARRAY_PUSH(&part->sheet.edge, edge);
-    numbering->edge[e] = (uint32_t)part->sheet.edge.count;
+    part->edge[n] = (uint32_t)e;
+    part->sheet.edge.item[n] = edge;
+    numbering->edge[e] = (uint32_t)++n;
   }
-  part->edge = number.item;
-  part->edges = part->sheet.edge.count;
-  return ok;
+  return true;
+}
+
+static bool list_edges(struct numbering *numbering) {
+  struct potentially_visible *part = numbering->part;
+  size_t count = numbering->whole->edge.count, left;
+  if (!count_left(numbering, count, count_edges, &left))
+    return false;
+  part->edge = mem_alloc(left, sizeof *part->edge);
+  if (!ARRAY_RESERVE(&part->sheet.edge, left) || part->edge == NULL)
+    return false;
+  part->edges = part->sheet.edge.count = left;
+  return for_ranges(numbering, count, store_edges);
 }
 
 /* ---- 3. Points ----------------------------------------------------------- */
 
-static bool list_points(struct potentially_visible *part,
-                        const struct numbering *numbering) {
-  const struct sheet *whole = numbering->whole;
-  for (size_t i = 0; i < whole->point.count; i++) {
-    if (!poll_at(i))
-      return false;
+static bool count_points(void *user, struct parallel_range range) {
+  const struct numbering *numbering = user;
+  struct part_range *own = part_range_of(numbering, range);
+  for (size_t i = range.begin; i < range.end; i++)
+    own->left += numbering->point[i] != 0;
+  return true;
+}
+
+static bool store_points(void *user, struct parallel_range range) {
+  const struct numbering *numbering = user;
+  size_t n = part_range_of(numbering, range)->before;
+  for (size_t i = range.begin; i < range.end; i++) {
     if (numbering->point[i] == 0)
       continue;
-    if (!ARRAY_PUSH(&part->sheet.point, whole->point.item[i]))
-      return false;
-    numbering->point[i] = (uint32_t)part->sheet.point.count;
+    numbering->part->sheet.point.item[n] = numbering->whole->point.item[i];
+    numbering->point[i] = (uint32_t)++n;
   }
-  part->points = part->sheet.point.count;
   return true;
+}
+
+static bool list_points(struct numbering *numbering) {
+  struct potentially_visible *part = numbering->part;
+  size_t count = numbering->whole->point.count, left;
+  if (!count_left(numbering, count, count_points, &left) ||
+      !ARRAY_RESERVE(&part->sheet.point, left))
+    return false;
+  part->points = part->sheet.point.count = left;
+  return for_ranges(numbering, count, store_points);
 }
 
 /* ---- 4. Contours --------------------------------------------------------- */
@@ -202,22 +324,35 @@ static bool list_contours(struct potentially_visible *part,
 
 /* ---- 5. Numbers ---------------------------------------------------------- */
 
-static void renumber(struct potentially_visible *part,
-                     const struct numbering *numbering) {
-  for (size_t e = 0; e < part->sheet.edge.count; e++)
+static bool renumber_edges(void *user, struct parallel_range range) {
+  const struct numbering *numbering = user;
+  for (size_t e = range.begin; e < range.end; e++)
     for (int k = 0; k < 2; k++) {
-      uint32_t *point = &part->sheet.edge.item[e].point[k];
+      uint32_t *point = &numbering->part->sheet.edge.item[e].point[k];
       *point = numbering->point[*point] - 1;
     }
-  for (size_t t = 0; t < part->sheet.triangle.count; t++) {
-    uint32_t *point = part->sheet.triangle.item[t].point,
-             *side = part->sheet.sides.item[t].edge;
+  return true;
+}
+
+static bool renumber_triangles(void *user, struct parallel_range range) {
+  const struct numbering *numbering = user;
+  struct sheet *sheet = &numbering->part->sheet;
+  for (size_t t = range.begin; t < range.end; t++) {
+    uint32_t *point = sheet->triangle.item[t].point,
+             *side = sheet->sides.item[t].edge;
     for (int k = 0; k < 3; k++) {
       point[k] = numbering->point[point[k]] - 1;
       if (side[k] != SHEET_NONE)
         side[k] = numbering->edge[side[k]] - 1;
     }
   }
+  return true;
+}
+
+static bool renumber(struct numbering *numbering) {
+  const struct sheet *sheet = &numbering->part->sheet;
+  return for_ranges(numbering, sheet->edge.count, renumber_edges) &&
+         for_ranges(numbering, sheet->triangle.count, renumber_triangles);
 }
 
 /* ---- The part ------------------------------------------------------------ */
@@ -226,9 +361,12 @@ bool potentially_visible_init(struct potentially_visible *part,
                               const struct sheet *whole,
                               const struct occlusion_culling *culling) {
   struct numbering numbering = {
-      whole, culling, mem_calloc(whole->point.count, sizeof *numbering.point),
-      mem_calloc(whole->triangle.count, sizeof *numbering.triangle),
-      mem_calloc(whole->edge.count, sizeof *numbering.edge)};
+      .part = part,
+      .whole = whole,
+      .culling = culling,
+      .point = mem_calloc(whole->point.count, sizeof *numbering.point),
+      .triangle = mem_calloc(whole->triangle.count, sizeof *numbering.triangle),
+      .edge = mem_calloc(whole->edge.count, sizeof *numbering.edge)};
   *part = (struct potentially_visible){.sheet = *whole};
   part->sheet.triangles_are_faces = false;
   part->sheet.triangle_flags = NULL;
@@ -240,12 +378,11 @@ bool potentially_visible_init(struct potentially_visible *part,
   memset(&part->sheet.edge_group, 0, sizeof part->sheet.edge_group);
   memset(&part->sheet.contour, 0, sizeof part->sheet.contour);
   bool ok = numbering.point != NULL && numbering.triangle != NULL &&
-            numbering.edge != NULL && list_triangles(part, &numbering) &&
-            list_edges(part, &numbering) && list_points(part, &numbering) &&
+            numbering.edge != NULL && list_triangles(&numbering) &&
+            list_edges(&numbering) && list_points(&numbering) &&
             list_contours(part, &numbering) &&
-            coordinate_error_store_all(&part->sheet);
-  if (ok)
-    renumber(part, &numbering);
+            coordinate_error_store_all(&part->sheet) && renumber(&numbering);
+  mem_free(numbering.range);
   mem_free(numbering.point);
   mem_free(numbering.triangle);
   mem_free(numbering.edge);
@@ -263,65 +400,4 @@ void potentially_visible_fini(struct potentially_visible *part) {
   mem_free(part->sheet.triangle_error);
   mem_free(part->triangle);
   mem_free(part->edge);
-}
-
-/* ---- Back to the whole sheet --------------------------------------------- */
-
-/* Appends the edges of intersections, and their points, to the whole sheet. */
-static bool append_intersections(const struct potentially_visible *part,
-                                 struct sheet *whole) {
-  const struct sheet *sheet = &part->sheet;
-  size_t points = sheet->point.count - part->points,
-         edges = sheet->edge.count - part->edges;
-  uint32_t past = (uint32_t)(whole->point.count - part->points);
-  if (edges == 0)
-    return true;
-  if (!ARRAY_RESERVE(&whole->point, points) ||
-      !ARRAY_RESERVE(&whole->edge, edges))
-    return false;
-  memcpy(whole->point.item + whole->point.count,
-         sheet->point.item + part->points, points * sizeof *sheet->point.item);
-  whole->point.count += points;
-  for (size_t e = part->edges; e < sheet->edge.count; e++) {
-    struct sheet_edge edge = sheet->edge.item[e];
-    for (int k = 0; k < 2; k++) {
-      edge.point[k] += past; /* both were added */
-      edge.triangle[k] = part->triangle[edge.triangle[k]];
-    }
-    whole->edge.item[whole->edge.count++] = edge;
-  }
-  return true;
-}
-
-/* The whole sheet's number of an edge of the part.
- * past  what the intersections' numbers are greater by */
-static uint32_t whole_edge_number(const struct potentially_visible *part,
-                                  uint32_t edge, uint32_t past) {
-  return edge < part->edges ? part->edge[edge] : edge + past;
-}
-
-bool potentially_visible_restore(struct potentially_visible *part,
-                                 struct sheet *whole, struct map *map) {
-  uint32_t past = (uint32_t)(whole->edge.count - part->edges);
-  if (!append_intersections(part, whole))
-    return false;
-  if (map->edge_state != NULL) {
-    uint8_t *state = mem_calloc(whole->edge.count, 1);
-    if (state == NULL)
-      return false;
-    for (uint32_t e = 0; e < map->edge_count; e++)
-      state[whole_edge_number(part, e, past)] = map->edge_state[e];
-    mem_free(map->edge_state);
-    map->edge_state = state;
-    map->edge_count = whole->edge.count;
-  }
-  for (size_t i = 0; i < map->mixed.count; i++)
-    map->mixed.item[i].edge =
-        whole_edge_number(part, map->mixed.item[i].edge, past);
-  for (size_t i = 0; i < map->corner.count; i++) {
-    struct map_corner *corner = &map->corner.item[i];
-    if (corner->side == MAP_SIDE_EDGE || corner->side == MAP_SIDE_OCCLUDER)
-      corner->id = whole_edge_number(part, corner->id, past);
-  }
-  return true;
 }
