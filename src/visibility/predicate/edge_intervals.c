@@ -4,8 +4,6 @@
 
 #include <string.h>
 
-#include "base/sort.h"
-
 static const struct ratio ZERO = {0, 1}, ONE = {1, 1};
 
 void edge_intervals_fini(struct edge_intervals *intervals) {
@@ -13,6 +11,7 @@ void edge_intervals_fini(struct edge_intervals *intervals) {
   ARRAY_FREE(&intervals->unmerged);
   ARRAY_FREE(&intervals->left);
   ARRAY_FREE(&intervals->right);
+  ARRAY_FREE(&intervals->order);
 }
 
 /* How many intervals are kept merged as they are added: enough to see early
@@ -81,57 +80,104 @@ bool edge_intervals_open_map(struct map *map, size_t edge_count) {
   return true;
 }
 
-static int compare_interval_starts(const void *a, const void *b, void *user) {
-  const struct occluded_interval *p = a, *q = b;
-  (void)user;
-  return ratio_compare(p->from, q->from);
+/* ---- The union ----------------------------------------------------------- */
+
+/* Keys that differ by no more may stand for starts in any order: a start's
+ * double is off by two units in the last place at most. */
+enum { KEY_NEAR = 4 };
+
+/* Interval i of those that are merged, followed by the others. */
+static const struct occluded_interval *
+nth_interval(const struct edge_intervals *intervals, size_t i) {
+  size_t merged = intervals->merged.count;
+  return i < merged ? &intervals->merged.item[i]
+                    : &intervals->unmerged.item[i - merged];
+}
+
+/* The bits of the start's double, which is not negative: they order as doubles
+ * do. */
+static uint64_t key_of_start(const struct occluded_interval *interval) {
+  double start = ratio_to_double(interval->from);
+  uint64_t key;
+  memcpy(&key, &start, sizeof key);
+  return key;
+}
+
+/* Compares two keys by the starts of their intervals, then by number. */
+static int compare_starts(const void *a, const void *b, void *user) {
+  const struct sort_key *p = a, *q = b;
+  int order = ratio_compare(nth_interval(user, p->value)->from,
+                            nth_interval(user, q->value)->from);
+  return order != 0 ? order : compare_numbers(p->value, q->value);
+}
+
+/* Orders the intervals with `side` occluded by their starts.  Returns false
+ * when memory ran out. */
+static bool order_intervals(struct edge_intervals *intervals, int side) {
+  size_t n = intervals->merged.count + intervals->unmerged.count, count = 0;
+  intervals->order.count = 0;
+  if (!ARRAY_RESERVE(&intervals->order, 2 * n))
+    return false;
+  struct sort_key *order = intervals->order.item;
+  for (size_t i = 0; i < n; i++) {
+    const struct occluded_interval *interval = nth_interval(intervals, i);
+    if (interval->sides & side)
+      order[count++] = (struct sort_key){key_of_start(interval), (uint32_t)i};
+  }
+  sort_keys(order, order + count, count);
+  for (size_t i = 0, end; i < count; i = end) {
+    for (end = i + 1;
+         end < count && order[end].key - order[end - 1].key <= KEY_NEAR;)
+      end++;
+    if (!sort_stable(order + i, end - i, sizeof *order, compare_starts,
+                     intervals))
+      return false;
+  }
+  intervals->order.count = count;
+  return true;
 }
 
 /* The union of the intervals with `side` occluded, ascending and disjoint.
  * Returns false when memory ran out. */
-static bool unite_intervals(const struct edge_intervals *intervals, int side,
+static bool unite_intervals(struct edge_intervals *intervals, int side,
                             occluded_intervals *united) {
-  const occluded_intervals *merged = &intervals->merged,
-                           *unmerged = &intervals->unmerged;
-  size_t last = 0;
   united->count = 0;
-  for (size_t i = 0; i < merged->count; i++)
-    if (!ARRAY_PUSH(united, merged->item[i]))
-      return false;
-  for (size_t i = 0; i < unmerged->count; i++)
-    if ((unmerged->item[i].sides & side) &&
-        !ARRAY_PUSH(united, unmerged->item[i]))
-      return false;
-  if (united->count == 0)
-    return true;
-  if (!sort_stable(united->item, united->count, sizeof *united->item,
-                   compare_interval_starts, NULL))
+  if (!order_intervals(intervals, side))
     return false;
-  for (size_t i = 1; i < united->count; i++) {
-    struct occluded_interval *p = &united->item[last];
-    const struct occluded_interval *q = &united->item[i];
-    if (ratio_compare(q->from, p->to) > 0)
-      united->item[++last] = *q;
-    else if (ratio_compare(p->to, q->to) < 0)
+  for (size_t i = 0; i < intervals->order.count; i++) {
+    const struct occluded_interval *q =
+        nth_interval(intervals, intervals->order.item[i].value);
+    struct occluded_interval *p =
+        united->count > 0 ? &united->item[united->count - 1] : NULL;
+    if (p == NULL || ratio_compare(q->from, p->to) > 0) {
+      if (!ARRAY_PUSH(united, *q))
+        return false;
+    } else if (ratio_compare(p->to, q->to) < 0) {
       p->to = q->to;
+    }
   }
-  united->count = last + 1;
   return true;
+}
+
+/* Whether each interval has both sides occluded. */
+static bool are_all_two_sided(const struct edge_intervals *intervals) {
+  int sides = OCCLUDED_BOTH;
+  for (size_t i = 0; i < intervals->unmerged.count; i++)
+    sides &= intervals->unmerged.item[i].sides;
+  return sides == OCCLUDED_BOTH;
 }
 
 const occluded_intervals *
 edge_intervals_unite(struct edge_intervals *intervals) {
   occluded_intervals *left = &intervals->left, *right = &intervals->right;
-  int both = OCCLUDED_BOTH;
   if (intervals->unmerged.count == 0)
     return &intervals->merged;
-  for (size_t i = 0; i < intervals->unmerged.count; i++)
-    both &= intervals->unmerged.item[i].sides;
+  bool two_sided = are_all_two_sided(intervals);
   if (!unite_intervals(intervals, OCCLUDED_LEFT, left))
     return NULL;
   for (size_t i = 0; i < left->count; i++)
-    left->item[i].sides = both == OCCLUDED_BOTH ? OCCLUDED_BOTH : OCCLUDED_LEFT;
-  if (both == OCCLUDED_BOTH)
+    left->item[i].sides = two_sided ? OCCLUDED_BOTH : OCCLUDED_LEFT;
+  if (two_sided)
     return left;
   if (!unite_intervals(intervals, OCCLUDED_RIGHT, right))
     return NULL;
@@ -187,15 +233,16 @@ static bool store_visible(const occluded_intervals *hidden, uint32_t edge,
 
 bool edge_intervals_store(struct edge_intervals *intervals, uint32_t edge,
                           struct map *map) {
-  const occluded_intervals *unmerged = &intervals->unmerged;
+  occluded_intervals *left = &intervals->left, *right = &intervals->right;
   const occluded_intervals *hidden = &intervals->merged;
   map->edge_state[edge] = MAP_HIDDEN;
   if (intervals->occluded)
     return true;
-  if (unmerged->count > 0) {
-    if (!unite_intervals(intervals, OCCLUDED_LEFT, &intervals->left) ||
-        !unite_intervals(intervals, OCCLUDED_RIGHT, &intervals->right) ||
-        !intersect(&intervals->left, &intervals->right, &intervals->unmerged))
+  if (intervals->unmerged.count > 0) {
+    bool two_sided = are_all_two_sided(intervals);
+    if (!unite_intervals(intervals, OCCLUDED_LEFT, left) ||
+        (!two_sided && !unite_intervals(intervals, OCCLUDED_RIGHT, right)) ||
+        !intersect(left, two_sided ? left : right, &intervals->unmerged))
       return false;
     hidden = &intervals->unmerged;
   }

@@ -3,6 +3,7 @@
 #ifndef VISIBILITY_PREDICATE_EDGE_INTERVALS_H
 #define VISIBILITY_PREDICATE_EDGE_INTERVALS_H
 
+#include "base/sort.h"
 #include "visibility/map.h"
 #include "visibility/predicate/occlusion.h"
 
@@ -16,6 +17,7 @@ struct edge_intervals {
   occluded_intervals merged;
   occluded_intervals unmerged;    /* all others, in the order they were added */
   occluded_intervals left, right; /* scratch: the union by side of the edge */
+  ARRAY(struct sort_key) order;   /* scratch: intervals by their starts */
   bool occluded; /* from end to end: further occluders change nothing */
 };
 
