@@ -16,6 +16,7 @@
 #include "scene/exact.h"
 #include "tests/memory_faults.h"
 #include "tests/scenes/random.h"
+#include "scene/reflex_tree.h"
 #include "scene/triangulate.h"
 
 enum { MOST = 2048 };
@@ -753,6 +754,34 @@ static void a_failed_allocation_is_reported(void **state) {
   free(p);
 }
 
+/* Counts the corners that it is asked about. */
+static bool blocks_nothing(const void *user, uint32_t corner) {
+  uint32_t *const *asked = user;
+  (void)corner;
+  ++**asked;
+  return false;
+}
+
+/* Corners at the places of an ear's own corners do not block it: however many
+ * there are, they are left out together. */
+static void corners_at_those_of_an_ear_are_not_looked_at(void **state) {
+  (void)state;
+  enum { PLACES = 3, CORNERS = 3000 * PLACES };
+  static double at[CORNERS][2];
+  const double place[PLACES][2] = {{0, 0}, {3, 0.5}, {1, 2}};
+  const double *triangle[PLACES] = {place[0], place[1], place[2]};
+  uint32_t count = 0, *asked = &count;
+  struct reflex_tree tree = {0};
+  for (uint32_t i = 0; i < CORNERS; i++)
+    memcpy(at[i], place[i % PLACES], sizeof at[i]);
+  assert_true(reflex_tree_init(&tree, at, sizeof at[0], CORNERS));
+  for (uint32_t i = 0; i < CORNERS; i++)
+    reflex_tree_set(&tree, i, true);
+  assert_false(reflex_tree_query(&tree, triangle, blocks_nothing, &asked));
+  assert_true(count < 64);
+  reflex_tree_fini(&tree);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(triangles_and_quadrilaterals_are_covered),
@@ -775,6 +804,7 @@ int main(void) {
       cmocka_unit_test(start_winding_and_mirror_change_no_triangle),
       cmocka_unit_test(equal_diagonals_stay_equal_when_rounded),
       cmocka_unit_test(a_failed_allocation_is_reported),
+      cmocka_unit_test(corners_at_those_of_an_ear_are_not_looked_at),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -125,6 +125,18 @@ static bool is_beyond_side(const struct reflex_tree_node *box, const double *a,
   return exact_orient2d(a, b, corner) < 0;
 }
 
+/* Whether all of a box is at a corner of the triangle, where nothing blocks
+ * it. */
+static bool is_at_corner(const struct reflex_tree_node *box,
+                         const double *triangle[3]) {
+  if (box->low[0] != box->high[0] || box->low[1] != box->high[1])
+    return false;
+  for (int k = 0; k < 3; k++)
+    if (triangle[k][0] == box->low[0] && triangle[k][1] == box->low[1])
+      return true;
+  return false;
+}
+
 static bool may_meet(const struct reflex_tree_node *box,
                      const double *triangle[3]) {
   for (int k = 0; k < 2; k++) {
@@ -159,7 +171,8 @@ bool reflex_tree_query(const struct reflex_tree *tree,
   while (depth > 0) {
     uint32_t k = stack[--depth];
     const struct reflex_tree_node *node = &tree->node.item[k];
-    if (node->reflex == 0 || !may_meet(node, triangle))
+    if (node->reflex == 0 || !may_meet(node, triangle) ||
+        is_at_corner(node, triangle))
       continue;
     if (k < tree->leaves) {
       stack[depth++] = 2 * k + 1;

@@ -41,7 +41,8 @@ void reflex_tree_set(struct reflex_tree *tree, uint32_t corner, bool reflex);
 
 /* Calls `blocks(user, corner)` for corners whose leaf has one that is not
  * convex and whose box meets the closed counter-clockwise triangle, each once,
- * until it returns true.
+ * until it returns true.  It must return false at the positions of the
+ * triangle's own corners: where all of a node is there, it is left out.
  * Returns whether it did.
  * Cost  linear in the nodes whose boxes meet the triangle. */
 USE_RESULT bool
