@@ -8,6 +8,7 @@
 #include "base/poll.h"
 #include "base/tolerance.h"
 #include "ink/dash_pattern.h"
+#include "ink/lines/crease_lines.h"
 #include "ink/lines/paths.h"
 #include "ink/lines/short_spurs.h"
 #include "ink/lines/stroke.h"
@@ -70,7 +71,7 @@ static struct crease_angles angles_of(const recto_options *options) {
 
 /* Joins the segments into cleaned polylines.
  * path_of_segment  see paths_chain */
-static recto_status make_paths(const struct ink *ink, struct ink_paths *paths,
+static recto_status make_paths(struct ink *ink, struct ink_paths *paths,
                                uint32_t *path_of_segment,
                                const struct segment_graph *graph,
                                recto_error *error) {
@@ -80,7 +81,7 @@ static recto_status make_paths(const struct ink *ink, struct ink_paths *paths,
   const struct crease_angles angles = angles_of(ink->options);
   if (status == RECTO_OK && tidy &&
       !(paths_find_free_ends(paths, graph, ink->sheet, ink->dropped, step) &&
-        paths_find_weak(paths, graph, ink->sheet, &angles)))
+        paths_find_weak(paths, graph, ink->creases, &angles)))
     status = error_memory(error);
   if (status != RECTO_OK)
     return status;
@@ -271,12 +272,12 @@ static recto_status drop_marked(struct ink *ink, struct segment_graph *graph,
 /* Drops the segments of creases that a search finds. */
 static recto_status drop_creases(
     struct ink *ink, struct segment_graph *graph,
-    bool (*find)(const struct segment_graph *, const struct sheet *,
+    bool (*find)(const struct segment_graph *, struct crease_lines *,
                  const struct pens *, const struct crease_angles *, uint8_t *),
     recto_error *error) {
   const struct crease_angles angles = angles_of(ink->options);
   uint8_t *drop = mem_calloc(graph->segment.count, 1);
-  bool ok = drop != NULL && find(graph, ink->sheet, ink->pens, &angles, drop);
+  bool ok = drop != NULL && find(graph, ink->creases, ink->pens, &angles, drop);
   recto_status status =
       ok ? drop_marked(ink, graph, drop, error) : error_memory(error);
   mem_free(drop);
@@ -356,6 +357,8 @@ recto_status ink_lines_add(struct ink *ink, recto_error *error) {
       ids || (ink->drawing->by_groups && ink->scene->group.count > 1);
   struct segment_graph graph;
   struct ink_paths paths = {0};
+  struct crease_lines creases = {.sheet = ink->sheet};
+  ink->creases = &creases;
   segment_graph_init(&graph);
   recto_status status = prepare_graph(ink, &graph, error);
   if (status == RECTO_OK && by_groups && ink->options->ink.min_stroke_mm != 0)
@@ -366,6 +369,8 @@ recto_status ink_lines_add(struct ink *ink, recto_error *error) {
     segment_graph_key_by_group(&graph, ink->sheet);
   if (status == RECTO_OK)
     status = make_paths(ink, &paths, NULL, &graph, error);
+  crease_lines_fini(&creases);
+  ink->creases = NULL;
   segment_graph_fini(&graph);
   if (status == RECTO_OK && !add_paths(ink, &paths, !by_groups))
     status = error_memory(error);

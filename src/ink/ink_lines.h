@@ -6,6 +6,8 @@
 #include "ink/pens.h"
 #include "visibility/map.h"
 
+struct crease_lines;
+
 /* What a drawing is made of. */
 struct ink {
   struct drawing *drawing;
@@ -14,6 +16,7 @@ struct ink {
   const struct map *map;
   const recto_options *options;
   const struct pens *pens;
+  struct crease_lines *creases; /* while lines are added */
   uint8_t *dropped; /* one a sheet edge: it closes a short cycle; NULL: none */
 };
 

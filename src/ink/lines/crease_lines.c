@@ -4,7 +4,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/number_filter.h"
 #include "base/parallel.h"
+#include "base/poll.h"
 #include "base/union_find.h"
 #include "scene/angle.h"
 #include "scene/crease_marks.h"
@@ -68,40 +70,111 @@ double crease_cosine(const struct sheet *sheet, const struct sheet_edge *edge,
   return lengths > 0 ? dot / lengths : -1;
 }
 
-struct crease_marks {
-  const struct sheet *sheet;
-  double crease;
-  uint8_t *is_joined; /* one an edge */
-};
+/* ---- Lines --------------------------------------------------------------- */
 
-static bool mark_joined_of_range(void *user, struct parallel_range range) {
-  const struct crease_marks *marks = user;
-  struct large_face_normals normals = large_face_normals_start();
+void crease_lines_fini(struct crease_lines *lines) {
+  mem_free(lines->edge);
+  mem_free((void *)lines->at);
+  mem_free(lines->line);
+  *lines = (struct crease_lines){.sheet = lines->sheet};
+}
+
+static size_t creases_of_range(const void *user, struct parallel_range range,
+                               uint32_t *kept) {
+  const struct sheet *sheet = user;
+  size_t count = 0;
   for (size_t e = range.begin; e < range.end; e++) {
-    const struct sheet_edge *edge = &marks->sheet->edge.item[e];
-    marks->is_joined[e] = crease_is_joined(
-        edge, crease_cosine(marks->sheet, edge, &normals), marks->crease);
+    kept[count] = (uint32_t)e;
+    count += (sheet->edge.item[e].edge_class &
+              (RECTO_EDGE_CREASE | RECTO_EDGE_SILHOUETTE)) != 0;
+  }
+  return count;
+}
+
+bool crease_lines_list(struct crease_lines *lines) {
+  if (lines->edge == NULL)
+    lines->edge = number_filter(lines->sheet->edge.count, creases_of_range,
+                                lines->sheet, &lines->count);
+  return lines->edge != NULL;
+}
+
+/* Counts the drawable edges at the ends of the listed ones, up to two: each
+ * sets the next bit. */
+static bool count_edges_of_range(void *user, struct parallel_range range) {
+  const struct crease_lines *lines = user;
+  for (size_t e = range.begin; e < range.end; e++) {
+    const struct sheet_edge *edge = &lines->sheet->edge.item[e];
+    for (int k = 0; k < 2 && edge->edge_class != 0; k++) {
+      atomic_uchar *at = &lines->at[edge->point[k]];
+      unsigned before = atomic_load_explicit(at, memory_order_relaxed);
+      if (before == 0 || before == CREASE_END_SHARED)
+        continue;
+      before =
+          atomic_fetch_or_explicit(at, CREASE_END_ALONE, memory_order_relaxed);
+      if (before != CREASE_END)
+        atomic_store_explicit(at, CREASE_END_SHARED, memory_order_relaxed);
+    }
   }
   return true;
 }
 
-uint32_t *crease_lines_create(const struct sheet *sheet, double crease_deg) {
-  size_t count = sheet->edge.count;
+bool crease_lines_find_ends(struct crease_lines *lines) {
+  const struct sheet *sheet = lines->sheet;
+  size_t edges = sheet->edge.count;
+  if (lines->at != NULL)
+    return true;
+  if (!crease_lines_list(lines))
+    return false;
+  lines->at = mem_calloc(sheet->point.count, sizeof *lines->at);
+  for (size_t i = 0; lines->at != NULL && i < lines->count; i++)
+    for (int k = 0; k < 2; k++)
+      lines->at[sheet->edge.item[lines->edge[i]].point[k]] = CREASE_END;
+  return lines->at != NULL &&
+         parallel_ranges(parallel_workers(edges, PARALLEL_ITEMS), edges,
+                         PARALLEL_ITEMS, count_edges_of_range, lines);
+}
+
+struct crease_marks {
+  const struct crease_lines *lines;
+  double crease;
+  uint8_t *is_joined; /* one a listed edge */
+};
+
+static bool mark_joined_of_range(void *user, struct parallel_range range) {
+  const struct crease_marks *marks = user;
+  const struct sheet *sheet = marks->lines->sheet;
+  struct large_face_normals normals = large_face_normals_start();
+  for (size_t i = range.begin; i < range.end; i++) {
+    const struct sheet_edge *edge = &sheet->edge.item[marks->lines->edge[i]];
+    marks->is_joined[i] = crease_is_joined(
+        edge, crease_cosine(sheet, edge, &normals), marks->crease);
+  }
+  return true;
+}
+
+bool crease_lines_join(struct crease_lines *lines, double crease_deg) {
+  if (lines->line != NULL)
+    return true;
+  if (!crease_lines_list(lines))
+    return false;
+  const struct sheet *sheet = lines->sheet;
   uint32_t *line = union_find_create(sheet->point.count);
-  struct crease_marks marks = {sheet, angle_of_degrees(crease_deg).cosine,
-                               mem_alloc(count, 1)};
+  struct crease_marks marks = {lines, angle_of_degrees(crease_deg).cosine,
+                               mem_alloc(lines->count, 1)};
   bool ok = line != NULL && marks.is_joined != NULL &&
-            parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
-                            PARALLEL_ITEMS, mark_joined_of_range, &marks);
-  for (size_t e = 0; ok && e < count; e++) {
-    const struct sheet_edge *edge = &sheet->edge.item[e];
-    (void)poll_at(e);
-    if (marks.is_joined[e])
-      union_find_join(line, edge->point[0], edge->point[1]);
+            parallel_ranges(parallel_workers(lines->count, PARALLEL_ITEMS),
+                            lines->count, PARALLEL_ITEMS, mark_joined_of_range,
+                            &marks);
+  for (size_t i = 0; ok && i < lines->count; i++) {
+    const uint32_t *point = sheet->edge.item[lines->edge[i]].point;
+    (void)poll_at(i);
+    if (marks.is_joined[i])
+      union_find_join(line, point[0], point[1]);
   }
   mem_free(marks.is_joined);
   if (ok)
-    return line;
-  mem_free(line);
-  return NULL;
+    lines->line = line;
+  else
+    mem_free(line);
+  return ok;
 }

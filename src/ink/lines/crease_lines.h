@@ -3,6 +3,8 @@
 #ifndef INK_LINES_CREASE_LINES_H
 #define INK_LINES_CREASE_LINES_H
 
+#include <stdatomic.h>
+
 #include "base/memory.h"
 #include "view/sheet.h"
 
@@ -35,7 +37,29 @@ static inline bool crease_is_joined(const struct sheet_edge *edge,
   return cosine < crease || edge->edge_class == RECTO_EDGE_CREASE;
 }
 
-/* The lines as a union-find of the sheet's points; NULL when memory ran out. */
-uint32_t *crease_lines_create(const struct sheet *sheet, double crease_deg);
+/* What is looked up of the creases of a sheet more than once: found when it is
+ * asked for first.  Zero-initialised but for the sheet is empty. */
+struct crease_lines {
+  const struct sheet *sheet;
+  uint32_t *edge; /* those drawn as creases or silhouettes, ascending: no other
+                     bends by the crease angle; NULL: not yet listed */
+  size_t count;
+  atomic_uchar *at; /* one a point: CREASE_END_ALONE where one of these is the
+                       only drawable edge; NULL: not yet found */
+  uint32_t *line;   /* the lines as a union-find of the sheet's points; NULL:
+                       not yet joined */
+};
+
+enum { CREASE_END = 1, CREASE_END_ALONE = 3, CREASE_END_SHARED = 7 };
+
+void crease_lines_fini(struct crease_lines *lines);
+
+/* List the edges; find where they end alone; join the lines, of edges that bend
+ * by more than an angle, which is the same at every call.  Return false when
+ * memory ran out or the caller cancelled. */
+USE_RESULT bool crease_lines_list(struct crease_lines *lines);
+USE_RESULT bool crease_lines_find_ends(struct crease_lines *lines);
+USE_RESULT bool crease_lines_join(struct crease_lines *lines,
+                                  double crease_deg);
 
 #endif

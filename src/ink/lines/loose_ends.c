@@ -8,9 +8,8 @@
 
 #include "geom/nearest.h"
 
-/* The cells of the grid along each side of the page, at most.  Blocks of them,
- * 2^BLOCK_SHIFT along each side, are looked at first. */
-enum { GRID_MAX = 1 << 10, BLOCK_SHIFT = 3 };
+/* The cells of the grid along each side of the page, at most. */
+enum { GRID_MAX = 1 << 10 };
 
 bool loose_ends_init(struct loose_ends *ends, const struct segment_graph *graph,
                      const struct pens *pens, const double page_mm[2]) {
@@ -28,9 +27,9 @@ bool loose_ends_init(struct loose_ends *ends, const struct segment_graph *graph,
   }
   ends->first = mem_calloc((size_t)ends->count[0] * (size_t)ends->count[1],
                            sizeof *ends->first);
-  ends->blocks = ((size_t)ends->count[0] >> BLOCK_SHIFT) + 1;
-  ends->has_ends =
-      mem_calloc(ends->blocks, ((size_t)ends->count[1] >> BLOCK_SHIFT) + 1);
+  ends->blocks = ((size_t)ends->count[0] >> LOOSE_BLOCK_SHIFT) + 1;
+  ends->has_ends = mem_calloc(
+      ends->blocks, ((size_t)ends->count[1] >> LOOSE_BLOCK_SHIFT) + 1);
   return ends->first != NULL && ends->has_ends != NULL;
 }
 
@@ -41,17 +40,11 @@ void loose_ends_fini(struct loose_ends *ends) {
   ARRAY_FREE(&ends->listed);
 }
 
-static int loose_cell(const struct loose_ends *ends, int axis, double at) {
-  double cell = (at - ends->low[axis]) * ends->per_unit;
-  int last = ends->count[axis] - 1;
-  return cell < 0 ? 0 : cell < last ? (int)cell : last;
-}
-
 /* Lists an end in its cell and in those about it: what is near the end is in
  * one of them. */
 static bool list_loose_end(struct loose_ends *ends, struct ink_point at,
                            uint32_t number) {
-  int x = loose_cell(ends, 0, at.x), y = loose_cell(ends, 1, at.y);
+  int x = loose_ends_cell(ends, 0, at.x), y = loose_ends_cell(ends, 1, at.y);
   for (int row = y - (y > 0); row <= y + 1 && row < ends->count[1]; row++)
     for (int i = x - (x > 0); i <= x + 1 && i < ends->count[0]; i++) {
       uint32_t *first = &ends->first[row * ends->count[0] + i];
@@ -59,8 +52,8 @@ static bool list_loose_end(struct loose_ends *ends, struct ink_point at,
       if (!ARRAY_PUSH(&ends->listed, listed))
         return false;
       *first = (uint32_t)ends->listed.count;
-      ends->has_ends[(size_t)(row >> BLOCK_SHIFT) * ends->blocks +
-                     (size_t)(i >> BLOCK_SHIFT)] = 1;
+      ends->has_ends[(size_t)(row >> LOOSE_BLOCK_SHIFT) * ends->blocks +
+                     (size_t)(i >> LOOSE_BLOCK_SHIFT)] = 1;
     }
   return true;
 }
@@ -83,18 +76,6 @@ static struct segment_places places_of(const struct loose_ends *ends,
   const uint32_t *node = ends->graph->segment.item[segment].node;
   const struct ink_point *place = ends->graph->node.item;
   return (struct segment_places){place[node[0]], place[node[1]]};
-}
-
-bool loose_ends_may_meet(const struct loose_ends *ends, uint32_t segment) {
-  const struct segment_places at = places_of(ends, segment);
-  int x = loose_cell(ends, 0, at.p.x) >> BLOCK_SHIFT,
-      y = loose_cell(ends, 1, at.p.y) >> BLOCK_SHIFT,
-      to_x = loose_cell(ends, 0, at.q.x) >> BLOCK_SHIFT,
-      to_y = loose_cell(ends, 1, at.q.y) >> BLOCK_SHIFT;
-  const uint8_t *row = ends->has_ends + (size_t)y * ends->blocks,
-                *to_row = ends->has_ends + (size_t)to_y * ends->blocks;
-  return abs(to_x - x) > 1 || abs(to_y - y) > 1 ||
-         (row[x] | row[to_x] | to_row[x] | to_row[to_x]) != 0;
 }
 
 /* Whether a number is within `near` of a range, given by its ends. */
@@ -142,8 +123,8 @@ static void test_rows(struct loose_ends *ends, const struct segment_places *s,
   double low = fmin(s->p.y, s->q.y), high = fmax(s->p.y, s->q.y);
   double slope =
       high > low ? ((double)s->q.x - s->p.x) / ((double)s->q.y - s->p.y) : 0;
-  for (int row = loose_cell(ends, 1, low); row <= loose_cell(ends, 1, high);
-       row++) {
+  for (int row = loose_ends_cell(ends, 1, low);
+       row <= loose_ends_cell(ends, 1, high); row++) {
     double from = ends->low[1] + row * ends->cell - ends->near;
     double y0 = fmin(fmax(from, low), high);
     double y1 = fmin(fmax(from + ends->cell + 2 * ends->near, low), high);
@@ -153,8 +134,8 @@ static void test_rows(struct loose_ends *ends, const struct segment_places *s,
       x0 = s->p.x;
       x1 = s->q.x;
     }
-    int last = loose_cell(ends, 0, fmax(x0, x1));
-    for (int x = loose_cell(ends, 0, fmin(x0, x1)); x <= last; x++)
+    int last = loose_ends_cell(ends, 0, fmax(x0, x1));
+    for (int x = loose_ends_cell(ends, 0, fmin(x0, x1)); x <= last; x++)
       test_list(ends, &ends->first[row * ends->count[0] + x], s, own);
   }
 }
@@ -163,9 +144,10 @@ static void test_rows(struct loose_ends *ends, const struct segment_places *s,
  * two that share a side. */
 void loose_ends_test(struct loose_ends *ends, uint32_t segment, uint32_t own) {
   const struct segment_places at = places_of(ends, segment);
-  int x = loose_cell(ends, 0, at.p.x), y = loose_cell(ends, 1, at.p.y);
-  int dx = loose_cell(ends, 0, at.q.x) - x,
-      dy = loose_cell(ends, 1, at.q.y) - y;
+  int x = loose_ends_cell(ends, 0, at.p.x),
+      y = loose_ends_cell(ends, 1, at.p.y);
+  int dx = loose_ends_cell(ends, 0, at.q.x) - x,
+      dy = loose_ends_cell(ends, 1, at.q.y) - y;
   if (abs(dx) + abs(dy) > 1) {
     test_rows(ends, &at, own);
     return;

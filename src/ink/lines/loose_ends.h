@@ -3,8 +3,13 @@
 #ifndef INK_LINES_LOOSE_ENDS_H
 #define INK_LINES_LOOSE_ENDS_H
 
+#include <stdlib.h>
+
 #include "ink/lines/segment_graph.h"
 #include "ink/pens.h"
+
+/* Blocks have 2^LOOSE_BLOCK_SHIFT cells along each side. */
+enum { LOOSE_BLOCK_SHIFT = 3 };
 
 struct loose_end {
   struct ink_point at;
@@ -45,9 +50,37 @@ void loose_ends_fini(struct loose_ends *ends);
 USE_RESULT bool loose_ends_add(struct loose_ends *ends, struct loose_end end,
                                bool is_listed);
 
-/* Whether loose ends may be listed in a cell of a segment: by the blocks of its
- * box, of which there are two by two at most where it is not long. */
-bool loose_ends_may_meet(const struct loose_ends *ends, uint32_t segment);
+/* The column or row of a coordinate. */
+static inline int loose_ends_cell(const struct loose_ends *ends, int axis,
+                                  double at) {
+  double cell = (at - ends->low[axis]) * ends->per_unit;
+  int last = ends->count[axis] - 1;
+  return cell < 0 ? 0 : cell < last ? (int)cell : last;
+}
+
+/* A block of cells. */
+struct loose_block {
+  int x, y;
+};
+
+static inline struct loose_block
+loose_ends_block_of(const struct loose_ends *ends, struct ink_point at) {
+  return (struct loose_block){
+      loose_ends_cell(ends, 0, at.x) >> LOOSE_BLOCK_SHIFT,
+      loose_ends_cell(ends, 1, at.y) >> LOOSE_BLOCK_SHIFT};
+}
+
+/* Whether loose ends may be listed in a cell of a segment from one block to
+ * another: by the blocks of its box, of which there are two by two at most
+ * where it is not long. */
+static inline bool loose_ends_may_meet(const struct loose_ends *ends,
+                                       struct loose_block from,
+                                       struct loose_block to) {
+  const uint8_t *row = ends->has_ends + (size_t)from.y * ends->blocks,
+                *to_row = ends->has_ends + (size_t)to.y * ends->blocks;
+  return (abs(to.x - from.x) > 1) | (abs(to.y - from.y) > 1) |
+         ((row[from.x] | row[to.x] | to_row[from.x] | to_row[to.x]) != 0);
+}
 
 /* Marks the ends that a segment passes by, but those of its own spur.
  * Threads  may be called by several at once while `is_shared` is set */

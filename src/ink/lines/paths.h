@@ -71,7 +71,7 @@ USE_RESULT bool paths_find_free_ends(struct ink_paths *paths,
  * Returns false when memory ran out.  Cost: linear in the edges and paths. */
 USE_RESULT bool paths_find_weak(struct ink_paths *paths,
                                 const struct segment_graph *graph,
-                                const struct sheet *sheet,
+                                struct crease_lines *creases,
                                 const struct crease_angles *angles);
 
 /* Sets is_weak of the paths of creases that are free and shorter than

@@ -61,6 +61,7 @@ struct graph_segments {
 };
 
 struct pens;
+struct crease_lines;
 
 struct segment_graph {
   ARRAY(struct ink_point) node;
@@ -272,7 +273,7 @@ struct crease_angles {
  * drop  one a segment, 0
  * Returns false when memory ran out.  Cost: linear in the edges */
 USE_RESULT bool segment_graph_find_speckled(const struct segment_graph *graph,
-                                            const struct sheet *sheet,
+                                            struct crease_lines *creases,
                                             const struct pens *pens,
                                             const struct crease_angles *angles,
                                             uint8_t *drop);
@@ -286,7 +287,7 @@ USE_RESULT bool segment_graph_find_speckled(const struct segment_graph *graph,
  * Returns false when memory ran out.
  * Cost  n log n; the search for a cycle ends after 32 nodes */
 USE_RESULT bool segment_graph_find_short_cycles(
-    const struct segment_graph *graph, const struct sheet *sheet,
+    const struct segment_graph *graph, struct crease_lines *creases,
     const struct pens *pens, const struct crease_angles *angles, uint8_t *drop);
 
 #endif

@@ -32,78 +32,33 @@ struct cycle_search {
 
 /* ---- Candidates ---------------------------------------------------------- */
 
-/* What is at a point of the sheet. */
-enum { AT_CREASE = 1, AT_EDGE = 2, AT_SEVERAL = 4 };
-
-struct point_marks {
-  const struct sheet *sheet;
-  atomic_uchar *at; /* one a point */
-};
-
-static bool mark_creases_of_range(void *user, struct parallel_range range) {
-  const struct point_marks *marks = user;
-  for (size_t e = range.begin; e < range.end; e++) {
-    const struct sheet_edge *edge = &marks->sheet->edge.item[e];
-    for (int k = 0; k < 2 && edge->edge_class == RECTO_EDGE_CREASE; k++)
-      atomic_store_explicit(&marks->at[edge->point[k]], AT_CREASE,
-                            memory_order_relaxed);
-  }
-  return true;
+/* Whether an edge is a crease that ends free at its end k: at a vertex where no
+ * other edge is drawable. */
+static bool ends_free(const struct crease_lines *creases, size_t i, int k) {
+  const struct sheet_edge *edge = &creases->sheet->edge.item[creases->edge[i]];
+  return edge->edge_class == RECTO_EDGE_CREASE &&
+         edge->point[k] < creases->sheet->vertex_count &&
+         creases->at[edge->point[k]] == CREASE_END_ALONE;
 }
 
-/* Counts the drawable edges at the ends of creases, up to two. */
-static bool count_edges_of_range(void *user, struct parallel_range range) {
-  const struct point_marks *marks = user;
-  for (size_t e = range.begin; e < range.end; e++) {
-    const struct sheet_edge *edge = &marks->sheet->edge.item[e];
-    for (int k = 0; k < 2 && edge->edge_class != 0; k++) {
-      atomic_uchar *at = &marks->at[edge->point[k]];
-      unsigned before = atomic_load_explicit(at, memory_order_relaxed);
-      if (before == 0 || (before & AT_SEVERAL))
-        continue;
-      before = atomic_fetch_or_explicit(at, AT_EDGE, memory_order_relaxed);
-      if (before & AT_EDGE)
-        atomic_fetch_or_explicit(at, AT_SEVERAL, memory_order_relaxed);
-    }
-  }
-  return true;
-}
-
-/* Marks the points where a crease ends free: vertices where no other edge is
- * drawable.  Clears the others.
- * count  gets how many there are
- * Returns NULL when memory ran out. */
-static atomic_uchar *find_free_ends(const struct sheet *sheet, size_t *count) {
-  size_t edges = sheet->edge.count;
-  int workers = parallel_workers(edges, PARALLEL_ITEMS);
-  struct point_marks marks = {sheet,
-                              mem_calloc(sheet->point.count, sizeof *marks.at)};
-  bool ok = marks.at != NULL &&
-            parallel_ranges(workers, edges, PARALLEL_ITEMS,
-                            mark_creases_of_range, &marks) &&
-            parallel_ranges(workers, edges, PARALLEL_ITEMS,
-                            count_edges_of_range, &marks);
-  *count = 0;
-  for (uint32_t p = 0; ok && p < sheet->vertex_count; p++) {
-    (void)poll_at(p);
-    marks.at[p] = marks.at[p] == (AT_CREASE | AT_EDGE);
-    *count += marks.at[p];
-  }
-  if (ok)
-    return marks.at;
-  mem_free(marks.at);
-  return NULL;
+static bool has_free_ends(const struct crease_lines *creases) {
+  for (size_t i = 0; i < creases->count; i++)
+    if (ends_free(creases, i, 0) || ends_free(creases, i, 1))
+      return true;
+  return false;
 }
 
 /* Sets of the roots of lines whether a crease ends free there.  Returns NULL
  * when memory ran out. */
-static uint8_t *find_free_lines(const struct sheet *sheet,
-                                const atomic_uchar *is_end, uint32_t *line) {
+static uint8_t *find_free_lines(const struct crease_lines *creases) {
+  const struct sheet *sheet = creases->sheet;
   uint8_t *is_free = mem_calloc(sheet->point.count, 1);
-  for (uint32_t p = 0; is_free != NULL && p < sheet->vertex_count; p++) {
-    (void)poll_at(p);
-    if (is_end[p])
-      is_free[union_find_root(line, p)] = 1;
+  for (size_t i = 0; is_free != NULL && i < creases->count; i++) {
+    (void)poll_at(i);
+    for (int k = 0; k < 2; k++)
+      if (ends_free(creases, i, k))
+        is_free[union_find_root(
+            creases->line, sheet->edge.item[creases->edge[i]].point[k])] = 1;
   }
   return is_free;
 }
@@ -134,16 +89,17 @@ static bool is_short_crease(const struct segment_graph *graph,
 
 /* Lists the short creases of lines of which some end is free, as is_absent. */
 static bool list_creases_of_lines(struct cycle_search *c,
-                                  const struct sheet *sheet,
-                                  const struct pens *pens, uint32_t *line,
+                                  const struct crease_lines *creases,
+                                  const struct pens *pens,
                                   const uint8_t *is_free) {
+  const struct sheet *sheet = creases->sheet;
   const struct segment_graph *graph = c->graph;
   struct large_face_normals normals = large_face_normals_start();
   for (uint32_t i = 0; i < graph->segment.count; i++) {
     const struct sheet_edge *edge =
         &sheet->edge.item[graph->segment.item[i].edge];
     if (!is_short_crease(graph, sheet, pens, i) ||
-        !is_free[union_find_root(line, edge->point[0])])
+        !is_free[union_find_root(creases->line, edge->point[0])])
       continue;
     uint32_t pen =
         pens_of_line(pens, edge->edge_class, sheet_edge_group(sheet, edge));
@@ -160,26 +116,22 @@ static bool list_creases_of_lines(struct cycle_search *c,
 /* Lists none, and saves finding the lines, where no crease is short or none
  * ends free. */
 static bool list_cycle_candidates(struct cycle_search *c,
-                                  const struct sheet *sheet,
+                                  struct crease_lines *creases,
                                   const struct pens *pens, double crease_deg) {
   uint32_t first = 0, count = (uint32_t)c->graph->segment.count;
-  while (first < count && !is_short_crease(c->graph, sheet, pens, first))
+  while (first < count &&
+         !is_short_crease(c->graph, creases->sheet, pens, first))
     first++;
   if (first == count)
     return true;
-  size_t ends;
-  atomic_uchar *is_end = find_free_ends(sheet, &ends);
-  bool ok = is_end != NULL;
-  if (ok && ends > 0) {
-    uint32_t *line = crease_lines_create(sheet, crease_deg);
-    uint8_t *is_free =
-        line != NULL ? find_free_lines(sheet, is_end, line) : NULL;
-    ok =
-        is_free != NULL && list_creases_of_lines(c, sheet, pens, line, is_free);
-    mem_free(line);
-    mem_free(is_free);
-  }
-  mem_free((void *)is_end);
+  if (!crease_lines_find_ends(creases))
+    return false;
+  if (!has_free_ends(creases))
+    return true;
+  uint8_t *is_free =
+      crease_lines_join(creases, crease_deg) ? find_free_lines(creases) : NULL;
+  bool ok = is_free != NULL && list_creases_of_lines(c, creases, pens, is_free);
+  mem_free(is_free);
   return ok;
 }
 
@@ -258,12 +210,12 @@ static int compare_sharpness(const void *a, const void *b, void *user) {
 }
 
 bool segment_graph_find_short_cycles(const struct segment_graph *graph,
-                                     const struct sheet *sheet,
+                                     struct crease_lines *creases,
                                      const struct pens *pens,
                                      const struct crease_angles *angles,
                                      uint8_t *drop) {
   struct cycle_search c = {.graph = graph, .is_absent = drop};
-  bool ok = list_cycle_candidates(&c, sheet, pens, angles->crease_deg) &&
+  bool ok = list_cycle_candidates(&c, creases, pens, angles->crease_deg) &&
             sort_stable(c.candidate.item, c.candidate.count,
                         sizeof *c.candidate.item, compare_sharpness, NULL);
   for (size_t i = 0; ok && i < c.candidate.count; i++) {

@@ -235,12 +235,24 @@ static void test_segment(struct spur_search *s, uint32_t segment) {
   loose_ends_test(&s->loose, segment, s->of_segment[segment] - 1);
 }
 
+/* Segments that begin at one node follow each other. */
 static bool test_range(void *user, struct parallel_range range) {
   struct spur_search *s = user;
-  for (size_t i = range.begin; i < range.end; i++)
-    if (!graph_segment_is_hidden(&s->graph->segment.item[i]) &&
-        loose_ends_may_meet(&s->loose, (uint32_t)i))
+  const struct ink_point *at = s->graph->node.item;
+  uint32_t node = SEGMENT_GRAPH_NONE;
+  struct loose_block from = {0, 0};
+  for (size_t i = range.begin; i < range.end; i++) {
+    const struct graph_segment *segment = &s->graph->segment.item[i];
+    if (segment->node[0] != node) {
+      node = segment->node[0];
+      from = loose_ends_block_of(&s->loose, at[node]);
+    }
+    struct loose_block to =
+        loose_ends_block_of(&s->loose, at[segment->node[1]]);
+    if (loose_ends_may_meet(&s->loose, from, to) &&
+        !graph_segment_is_hidden(segment))
       test_segment(s, (uint32_t)i);
+  }
   return true;
 }
 

@@ -36,13 +36,11 @@ enum { END_PIECES = 16 };
 /* A line of fewer pieces may have few edges, as those of a roof have. */
 enum { SHALLOW_PIECES = 4 };
 
-/* What meets at a vertex. */
+/* What meets at a vertex: edges by their places among those drawn as creases or
+ * silhouettes (crease_lines.h). */
 struct speckle_corner {
   uint32_t edge[2], creases; /* the first two, and how many there are */
 };
-
-/* What else does. */
-enum { ENDS_LINE = 1 /* one edge of a line does */, HAS_OTHERS = 2 };
 
 struct speckle_line {
   double length, in_short; /* of all edges, of those in short pieces */
@@ -55,93 +53,78 @@ struct speckle_line {
 
 struct speckle_search {
   const struct sheet *sheet;
+  const struct crease_lines *creases;
   const struct pens *pens;
   struct projection projection;
   double crease, sharp; /* the cosines of the crease angle, that of zigzags */
-  uint8_t *is_of_line;  /* one an edge */
+  uint8_t *is_of_line;  /* one a listed edge */
   struct speckle_corner *corner; /* one a vertex */
-  atomic_uchar *others;          /* one a point: 0 or as above */
-  uint32_t *line;                /* a union-find of the sheet's points */
-  uint32_t *piece;               /* one of its edges */
-  double *piece_mm;              /* one an edge: of a piece's root */
+  uint32_t *piece;               /* a union-find of the listed edges */
+  double *piece_mm;              /* one of these: of a piece's root */
   struct speckle_line *lines;    /* one a point: of a line's root */
 };
 
 /* ---- Vertices ------------------------------------------------------------ */
 
-static double cosine_of(const struct speckle_search *s, uint32_t edge,
+static const struct sheet_edge *listed_edge(const struct speckle_search *s,
+                                            size_t i) {
+  return &s->sheet->edge.item[s->creases->edge[i]];
+}
+
+static double cosine_of(const struct speckle_search *s, size_t i,
                         struct large_face_normals *normals) {
-  return crease_cosine(s->sheet, &s->sheet->edge.item[edge], normals);
+  return crease_cosine(s->sheet, listed_edge(s, i), normals);
 }
 
 /* Finds which edges are of the line of a crease. */
 static bool find_edges_of_range(void *user, struct parallel_range range) {
   const struct speckle_search *s = user;
   struct large_face_normals normals = large_face_normals_start();
-  for (size_t e = range.begin; e < range.end; e++) {
-    const struct sheet_edge *edge = &s->sheet->edge.item[e];
-    s->is_of_line[e] =
-        edge->edge_class != 0 &&
-        crease_is_joined(edge, cosine_of(s, (uint32_t)e, &normals), s->crease);
-  }
+  for (size_t i = range.begin; i < range.end; i++)
+    s->is_of_line[i] = crease_is_joined(listed_edge(s, i),
+                                        cosine_of(s, i, &normals), s->crease);
   return true;
 }
 
 static void list_corners(const struct speckle_search *s) {
-  for (size_t e = 0; e < s->sheet->edge.count; e++) {
-    const struct sheet_edge *edge = &s->sheet->edge.item[e];
-    (void)poll_at(e);
-    for (int k = 0; k < 2 && s->is_of_line[e]; k++) {
+  for (size_t i = 0; i < s->creases->count; i++) {
+    const struct sheet_edge *edge = listed_edge(s, i);
+    (void)poll_at(i);
+    for (int k = 0; k < 2 && s->is_of_line[i]; k++) {
       if (edge->point[k] >= s->sheet->vertex_count)
         continue;
       struct speckle_corner *at = &s->corner[edge->point[k]];
       if (at->creases < 2)
-        at->edge[at->creases] = (uint32_t)e;
+        at->edge[at->creases] = (uint32_t)i;
       at->creases++;
-      s->others[edge->point[k]] = at->creases == 1 ? ENDS_LINE : 0;
     }
   }
 }
 
-/* Marks the ends of lines where another edge is drawable. */
-static bool mark_others_of_range(void *user, struct parallel_range range) {
-  const struct speckle_search *s = user;
-  for (size_t e = range.begin; e < range.end; e++) {
-    const struct sheet_edge *edge = &s->sheet->edge.item[e];
-    for (int k = 0; k < 2 && edge->edge_class != 0 && !s->is_of_line[e]; k++) {
-      atomic_uchar *at = &s->others[edge->point[k]];
-      if (atomic_load_explicit(at, memory_order_relaxed) == ENDS_LINE)
-        atomic_store_explicit(at, HAS_OTHERS, memory_order_relaxed);
-    }
-  }
-  return true;
-}
-
-static bool find_line_ends(struct speckle_search *s) {
-  size_t count = s->sheet->edge.count;
-  int workers = parallel_workers(count, PARALLEL_ITEMS);
+static bool find_line_corners(struct speckle_search *s) {
+  size_t count = s->creases->count;
   s->is_of_line = mem_alloc(count, sizeof *s->is_of_line);
   s->corner = mem_calloc(s->sheet->vertex_count, sizeof *s->corner);
-  s->others = mem_calloc(s->sheet->point.count, sizeof *s->others);
-  if (s->is_of_line == NULL || s->corner == NULL || s->others == NULL ||
-      !parallel_ranges(workers, count, PARALLEL_ITEMS, find_edges_of_range, s))
+  if (s->is_of_line == NULL || s->corner == NULL ||
+      !parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
+                       PARALLEL_ITEMS, find_edges_of_range, s))
     return false;
   list_corners(s);
-  return parallel_ranges(workers, count, PARALLEL_ITEMS, mark_others_of_range,
-                         s);
+  return true;
 }
 
 /* Whether the end of a line is free at a vertex: no other edge is drawable
  * there. */
 static bool is_free_corner(const struct speckle_search *s, uint32_t point) {
-  return s->others[point] == ENDS_LINE;
+  return s->creases->at[point] == CREASE_END_ALONE &&
+         s->corner[point].creases == 1;
 }
 
 /* The other one of the two creases that meet at the far end of a crease;
  * SHEET_NONE where there are not two. */
 static uint32_t next_crease(const struct speckle_search *s, uint32_t edge,
                             uint32_t from) {
-  const uint32_t *point = s->sheet->edge.item[edge].point;
+  const uint32_t *point = listed_edge(s, edge)->point;
   uint32_t to = point[0] == from ? point[1] : point[0];
   if (to >= s->sheet->vertex_count || s->corner[to].creases != 2)
     return SHEET_NONE;
@@ -159,9 +142,13 @@ static bool is_on_triangle(const struct speckle_search *s, uint32_t point) {
 
 /* Whether any line may be noise: none of a solid is. */
 static bool has_candidates(const struct speckle_search *s) {
-  for (uint32_t p = 0; p < s->sheet->vertex_count; p++)
-    if (is_free_corner(s, p) || is_on_triangle(s, p))
-      return true;
+  for (size_t i = 0; i < s->creases->count; i++) {
+    const uint32_t *point = listed_edge(s, i)->point;
+    for (int k = 0; k < 2 && s->is_of_line[i]; k++)
+      if (point[k] < s->sheet->vertex_count &&
+          (is_free_corner(s, point[k]) || is_on_triangle(s, point[k])))
+        return true;
+  }
   return false;
 }
 
@@ -172,7 +159,7 @@ static bool has_candidates(const struct speckle_search *s) {
 static void edge_vector(const struct speckle_search *s, uint32_t edge,
                         uint32_t from, double vector[3]) {
   const struct sheet *sheet = s->sheet;
-  const uint32_t *point = sheet->edge.item[edge].point;
+  const uint32_t *point = listed_edge(s, edge)->point;
   uint32_t to = point[0] == from ? point[1] : point[0];
   struct view_point p =
       unproject_point(&s->projection, sheet->point.item[from]);
@@ -205,7 +192,7 @@ static void join_pieces(const struct speckle_search *s) {
 /* The length of an edge in space at the scale that it is drawn at. */
 static double length_mm(const struct speckle_search *s, uint32_t edge) {
   const struct projection *projection = &s->projection;
-  uint32_t from = s->sheet->edge.item[edge].point[0];
+  uint32_t from = listed_edge(s, edge)->point[0];
   double v[3], d = 1;
   if (projection->perspective)
     d = unproject_point(projection, s->sheet->point.item[from]).d;
@@ -216,7 +203,7 @@ static double length_mm(const struct speckle_search *s, uint32_t edge) {
 /* ---- Lines --------------------------------------------------------------- */
 
 static void measure_pieces(const struct speckle_search *s) {
-  for (uint32_t e = 0; e < s->sheet->edge.count; e++)
+  for (uint32_t e = 0; e < s->creases->count; e++)
     if (s->is_of_line[e])
       s->piece_mm[union_find_root(s->piece, e)] += length_mm(s, e);
 }
@@ -224,8 +211,8 @@ static void measure_pieces(const struct speckle_search *s) {
 static void measure_lines(const struct speckle_search *s) {
   double degree = acos(-1) / 180;
   struct large_face_normals normals = large_face_normals_start();
-  for (uint32_t e = 0; e < s->sheet->edge.count; e++) {
-    const struct sheet_edge *edge = &s->sheet->edge.item[e];
+  for (uint32_t e = 0; e < s->creases->count; e++) {
+    const struct sheet_edge *edge = listed_edge(s, e);
     (void)poll_at(e);
     if (!s->is_of_line[e])
       continue;
@@ -234,7 +221,7 @@ static void measure_lines(const struct speckle_search *s) {
                                 sheet_edge_group(s->sheet, edge));
     uint32_t piece = union_find_root(s->piece, e);
     struct speckle_line *of =
-        &s->lines[union_find_root(s->line, edge->point[0])];
+        &s->lines[union_find_root(s->creases->line, edge->point[0])];
     double length = length_mm(s, e);
     of->length += length;
     of->bend += length * acos(fmax(-1, fmin(1, cosine))) / degree;
@@ -247,7 +234,7 @@ static void measure_lines(const struct speckle_search *s) {
   }
   for (uint32_t p = 0; p < s->sheet->vertex_count; p++)
     if (is_free_corner(s, p))
-      s->lines[union_find_root(s->line, p)].free_ends++;
+      s->lines[union_find_root(s->creases->line, p)].free_ends++;
 }
 
 /* Whether a line is that of a solid rather than one that ends free, or goes
@@ -279,8 +266,9 @@ static void mark_speckled(const struct speckle_search *s,
     const struct graph_segment *segment = &graph->segment.item[i];
     const struct sheet_edge *edge = &s->sheet->edge.item[segment->edge];
     if (is_crease_segment(segment))
-      drop[i] = is_speckled(&s->lines[union_find_root(s->line, edge->point[0])],
-                            sharp_deg);
+      drop[i] = is_speckled(
+          &s->lines[union_find_root(s->creases->line, edge->point[0])],
+          sharp_deg);
   }
 }
 
@@ -291,38 +279,46 @@ static bool has_creases(const struct segment_graph *graph) {
   return false;
 }
 
+/* Finds the lines, where some may be noise, and marks those that are. */
+static bool find_and_mark(struct speckle_search *s,
+                          const struct segment_graph *graph,
+                          struct crease_lines *creases,
+                          const struct crease_angles *angles, uint8_t *drop) {
+  if (!crease_lines_find_ends(creases) || !find_line_corners(s))
+    return false;
+  if (!has_candidates(s))
+    return true;
+  s->piece = union_find_create(creases->count);
+  s->piece_mm = mem_calloc(creases->count, sizeof *s->piece_mm);
+  s->lines = mem_calloc(s->sheet->point.count, sizeof *s->lines);
+  if (s->piece == NULL || s->piece_mm == NULL || s->lines == NULL ||
+      !crease_lines_join(creases, angles->crease_deg))
+    return false;
+  join_pieces(s);
+  measure_pieces(s);
+  measure_lines(s);
+  mark_speckled(s, graph, angles->zigzag_deg, drop);
+  return true;
+}
+
 bool segment_graph_find_speckled(const struct segment_graph *graph,
-                                 const struct sheet *sheet,
+                                 struct crease_lines *creases,
                                  const struct pens *pens,
                                  const struct crease_angles *angles,
                                  uint8_t *drop) {
+  const struct sheet *sheet = creases->sheet;
   if (angles->zigzag_deg == 0 || sheet->scene == NULL || !has_creases(graph))
     return true;
   struct speckle_search s = {
       .sheet = sheet,
+      .creases = creases,
       .pens = pens,
       .projection = projection_of(&sheet->camera),
       .crease = angle_of_degrees(angles->crease_deg).cosine,
       .sharp = angle_of_degrees(angles->zigzag_deg).cosine};
-  bool ok = find_line_ends(&s);
-  if (ok && has_candidates(&s)) {
-    s.line = crease_lines_create(sheet, angles->crease_deg);
-    s.piece = union_find_create(sheet->edge.count);
-    s.piece_mm = mem_calloc(sheet->edge.count, sizeof *s.piece_mm);
-    s.lines = mem_calloc(sheet->point.count, sizeof *s.lines);
-    ok = s.line != NULL && s.piece != NULL && s.piece_mm != NULL &&
-         s.lines != NULL;
-    if (ok) {
-      join_pieces(&s);
-      measure_pieces(&s);
-      measure_lines(&s);
-      mark_speckled(&s, graph, angles->zigzag_deg, drop);
-    }
-  }
+  bool ok = find_and_mark(&s, graph, creases, angles, drop);
   mem_free(s.is_of_line);
   mem_free(s.corner);
-  mem_free((void *)s.others);
-  mem_free(s.line);
   mem_free(s.piece);
   mem_free(s.piece_mm);
   mem_free(s.lines);

@@ -61,20 +61,21 @@ static bool turns_back(const struct projection *projection,
 
 /* Finds out how the edges of the lines bend, and lists the neighbours of their
  * points on the mesh. */
-static void look_at_edges(const struct sheet *sheet,
-                          const struct crease_angles *angles, uint32_t *line,
+static void look_at_edges(const struct crease_lines *creases,
+                          const struct crease_angles *angles,
                           struct crease_line *lines,
                           struct line_neighbours *next) {
+  const struct sheet *sheet = creases->sheet;
   double crease = angle_of_degrees(angles->crease_deg).cosine;
   double start = angle_of_degrees(angles->start_deg).cosine;
   double very = angle_of_degrees(angles->zigzag_deg).cosine;
   struct large_face_normals normals = large_face_normals_start();
-  for (size_t e = 0; e < sheet->edge.count; e++) {
-    const struct sheet_edge *edge = &sheet->edge.item[e];
+  for (size_t i = 0; i < creases->count; i++) {
+    const struct sheet_edge *edge = &sheet->edge.item[creases->edge[i]];
     const uint32_t *point = edge->point;
     double cosine = crease_cosine(sheet, edge, &normals);
-    (void)poll_at(e);
-    struct crease_line *of = &lines[union_find_root(line, point[0])];
+    (void)poll_at(i);
+    struct crease_line *of = &lines[union_find_root(creases->line, point[0])];
     of->is_sharp = of->is_sharp || cosine < start;
     of->is_very_sharp = of->is_very_sharp || cosine < very;
     if (crease_is_joined(edge, cosine, crease) && ++of->edges > 0 &&
@@ -102,8 +103,9 @@ static bool is_weak_line(const struct crease_line *line) {
 }
 
 bool paths_find_weak(struct ink_paths *paths, const struct segment_graph *graph,
-                     const struct sheet *sheet,
+                     struct crease_lines *creases,
                      const struct crease_angles *angles) {
+  const struct sheet *sheet = creases->sheet;
   size_t candidates = 0;
   if (angles->start_deg == 0 || sheet->scene == NULL)
     return true;
@@ -114,12 +116,13 @@ bool paths_find_weak(struct ink_paths *paths, const struct segment_graph *graph,
   }
   if (candidates == 0)
     return true;
-  uint32_t *line = crease_lines_create(sheet, angles->crease_deg);
   struct crease_line *lines = mem_calloc(sheet->point.count, sizeof *lines);
   struct line_neighbours *next = mem_calloc(sheet->vertex_count, sizeof *next);
-  bool ok = line != NULL && lines != NULL && next != NULL;
+  bool ok = lines != NULL && next != NULL &&
+            crease_lines_join(creases, angles->crease_deg);
+  uint32_t *line = creases->line;
   if (ok) {
-    look_at_edges(sheet, angles, line, lines, next);
+    look_at_edges(creases, angles, lines, next);
     look_at_points(sheet, line, lines, next);
   }
   for (size_t i = 0; ok && i < paths->path.count; i++) {
@@ -130,7 +133,6 @@ bool paths_find_weak(struct ink_paths *paths, const struct segment_graph *graph,
       path->is_weak = is_weak_line(&lines[union_find_root(line, point)]);
     }
   }
-  mem_free(line);
   mem_free(lines);
   mem_free(next);
   return ok;
