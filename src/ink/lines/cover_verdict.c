@@ -66,13 +66,14 @@ static struct cover_trial trial_at(const struct covering *c,
 
 /* The verdict of a hair, which another thread may be giving. */
 static enum cover_verdict verdict_of(const struct covering *c, uint32_t path) {
-  return (enum cover_verdict)__atomic_load_n(&c->verdict[path],
-                                             __ATOMIC_RELAXED);
+  return (enum cover_verdict)atomic_load_explicit(&c->verdict[path],
+                                                  memory_order_relaxed);
 }
 
 static void give_verdict(const struct covering *c, uint32_t path,
                          enum cover_verdict verdict) {
-  __atomic_store_n(&c->verdict[path], (uint8_t)verdict, __ATOMIC_RELAXED);
+  atomic_store_explicit(&c->verdict[path], (unsigned char)verdict,
+                        memory_order_relaxed);
 }
 
 /* Whether a side may take the place of a hair that is near it. */
@@ -161,7 +162,7 @@ static bool judge_range(void *user, struct parallel_range range) {
   const struct covering *c = user;
   for (size_t i = range.begin; i < range.end; i++) {
     uint32_t path = c->hair[i].value;
-    c->verdict[path] = (uint8_t)for_all_pieces(c, path, judge_piece);
+    give_verdict(c, path, for_all_pieces(c, path, judge_piece));
   }
   return true;
 }
@@ -177,7 +178,7 @@ static bool decide_range(void *user, struct parallel_range range) {
 
 static bool list_undecided(struct covering *c) {
   for (size_t r = 0; r < c->paths->path.count; r++)
-    if (!poll_at(r) || (c->verdict[c->by_rank[r]] == COVER_UNDECIDED &&
+    if (!poll_at(r) || (verdict_of(c, c->by_rank[r]) == COVER_UNDECIDED &&
                         !ARRAY_PUSH(&c->undecided, c->by_rank[r])))
       return false;
   return true;
@@ -193,9 +194,10 @@ bool covering_decide(struct covering *c) {
                        PATHS_IN_RANGE, decide_range, c))
     return false;
   for (size_t i = 0; i < count; i++)
-    if (c->verdict[c->undecided.item[i]] == COVER_UNDECIDED)
+    if (verdict_of(c, c->undecided.item[i]) == COVER_UNDECIDED)
       (void)decide_range(c, (struct parallel_range){i, i + 1, 0});
   for (size_t i = 0; i < c->paths->path.count; i++)
-    c->paths->path.item[i].is_covered = c->verdict[i] == COVER_FOUND;
+    c->paths->path.item[i].is_covered =
+        verdict_of(c, (uint32_t)i) == COVER_FOUND;
   return true;
 }

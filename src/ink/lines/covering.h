@@ -3,6 +3,7 @@
 #define INK_LINES_COVERING_H
 
 #include <math.h>
+#include <stdatomic.h>
 
 #include "base/sort.h"
 #include "ink/lines/cover_side.h"
@@ -26,7 +27,7 @@ struct covering {
   const struct pens *pens;
   struct measured_path *measured; /* one a path */
   uint32_t *by_rank;
-  uint8_t *verdict;      /* one a path */
+  atomic_uchar *verdict; /* one a path: enum cover_verdict */
   struct sort_key *hair; /* the cells in which hairs begin, and their paths */
   size_t hairs;
   ARRAY(uint32_t) undecided; /* paths, the longest first */
