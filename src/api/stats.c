@@ -2,7 +2,7 @@
 #include "api/stats.h"
 
 #include "backends/device.h"
-#include "base/poll.h"
+#include "base/parallel.h"
 #include "scene/diagnostics.h"
 
 void stats_add_scene(struct report *report, const recto_scene *model) {
@@ -52,24 +52,52 @@ void stats_add_sheet(struct report *report, const struct sheet *sheet,
   report_add(report, "faults", "zero_area", sheet->empty);
 }
 
+/* What is counted of a sheet by ranges. */
+struct sheet_counts {
+  const struct sheet *sheet;
+  _Atomic int64_t depths; /* of all points: their bits */
+  atomic_size_t drawn, intersections;
+};
+
+static bool count_drawn_edges(void *user, struct parallel_range range) {
+  struct sheet_counts *counts = user;
+  size_t drawn = 0, intersections = 0;
+  for (size_t e = range.begin; e < range.end; e++) {
+    unsigned edge_class = counts->sheet->edge.item[e].edge_class;
+    drawn += edge_class != 0;
+    intersections += edge_class == RECTO_EDGE_INTERSECTION;
+  }
+  counts->drawn += drawn;
+  counts->intersections += intersections;
+  return true;
+}
+
+static bool unite_depths_of_range(void *user, struct parallel_range range) {
+  struct sheet_counts *counts = user;
+  int64_t depths = 0;
+  for (size_t i = range.begin; i < range.end; i++)
+    depths |= counts->sheet->point.item[i].z;
+  counts->depths |= depths;
+  return true;
+}
+
 /* How many bits the nearest depth on the sheet takes. */
-static unsigned count_depth_bits(const struct sheet *sheet) {
-  int64_t most = 0;
+static unsigned count_depth_bits(int64_t depths) {
   unsigned bits = 0;
-  for (size_t i = 0; i < sheet->point.count && poll_at(i); i++)
-    most |= sheet->point.item[i].z;
-  for (; most > 0; most >>= 1)
+  for (; depths > 0; depths >>= 1)
     bits++;
   return bits;
 }
 
 void stats_add_work(struct report *report, const struct sheet *sheet,
                     const struct map *map, size_t triangles) {
-  size_t drawn = 0, intersections = 0;
-  for (size_t e = 0; e < sheet->edge.count && poll_at(e); e++) {
-    drawn += sheet->edge.item[e].edge_class != 0;
-    intersections += sheet->edge.item[e].edge_class == RECTO_EDGE_INTERSECTION;
-  }
+  struct sheet_counts counts = {.sheet = sheet};
+  size_t edges = sheet->edge.count, points = sheet->point.count;
+  (void)parallel_ranges(parallel_workers(edges, PARALLEL_ITEMS), edges,
+                        PARALLEL_ITEMS, count_drawn_edges, &counts);
+  (void)parallel_ranges(parallel_workers(points, PARALLEL_ITEMS), points,
+                        PARALLEL_ITEMS, unite_depths_of_range, &counts);
+  size_t drawn = counts.drawn, intersections = counts.intersections;
   report_count(report, "work", "edges_drawn", drawn - intersections);
   report_count(report, "work", "intersections_made", intersections);
   report_double(report, "work", "pairs_possible",
@@ -79,7 +107,7 @@ void stats_add_work(struct report *report, const struct sheet *sheet,
                map->over_limit_interval.count + map->invisible_interval.count);
   report_count(report, "work", "fragments_made", map->fragment.count);
   report_count(report, "work", "fragment_corners", map->corner.count);
-  report_count(report, "work", "depth_bits", count_depth_bits(sheet));
+  report_count(report, "work", "depth_bits", count_depth_bits(counts.depths));
   report_count(report, "work", "depth_bits_available", SHEET_Z_BITS);
 }
 

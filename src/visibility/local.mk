@@ -85,7 +85,7 @@ librecto_core_la_SOURCES += \
   %D%/pairwise/tile_candidates.c %D%/pairwise/tile_candidates.h \
   %D%/pairwise/tile_classification.c %D%/pairwise/tile_classification.h \
   %D%/pairwise/deferred_triangles.c %D%/pairwise/deferred_triangles.h \
-  %D%/predicate/box2.h \
+  %D%/predicate/box2.c %D%/predicate/box2.h \
   %D%/predicate/coarse_plane.c %D%/predicate/coarse_plane.h \
   %D%/predicate/contact.c %D%/predicate/contact.h \
   %D%/predicate/depth_plane.h \

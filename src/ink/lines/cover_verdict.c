@@ -121,8 +121,8 @@ static enum cover_verdict judge_piece(const struct covering *c,
   return found || trial.tried == SIDES_TRIED_MAX ? COVER_UNDECIDED : COVER_NONE;
 }
 
-/* Of a piece, by the hairs that are drawn; COVER_UNDECIDED: one that is not decided
- * yet may cover it, or be one of the sides that are tried. */
+/* Of a piece, by the hairs that are drawn; COVER_UNDECIDED: one that is not
+ * decided yet may cover it, or be one of the sides that are tried. */
 static enum cover_verdict decide_piece(const struct covering *c,
                                        const struct measured_path *hair,
                                        const double at[4],

@@ -64,7 +64,7 @@ struct path_measuring {
   struct measured_range *range; /* one a range */
 };
 
-static bool measure_range(void *user, struct parallel_range range) {
+static bool measure_range_of_paths(void *user, struct parallel_range range) {
   const struct path_measuring *of = user;
   const struct covering *c = of->c;
   struct measured_range *own = &of->range[range.begin / PARALLEL_ITEMS];
@@ -87,7 +87,7 @@ static bool measure_all(struct path_measuring *of) {
   of->range = mem_calloc(ranges, sizeof *of->range);
   bool ok = of->range != NULL &&
             parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
-                            PARALLEL_ITEMS, measure_range, of);
+                            PARALLEL_ITEMS, measure_range_of_paths, of);
   for (size_t r = 0; ok && r < ranges; r++) {
     c->hairs += of->range[r].hairs;
     c->widest = fmax(c->widest, of->range[r].widest);

@@ -82,7 +82,7 @@ static bool count_left(struct numbering *numbering, size_t count,
 
 /* ---- 1. Triangles -------------------------------------------------------- */
 
-static bool count_triangles(void *user, struct parallel_range range) {
+static bool count_left_triangles(void *user, struct parallel_range range) {
   const struct numbering *numbering = user;
   struct part_range *own = part_range_of(numbering, range);
   for (size_t t = range.begin; t < range.end; t++)
@@ -109,7 +109,7 @@ static void hand_flags_on(struct numbering *numbering) {
   }
 }
 
-static bool store_triangles(void *user, struct parallel_range range) {
+static bool store_left_triangles(void *user, struct parallel_range range) {
   const struct numbering *numbering = user;
   const struct sheet *whole = numbering->whole;
   const struct part_range *own = part_range_of(numbering, range);
@@ -142,7 +142,7 @@ static bool list_triangles(struct numbering *numbering) {
   struct potentially_visible *part = numbering->part;
   struct sheet *sheet = &part->sheet;
   size_t count = numbering->whole->triangle.count, left;
-  if (!count_left(numbering, count, count_triangles, &left))
+  if (!count_left(numbering, count, count_left_triangles, &left))
     return false;
   hand_flags_on(numbering);
   sheet->triangle_flags = mem_alloc(left, 1);
@@ -152,7 +152,7 @@ static bool list_triangles(struct numbering *numbering) {
       part->triangle == NULL)
     return false;
   sheet->triangle.count = left;
-  return for_ranges(numbering, count, store_triangles);
+  return for_ranges(numbering, count, store_left_triangles);
 }
 
 /* ---- 2. Edges ------------------------------------------------------------ */
@@ -166,7 +166,7 @@ static bool is_edge_culled(const struct numbering *numbering,
          occlusion_culling_hides(numbering->culling, s.p, s.q);
 }
 
-static bool count_edges(void *user, struct parallel_range range) {
+static bool count_left_edges(void *user, struct parallel_range range) {
   const struct numbering *numbering = user;
   const struct sheet *whole = numbering->whole;
   struct part_range *own = part_range_of(numbering, range);
@@ -181,7 +181,7 @@ static bool count_edges(void *user, struct parallel_range range) {
   return true;
 }
 
-static bool store_edges(void *user, struct parallel_range range) {
+static bool store_left_edges(void *user, struct parallel_range range) {
   const struct numbering *numbering = user;
   struct potentially_visible *part = numbering->part;
   size_t n = part_range_of(numbering, range)->before;
@@ -206,18 +206,18 @@ static bool store_edges(void *user, struct parallel_range range) {
 static bool list_edges(struct numbering *numbering) {
   struct potentially_visible *part = numbering->part;
   size_t count = numbering->whole->edge.count, left;
-  if (!count_left(numbering, count, count_edges, &left))
+  if (!count_left(numbering, count, count_left_edges, &left))
     return false;
   part->edge = mem_alloc(left, sizeof *part->edge);
   if (!ARRAY_RESERVE(&part->sheet.edge, left) || part->edge == NULL)
     return false;
   part->edges = part->sheet.edge.count = left;
-  return for_ranges(numbering, count, store_edges);
+  return for_ranges(numbering, count, store_left_edges);
 }
 
 /* ---- 3. Points ----------------------------------------------------------- */
 
-static bool count_points(void *user, struct parallel_range range) {
+static bool count_left_points(void *user, struct parallel_range range) {
   const struct numbering *numbering = user;
   struct part_range *own = part_range_of(numbering, range);
   for (size_t i = range.begin; i < range.end; i++)
@@ -225,7 +225,7 @@ static bool count_points(void *user, struct parallel_range range) {
   return true;
 }
 
-static bool store_points(void *user, struct parallel_range range) {
+static bool store_left_points(void *user, struct parallel_range range) {
   const struct numbering *numbering = user;
   size_t n = part_range_of(numbering, range)->before;
   for (size_t i = range.begin; i < range.end; i++) {
@@ -240,11 +240,11 @@ static bool store_points(void *user, struct parallel_range range) {
 static bool list_points(struct numbering *numbering) {
   struct potentially_visible *part = numbering->part;
   size_t count = numbering->whole->point.count, left;
-  if (!count_left(numbering, count, count_points, &left) ||
+  if (!count_left(numbering, count, count_left_points, &left) ||
       !ARRAY_RESERVE(&part->sheet.point, left))
     return false;
   part->points = part->sheet.point.count = left;
-  return for_ranges(numbering, count, store_points);
+  return for_ranges(numbering, count, store_left_points);
 }
 
 /* ---- 4. Contours --------------------------------------------------------- */

@@ -303,42 +303,87 @@ static int front_layer_bottom(uint64_t z_buckets) {
   return TILE_BUCKETS - above - run;
 }
 
+/* What the ranges of tiles and contours have in common. */
+struct classifying {
+  struct tile_classification *tiles;
+  const struct sheet *sheet;
+  _Atomic uint64_t z_buckets, simple, mixed, empty; /* as of the tiles */
+};
+
 /* Phase 2: if exactly one face of the front layer is over the sample point, and
  * none makes the sample unusable, the layer covers the tile exactly once. */
-static void find_simple_tiles(struct tile_classification *tiles) {
-  size_t n = triangle_grid_cell_count(&tiles->grid);
-  for (size_t i = 0; i < n; i++) {
-    struct tile *tile = &tiles->tile[i];
+static bool find_simple_range(void *user, struct parallel_range range) {
+  struct classifying *work = user;
+  uint64_t z_buckets = 0;
+  for (size_t i = range.begin; i < range.end; i++) {
+    struct tile *tile = &work->tiles->tile[i];
     if (tile->z_buckets == 0)
       continue;
-    tiles->z_buckets |= tile->z_buckets;
+    z_buckets |= tile->z_buckets;
     int front = front_layer_bottom(tile->z_buckets);
     bool simple = tile->nearest[0] > front && tile->nearest[1] <= front &&
                   tile->unsafe <= front;
     tile->front = (uint8_t)front;
     tile->state = simple ? TILE_SIMPLE : TILE_MIXED;
   }
+  work->z_buckets |= z_buckets;
+  return true;
+}
+
+static void reject_contour(const struct tile_classification *tiles,
+                           struct geom_segment s) {
+  struct cell_range r =
+      triangle_grid_cells(&tiles->grid, box2_of_segment(s.p, s.q));
+  int high = tile_bucket(s.p.z > s.q.z ? s.p.z : s.q.z);
+  for (int y = r.y0; y <= r.y1; y++) {
+    int x0, x1;
+    triangle_grid_row(&tiles->grid, s.p, s.q, r, y, &x0, &x1);
+    for (int x = x0; x <= x1; x++) {
+      struct tile *tile = &tiles->tile[triangle_grid_index(&tiles->grid, x, y)];
+      if (high >= tile->front) /* other threads may do the same */
+        __atomic_store_n(&tile->state, TILE_MIXED, __ATOMIC_RELAXED);
+    }
+  }
 }
 
 /* Phase 3. */
-static void reject_contours(struct tile_classification *tiles,
-                            const struct sheet *sheet) {
-  for (size_t i = 0; i < sheet->contour.count; i++) {
-    struct geom_segment s = sheet_ends(sheet, sheet->contour.item[i].point);
-    struct cell_range r =
-        triangle_grid_cells(&tiles->grid, box2_of_segment(s.p, s.q));
-    int high = tile_bucket(s.p.z > s.q.z ? s.p.z : s.q.z);
-    for (int y = r.y0; y <= r.y1; y++) {
-      int x0, x1;
-      triangle_grid_row(&tiles->grid, s.p, s.q, r, y, &x0, &x1);
-      for (int x = x0; x <= x1; x++) {
-        struct tile *tile =
-            &tiles->tile[(size_t)y * (size_t)tiles->grid.columns + (size_t)x];
-        if (high >= tile->front)
-          tile->state = TILE_MIXED;
-      }
-    }
-  }
+static bool reject_contour_range(void *user, struct parallel_range range) {
+  const struct classifying *work = user;
+  const struct sheet *sheet = work->sheet;
+  for (size_t i = range.begin; i < range.end; i++)
+    reject_contour(work->tiles,
+                   sheet_ends(sheet, sheet->contour.item[i].point));
+  return true;
+}
+
+static bool count_tile_states(void *user, struct parallel_range range) {
+  struct classifying *work = user;
+  uint64_t count[TILE_STATES] = {0};
+  for (size_t i = range.begin; i < range.end; i++)
+    count[work->tiles->tile[i].state]++;
+  work->empty += count[TILE_EMPTY];
+  work->mixed += count[TILE_MIXED];
+  work->simple += count[TILE_SIMPLE];
+  return true;
+}
+
+/* Phases 2 and 3.  Returns false when the caller cancelled. */
+static bool classify_tiles(struct tile_classification *tiles,
+                           const struct sheet *sheet) {
+  struct classifying work = {.tiles = tiles, .sheet = sheet};
+  size_t n = triangle_grid_cell_count(&tiles->grid),
+         contours = sheet->contour.count;
+  int workers = parallel_workers(n, PARALLEL_ITEMS);
+  bool ok =
+      parallel_ranges(workers, n, PARALLEL_ITEMS, find_simple_range, &work) &&
+      parallel_ranges(parallel_workers(contours, PARALLEL_ITEMS), contours,
+                      PARALLEL_ITEMS, reject_contour_range, &work) &&
+      parallel_ranges(workers, n, PARALLEL_ITEMS, count_tile_states, &work);
+  tiles->z_buckets = work.z_buckets;
+  tiles->simple = work.simple;
+  tiles->mixed = work.mixed;
+  tiles->empty = work.empty;
+  return ok;
 }
 
 /* The number of edges to solve, plus that of the faces times
@@ -390,17 +435,7 @@ bool tile_classification_init(struct tile_classification *tiles,
       .all = occlusion_tolerance_bound_all(sheet),
       .fragments = fragments,
   };
-  if (!collect_all(&work))
-    return false;
-  find_simple_tiles(tiles);
-  reject_contours(tiles, sheet);
-  for (size_t i = 0; i < n; i++) {
-    struct tile *tile = &tiles->tile[i];
-    tiles->simple += tile->state == TILE_SIMPLE;
-    tiles->mixed += tile->state == TILE_MIXED;
-    tiles->empty += tile->state == TILE_EMPTY;
-  }
-  return true;
+  return collect_all(&work) && classify_tiles(tiles, sheet);
 }
 
 void tile_classification_drop_footprints(struct tile_classification *tiles) {

@@ -28,9 +28,10 @@
 #include "visibility/predicate/point_lanes.h"
 
 enum tile_state {
-  TILE_EMPTY, /* no face */
-  TILE_MIXED, /* to be solved by pairs */
-  TILE_SIMPLE /* covered exactly once by its front layer */
+  TILE_EMPTY,  /* no face */
+  TILE_MIXED,  /* to be solved by pairs */
+  TILE_SIMPLE, /* covered exactly once by its front layer */
+  TILE_STATES
 };
 
 enum { TILE_BUCKETS = 64, TILE_BUCKET_SHIFT = SHEET_Z_BITS - 6 };

@@ -42,13 +42,7 @@ static inline struct box2 box2_of_triangle(const struct sheet *sheet,
 
 /* The box of all points, those of wires too: triangles use nearly all.  Of
  * none, it is a point. */
-static inline struct box2 box2_of_sheet(const struct sheet *sheet) {
-  struct box2 all = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
-  for (size_t i = 0; i < sheet->point.count; i++)
-    all = box2_union(
-        all, box2_of_segment(sheet->point.item[i], sheet->point.item[i]));
-  return sheet->point.count > 0 ? all : (struct box2){0, 0, 0, 0};
-}
+struct box2 box2_of_sheet(const struct sheet *sheet);
 
 /* Boxes that only touch are not disjoint. */
 static inline bool box2_disjoint(struct box2 a, struct box2 b) {

@@ -7,6 +7,17 @@
 #include "visibility/pairwise/edge_query.h"
 #include "visibility/predicate/point_lanes.h"
 
+static bool find_visible_range(void *user, struct parallel_range range) {
+  const struct tile_states *states = user;
+  for (size_t i = range.begin; i < range.end; i++) {
+    const struct tile *tile = &states->tiles->tile[i];
+    states->visible_from[i] = tile->state == TILE_MIXED   ? TILE_UNDECIDED
+                              : tile->state == TILE_EMPTY ? 0
+                                                          : tile->front;
+  }
+  return true;
+}
+
 bool tile_states_init(struct tile_states *states, const struct sheet *sheet,
                       const struct tile_classification *tiles,
                       const struct occlusion_culling *culling) {
@@ -17,13 +28,8 @@ bool tile_states_init(struct tile_states *states, const struct sheet *sheet,
   states->visible_from = mem_alloc(n, 1);
   if (states->wanted == NULL || states->visible_from == NULL)
     return false;
-  for (size_t i = 0; i < n; i++) {
-    const struct tile *tile = &tiles->tile[i];
-    states->visible_from[i] = tile->state == TILE_MIXED   ? TILE_UNDECIDED
-                              : tile->state == TILE_EMPTY ? 0
-                                                          : tile->front;
-  }
-  return true;
+  return parallel_ranges(parallel_workers(n, PARALLEL_ITEMS), n, PARALLEL_ITEMS,
+                         find_visible_range, states);
 }
 
 void tile_states_fini(struct tile_states *states) {
@@ -51,6 +57,15 @@ static enum map_state state_in_tile(const struct tile *tile, int low, int high,
   return low >= tile->front ? MAP_VISIBLE : MAP_HIDDEN;
 }
 
+/* Marks a tile as wanted, which other threads may do, too.  Returns whether it
+ * was not. */
+static bool want_tile(struct tile_states *states, size_t tile) {
+  bool is_new = __atomic_load_n(&states->wanted[tile], __ATOMIC_RELAXED) == 0;
+  if (is_new)
+    __atomic_store_n(&states->wanted[tile], 1, __ATOMIC_RELAXED);
+  return is_new;
+}
+
 /* Visits the tiles that the segment crosses.  Returns the state on which all
  * agree, or MAP_MIXED.
  * mark  marks the tiles as wanted instead */
@@ -68,8 +83,8 @@ static enum map_state state_along(struct tile_states *states,
       size_t i = triangle_grid_index(grid, x, y);
       int now = (int)state_in_tile(&states->tiles->tile[i], low, high, wire);
       if (mark) {
-        states->more_wanted |= !states->wanted[i];
-        states->wanted[i] = 1;
+        if (want_tile(states, i))
+          __atomic_store_n(&states->more_wanted, true, __ATOMIC_RELAXED);
       } else {
         if (now == MAP_MIXED || (state >= 0 && state != now))
           return MAP_MIXED;
@@ -124,6 +139,45 @@ static inline enum map_state state_in_corners(const struct tile_corners *tiles,
   if (low >= most)
     return MAP_VISIBLE;
   return low < least && most != TILE_UNDECIDED ? MAP_HIDDEN : MAP_MIXED;
+}
+
+/* ---- What is deferred ---------------------------------------------------- */
+
+/* What the ranges of edges or triangles have in common. */
+struct classification_work {
+  struct tile_states *states;
+  struct map *map;
+  size_t from;      /* the first edge */
+  size_t *deferred; /* one a range: how many it has, then how many the ranges
+                       before it have */
+};
+
+/* Classifies `count` edges or triangles by ranges, and lists those that are
+ * deferred, in order.
+ * classify  counts those of a range
+ * list      stores them, from its own place in the list on
+ * to        the list, edge or face of the states
+ * Returns false when memory ran out or the caller cancelled. */
+static bool classify_all(struct classification_work *work, size_t count,
+                         parallel_task *classify, parallel_task *list,
+                         struct tile_list *to) {
+  int workers = parallel_workers(count, PARALLEL_ITEMS);
+  size_t ranges = parallel_range_count(count, PARALLEL_ITEMS);
+  work->deferred = mem_calloc(ranges, sizeof *work->deferred);
+  bool ok = work->deferred != NULL &&
+            parallel_ranges(workers, count, PARALLEL_ITEMS, classify, work);
+  size_t sum = to->count;
+  for (size_t r = 0; ok && r < ranges; r++) {
+    size_t here = work->deferred[r];
+    work->deferred[r] = sum;
+    sum += here;
+  }
+  ok = ok && ARRAY_RESERVE(to, sum - to->count);
+  if (ok)
+    to->count = sum;
+  ok = ok && parallel_ranges(workers, count, PARALLEL_ITEMS, list, work);
+  mem_free(work->deferred);
+  return ok;
 }
 
 /* ---- Edges --------------------------------------------------------------- */
@@ -184,13 +238,6 @@ static inline enum map_state state_of_edge(struct tile_states *states,
              : state;
 }
 
-/* What the ranges of edges have in common. */
-struct classification_work {
-  struct tile_states *states;
-  struct map *map;
-  size_t from; /* the first edge */
-};
-
 static bool classify_edge_range(void *user, struct parallel_range range) {
   const struct classification_work *work = user;
   const struct sheet *sheet = work->states->sheet;
@@ -199,6 +246,7 @@ static bool classify_edge_range(void *user, struct parallel_range range) {
   uint8_t *states = work->map->edge_state;
   size_t from = work->from, edges = sheet->edge.count;
   const struct sheet_edge *all = sheet->edge.item;
+  size_t deferred = 0;
   for (size_t e = from + range.begin; e < from + range.end; e++) {
     const struct sheet_edge *edge = &all[e];
     if (e + MEM_PREFETCH_AHEAD < edges) {
@@ -216,6 +264,23 @@ static bool classify_edge_range(void *user, struct parallel_range range) {
           from > 0 && occlusion_culling_hides(work->states->culling, *p, *q)
               ? MAP_HIDDEN
               : (uint8_t)state_of_edge(work->states, &loop, p, q, wire);
+    deferred += states[e] == MAP_MIXED;
+  }
+  work->deferred[range.begin / PARALLEL_ITEMS] = deferred;
+  return true;
+}
+
+/* Lists the deferred edges of a range, and marks their tiles as wanted. */
+static bool list_edge_range(void *user, struct parallel_range range) {
+  const struct classification_work *work = user;
+  const struct sheet *sheet = work->states->sheet;
+  size_t n = work->deferred[range.begin / PARALLEL_ITEMS];
+  for (size_t e = work->from + range.begin; e < work->from + range.end; e++) {
+    if (work->map->edge_state[e] != MAP_MIXED)
+      continue;
+    work->states->edge.item[n++] = (uint32_t)e;
+    struct geom_segment s = sheet_ends(sheet, sheet->edge.item[e].point);
+    (void)state_along(work->states, s.p, s.q, false, true);
   }
   return true;
 }
@@ -223,21 +288,10 @@ static bool classify_edge_range(void *user, struct parallel_range range) {
 bool tile_states_add_edges(struct tile_states *states, size_t from,
                            struct map *map) {
   const struct sheet *sheet = states->sheet;
-  size_t count = sheet->edge.count - from;
-  struct classification_work classification = {states, map, from};
-  if (!edge_intervals_open_map(map, sheet->edge.count) ||
-      !parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
-                       PARALLEL_ITEMS, classify_edge_range, &classification))
-    return false;
-  for (size_t e = from; e < sheet->edge.count; e++) {
-    if (map->edge_state[e] != MAP_MIXED)
-      continue;
-    if (!ARRAY_PUSH(&states->edge, (uint32_t)e))
-      return false;
-    struct geom_segment s = sheet_ends(sheet, sheet->edge.item[e].point);
-    (void)state_along(states, s.p, s.q, false, true);
-  }
-  return true;
+  struct classification_work work = {states, map, from, NULL};
+  return edge_intervals_open_map(map, sheet->edge.count) &&
+         classify_all(&work, sheet->edge.count - from, classify_edge_range,
+                      list_edge_range, &states->edge);
 }
 
 /* ---- Faces --------------------------------------------------------------- */
@@ -266,12 +320,14 @@ static void want_face_tiles(struct tile_states *states, uint32_t t) {
       size_t i = triangle_grid_index(grid, x, y);
       if (state_in_tile(&states->tiles->tile[i], print.low, print.high,
                         false) != MAP_VISIBLE)
-        states->wanted[i] = 1;
+        (void)want_tile(states, i);
     }
 }
 
 static bool classify_face_range(void *user, struct parallel_range range) {
-  struct tile_states *states = user;
+  const struct classification_work *work = user;
+  const struct tile_states *states = work->states;
+  size_t deferred = 0;
   for (size_t t = range.begin; t < range.end; t++) {
     if (!poll_at(t))
       return false;
@@ -281,24 +337,32 @@ static bool classify_face_range(void *user, struct parallel_range range) {
     else if (sheet_is_filled(states->sheet, t))
       state = state_of_face(states, t);
     states->face_state[t] = (uint8_t)state;
+    deferred += state == MAP_MIXED && sheet_is_filled(states->sheet, t);
+  }
+  work->deferred[range.begin / PARALLEL_ITEMS] = deferred;
+  return true;
+}
+
+/* Lists the deferred triangles of a range, and marks their tiles as wanted. */
+static bool list_face_range(void *user, struct parallel_range range) {
+  const struct classification_work *work = user;
+  struct tile_states *states = work->states;
+  size_t n = work->deferred[range.begin / PARALLEL_ITEMS];
+  for (size_t t = range.begin; t < range.end; t++) {
+    if (states->face_state[t] != MAP_MIXED ||
+        !sheet_is_filled(states->sheet, t))
+      continue;
+    states->face.item[n++] = (uint32_t)t;
+    want_face_tiles(states, (uint32_t)t);
   }
   return true;
 }
 
 bool tile_states_find_faces(struct tile_states *states) {
   size_t n = states->sheet->triangle.count;
+  struct classification_work work = {states, NULL, 0, NULL};
   states->face_state = mem_alloc(n, 1);
-  if (states->face_state == NULL ||
-      !parallel_ranges(parallel_workers(n, PARALLEL_ITEMS), n, PARALLEL_ITEMS,
-                       classify_face_range, states))
-    return false;
-  for (size_t t = 0; t < n; t++) {
-    if (states->face_state[t] != MAP_MIXED ||
-        !sheet_is_filled(states->sheet, t))
-      continue;
-    if (!ARRAY_PUSH(&states->face, (uint32_t)t))
-      return false;
-    want_face_tiles(states, (uint32_t)t);
-  }
-  return true;
+  return states->face_state != NULL &&
+         classify_all(&work, n, classify_face_range, list_face_range,
+                      &states->face);
 }

@@ -8,6 +8,11 @@
 
 enum { TILE_UNDECIDED = UINT8_MAX };
 
+struct tile_list {
+  uint32_t *item;
+  size_t count, capacity;
+};
+
 /* An edge or a face is visible or hidden if all tiles that it overlaps agree,
  * otherwise deferred: as a comparison of all pairs would decide. */
 struct tile_states {
@@ -20,9 +25,9 @@ struct tile_states {
   uint8_t *wanted;  /* one per tile: deferred edges or faces overlap it, or the
                        caller's own reason */
   bool more_wanted; /* a tile became wanted by an edge; the caller clears it */
-  ARRAY(uint32_t) edge; /* deferred edges, ascending */
-  ARRAY(uint32_t) face; /* deferred triangles, ascending */
-  uint8_t *face_state;  /* one per triangle: enum map_state; MAP_MIXED is
+  struct tile_list edge; /* deferred edges, ascending */
+  struct tile_list face; /* deferred triangles, ascending */
+  uint8_t *face_state;   /* one per triangle: enum map_state; MAP_MIXED is
                            deferred */
 };
 

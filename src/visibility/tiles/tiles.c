@@ -45,18 +45,23 @@ struct tiles_work {
 
 /* ---- 3, 4. Lists and intersections --------------------------------------- */
 
+static bool mark_intersected_range(void *user, struct parallel_range range) {
+  const struct tiles_work *work = user;
+  for (size_t i = range.begin; i < range.end; i++) {
+    work->intersected[i] = work->tiles.tile[i].state == TILE_MIXED;
+    work->states.wanted[i] |= work->intersected[i];
+  }
+  return true;
+}
+
 /* Marks the tiles in which intersections are searched: visible ones lie in
  * mixed tiles. */
 static bool mark_intersected_tiles(struct tiles_work *work) {
   size_t n = triangle_grid_cell_count(&work->tiles.grid);
   work->intersected = mem_alloc(n, 1);
-  if (work->intersected == NULL)
-    return false;
-  for (size_t i = 0; i < n; i++) {
-    work->intersected[i] = work->tiles.tile[i].state == TILE_MIXED;
-    work->states.wanted[i] |= work->intersected[i];
-  }
-  return true;
+  return work->intersected != NULL &&
+         parallel_ranges(parallel_workers(n, PARALLEL_ITEMS), n, PARALLEL_ITEMS,
+                         mark_intersected_range, work);
 }
 
 /* Lists the faces of all wanted tiles, in place of the lists made before. */
