@@ -98,7 +98,8 @@ unit_tests += %D%/test_verify
 
 EXTRA_DIST += %D%/README.md %D%/tap.sh %D%/unit.sh %D%/cli.sh %D%/manifest.sh \
   %D%/memory_faults.h %D%/memory_peak.h %D%/ink_faults.h %D%/near.h \
-  %D%/valgrind.h %D%/polled.h %D%/box_mesh.h %D%/svg_text.h
+  %D%/valgrind.h %D%/polled.h %D%/box_mesh.h %D%/svg_text.h \
+  %D%/obj_drawing.h
 dist_check_SCRIPTS += \
   %D%/test_abi.sh \
   %D%/test_bootstrap.sh \

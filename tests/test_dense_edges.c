@@ -11,8 +11,8 @@
 #include <cmocka.h>
 
 #include "api/handle.h"
+#include "tests/obj_drawing.h"
 #include "tests/scenes/scenes.h"
-#include "tests/svg_text.h"
 #include "visibility/dense_edges.h"
 
 enum { WIDE = 10 }; /* each so many strips, one is wider than a pen */
@@ -35,34 +35,17 @@ static char *write_strips(int strips, size_t *length) {
   return text;
 }
 
-static long stat_number(const recto_drawing *drawing, const char *name) {
-  const char *at = strstr(recto_drawing_stats(drawing), name);
-  assert_non_null(at);
-  return strtol(at + strlen(name) + 2, NULL, 10);
-}
-
 /* Draws so many strips; *intervals gets how many visible parts edges have.
  * Returns the SVG text. */
 static char *draw_strips(int strips, const recto_options *given,
                          long *intervals) {
   recto_options options = *given;
-  recto_scene *scene;
-  recto_drawing *drawing;
   size_t length;
   char *text = write_strips(strips, &length);
   scenes_view_page(&options, 210, 60);
   options.ink.edges = RECTO_EDGE_BORDER;
-  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
-  assert_int_equal(
-      recto_scene_read_memory(scene, text, length, "obj", NULL, &options, NULL),
-      RECTO_OK);
-  assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
-                   RECTO_OK);
-  *intervals = stat_number(drawing, "intervals_made\"");
-  char *output = svg_text_of(drawing, &options);
-  assert_non_null(output);
-  recto_drawing_destroy(drawing);
-  recto_scene_destroy(scene);
+  char *output =
+      obj_drawing_svg(text, length, &options, "intervals_made", intervals);
   free(text);
   return output;
 }

@@ -59,43 +59,50 @@ static void pairs_grow_as_the_corners_do(void **state) {
   }
 }
 
+/* Asserts that more than `segments_min` intersections are found, all of them,
+ * and that at most `pairs_max` pairs of triangles are tested. */
+static void assert_intersections(const struct scene *scene,
+                                 int64_t segments_min, int64_t pairs_max) {
+  recto_options options;
+  int64_t segments[2];
+  recto_options_init(&options);
+  options.ink.edges = RECTO_EDGE_INTERSECTION;
+  options.ink.hidden = RECTO_HIDDEN_LAYER; /* hidden ones count, too */
+  options.solver.threads = 1;
+  for (int k = 0; k < 2; k++) {
+    struct pipeline pipeline;
+    pipeline_run(&pipeline, scene, &options,
+                 k == 0 ? &solver_tiles : &solver_brute);
+    assert_int_equal(pipeline.status, RECTO_OK);
+    segments[k] = report_get(pipeline.report, "intersections", "segments", 0);
+    assert_in_range(
+        report_get(pipeline.report, "intersections", "pairs_tested", 0),
+        segments[k], pairs_max);
+    pipeline_fini(&pipeline);
+  }
+  assert_true(segments[0] > segments_min);
+  assert_int_equal(segments[0], segments[1]);
+}
+
 /* The triangles of one polygon are not tested with each other, but with what
  * pierces it, all of which is found. */
 static void a_polygon_is_not_tested_with_itself(void **state) {
   (void)state;
   enum { CORNERS = 4000 };
   struct scene scene;
-  recto_options options;
-  struct pipeline pipeline;
   struct random random = {3};
   double *xyz = calloc(CORNERS, 3 * sizeof *xyz);
   assert_non_null(xyz);
   for (int i = 0; i < CORNERS; i++)
     for (int k = 0; k < 2; k++)
       xyz[3 * i + k] = random_unit(&random);
-  recto_options_init(&options);
   scene_init(&scene);
   build_polygon(&scene, xyz, CORNERS);
   free(xyz);
   for (int i = 1; i < 9; i++)
     build_parallelogram(&scene, vector_of(0.1 * i, 0.1, -0.5),
                         vector_of(0.01, 0.8, 0), vector_of(0, 0, 1));
-  options.ink.edges = RECTO_EDGE_INTERSECTION;
-  options.ink.hidden = RECTO_HIDDEN_LAYER; /* hidden ones count, too */
-  options.solver.threads = 1;
-  int64_t segments[2];
-  for (int k = 0; k < 2; k++) {
-    pipeline_run(&pipeline, &scene, &options,
-                 k == 0 ? &solver_tiles : &solver_brute);
-    assert_int_equal(pipeline.status, RECTO_OK);
-    segments[k] = report_get(pipeline.report, "intersections", "segments", 0);
-    assert_in_range(
-        report_get(pipeline.report, "intersections", "pairs_tested", 0),
-        segments[k], 100 * CORNERS);
-    pipeline_fini(&pipeline);
-  }
-  assert_true(segments[0] > CORNERS / 8);
-  assert_int_equal(segments[0], segments[1]);
+  assert_intersections(&scene, CORNERS / 8, 100 * CORNERS);
   scene_fini(&scene);
 }
 
@@ -104,9 +111,6 @@ static void pages_are_not_tested_with_each_other(void **state) {
   (void)state;
   enum { PAGES = 2000 };
   struct scene scene;
-  recto_options options;
-  struct pipeline pipeline;
-  recto_options_init(&options);
   scene_init(&scene);
   uint32_t a = build_point(&scene, 0, 0, -1), b = build_point(&scene, 0, 0, 1);
   for (int i = 0; i < PAGES; i++) {
@@ -116,22 +120,7 @@ static void pages_are_not_tested_with_each_other(void **state) {
   }
   build_parallelogram(&scene, vector_of(-2, 0.3, -0.5), vector_of(4, 0, 0),
                       vector_of(0, 0, 1));
-  options.ink.edges = RECTO_EDGE_INTERSECTION;
-  options.ink.hidden = RECTO_HIDDEN_LAYER; /* hidden ones count, too */
-  options.solver.threads = 1;
-  int64_t segments[2];
-  for (int k = 0; k < 2; k++) {
-    pipeline_run(&pipeline, &scene, &options,
-                 k == 0 ? &solver_tiles : &solver_brute);
-    assert_int_equal(pipeline.status, RECTO_OK);
-    segments[k] = report_get(pipeline.report, "intersections", "segments", 0);
-    assert_in_range(
-        report_get(pipeline.report, "intersections", "pairs_tested", 0),
-        segments[k], 100 * PAGES);
-    pipeline_fini(&pipeline);
-  }
-  assert_true(segments[0] > PAGES / 4);
-  assert_int_equal(segments[0], segments[1]);
+  assert_intersections(&scene, PAGES / 4, 100 * PAGES);
   scene_fini(&scene);
 }
 

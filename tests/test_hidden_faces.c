@@ -12,9 +12,9 @@
 
 #include "api/handle.h"
 #include "base/memory.h"
+#include "tests/obj_drawing.h"
 #include "tests/scenes/random.h"
 #include "tests/sheet_fixture.h"
-#include "tests/svg_text.h"
 #include "visibility/culling/space_box.h"
 #include "visibility/hidden_faces.h"
 
@@ -148,12 +148,6 @@ static void faces_of_one_size_are_whole(void **state) {
 /* ---- Drawings ------------------------------------------------------------ */
 
 /* A number in a drawing's stats. */
-static long stat_of(const recto_drawing *drawing, const char *name) {
-  const char *at = strstr(recto_drawing_stats(drawing), name);
-  assert_non_null(at);
-  return strtol(at + strlen(name) + 2, NULL, 10);
-}
-
 /* A quad from (x, y, z), which is as long in y, and its face. */
 static void write_quad(FILE *to, double x, double y, double z, double width,
                        double length, double height) {
@@ -218,20 +212,7 @@ static void write_assembly(FILE *to, struct random *random) {
 
 static char *draw(const char *text, size_t length, const recto_options *options,
                   long *left_out) {
-  recto_scene *scene;
-  recto_drawing *drawing;
-  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
-  assert_int_equal(
-      recto_scene_read_memory(scene, text, length, "obj", NULL, options, NULL),
-      RECTO_OK);
-  assert_int_equal(recto_scene_render(scene, options, &drawing, NULL),
-                   RECTO_OK);
-  *left_out = stat_of(drawing, "faces_left_out\"");
-  char *output = svg_text_of(drawing, options);
-  assert_non_null(output);
-  recto_drawing_destroy(drawing);
-  recto_scene_destroy(scene);
-  return output;
+  return obj_drawing_svg(text, length, options, "faces_left_out", left_out);
 }
 
 /* Another method solves all faces. */
@@ -285,7 +266,7 @@ static recto_status draw_with_fault(const recto_scene *scene,
   recto_status status = recto_scene_render(scene, options, &drawing, NULL);
   mem_fail_after(0);
   if (status == RECTO_OK && fails == 0)
-    *left_out = stat_of(drawing, "faces_left_out\"");
+    *left_out = obj_drawing_number(drawing, "faces_left_out");
   recto_drawing_destroy(drawing);
   return status;
 }
@@ -305,10 +286,7 @@ static void memory_may_run_out(void **state) {
   assert_int_equal(fclose(to), 0);
   recto_options_init(&options);
   options.ink.fill = RECTO_FILL_PAINT;
-  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
-  assert_int_equal(
-      recto_scene_read_memory(scene, text, length, "obj", NULL, &options, NULL),
-      RECTO_OK);
+  scene = obj_drawing_scene(text, length, &options);
   for (unsigned long n = 1; n <= 300; n++) {
     recto_status status = draw_with_fault(scene, &options, n, NULL);
     assert_true(status == RECTO_OK || status == RECTO_ERROR_MEMORY);

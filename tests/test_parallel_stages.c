@@ -13,12 +13,11 @@
 #include <cmocka.h>
 
 #include "api/handle.h"
-#include "base/memory.h"
 #include "base/parallel.h"
 #include "recto.h"
+#include "tests/obj_drawing.h"
 #include "tests/scenes/random.h"
 #include "tests/sheet_fixture.h"
-#include "tests/svg_text.h"
 
 /* ---- Models, as OBJ files in memory -------------------------------------- */
 
@@ -207,22 +206,10 @@ static const struct kind {
 static char *draw(const char *bytes, size_t count, const struct kind *kind,
                   int threads) {
   recto_options options;
-  recto_scene *scene;
-  recto_drawing *drawing;
   recto_options_init(&options);
   options.solver.threads = threads;
   kind->set(&options);
-  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
-  assert_int_equal(
-      recto_scene_read_memory(scene, bytes, count, "obj", NULL, &options, NULL),
-      RECTO_OK);
-  assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
-                   RECTO_OK);
-  char *output = svg_text_of(drawing, &options);
-  assert_non_null(output);
-  recto_drawing_destroy(drawing);
-  recto_scene_destroy(scene);
-  return output;
+  return obj_drawing_svg(bytes, count, &options, NULL, NULL);
 }
 
 static void assert_drawn_alike(const char *name, const char *text,
