@@ -9,12 +9,23 @@
 
 /* ---- Items --------------------------------------------------------------- */
 
+/* Appends an item to an allocated array of `count`.
+ * Returns the array, which may have moved; NULL when memory ran out, and the
+ * array is as it was. */
+static void *append_item(void *array, size_t count, const void *item,
+                         size_t size) {
+  char *grown = realloc(array, (count + 1) * size);
+  if (grown != NULL)
+    memcpy(grown + count * size, item, size);
+  return grown;
+}
+
 static bool is_pen(const char *text, int *pen) {
   return value_int(text, pen) && *pen >= 1 && *pen <= RECTO_PEN_MAX;
 }
 
-/* A name that is neither hidden, hatch nor a class is that of a group: the
- * library knows them. */
+/* A name that is neither hidden, hatch nor a class is that of a group, which
+ * the library looks up. */
 recto_status lists_add_pen_use(struct arguments *a, const char *name,
                                const char *value) {
   recto_pen_use use = {.edge_class = (recto_edge_class)value_edge_class(name),
@@ -25,14 +36,12 @@ recto_status lists_add_pen_use(struct arguments *a, const char *name,
                                            : RECTO_LINES_OF_GROUP;
   if (!is_pen(value, &use.pen))
     return RECTO_ERROR_ARGUMENT;
-  size_t count = a->options.ink.pen_use_count;
-  recto_pen_use *grown = realloc(a->pen_use, (count + 1) * sizeof *grown);
+  recto_pen_use *grown =
+      append_item(a->pen_use, a->options.ink.pen_use_count, &use, sizeof use);
   if (grown == NULL)
     return RECTO_ERROR_MEMORY;
-  grown[count] = use;
-  a->pen_use = grown;
-  a->options.ink.pen_use = grown;
-  a->options.ink.pen_use_count = count + 1;
+  a->options.ink.pen_use = a->pen_use = grown;
+  a->options.ink.pen_use_count++;
   return RECTO_OK;
 }
 
@@ -101,14 +110,12 @@ recto_status lists_add_cut_hatch(struct arguments *a, const char *name,
        (!value_length(value + length + 1, &hatch.pitch_mm) ||
         !(hatch.pitch_mm >= RECTO_FINEST_MM))))
     return RECTO_ERROR_ARGUMENT;
-  size_t count = a->options.mesh.cut_hatch_count;
-  recto_cut_hatch *grown = realloc(a->cut_hatch, (count + 1) * sizeof *grown);
+  recto_cut_hatch *grown = append_item(
+      a->cut_hatch, a->options.mesh.cut_hatch_count, &hatch, sizeof hatch);
   if (grown == NULL)
     return RECTO_ERROR_MEMORY;
-  grown[count] = hatch;
-  a->cut_hatch = grown;
-  a->options.mesh.cut_hatch = grown;
-  a->options.mesh.cut_hatch_count = count + 1;
+  a->options.mesh.cut_hatch = a->cut_hatch = grown;
+  a->options.mesh.cut_hatch_count++;
   return RECTO_OK;
 }
 
@@ -148,16 +155,16 @@ static const char *find_other_value(const struct arguments *a,
 
 static bool keep_item(struct arguments *a, const struct list_item *item) {
   struct list_item *grown =
-      realloc(a->item, (a->item_count + 1) * sizeof *grown);
+      append_item(a->item, a->item_count, item, sizeof *item);
   if (grown == NULL)
     return false;
-  grown[a->item_count++] = *item;
   a->item = grown;
+  a->item_count++;
   return true;
 }
 
-/* Forgets the items of the lists of that option. */
-static void forget_items(struct arguments *a, const char *option) {
+/* Removes the items of the lists of that option. */
+static void remove_items(struct arguments *a, const char *option) {
   size_t kept = 0;
   for (size_t i = 0; i < a->item_count; i++)
     if (strcmp(a->item[i].option, option) != 0)
@@ -181,7 +188,7 @@ bool lists_parse(struct arguments *arguments, const struct option_entry *entry,
                  char *list, char message[MESSAGE_SIZE]) {
   if (entry->words != NULL && strcmp(list, entry->words) == 0) {
     arguments->options.ink.weight_count = 0;
-    forget_items(arguments, list_name(entry));
+    remove_items(arguments, list_name(entry));
     return true;
   }
   for (char *name = list, *end; name != NULL; name = end) {
