@@ -3,7 +3,6 @@
 #define BACKENDS_SVG_TEXT_H
 
 #include "base/stream.h"
-#include "drawing/drawing.h"
 
 /* Writes text as the value of an attribute or as content.  Bytes that are not
  * part of a character of XML, as in a name that is not UTF-8, are replaced by

@@ -11,7 +11,6 @@
  * Ends with status 1 where an exact method has an error. */
 #include "bench/accuracy.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

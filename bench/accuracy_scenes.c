@@ -9,7 +9,6 @@
 
 #include "bench/accuracy.h"
 #include "scene/read.h"
-#include "tests/scenes/pipeline.h"
 #include "tests/scenes/subdivide.h"
 
 enum { page_mm = 200, margin_mm = 5, million = 1000000 };

@@ -11,7 +11,6 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "base/report.h"
 #include "ink/order/stroke_order.h"
 #include "scene/read.h"
 #include "tests/scenes/pipeline.h"

@@ -10,7 +10,6 @@
 #include <stdlib.h>
 
 #include "base/clock.h"
-#include "base/report.h"
 #include "scene/read.h"
 #include "scene/scene.h"
 #include "tests/scenes/box.h"

@@ -4,20 +4,17 @@
  * line. */
 #include "tests/measure/trial.h"
 
-#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include <cmocka.h>
 
 #include "exact_fixture/sheet.h"
 #include "scene/read.h"
-#include "tests/scenes/pipeline.h"
 #include "tests/scenes/solver_named.h"
 #include "tests/memory_peak.h"
 

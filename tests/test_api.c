@@ -1,6 +1,5 @@
 /* test_api.c - the guarantees of recto.h: options, handles, errors, cancelling,
  * and outputs that are NULL or complete. */
-#include <float.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,7 +13,6 @@
 
 #include "api/handle.h"
 #include "api/output_format.h"
-#include "base/memory.h"
 #include "base/stream.h"
 #include "tests/box_mesh.h"
 #include "tests/memory_faults.h"

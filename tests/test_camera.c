@@ -10,7 +10,6 @@
 #include <cmocka.h>
 
 #include "base/poll.h"
-#include "scene/angle.h"
 #include "tests/scenes/random.h"
 #include "tests/scenes/scenes.h"
 #include "tests/near.h"

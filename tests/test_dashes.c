@@ -4,11 +4,9 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
-#include <stdio.h>
 #include <string.h>
 #include <cmocka.h>
 
-#include "ink/dash_pattern.h"
 #include "tests/ink_fixture.h"
 
 #define CREASE RECTO_EDGE_CREASE

@@ -9,7 +9,6 @@
 #include <cmocka.h>
 
 #include "base/clock.h"
-#include "base/report.h"
 #include "base/tolerance.h"
 #include "ink/lines/paths.h"
 #include "tests/ink_fixture.h"

@@ -9,7 +9,6 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "ink/ink.h"
 #include "scene/read.h"
 #include "scene/scene.h"
 #include "tests/scenes/pipeline.h"

@@ -9,7 +9,6 @@
 #include <cmocka.h>
 
 #include "base/clock.h"
-#include "base/report.h"
 #include "tests/ink_fixture.h"
 #include "tests/scenes/random.h"
 

@@ -9,7 +9,6 @@
 #include <cmocka.h>
 
 #include "base/clock.h"
-#include "base/report.h"
 #include "ink/lines/nearest.h"
 #include "ink/order/stroke_order.h"
 #include "tests/ink_fixture.h"

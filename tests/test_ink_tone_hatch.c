@@ -11,7 +11,6 @@
 #include "ink/tone.h"
 #include "tests/ink_fixture.h"
 #include "tests/scenes/pipeline.h"
-#include "tests/scenes/random.h"
 #include "tests/ink_faults.h"
 
 static double pi(void) { return acos(-1); }

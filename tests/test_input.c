@@ -1,6 +1,5 @@
 /* test_input.c - the file behind a path is read to its end or refused: files
  * that change meanwhile, pipes, devices, gzip data. */
-#include <errno.h>
 #include <fcntl.h>
 #include <setjmp.h>
 #include <signal.h>

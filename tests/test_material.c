@@ -14,7 +14,6 @@
 #include <zlib.h>
 #endif
 
-#include "scene/material.h"
 #include "scene/read.h"
 #include "tests/memory_faults.h"
 #include "tests/reading.h"

@@ -13,7 +13,6 @@
 #include <cmocka.h>
 
 #include "api/captions.h"
-#include "base/memory.h"
 #include "recto.h"
 #include "tests/svg_text.h"
 #include "tests/memory_faults.h"

@@ -10,7 +10,6 @@
 
 #include <cmocka.h>
 
-#include "exact_fixture/scene.h"
 #include "visibility/contour/occluders.h"
 #include "visibility/index/partial_grid.h"
 

@@ -10,7 +10,6 @@
 #include "base/union_find.h"
 #include "exact_fixture/sheet.h"
 #include "tests/scenes/pipeline.h"
-#include "tests/scenes/random.h"
 #include "tests/scenes/solver_named.h"
 
 static const struct map_corner *origin(const struct map *map, uint32_t half) {

@@ -1,6 +1,5 @@
 /* test_ply.c - PLY files, text and binary: known elements are read, others are
  * skipped, and the counts of headers are not trusted. */
-#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

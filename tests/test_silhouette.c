@@ -1,5 +1,4 @@
 /* test_silhouette.c - the classes of edges in a view. */
-#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

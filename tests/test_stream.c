@@ -1,5 +1,4 @@
 /* test_stream.c - output appears whole or not at all. */
-#include <errno.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

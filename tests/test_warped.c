@@ -12,7 +12,6 @@
 #include <cmocka.h>
 
 #include "api/verify.h"
-#include "ink/ink.h"
 #include "judge/triangulation.h"
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/random.h"

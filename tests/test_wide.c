@@ -2,7 +2,6 @@
 #include "exact_fixture/rational.h"
 #include "exact_fixture/sheet.h"
 
-#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

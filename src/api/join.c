@@ -13,7 +13,6 @@
 #include "api/output_format.h"
 #include "api/part_check.h"
 #include "api/result.h"
-#include "api/shares.h"
 #include "api/stats.h"
 #include "base/clock.h"
 #include "base/poll.h"

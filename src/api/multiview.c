@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "api/detail_places.h"
-#include "api/multiview_labels.h"
 #include "api/multiview_grid.h"
 #include "drawing/text.h"
 #include "view/camera_extent.h"

@@ -6,7 +6,6 @@
 
 #include "api/letter_places.h"
 #include "api/multiview_labels.h"
-#include "drawing/circle_clip.h"
 #include "drawing/text.h"
 
 double multiview_text_pen_mm(const recto_options *options) {

@@ -7,7 +7,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "api/handle.h"
 #include "api/multiview.h"
 #include "api/output_format.h"
 #include "api/sized.h"

@@ -1,5 +1,4 @@
 /* output.c - writes a drawing to files, or to a function of the caller's. */
-#include <math.h>
 #include <string.h>
 #include <unistd.h>
 

@@ -7,7 +7,6 @@
 #include "api/options.h"
 #include "api/shares.h"
 #include "base/clock.h"
-#include "base/report.h"
 #include "scene/limit.h"
 #include "scene/read.h"
 #include "scene/read_passes.h"

@@ -5,7 +5,6 @@
 #include "api/preparation.h"
 #include "base/report.h"
 #include "drawing/drawing.h"
-#include "judge/judge.h"
 #include "view/camera.h"
 #include "visibility/map.h"
 

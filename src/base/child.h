@@ -4,7 +4,6 @@
 #define BASE_CHILD_H
 
 #include "base/memory.h"
-#include "base/status.h"
 
 /* Where the program writes its output. */
 #define CHILD_OUTPUT 3

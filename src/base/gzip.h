@@ -2,7 +2,6 @@
 #ifndef BASE_GZIP_H
 #define BASE_GZIP_H
 
-#include <stdbool.h>
 #include <stddef.h>
 
 #include "base/status.h"

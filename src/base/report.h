@@ -2,10 +2,8 @@
 #ifndef BASE_REPORT_H
 #define BASE_REPORT_H
 
-#include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
-
-#include "base/status.h"
 
 /* Entries in order of first mention; a later one of the same name replaces
  * the value (report_add: adds to it).  Names are string literals, "section"

@@ -8,7 +8,6 @@
 #ifndef CUT_CUT_PHASES_H
 #define CUT_CUT_PHASES_H
 
-#include "base/sort.h"
 #include "cut/cut_lines.h"
 #include "cut/section.h"
 #include "scene/triangulate.h"

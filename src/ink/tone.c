@@ -22,7 +22,6 @@
 #include "ink/planar_regions.h"
 #include "scene/edge_classes.h"
 #include "scene/newell_normal.h"
-#include "view/project.h"
 #include "geom/vector.h"
 
 /* The side of a square, in pens, in which one sees whether hatching is even. */

@@ -3,9 +3,7 @@
 
 #include "judge/intersections.h"
 
-#include "base/hash.h"
 #include "base/poll.h"
-#include "base/sort.h"
 #include "base/tolerance.h"
 #include "judge/camera.h"
 #include "judge/face_sides.h"

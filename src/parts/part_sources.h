@@ -2,7 +2,6 @@
 #ifndef PARTS_PART_SOURCES_H
 #define PARTS_PART_SOURCES_H
 
-#include "parts/part.h"
 #include "parts/part_scene.h"
 
 struct part_sources {

@@ -7,7 +7,6 @@
 #define PARTS_PLAN_BYTES_H
 
 #include "base/file_reader.h"
-#include "base/memory.h"
 #include "base/stream.h"
 
 enum { PLAN_BLOCK = 32, PLAN_LANES = 4 };

@@ -14,7 +14,6 @@
 #include "parts/plan_faces.h"
 
 #include "base/poll.h"
-#include "base/sort.h"
 #include "parts/ring_corners.h"
 #include "parts/window_grid.h"
 

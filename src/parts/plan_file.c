@@ -2,7 +2,6 @@
  * sections, and its end, from which it is read. */
 #include "parts/plan_file.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "parts/part_common.h"

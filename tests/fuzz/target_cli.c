@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "base/report.h"
 #include "cli/parse.h"
 #include "cli/option_scope.h"
 #include "tests/fuzz/fuzz.h"

@@ -1,7 +1,6 @@
 /* small.c - random scenes of a few faces on small whole coordinates, which
  * touch, pierce, overlap in one plane or in a ring, or are seen edge-on far
  * more often than chance would have it. */
-#include <math.h>
 
 #include "tests/scenes/random.h"
 #include "tests/scenes/scenes.h"

@@ -12,8 +12,6 @@
  *   is filled. */
 #include "ink/fill/merge.h"
 
-#include <math.h>
-
 #include "base/parallel.h"
 #include "base/poll.h"
 #include "base/union_find.h"

@@ -18,7 +18,6 @@
 #include "base/poll.h"
 #include "base/sort.h"
 #include "base/number_lists.h"
-#include "base/tolerance.h"
 #include "ink/cut_hatch.h"
 #include "ink/hatch/hatch.h"
 #include "ink/hatch/inset.h"

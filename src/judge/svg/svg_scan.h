@@ -6,7 +6,6 @@
 #define JUDGE_SVG_SVG_SCAN_H
 
 #include <stdbool.h>
-#include <stddef.h>
 
 #include "judge/triangles.h"
 
