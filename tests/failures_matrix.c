@@ -1,10 +1,11 @@
 /* failures_matrix.c - what each method makes of each scene of the list.
- *   failures_matrix          two Markdown tables: the share of the visible lines
- *                            that is missing or false, and the share of the
- *                            covered area that is of the wrong face, or of none
+ *   failures_matrix          two Markdown tables: the share of the visible
+ *                            lines that is missing or false, and the share of
+ *                            the covered area that is of the wrong face, or of
+ *                            none
  *   failures_matrix FOLDER   the pictures of doc/failures.md, as SVG
  *
- * The truth is brute force's map. */
+ * The map of brute force is taken as right. */
 #include <stdio.h>
 
 #include "base/memory.h"

@@ -1,4 +1,5 @@
-/* smooth_surfaces.c - meshes that sample smooth surfaces, and their drawings. */
+/* smooth_surfaces.c - meshes that sample smooth surfaces, and their
+ * drawings. */
 #include "tests/smooth_surfaces.h"
 
 #include <math.h>

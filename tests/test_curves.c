@@ -230,8 +230,8 @@ static bool is_decimal(double at, double step) {
   return fabs(at / step - round(at / step)) < 1e-6;
 }
 
-/* A tenth of the tolerance is decimals enough, as in a file most relative numbers
- * are: of all but the last point of an open stroke. */
+/* A tenth of the tolerance is decimals enough, as in a file most relative
+ * numbers are: of all but the last point of an open stroke. */
 static void points_of_curves_have_few_decimals(void **state) {
   (void)state;
   struct drawing drawing;

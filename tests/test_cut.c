@@ -690,8 +690,8 @@ static void a_sheet_has_no_cut_face_and_is_told_of(void **state) {
   scene_fini(&c.scene);
 }
 
-/* Three steep planes cut a hole into a sheet.  Its rim is closed, but nothing is
- * inside: the planes meet far above the sheet. */
+/* Three steep planes cut a hole into a sheet.  Its outline is closed, but
+ * nothing is inside: the planes meet far above the sheet. */
 static void a_hole_in_a_sheet_has_no_cut_face(void **state) {
   (void)state;
   struct cutting c;
@@ -838,8 +838,8 @@ static void an_edge_in_the_plane_keeps_its_class(void **state) {
   scene_fini(&c.scene);
 }
 
-/* A corner that goes leaves a point of the cut in its place, though nothing else
- * of the face goes. */
+/* A corner that goes leaves a point of the cut in its place, though nothing
+ * else of the face goes. */
 static void a_face_keeps_a_corner_that_goes(void **state) {
   (void)state;
   struct cutting c;
@@ -935,8 +935,8 @@ static void polygons_that_run_over_themselves_are_cut(void **state) {
 
 /* ---- Points that are as good as one -------------------------------------- */
 
-/* One face has an edge in two pieces that the face beside it has in one: a plane
- * meets them in two points. */
+/* One face has an edge in two pieces that the face beside it has in one: a
+ * plane meets them in two points. */
 static void faces_that_share_an_edge_in_pieces_are_closed(void **state) {
   (void)state;
   static const double point[9][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0},

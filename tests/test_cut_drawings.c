@@ -1,6 +1,6 @@
 /* test_cut_drawings.c - drawings of scenes that are cut: all exact methods give
- * the same bytes, the judge finds no fault and finds planted ones, outlines have
- * no gaps, and results name what the caller knows. */
+ * the same bytes, the judge finds no fault and finds planted ones, outlines
+ * have no gaps, and results name the caller's faces and points. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -613,7 +613,8 @@ static void a_section_is_a_cut_parallel_to_the_page(void **state) {
   recto_scene_destroy(scene);
 }
 
-/* A prepared scene serves for other views; a section of one view is cut anew. */
+/* A prepared scene serves for other views; a section of one view is cut
+ * anew. */
 static void a_prepared_scene_is_cut_for_each_section(void **state) {
   (void)state;
   const recto_mesh mesh = box_mesh(box_cube[0], 8);

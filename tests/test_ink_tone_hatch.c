@@ -297,8 +297,8 @@ static void draw_ball(struct pipeline *p, unsigned n, recto_options *options) {
 
 enum { STRIPS = 6 }; /* 15 degrees each */
 
-/* A flat square to the eye, of two triangles, `width` wide, which goes over into
- * a fillet of quadrangles on its right; 2 high. */
+/* A flat square to the eye, of two triangles, `width` wide and 2 high, which
+ * goes over into a fillet of quadrangles on its right. */
 static void build_filleted_flat(struct scene *scene, double width) {
   const double radius = 0.3;
   for (int top = 0; top < 2; top++) {

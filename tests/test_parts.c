@@ -124,8 +124,8 @@ static bool compare_parts(void *const *state, const recto_scene *scene,
 }
 
 /* Lines, hidden lines dashed, fills, hatching, lines behind one face, ids,
- * creases with a second angle and all edges, tone hatching, all edges; and with a
- * second angle smooth edges alone, and with creases. */
+ * creases with a second angle and all edges, tone hatching, all edges; and with
+ * a second angle smooth edges alone, and with creases. */
 enum { MODES = 11 };
 
 static void set_mode(recto_options *options, int mode) {

@@ -1,5 +1,6 @@
-/* test_parts_read.c - parts of a model that they read themselves, block by block,
- * are those of the model when it was read before; and they hold less of it. */
+/* test_parts_read.c - parts of a model that they read themselves, block by
+ * block, are those of the model when it was read before; and they hold less of
+ * it. */
 #define _GNU_SOURCE /* wait4 */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -262,7 +263,8 @@ static void a_part_holds_less_than_a_third(void **state) {
   }
 }
 
-/* A smooth surface of 2 (side - 1)^2 triangles, few edges of which are drawn. */
+/* A smooth surface of 2 (side - 1)^2 triangles, few edges of which are
+ * drawn. */
 static void write_smooth_model(const char *path, int side) {
   FILE *file = fopen(path, "w");
   assert_non_null(file);

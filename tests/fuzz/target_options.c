@@ -3,8 +3,8 @@
  * written in every format.
  *
  * An input is a choice of what is done and the number of edits, then these, of
- * two bytes each: a field, and its value.  Fields of type bool get 0 or 1, pointers what they may point
- * to: all else is the caller's fault. */
+ * two bytes each: a field, and its value.  Fields of type bool get 0 or 1,
+ * pointers what they may point to: all else is the caller's fault. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
