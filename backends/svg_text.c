@@ -56,7 +56,7 @@ void svg_write_colour(struct stream *stream, uint32_t colour) {
 /* ---- Ids ----------------------------------------------------------------- */
 
 /* Whether a character may stand within an XML name, and is no point or colon:
- * these are left for what tells equal names apart. */
+ * these are left for what makes equal names different. */
 static bool is_of_name(uint32_t code) {
   static const uint32_t range[][2] = {
       {'-', '-'},       {'0', '9'},        {'A', 'Z'},       {'_', '_'},
@@ -93,7 +93,7 @@ static int compare_group_ids(const void *first, const void *second,
   return strcmp(id[a], id[b]);
 }
 
-/* What tells ids apart takes so many bytes. */
+/* What makes equal ids different takes so many bytes. */
 enum { SUFFIX_SIZE = 64 };
 
 /* Sets order to the groups with names, by their ids; returns how many. */

@@ -276,7 +276,7 @@ static cairo_status_t draw_window(cairo_surface_t *surface,
 }
 
 /* Converts cairo's status.  A failed write is not reported here but by
- * stream_finish, which knows the path and the reason.  If the stream has no
+ * stream_finish, which has the path and the reason.  If the stream has no
  * error, the write that failed was one of cairo's to its temporary file, in
  * which it keeps PS until the page ends; it is then recorded in the stream.
  * fault  errno of such a write */

@@ -212,7 +212,7 @@ typedef enum recto_divide {
  * Blocks of options by what they concern.  Every block ends with room for
  * fields that later versions add, so that no field ever moves: a program that
  * was compiled with an older header runs with a newer library, and with an
- * older library as long as it sets no field that this does not know
+ * older library as long as it sets no field that this does not have
  * (RECTO_ERROR_UNSUPPORTED).  recto_options_init fills all of it. */
 
 /* The least width of pens and pitch of hatching and scan lines: 200,000 lines
@@ -772,7 +772,7 @@ RECTO_USE_RESULT recto_status recto_scene_read_for_parts(
 #define RECTO_PARTS_MAX 4096
 
 /* Draws one of `count` parts of a drawing, a window of the page, and writes it
- * to a file that recto_join_parts takes.  A part knows of the model what meets
+ * to a file that recto_join_parts takes.  A part has what of the model meets
  * its window; the windows depend on the scene, the options and `count`, and
  * have about as many points each.  Of the options for ink those say what is
  * solved that choose what is drawn: edges, hidden, hidden_by_max, fill, ids,
@@ -807,7 +807,7 @@ RECTO_USE_RESULT recto_status recto_scene_has_part(
  * all of them, and a part needs no more memory than for its window.  The plan
  * takes about 32 bytes for each triangle on disk, and 60 in memory while it is
  * made.
- * options  of the drawing, as for recto_scene_write_part; where they want
+ * options  of the drawing, as for recto_scene_write_part; where they need
  *          tones, these are found once, for the plan
  * count    at most RECTO_PARTS_MAX
  * path     written whole or not at all, as by recto_drawing_write
@@ -826,7 +826,7 @@ recto_scene_write_plan(const recto_scene *scene, const recto_options *options,
  * Errors   as of recto_scene_write_part; RECTO_ERROR_ARGUMENT: the plan has
  *          another count; RECTO_ERROR_FORMAT: it is none, cut short or damaged;
  *          RECTO_ERROR_UNSUPPORTED: it is of another version, or the options
- *          want fills, hidden lines, a number of hiding faces, ids or tones
+ *          need fills, hidden lines, a number of hiding faces, ids or tones
  *          that it was made without */
 RECTO_USE_RESULT recto_status recto_plan_write_part(
     const char *plan, const recto_options *options, unsigned number,
@@ -845,7 +845,7 @@ RECTO_USE_RESULT recto_status recto_plan_has_part(
  * those for ink and output are used.
  * Errors  RECTO_ERROR_ARGUMENT: a part is missing, there twice, or of another
  *         drawing; RECTO_ERROR_FORMAT: a file is no part, cut short or damaged;
- *         the error names it; RECTO_ERROR_UNSUPPORTED: the options want what
+ *         the error names it; RECTO_ERROR_UNSUPPORTED: the options need what
  *         the parts do not have: fills, hidden lines, a number of hiding faces,
  *         ids or tones that these were made without, or a plotter that needs a
  *         wider margin than theirs, unless they set one; results or

@@ -237,13 +237,13 @@ recto_status recto_join_parts(const char *const *paths, size_t count,
   for (size_t i = 0; i < count; i++)
     if (paths[i] == NULL)
       return error_null(error, "the path of a part");
-  recto_options asked;
-  recto_status status = options_copy(&asked, options, error);
+  recto_options given;
+  recto_status status = options_copy(&given, options, error);
   if (status == RECTO_OK)
-    status = options_copy_valid(&join.options, &asked, error);
+    status = options_copy_valid(&join.options, &given, error);
   if (status != RECTO_OK)
     return status;
-  join.sets_margin = asked.page.margin_mm >= 0;
+  join.sets_margin = given.page.margin_mm >= 0;
   join.made = mem_calloc(1, sizeof *join.made);
   if (join.made == NULL)
     return error_memory(error);

@@ -310,7 +310,7 @@ static void place_views(struct multiview *views, struct grid *grid,
 
 /* ---- The whole ----------------------------------------------------------- */
 
-/* The names of views tell scales, which are known once all is arranged: it is
+/* The names of views have scales, which are known once all is arranged: it is
  * done again while that widens a name. */
 recto_status multiview_grid_arrange(struct multiview *views,
                                     const recto_options *scaled, double size,

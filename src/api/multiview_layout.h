@@ -55,7 +55,7 @@ struct multiview {
   double letter_mm; /* of details */
   const char *title;
   double unit_mm;   /* of a unit of the user's scene */
-  bool with_scales; /* these are true ones, so that names tell them */
+  bool with_scales; /* these are true ones, so that names have them */
 };
 
 /* Whether the sheet draws a title. */

@@ -1,4 +1,4 @@
-/* output_format.h - the writer of an output, and what options it asks for. */
+/* output_format.h - the writer of an output, and the options that it needs. */
 #ifndef API_OUTPUT_FORMAT_H
 #define API_OUTPUT_FORMAT_H
 

@@ -18,7 +18,7 @@ USE_RESULT recto_status part_check_solve(const recto_options *options,
 USE_RESULT recto_status part_check_number(unsigned number, unsigned count,
                                           recto_error *error);
 
-/* Whether parts, or a plan of them, have what these options want to ink.
+/* Whether parts, or a plan of them, have what these options draw.
  * of_plan  it is a plan that has it, for messages
  * Errors   RECTO_ERROR_UNSUPPORTED */
 USE_RESULT recto_status part_check_ink(const recto_options *options,

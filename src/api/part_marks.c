@@ -4,7 +4,7 @@
 #include "scene/crease_marks.h"
 #include "scene/read.h"
 
-/* Reads a model as a whole; what is wrong with it has been told. */
+/* Reads a model as a whole; its faults have been reported. */
 static recto_status read_whole(const recto_scene *model, struct scene *whole,
                                recto_error *error) {
   struct diagnostics silent = {.file = model->path};

@@ -1,5 +1,5 @@
 /* part_marks.h - which marks of creases count in a model that is drawn in
- * parts: only all of it tells. */
+ * parts, which depends on all of the model. */
 #ifndef API_PART_MARKS_H
 #define API_PART_MARKS_H
 

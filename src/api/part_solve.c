@@ -1,4 +1,4 @@
-/* part_solve.c - solves the scene of a part, and writes what it knows.
+/* part_solve.c - solves the scene of a part, and writes the part.
  *
  * Phases
  *   edges    of the scene; whether corners there might be welded

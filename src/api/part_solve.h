@@ -18,7 +18,7 @@ struct part_solve {
   struct map map;
 };
 
-/* Solves the scene, if there is anything in it, and takes what the part knows.
+/* Solves the scene, if there is anything in it, and collects the part.
  * Errors  those of recto_scene_write_part */
 USE_RESULT recto_status part_solve_run(struct part_solve *work,
                                        recto_error *error);

@@ -4,8 +4,8 @@
  *   open    the model; its points, where it is not held
  *   aim     the camera, at the whole scene; the windows of the page
  *   pick    faces, in a pass over the model: of one that is not held, only this
- *           tells which points are used: where others than were taken for it,
- *           the camera is aimed again
+ *           shows which points are used: where they are others than those
+ *           assumed, the camera is aimed again
  *   marks   of creases that count
  *   common  what all parts of the drawing have */
 #include "api/part_survey.h"
@@ -236,8 +236,8 @@ static recto_status aim_and_pick(struct part_survey *survey,
   return status == RECTO_OK ? face_pick_pass(&survey->pick, error) : status;
 }
 
-/* The same where a pass is needed to know what is used, and what seems to be is
- * taken for it at first. */
+/* The same where only a pass shows which points are used: those that seem to be
+ * are assumed at first. */
 static recto_status guess_and_pick(struct part_survey *survey, uint8_t *used,
                                    recto_error *error) {
   read_passes_guess_used(survey->pick.source.passes, used);

@@ -1,4 +1,4 @@
-/* part_survey.h - what the parts of a drawing must know of the whole model. */
+/* part_survey.h - what the parts of a drawing need of the whole model. */
 #ifndef API_PART_SURVEY_H
 #define API_PART_SURVEY_H
 
@@ -19,7 +19,7 @@ struct part_survey {
   struct face_pick pick;
   struct camera camera;              /* aimed at the whole scene */
   struct part_window window;         /* of a part, and */
-  struct part_scene_request request; /*   what it asks for */
+  struct part_scene_request request; /*   what it needs */
   double weld;                       /* the most that welding could join */
   struct side_marks marks;           /* of creases that count in the model */
   struct part_common common;

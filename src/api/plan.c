@@ -104,7 +104,7 @@ static recto_status save_plan(struct plan_making *making, const char *path,
     plan_writer_begin(&writer, stream, &survey->common, error);
     status = write_sections(making, &writer, error);
   }
-  /* A fault of the stream is told when that is finished. */
+  /* A fault of the stream is reported when that is finished. */
   if (status == RECTO_OK)
     status = plan_writer_end(&writer, &survey->common, survey->weld, error);
   plan_writer_fini(&writer);

@@ -73,7 +73,7 @@ static recto_status cut_prepared(struct preparation *preparation,
   return status;
 }
 
-/* Stores what views have in common, or ask for twice. */
+/* Stores what views have in common, or need twice. */
 static recto_status store_classes(struct preparation *preparation,
                                   const recto_options *options,
                                   recto_error *error) {

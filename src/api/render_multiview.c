@@ -42,7 +42,7 @@ static size_t count_parts(const struct multiview_work *work) {
 
 /* ---- Calls to the caller ------------------------------------------------- */
 
-/* What the drawing of one view tells: its part of the whole work, and its
+/* What the drawing of one view reports: its share of the whole work, and its
  * warnings. */
 struct view_calls {
   struct multiview_work *work;

@@ -1,4 +1,4 @@
-/* sized.c - copies structs whose size the caller and the library may know
+/* sized.c - copies structs whose size the caller and the library may define
  * differently. */
 #include "api/sized.h"
 

@@ -1,6 +1,6 @@
 /* sized.h - structs of recto.h that cross to callers compiled with an older or
  * a newer header: new fields come at the end, and the caller passes the size
- * that it knows. */
+ * that it was compiled with. */
 #ifndef API_SIZED_H
 #define API_SIZED_H
 
@@ -9,9 +9,9 @@
 #include "base/status.h"
 
 /* Copies the caller's struct of `from_size` bytes to the library's own.  Fields
- * that an older caller does not know keep the values that they have in `to`.
+ * that an older caller does not have keep the values that they have in `to`.
  * Errors  RECTO_ERROR_UNSUPPORTED: a newer caller has set a field that this
- *         library does not know (it is not zero) */
+ *         library does not have (it is not zero) */
 USE_RESULT recto_status sized_copy_in(void *to, size_t to_size,
                                       const void *from, size_t from_size,
                                       recto_error *error);

@@ -39,7 +39,7 @@ static recto_status refuse_size(const struct source *source,
 }
 
 /* Whether a file that ended before its size says has another size by now.
- * Some file systems do not know the sizes of their files. */
+ * Some file systems report 0 for the sizes of their files. */
 static bool was_cut_short(const struct source *source, size_t count) {
   struct stat attributes;
   return count < source->size && fstat(source->descriptor, &attributes) == 0 &&

@@ -34,7 +34,7 @@ bool line_blocks_open(struct line_blocks *blocks, const char *path,
   if (path_identity_of_descriptor(descriptor, &blocks->file) &&
       fstat(descriptor, &attributes) == 0)
     got = pread(descriptor, head, sizeof head, 0);
-  /* Some file systems do not know the sizes of their files. */
+  /* Some file systems report 0 for the sizes of their files. */
   if (got < 0 || attributes.st_size < got ||
       gunzip_is_wanted(head, (size_t)got)) {
     close(descriptor);

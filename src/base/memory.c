@@ -12,7 +12,7 @@
 /* For tests alone: see mem_fail_after. */
 static atomic_ulong allocations_to_failure;
 
-/* Whether this allocation is the one that a test wants to fail. */
+/* Whether this allocation is the one that a test makes fail. */
 static bool is_made_to_fail(void) {
   unsigned long left =
       atomic_load_explicit(&allocations_to_failure, memory_order_relaxed);
@@ -37,13 +37,13 @@ static bool block_size(size_t count, size_t size, size_t *bytes) {
   return true;
 }
 
-/* Asks the system to hold a large block in large pages: of the time of a
+/* Requests that the system hold a large block in large pages: of the time of a
  * drawing of a million triangles an eighth went into the faults of small ones
  * (doc/decisions/0080).  The request is for whole small pages, all that the
  * block has a part of, so that it is for all of a mapping that malloc made for
  * this block alone: one of which only a part is in large pages cannot be
  * resized in place.  Where the system has no large pages, nothing changes. */
-static void *ask_for_large_pages(void *block, size_t bytes) {
+static void *request_large_pages(void *block, size_t bytes) {
 #ifdef MADV_HUGEPAGE
   enum { LARGE_BLOCK = 1 << 22 };
   if (block != NULL && bytes >= LARGE_BLOCK) {
@@ -62,21 +62,21 @@ void *mem_alloc(size_t count, size_t size) {
   size_t bytes;
   if (is_made_to_fail() || !block_size(count, size, &bytes))
     return NULL;
-  return ask_for_large_pages(malloc(bytes), bytes);
+  return request_large_pages(malloc(bytes), bytes);
 }
 
 void *mem_calloc(size_t count, size_t size) {
   size_t bytes;
   if (is_made_to_fail() || !block_size(count, size, &bytes))
     return NULL;
-  return ask_for_large_pages(calloc(bytes, 1), bytes);
+  return request_large_pages(calloc(bytes, 1), bytes);
 }
 
 void *mem_resize(void *block, size_t count, size_t size) {
   size_t bytes;
   if (is_made_to_fail() || !block_size(count, size, &bytes))
     return NULL;
-  return ask_for_large_pages(realloc(block, bytes), bytes);
+  return request_large_pages(realloc(block, bytes), bytes);
 }
 
 void mem_free(void *block) { free(block); }

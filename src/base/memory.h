@@ -77,7 +77,7 @@ struct byte_array {
   } while (0)
 
 /* The address of item `index`, up to one past the last; NULL where there is no
- * block yet: C knows no sum of NULL and 0. */
+ * block yet: the sum of NULL and 0 is undefined in C. */
 #define ARRAY_AT(array, index)                                                 \
   ((array)->item != NULL ? (array)->item + (index) : NULL)
 

@@ -13,7 +13,8 @@ bool parallel_read_is_worth(size_t count);
 
 /* Reads bytes from a place of a file; its position stays as it is.
  * Returns how many were read from there without a gap: fewer where the file
- * ends, anything is wrong, or memory ran out, which a plain read then tells. */
+ * ends, anything is wrong, or memory ran out, which a plain read then
+ * reports. */
 size_t parallel_read(int descriptor, off_t from, char *to, size_t count);
 
 #endif

@@ -13,7 +13,7 @@ enum {
   DIGIT_COUNT = 1 << DIGIT_BITS,
   PASS_COUNT = (64 + DIGIT_BITS - 1) / DIGIT_BITS,
   RUN = 32,   /* items that insertion sorts as fast as merging */
-  FEW = 1024, /* below, merging beats clearing the histograms */
+  FEW = 1024, /* below, merging is faster than clearing the histograms */
   DISTRIBUTED_ITEMS = 16 * POLL_ITEMS, /* between two polls */
   PART_COUNT = 4,          /* of the items of a pass, and threads, at most */
   PART_ITEMS_MIN = 1 << 14 /* for a thread to be worth while */

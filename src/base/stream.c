@@ -42,7 +42,7 @@ static void set_fault(struct stream *stream, recto_status status, int fault) {
   stream->fault = fault;
 }
 
-/* A fault that the system tells of. */
+/* A fault that the system reports. */
 static void set_system_fault(struct stream *stream, int fault) {
   set_fault(stream, fault == ENOMEM ? RECTO_ERROR_MEMORY : RECTO_ERROR_IO,
             fault);

@@ -271,7 +271,7 @@ static bool write_bytes_all(int descriptor, const char *bytes, size_t count) {
 }
 
 /* Whether the process may write a file of that size.  What reserves space does
- * not ask, as it leaves the size of the file. */
+ * not test that, as it leaves the size of the file. */
 static bool is_within_limit(size_t count) {
   struct rlimit limit;
   return getrlimit(RLIMIT_FSIZE, &limit) != 0 ||
@@ -371,7 +371,7 @@ static bool move_into_place(struct target *target, bool keep_old) {
 }
 
 /* Some file systems report a failed write only when a descriptor is closed;
- * the file's own stays open, to know it by. */
+ * the file's own stays open, to identify it. */
 static bool is_written(int descriptor) {
   int copy = fcntl(descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
   return copy < 0 || close(copy) == 0 || errno == EINTR;

@@ -64,7 +64,7 @@ USE_RESULT bool target_commit(struct target *target, bool keep_old);
  * before. */
 void target_roll_back(struct target *target);
 
-/* Makes sure, as far as the system can tell, that there is room for so many
+/* Makes sure, as far as the system can say, that there is room for so many
  * bytes in a TARGET_IN_PLACE, before one of any output is changed.
  * Returns false, with errno set, where there is not. */
 USE_RESULT bool target_reserve(struct target *target, size_t count);

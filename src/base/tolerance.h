@@ -113,7 +113,7 @@
  * Ten times   views within 1.5e-7 rad of up are refused. */
 #define TOLERANCE_UP_SINE 0x1p-26
 
-/* A perspective eye farther away than this sees the scene as an orthographic
+/* A perspective eye farther away than this has the view of an orthographic
  * view does.
  * Unit        the scene's diagonal
  * Derivation  a point half a diagonal behind the middle and half of one aside

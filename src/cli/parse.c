@@ -22,8 +22,8 @@ static int has_argument(const struct option_entry *entry) {
                                      : required_argument;
 }
 
-/* Fills what getopt_long asks for.  Starts `letters` with ':' so that a
- * missing value is told from an unknown option. */
+/* Fills what getopt_long needs.  Starts `letters` with ':' so that a missing
+ * value is distinguished from an unknown option. */
 static void fill_getopt(struct option longs[MAX_OPTIONS],
                         char letters[3 * MAX_OPTIONS]) {
   size_t count = 0, length = 0;

@@ -13,7 +13,7 @@ bool arguments_parse(struct arguments *arguments, int argc, char **argv,
 void arguments_fini(struct arguments *arguments);
 
 /* The format of the drawing; NULL: there is none of that name, or extension.
- * Parts and their plan do not tell by their own: they are of an HPGL drawing
+ * Parts and their plan have none of their own: they are of an HPGL drawing
  * where --device names a plotter, else of SVG. */
 const char *arguments_format(const struct arguments *arguments);
 

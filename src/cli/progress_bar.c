@@ -46,7 +46,7 @@ static void write_out(const char *text, size_t length) {
   (void)!write(STDERR_FILENO, text, length);
 }
 
-/* Blanks do on terminals that know no sequences too. */
+/* By blanks, as some terminals have no control sequences. */
 static void erase(void) {
   char text[COLUMNS_MAX + 2];
   if (now.columns == 0)

@@ -165,7 +165,7 @@ static recto_status label_edges(struct section *section, recto_error *error) {
   if (status == RECTO_OK && !planar)
     status = error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
                        "the lines of a cut cross each other in places too "
-                       "close to tell apart");
+                       "close to separate");
   return status;
 }
 

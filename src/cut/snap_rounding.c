@@ -237,7 +237,7 @@ static recto_status find_piece_crossings(struct snapper *s,
   return RECTO_OK;
 }
 
-/* Adds the crossings to the nodes; the ends of pieces and segments are told
+/* Adds the crossings to the nodes; the ends of pieces and segments are found
  * anew, by their places. */
 static bool add_crossing_nodes(struct snapper *s) {
   struct section *section = s->section;

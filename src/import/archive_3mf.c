@@ -66,14 +66,14 @@ static void inflate_part(const unsigned char *from, uint32_t count,
   char block[1 << 15];
   z_stream stream = {.next_in = (z_const Bytef *)from, .avail_in = count};
   int state = Z_OK;
-  bool wants = true;
+  bool goes_on = true;
   if (inflateInit2(&stream, -MAX_WBITS) != Z_OK)
     return;
-  while (state == Z_OK && wants) {
+  while (state == Z_OK && goes_on) {
     stream.next_out = (Bytef *)block;
     stream.avail_out = sizeof block;
     state = inflate(&stream, Z_NO_FLUSH);
-    wants = take(user, block, sizeof block - stream.avail_out);
+    goes_on = take(user, block, sizeof block - stream.avail_out);
   }
   (void)inflateEnd(&stream);
 #else

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Takes the next bytes; returns false where it wants no more. */
+/* Takes the next bytes; returns false where it needs no more. */
 typedef bool archive_3mf_take(void *user, const char *bytes, size_t count);
 
 /* Expands the part 3D/3dmodel.model of a 3MF file and passes it on block by

@@ -272,7 +272,7 @@ static void limit_self(long seconds, long mb) {
  * assimp/MemoryIOWrapper.h, which is C++. */
 #define ASSIMP_MEMORY_NAME "$$$___magic___$$$"
 
-/* Tells which files Assimp opened. */
+/* Writes which files Assimp opened. */
 static void put_files(FILE *to, const struct opened_files *files) {
   size_t bytes = files->file.count * sizeof *files->file.item;
   struct import_record record = {.kind = IMPORT_FILES, .name_length = bytes};
@@ -300,8 +300,8 @@ static double unit_of_format(const char *format) {
   return 0;
 }
 
-/* Reads what Assimp does not tell of a 3MF model, after Assimp, which refuses
- * what is too large. */
+/* Reads what Assimp leaves out of a 3MF model, after Assimp, which refuses what
+ * is too large. */
 static void read_3mf(struct import *import, const struct input *input) {
   model_3mf_read(&import->model_3mf, input->bytes, input->count);
   if (import->model_3mf.no_memory)

@@ -1,4 +1,4 @@
-/* model_3mf.c - what Assimp does not tell of a 3MF model: its unit and the
+/* model_3mf.c - what Assimp leaves out of a 3MF model: its unit and the
  * names of its objects. */
 #include "import/model_3mf.h"
 

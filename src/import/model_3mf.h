@@ -1,4 +1,4 @@
-/* model_3mf.h - what Assimp does not tell of a 3MF model: its unit and the
+/* model_3mf.h - what Assimp leaves out of a 3MF model: its unit and the
  * names of its objects. */
 #ifndef IMPORT_MODEL_3MF_H
 #define IMPORT_MODEL_3MF_H

@@ -62,8 +62,8 @@ static bool add_to_tag(struct xml_tags *tags, char c) {
 }
 
 bool xml_tags_read(struct xml_tags *tags, const char *bytes, size_t count) {
-  bool wants = true;
-  for (size_t i = 0; i < count && wants; i++) {
+  bool goes_on = true;
+  for (size_t i = 0; i < count && goes_on; i++) {
     if (tags->state == XML_TEXT) {
       const char *begin = memchr(bytes + i, '<', count - i);
       if (begin == NULL)
@@ -73,12 +73,12 @@ bool xml_tags_read(struct xml_tags *tags, const char *bytes, size_t count) {
       tags->length = 0;
       tags->quote = 0;
     } else if (tags->state == XML_TAG) {
-      wants = add_to_tag(tags, bytes[i]);
+      goes_on = add_to_tag(tags, bytes[i]);
     } else if (is_past_end(tags, bytes[i])) {
       tags->state = XML_TEXT;
     }
   }
-  return wants;
+  return goes_on;
 }
 
 /* ---- Attributes ---------------------------------------------------------- */

@@ -12,7 +12,7 @@
 enum { XML_TAG_MAX = 1 << 14 };
 
 /* Takes a start tag without its angle brackets, NUL-terminated; returns false
- * where it wants no more. */
+ * where it needs no more. */
 typedef bool xml_take_tag(void *user, const char *tag);
 
 /* The state between two blocks of a document; but for the first two fields

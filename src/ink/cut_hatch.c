@@ -30,7 +30,7 @@ recto_status cut_hatch_check(const struct scene *scene,
 
 /* ---- Styles -------------------------------------------------------------- */
 
-/* ISO 128-50: 45 degrees; others where parts are to be told apart. */
+/* ISO 128-50: 45 degrees; others where neighbours differ. */
 static const double turns[] = {0, 90, -15, 75, 15, 105};
 static const double pitches[] = {1, 0.6, 1.5, 0.8};
 enum {

@@ -2,9 +2,8 @@
  *
  * Line types    [ISO128] gives the lengths of their elements in line widths:
  *               gap 3, dot at most 0.5, dash 12, long dash 24.
- * Round ends    lengths are those of the pen's way.  Its round ends make what
- *               one sees of a dash a line width longer, and of a gap as much
- *               shorter. */
+ * Round ends    lengths are those of the pen's way.  Its round ends make a dash
+ *               on paper a line width longer, and a gap as much shorter. */
 #include "ink/dash_pattern.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* drawing.c - what the judge knows of a drawing: its strokes, in mm. */
+/* drawing.c - what the judge reads of a drawing: its strokes, in mm. */
 #include "judge/drawing.h"
 
 void judge_drawing_fini(struct judge_drawing *drawing) {

@@ -1,4 +1,4 @@
-/* drawing.h - what the judge knows of a drawing: its strokes, in mm. */
+/* drawing.h - what the judge reads of a drawing: its strokes, in mm. */
 #ifndef JUDGE_DRAWING_H
 #define JUDGE_DRAWING_H
 

@@ -95,7 +95,7 @@ static bool add_stretch(struct judge_edges *edges,
              t1 >= 1 ? b : point3_along(a, t1, along), source);
 }
 
-/* Whether a segment lies in a plane of a cut, as far as doubles tell. */
+/* Whether a segment lies in a plane of a cut, as far as doubles decide that. */
 static bool lies_in_plane(const struct judge_removed *removed,
                           struct judge_point3 a, struct judge_point3 b) {
   for (int k = 0; k < removed->planes; k++)

@@ -15,7 +15,7 @@ struct judge_plane {
 struct judge_removed {
   struct judge_plane plane[JUDGE_PLANES_MAX];
   int planes;     /* 0: nothing is removed */
-  double near;    /* this close to a plane doubles cannot tell, scene units */
+  double near;    /* this close to a plane it is undecided, scene units */
   double contact; /* the largest of all faces */
 };
 

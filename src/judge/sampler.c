@@ -121,8 +121,9 @@ static enum judge_visibility cast_ray(const struct judge_sampler *sampler,
   return by_cut > by_faces ? by_cut : by_faces;
 }
 
-/* What a point of an edge sees: by itself and ray_offset_mm to either side, as
- * long as the answers are `expected`; the first other one is the answer. */
+/* The visibility of a point of an edge, by the point and by those at
+ * ray_offset_mm to either side: `expected` where all have it, else that of the
+ * first that has another. */
 enum judge_visibility judge_sample_around(const struct judge_sampler *sampler,
                                           const struct judge_edge *edge,
                                           struct judge_point3 from,

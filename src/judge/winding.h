@@ -3,8 +3,8 @@
  *
  * The number is the same for all rays from a point where the surfaces are
  * closed.  Rays in several directions are cast; where they disagree, meet a
- * face with a border, or pass so close to a side that doubles cannot tell, it
- * is undecided. */
+ * face with a border, or pass so close to a side that doubles cannot decide,
+ * it is undecided. */
 #ifndef JUDGE_WINDING_H
 #define JUDGE_WINDING_H
 

@@ -115,7 +115,7 @@ void byte_codec_numbers(struct byte_codec *codec, uint32_t *value,
 
 /* ---- Records ------------------------------------------------------------
  * Consecutive numbers of a known size altogether: whether there is room, or
- * whether there are bytes, is asked once for all of them. */
+ * whether there are bytes, is tested once for all of them. */
 struct byte_record {
   bool writes;
   unsigned char *to;         /* writing: the next number */

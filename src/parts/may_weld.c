@@ -2,7 +2,7 @@
  *
  * Points are listed by cells of a grid some lengths wide, so that those that
  * are close to a point lie in few of them.  Hardly any is close to another:
- * only where one is, it is asked of which faces it is a corner. */
+ * only of one that is, the faces that it is a corner of are found. */
 #include <math.h>
 
 #include "base/hash.h"

@@ -1,4 +1,4 @@
-/* part.h - what one part of a drawing knows: the edges and the visible
+/* part.h - one part of a drawing: the edges and the visible
  * fragments in one window of the page, and all that ink needs of the model for
  * them.
  *

@@ -1,4 +1,4 @@
-/* part_collect.c - takes from a solved sheet what a part knows.
+/* part_collect.c - collects a part from a solved sheet.
  *
  * Phases
  *   keys       of the sheet's edges: which is which fold of its face, and which
@@ -176,8 +176,8 @@ static bool reserve_edges(struct collection *c) {
          ARRAY_RESERVE(&c->part->interval, c->from->map->interval.count);
 }
 
-/* Whether an edge with a class is listed.  Of those that ink does not look at
- * one is, which tells that there are such: pens may be for them. */
+/* Whether an edge with a class is listed.  Of those that ink does not read
+ * one is, which shows that there are such: pens may be for them. */
 static bool lists_edge(struct collection *c, uint32_t e) {
   if (!meets_window(c, e))
     return false;

@@ -1,4 +1,4 @@
-/* part_collect.h - takes from a solved sheet what a part knows. */
+/* part_collect.h - collects a part from a solved sheet. */
 #ifndef PARTS_PART_COLLECT_H
 #define PARTS_PART_COLLECT_H
 

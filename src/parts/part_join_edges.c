@@ -55,7 +55,7 @@ static void set_requested_class(struct sheet_edge *edge, const uint8_t *masks,
   edge->edge_class = (uint16_t)topology_class_of_mask(mask & common->edges);
 }
 
-/* The parts list creases at the lower angle, as only all of them tell which
+/* The parts list creases at the lower angle, as only all of them show which
  * go on from one beyond the higher angle: the others are no creases. */
 static bool drop_weak_creases(struct join_work *work) {
   struct part_join *join = work->join;

@@ -1,4 +1,4 @@
-/* part_join_phases.h - the phases of a join, and what they hand on. */
+/* part_join_phases.h - the phases of a join, and what they have in common. */
 #ifndef PARTS_PART_JOIN_PHASES_H
 #define PARTS_PART_JOIN_PHASES_H
 

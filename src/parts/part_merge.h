@@ -14,8 +14,8 @@ USE_RESULT recto_status part_merge_check(const struct part *part,
 
 /* Merges parts that were so checked, and empties them.
  *   An edge in several parts is visible where each of them says so: what hides
- *     a point of it meets the window in which the point lies, and a part knows
- *     of all that meets its window.
+ *     a point of it meets the window in which the point lies, and a part has
+ *     all that meets its window.
  *   An intersection that a part with its window did not list, as it looks for
  *     those alone that may be visible, is hidden in that window.
  *   The fragments of a face are those of the part that owns it.

@@ -3,7 +3,7 @@
  *
  * Phases
  *   pick   faces about the window, in a pass over the model: more than are
- *          needed, as only they tell how many these are
+ *          needed, as only they show how many these are
  *   local  their points, and where these lie on the page
  *   box    the window's, with those of the faces that it owns; where it goes
  *          beyond what was picked, those in it are picked anew
@@ -166,7 +166,7 @@ static bool wire_is_kept(const struct part_scene_work *work, uint32_t wire) {
   return false;
 }
 
-/* Keeps the corners of polylines that are kept: the faces there tell which
+/* Keeps the corners of polylines that are kept: the faces there decide which
  * points they are welded to. */
 static void keep_wire_corners(struct part_scene_work *work) {
   const struct scene *scene = &work->part->scene;

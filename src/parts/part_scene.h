@@ -50,7 +50,7 @@ part_scene_make(struct part_scene *part, struct face_pick *pick,
                 const struct part_scene_request *request, recto_error *error);
 void part_scene_fini(struct part_scene *part);
 
-/* Whether it is asked which faces belong to a window, which places tell: for
+/* Whether it matters which faces belong to a window, which places decide: for
  * their fragments and the runs of their edges. */
 static inline bool part_scene_needs_places(const struct part_common *common) {
   return common->has_fragments || common->has_ids;

@@ -1,4 +1,5 @@
-/* place_set.h - positions in the scene, to tell whether a point is at one. */
+/* place_set.h - a set of positions in the scene, for tests whether a point is
+ * at one. */
 #ifndef PARTS_PLACE_SET_H
 #define PARTS_PLACE_SET_H
 

@@ -1,9 +1,9 @@
 /* unread_edges.c - finds the hidden edges that ink does not look at.
  *
  * Of an edge that is hidden, ink that draws no hidden lines reads only what
- * tells where lines end on the mesh: at a vertex of a crease that has no other
- * edge of a class.  So smooth edges matter at the ends of others alone; with
- * all edges drawn, nearly all edges that are hidden matter nowhere.
+ * decides where lines end on the mesh: at a vertex of a crease that has no
+ * other edge of a class.  So smooth edges matter at the ends of others alone;
+ * with all edges drawn, nearly all edges that are hidden matter nowhere.
  * Fragments name the edges along their sides, whose classes ink reads. */
 #include "parts/unread_edges.h"
 

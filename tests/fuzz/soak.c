@@ -253,7 +253,7 @@ static int soak(double seconds, uint64_t seed, const char *folder) {
   static struct sample sample;
   struct count count[COUNTS_MAX] = {{.kind = "all"}};
   unsigned long findings = 0;
-  time_t start = time(NULL), told = start;
+  time_t start = time(NULL), reported = start;
   for (; difftime(time(NULL), start) < seconds; seed++) {
     struct agreement_done done;
     sample_make(&sample, seed);
@@ -265,8 +265,8 @@ static int soak(double seconds, uint64_t seed, const char *folder) {
       reduce(&sample, what);
       write_report(&sample, find(&sample, NULL), folder, seed);
     }
-    if (difftime(time(NULL), told) >= 10) {
-      told = time(NULL);
+    if (difftime(time(NULL), reported) >= 10) {
+      reported = time(NULL);
       fprintf(stderr, "soak: %lu scenes, %lu findings, seed %" PRIu64 "\n",
               count[0].scenes, findings, seed);
     }
