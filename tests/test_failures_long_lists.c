@@ -124,6 +124,42 @@ static void pages_are_not_tested_with_each_other(void **state) {
   scene_fini(&scene);
 }
 
+/* Near copies of a slanted square all overlap in depth: each is tested with few
+ * but those in contact with it, and with what pierces it. */
+static void near_copies_are_tested_with_those_in_contact(void **state) {
+  (void)state;
+  enum { COPIES = 2000 };
+  struct scene scene;
+  recto_options options;
+  struct pipeline pipeline;
+  recto_options_init(&options);
+  scene_init(&scene);
+  for (int i = 0; i < COPIES; i++)
+    build_parallelogram(&scene, vector_of(0, 0, i * 0x1p-30),
+                        vector_of(1, 0, 0), vector_of(0, 1, 0));
+  for (int i = 1; i < 4; i++)
+    build_parallelogram(&scene, vector_of(0.2 * i, 0.1, -0.3),
+                        vector_of(0.1, 0.3, 0), vector_of(0, 0.01, 0.6));
+  options.ink.edges = RECTO_EDGE_INTERSECTION;
+  options.ink.hidden = RECTO_HIDDEN_LAYER; /* hidden ones count, too */
+  options.solver.threads = 1;
+  int64_t segments[2];
+  for (int k = 0; k < 2; k++) {
+    pipeline_run(&pipeline, &scene, &options,
+                 k == 0 ? &solver_tiles : &solver_brute);
+    assert_int_equal(pipeline.status, RECTO_OK);
+    segments[k] = report_get(pipeline.report, "intersections", "segments", 0);
+    /* All pairs would be 8 million. */
+    assert_in_range(
+        report_get(pipeline.report, "intersections", "pairs_tested", 0),
+        segments[k], 2000 * COPIES);
+    pipeline_fini(&pipeline);
+  }
+  assert_true(segments[0] > 2 * COPIES);
+  assert_int_equal(segments[0], segments[1]);
+  scene_fini(&scene);
+}
+
 /* The scenes are large enough for their lists to be split by a BSP. */
 static void solvers_agree_on_long_lists(void **state) {
   (void)state;
@@ -242,6 +278,7 @@ int main(void) {
       cmocka_unit_test(pairs_grow_as_the_corners_do),
       cmocka_unit_test(a_polygon_is_not_tested_with_itself),
       cmocka_unit_test(pages_are_not_tested_with_each_other),
+      cmocka_unit_test(near_copies_are_tested_with_those_in_contact),
       cmocka_unit_test(solvers_agree_on_long_lists),
       cmocka_unit_test(edges_around_one_edge_are_tested_with_few),
       cmocka_unit_test(a_bellows_of_1300_is_the_same_by_all),

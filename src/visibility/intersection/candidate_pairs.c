@@ -3,7 +3,8 @@
  * Cell by cell, a sweep in depth, from the farthest triangle to the nearest,
  * finds every pair whose depths overlap (sweep and prune).  Boxes, shared
  * corners, filtered planes (plane_filter.h) and separating sides on the page
- * reject most of them.  A long list is split by a BSP before (bsp.h).
+ * reject most of them.  A long list is split by a BSP before (bsp.h), and swept
+ * along another direction where that leaves fewer pairs (sweep_direction.h).
  */
 #include "visibility/intersection/candidate_pairs.h"
 
@@ -11,6 +12,7 @@
 
 #include "base/sort.h"
 #include "visibility/index/bsp.h"
+#include "visibility/intersection/sweep_direction.h"
 #include "visibility/intersection/swept_triangle.h"
 
 /* The shortest list for which a BSP is worth while. */
@@ -154,7 +156,8 @@ static inline void add_to_list(struct pair_sweep *sweep, uint32_t triangle,
   sweep->key.item[i] = (struct sort_key){(uint64_t)low, (uint32_t)i};
 }
 
-/* Sorts the list by depth: swept triangle i then is that of key i. */
+/* Sorts the list by depth: swept triangle i then is that of key i, unless
+ * another direction is chosen. */
 static void sort_swept(struct pair_sweep *sweep) {
   size_t n = sweep->swept.count = sweep->listed.count;
   struct sort_key *key = sweep->key.item;
@@ -251,7 +254,7 @@ static bool list_others(struct pair_sweep *sweep,
                         const struct pair_group *group) {
   sweep->other.count = 0;
   for (size_t i = 0; i < sweep->swept.count; i++) {
-    struct swept_triangle *f = &sweep->swept.item[i];
+    struct swept_triangle *f = &sweep->swept.item[sweep->key.item[i].value];
     f->in_group = is_in_group(sweep, group, f->triangle);
     if (!f->in_group && !ARRAY_PUSH(&sweep->other, sweep->key.item[i]))
       return false;
@@ -261,7 +264,7 @@ static bool list_others(struct pair_sweep *sweep,
 
 /* ---- Sweeping ------------------------------------------------------------ */
 
-/* Tests triangle f with those of the keys from `first` on whose depths overlap
+/* Tests triangle f with those of the keys from `first` on whose ranges overlap
  * that of f.  What boxes reject is left out without a jump for each, as half of
  * all are.
  * Returns false as pair_sweep_cells does. */
@@ -276,7 +279,9 @@ static bool sweep_triangle(struct pair_sweep *sweep, uint32_t f,
     count += swept_boxes_meet(&own, &box[g[j].value]);
   }
   for (size_t i = 0; i < count; i++)
-    if (!visit_pair(sweep, &swept[f], &swept[met[i]]))
+    if ((!sweep->is_along_normal ||
+         swept_depths_overlap(&swept[f], &swept[met[i]])) &&
+        !visit_pair(sweep, &swept[f], &swept[met[i]]))
       return false;
   sweep->met += j - first;
   return progress_step(sweep->progress, j - first + 1);
@@ -285,16 +290,18 @@ static bool sweep_triangle(struct pair_sweep *sweep, uint32_t f,
 /* Tests the pairs of the list, but not those of its group. */
 static bool sweep_list(struct pair_sweep *sweep) {
   sort_swept(sweep);
+  if (!sweep_direction_choose(sweep))
+    return false;
   size_t n = sweep->swept.count, others = 0;
   struct pair_group group = choose_group(sweep);
   if (n >= FACE_LIST_MIN && !list_others(sweep, &group))
     return false;
   for (size_t i = 0; i < n; i++) {
-    bool in_group = sweep->swept.item[i].in_group, ok;
-    ok = in_group
-             ? sweep_triangle(sweep, (uint32_t)i, sweep->other.item, others,
-                              sweep->other.count)
-             : sweep_triangle(sweep, (uint32_t)i, sweep->key.item, i + 1, n);
+    uint32_t f = sweep->key.item[i].value;
+    bool in_group = sweep->swept.item[f].in_group;
+    bool ok = in_group ? sweep_triangle(sweep, f, sweep->other.item, others,
+                                        sweep->other.count)
+                       : sweep_triangle(sweep, f, sweep->key.item, i + 1, n);
     others += !in_group;
     if (!ok)
       return false;
@@ -378,5 +385,7 @@ void pair_sweep_fini(struct pair_sweep *sweep) {
   ARRAY_FREE(&sweep->met_now);
   ARRAY_FREE(&sweep->key);
   ARRAY_FREE(&sweep->other);
+  ARRAY_FREE(&sweep->along);
+  ARRAY_FREE(&sweep->high);
   bsp_fini(&sweep->bsp);
 }

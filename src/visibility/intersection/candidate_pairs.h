@@ -27,7 +27,8 @@ struct pair_sweep {
                 const struct swept_triangle *g, bool straddle);
   void *user;
   struct progress *progress; /* counts the work */
-  uint64_t met; /* the number of pairs of one list whose depths overlap */
+  uint64_t met; /* the number of pairs of one list whose ranges overlap, in
+                   depth or along the list's direction */
   struct occlusion_bound all;           /* of contact tolerances */
   int x, y;                             /* the current cell */
   ARRAY(struct listed_triangle) listed; /* those of the current list */
@@ -38,6 +39,9 @@ struct pair_sweep {
   ARRAY(struct sort_key) other; /* those that are not of the face, or about the
                                    edge, that most of the list's triangles are
                                    of */
+  bool is_along_normal; /* the current list has the keys of sweep_direction.h */
+  ARRAY(struct sort_key) along; /* scratch: such keys, twice as many */
+  ARRAY(int64_t) high;          /* scratch: high ends of ranges */
   struct bsp bsp;
 };
 

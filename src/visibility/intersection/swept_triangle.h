@@ -13,7 +13,8 @@ typedef int64_t swept_pair __attribute__((vector_size(16)));
 /* What the tests use of a triangle, computed once per list. */
 struct swept_triangle {
   struct box2 box;
-  int64_t high; /* depth of the nearest corner */
+  int64_t high; /* depth of the nearest corner, or the high end of its range
+                   along another direction */
   int x0, y0;   /* the cell of the box's lower left corner */
   uint32_t triangle;
   uint32_t point[3];
@@ -50,6 +51,16 @@ static inline bool swept_boxes_meet(const struct swept_box *f,
   swept_pair apart =
       (swept_pair)((g->begin[0] > f->end[0]) | (g->begin[1] > f->end[1]));
   return (apart[0] | apart[1]) == 0;
+}
+
+/* Do two triangles overlap in depth?  Others are never tested, whatever the
+ * direction is. */
+static inline bool swept_depths_overlap(const struct swept_triangle *f,
+                                        const struct swept_triangle *g) {
+  int64_t f_low, f_high, g_low, g_high;
+  geom_depth_range(f->corners.p, &f_low, &f_high);
+  geom_depth_range(g->corners.p, &g_low, &g_high);
+  return f_low <= g_high && g_low <= f_high;
 }
 
 /* The corners that two triangles share: bit 3 i + j stands for corner i of f,
