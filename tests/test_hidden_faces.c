@@ -15,6 +15,7 @@
 #include "tests/obj_drawing.h"
 #include "tests/scenes/random.h"
 #include "tests/sheet_fixture.h"
+#include "visibility/culling/face_runs.h"
 #include "visibility/culling/space_box.h"
 #include "visibility/hidden_faces.h"
 
@@ -142,6 +143,84 @@ static void faces_of_one_size_are_whole(void **state) {
                           vector_of(size, 0, 0), vector_of(0, size, 0));
     }
     assert_int_equal(count_hidden(&fixture), small ? count - 1 : 0);
+  }
+}
+
+/* ---- Runs ----------------------------------------------------------------- */
+
+/* Checks that the runs are all faces in order, that the points of each are
+ * within its box and its range, and that the large faces are listed. */
+static void check_runs(const struct scene *scene, double large) {
+  struct face_runs runs;
+  assert_true(face_runs_init(&runs, scene, large));
+  size_t listed = 0;
+  uint32_t next = 0;
+  for (size_t r = 0; r < runs.run.count; r++) {
+    const struct face_run *run = &runs.run.item[r];
+    assert_int_equal(run->first, next);
+    next = face_runs_end(&runs, scene, r);
+    assert_true(next > run->first);
+    for (uint32_t f = run->first; f < next; f++) {
+      double low[3] = {INFINITY, INFINITY, INFINITY},
+             high[3] = {-INFINITY, -INFINITY, -INFINITY};
+      assert_int_equal(scene_face_group(scene, f),
+                       scene_face_group(scene, run->first));
+      for (uint32_t c = scene_face_start(scene, f);
+           c < scene_face_start(scene, f + 1); c++) {
+        uint32_t p = scene->corner.item[c];
+        const struct scene_point *at = &scene->point.item[p];
+        const double xyz[3] = {at->x, at->y, at->z};
+        assert_in_range(p, run->first_point, run->end_point - 1);
+        for (int k = 0; k < 3; k++) {
+          assert_true(run->low[k] <= xyz[k] && xyz[k] <= run->high[k]);
+          low[k] = fmin(low[k], xyz[k]);
+          high[k] = fmax(high[k], xyz[k]);
+        }
+      }
+      double x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
+      bool is_large = fmax(x * y, fmax(y * z, z * x)) >= large;
+      bool is_listed =
+          listed < runs.large.count && runs.large.item[listed].face == f;
+      assert_int_equal(is_listed, is_large);
+      listed += is_listed;
+    }
+  }
+  assert_int_equal(next, scene_face_count(scene));
+  assert_int_equal(listed, runs.large.count);
+  face_runs_fini(&runs);
+}
+
+/* Boxes whose faces are near each other in the file, then triangles whose
+ * points are not, some of them large, and points that no face uses. */
+static void runs_hold_their_faces(void **state) {
+  (void)state;
+  for (uint64_t seed = 1; seed <= 20; seed++) {
+    struct random random = {seed};
+    struct scene scene;
+    scene_init(&scene);
+    build_group(&scene, "all");
+    for (int i = 0; i < 60; i++) {
+      double x = i % 10, y = i / 10, size = i % 9 == 0 ? 3 : 0.5;
+      build_box(&scene, vector_of(x, y, 0), vector_of(x + size, y + size, 1));
+      if (i % 7 == 0)
+        build_point(&scene, i % 2 ? 1e6 : INFINITY, 0, 0);
+      if (i % 20 == 0)
+        build_group(&scene, i == 20 ? "some" : "others");
+    }
+    uint32_t points = (uint32_t)scene.point.count;
+    for (int i = 0; i < 500; i++) {
+      uint32_t p[3];
+      for (int k = 0; k < 3; k++)
+        do
+          p[k] = i < 100 ? random_below(&random, points)
+                         : random_below(&random, 8) + 9 * ((uint32_t)i / 40);
+        while (!isfinite(scene.point.item[p[k]].x));
+      build_triangle(&scene, p[0], p[1], p[2]);
+    }
+    check_runs(&scene, 2);
+    check_runs(&scene, 0.1);
+    check_runs(&scene, 1e9);
+    scene_fini(&scene);
   }
 }
 
@@ -357,6 +436,7 @@ int main(void) {
       cmocka_unit_test(what_is_connected_to_something_visible_stays),
       cmocka_unit_test(a_shallow_scene_is_whole),
       cmocka_unit_test(faces_of_one_size_are_whole),
+      cmocka_unit_test(runs_hold_their_faces),
       cmocka_unit_test(drawings_do_not_change),
       cmocka_unit_test(memory_may_run_out),
       cmocka_unit_test(points_of_a_box_are_within_its_bounds),

@@ -143,6 +143,34 @@ static void dense_points_have_the_edges_that_a_search_finds(void **state) {
   }
 }
 
+/* Beside each other, polygons that are small and two that are not, also such as
+ * go along one side again and again. */
+static void polygons_have_the_edges_that_a_search_finds(void **state) {
+  (void)state;
+  enum { POINTS = 60, LONG = 20000, FACES = 400 };
+  struct random random = {7};
+  struct scene scene;
+  scene_init(&scene);
+  build_group(&scene, "polygons");
+  for (int p = 0; p < POINTS; p++)
+    build_point(&scene, p, (double)p * p, (double)p * p * p);
+  uint32_t *corner = malloc(LONG * sizeof *corner);
+  for (int f = 0; f < FACES; f++) {
+    bool is_long = f == FACES / 3 || f == FACES - 1;
+    uint32_t count = is_long ? LONG : 3 + random_below(&random, 5);
+    for (uint32_t k = 0; k < count; k++)
+      corner[k] = is_long ? k % POINTS : random_below(&random, POINTS);
+    build_face(&scene, corner, count);
+  }
+  free(corner);
+  assert_true(scene.face_start.count > 0);
+  struct topology topology;
+  find(&topology, &scene);
+  check(&scene, &topology);
+  topology_fini(&topology);
+  scene_fini(&scene);
+}
+
 /* ---- Counts -------------------------------------------------------------- */
 
 static void a_box_has_twelve_edges_of_two_faces_each(void **state) {
@@ -562,6 +590,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_scenes_have_the_edges_that_a_search_finds),
       cmocka_unit_test(dense_points_have_the_edges_that_a_search_finds),
+      cmocka_unit_test(polygons_have_the_edges_that_a_search_finds),
       cmocka_unit_test(a_box_has_twelve_edges_of_two_faces_each),
       cmocka_unit_test(no_faces_have_no_edges),
       cmocka_unit_test(a_fan_of_100000_triangles_is_drawn_in_bounded_time),

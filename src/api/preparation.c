@@ -94,7 +94,12 @@ static recto_status keep_used(struct preparation *preparation,
   if (topology->weld != NULL)
     return RECTO_OK;
   topology->used = used_points(preparation->scene, NULL);
-  return topology->used != NULL ? RECTO_OK : error_memory(error);
+  if (topology->used == NULL)
+    return error_memory(error);
+  preparation->is_all_used =
+      preparation->rescaled.exponent == 0 && preparation->scene->cut == NULL &&
+      memchr(topology->used, 0, preparation->scene->point.count) == NULL;
+  return RECTO_OK;
 }
 
 recto_status preparation_init(struct preparation *preparation,
@@ -161,6 +166,16 @@ recto_status preparation_rescale(const struct preparation *preparation,
     options->solver.contact =
         fmax(options->solver.contact, 2 * preparation->cut.unit);
   return status;
+}
+
+recto_status preparation_aim(struct camera *camera,
+                             const struct preparation *preparation,
+                             const uint8_t *used, const recto_options *options,
+                             recto_error *error) {
+  const struct known_points known = {
+      used, preparation->is_all_used ? &preparation->rescaled.box : NULL};
+  return camera_aim_at_points(camera, preparation->scene, known, options,
+                              error);
 }
 
 /* Whether the marks of creases that were found are those of these options. */

@@ -17,6 +17,7 @@ struct preparation {
   struct cut cut;            /* empty where no plane cuts */
   const struct scene *scene; /* what is drawn: one of the two */
   struct topology topology;  /* of that scene */
+  bool is_all_used;          /* all points of it, which are the user's */
   bool has_section; /* its only plane is that of a section of one view */
   double target[3]; /* then: what that view looks at, in rescaled units */
   /* The options that it depends on. */
@@ -46,6 +47,15 @@ void preparation_fini(struct preparation *preparation);
 USE_RESULT recto_status
 preparation_rescale(const struct preparation *preparation,
                     recto_options *options, recto_error *error);
+
+/* Aims the camera at a prepared scene.
+ * used    one a point, as of used.h; NULL: not known
+ * Errors  as of camera_aim */
+USE_RESULT recto_status preparation_aim(struct camera *camera,
+                                        const struct preparation *preparation,
+                                        const uint8_t *used,
+                                        const recto_options *options,
+                                        recto_error *error);
 
 /* Whether a preparation serves for these options. */
 bool preparation_is_valid_for(const struct preparation *preparation,

@@ -29,7 +29,6 @@
 #include "ink/cut_hatch.h"
 #include "ink/ink.h"
 #include "ink/pens.h"
-#include "view/camera_aim.h"
 #include "visibility/quantitative_invisibility.h"
 #include "visibility/smooth_contours.h"
 #include "visibility/solver.h"
@@ -159,8 +158,8 @@ static recto_status check_cut_scale(const struct render *render,
 
 static recto_status aim(struct render *render, recto_error *error) {
   recto_status status =
-      camera_aim_at_used(&render->camera, render->prepared->scene,
-                         render->topology.used, &render->scaled, error);
+      preparation_aim(&render->camera, render->prepared, render->topology.used,
+                      &render->scaled, error);
   if (status == RECTO_OK)
     status = check_cut_scale(render, error);
   if (status != RECTO_OK)

@@ -179,7 +179,8 @@ static bool number_edges(struct edge_range *range) {
         return false;
     } else {
       range->corner_edge[it.corner] = e;
-      topology_use_edge(&range->edge.item[e], it.face, it.from < it.to);
+      range->shared +=
+          topology_use_edge(&range->edge.item[e], it.face, it.from < it.to);
     }
   }
   return true;
@@ -188,22 +189,24 @@ static bool number_edges(struct edge_range *range) {
 /* ---- Points as they are -------------------------------------------------- */
 
 /* What the loop over faces uses, in registers. */
-struct face_loop {
+struct side_loop {
   uint32_t *head, *next;
   struct topology_edge *edge;
   uint32_t edges;
   size_t passed; /* edges that sides had to pass by */
+  size_t shared; /* edges that got a second face */
 };
 
 /* The edge of a side, which is added where it is new; there is room for it. */
-static inline uint32_t number_side(struct face_loop *loop, uint32_t from,
+static inline uint32_t number_side(struct side_loop *loop, uint32_t from,
                                    uint32_t to, uint32_t face) {
   bool forward = from < to;
   uint32_t lower = forward ? from : to, upper = forward ? to : from;
   uint32_t first = loop->head[lower], e;
   for (e = first; e != SCENE_NONE; e = loop->next[e], loop->passed++)
     if (loop->edge[e].point[1] == upper) {
-      topology_use_edge(&loop->edge[e], face, forward);
+      if (topology_use_edge(&loop->edge[e], face, forward))
+        loop->shared++;
       return e;
     }
   e = loop->edges++;
@@ -215,7 +218,7 @@ static inline uint32_t number_side(struct face_loop *loop, uint32_t from,
 
 /* Fetches the list of a point of a face that comes later, and the first edge of
  * one that comes sooner. */
-MEM_PREFETCH_INLINE void prefetch_side(const struct face_loop *loop,
+MEM_PREFETCH_INLINE void prefetch_side(const struct side_loop *loop,
                                        const uint32_t *corner) {
   MEM_PREFETCH(&loop->head[corner[2 * MEM_PREFETCH_AHEAD]]);
   uint32_t e = loop->head[corner[MEM_PREFETCH_AHEAD]];
@@ -227,11 +230,11 @@ MEM_PREFETCH_INLINE void prefetch_side(const struct face_loop *loop,
 
 /* Begins to number sides, for so many of which it makes room; false when memory
  * ran out, or where the caller cancelled. */
-static inline bool begin_sides(struct edge_range *range, struct face_loop *loop,
+static inline bool begin_sides(struct edge_range *range, struct side_loop *loop,
                                size_t sides) {
   if (!poll_now() || !ARRAY_RESERVE(&range->edge, sides))
     return false;
-  *loop = (struct face_loop){.head = range->head,
+  *loop = (struct side_loop){.head = range->head,
                              .next = range->next,
                              .edge = range->edge.item,
                              .edges = (uint32_t)range->edge.count};
@@ -241,15 +244,16 @@ static inline bool begin_sides(struct edge_range *range, struct face_loop *loop,
 /* Ends to number so many.  Where these had to pass by few edges on the average,
  * it does not matter that some had to pass by many. */
 static inline void end_sides(struct edge_range *range,
-                             const struct face_loop *loop, size_t sides) {
+                             const struct side_loop *loop, size_t sides) {
   range->edge.count = loop->edges;
+  range->shared += loop->shared;
   range->overfull |= loop->passed > MANY_PASSED * sides;
 }
 
 /* The same as number_edges, where all faces are triangles, no point is welded
  * to another, and there are no hubs. */
 static bool number_edges_of_triangles(struct edge_range *range) {
-  struct face_loop loop;
+  struct side_loop loop;
   enum { BLOCK = POLL_ITEMS / 3 }; /* as many sides as elsewhere */
   size_t corners = range->scene->corner.count;
   for (uint32_t f = range->face; f < range->end_face && !range->overfull;) {
@@ -277,7 +281,7 @@ static bool number_edges_of_triangles(struct edge_range *range) {
 
 /* Numbers the sides of a polygon. */
 static inline void number_sides_of_face(const struct edge_range *range,
-                                        struct face_loop *loop, uint32_t face,
+                                        struct side_loop *loop, uint32_t face,
                                         uint32_t start, uint32_t end) {
   const struct scene *scene = range->scene;
   const uint32_t *corner = scene->corner.item;
@@ -302,7 +306,7 @@ static bool number_sides_of_large_face(struct edge_range *range,
   uint32_t start = scene_face_start(scene, face),
            last = scene_face_start(scene, face + 1);
   for (uint32_t c = start; c < last && !range->overfull;) {
-    struct face_loop loop;
+    struct side_loop loop;
     uint32_t sides = last - c < POLL_ITEMS ? last - c : POLL_ITEMS;
     if (!begin_sides(range, &loop, sides))
       return false;
@@ -318,7 +322,7 @@ static bool number_sides_of_large_face(struct edge_range *range,
 static bool number_edges_of_polygons(struct edge_range *range) {
   const uint32_t *start = range->scene->face_start.item;
   for (uint32_t f = range->face; f < range->end_face && !range->overfull;) {
-    struct face_loop loop;
+    struct side_loop loop;
     uint32_t first = start[f];
     if (!begin_sides(range, &loop, POLL_ITEMS))
       return false;

@@ -12,6 +12,7 @@ struct edge_range {
   uint32_t face, end_face; /* from this to before that */
   uint32_t *corner_edge;   /* of the scene; those of these faces get edges */
   ARRAY(struct topology_edge) edge; /* in order of first use */
+  size_t shared;  /* how many of these more than one face has */
   uint32_t *head; /* one a point of the scene: the last of its edges, or
                      SCENE_NONE, or EDGE_RANGE_HUB */
   uint32_t *next; /* one an edge: the one before it at its lower point */

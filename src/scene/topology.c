@@ -98,7 +98,7 @@ static bool add_joined_edges(void *user, struct parallel_range edges) {
     if (is_own) {
       *to = *edge;
     } else {
-      topology_use_edge(to, edge->first, first_goes_up(range, edge));
+      (void)topology_use_edge(to, edge->first, first_goes_up(range, edge));
       if (edge->uses > 1)
         to->uses = 3;
     }
@@ -167,7 +167,8 @@ static bool join_ranges(struct edge_join *join, int workers) {
   return ok;
 }
 
-/* Divides the faces into ranges, and finds the edges of each.
+/* Divides the faces into ranges, and finds the edges of each; the borders are
+ * no more than it says.
  * overfull  gets whether one of them has too many at a point */
 static bool find_in_ranges(struct topology *topology, const struct scene *scene,
                            int workers, bool with_hubs, bool *overfull) {
@@ -185,6 +186,8 @@ static bool find_in_ranges(struct topology *topology, const struct scene *scene,
   join.ranges = ranges;
   bool ok = parallel_ranges(workers, ranges, 1, find_edges, &join) &&
             join_ranges(&join, workers);
+  topology->borders = ranges > 1 ? topology->edge.count
+                                 : topology->edge.count - join.range[0].shared;
   *overfull = false;
   for (size_t r = 0; r < ranges; r++) {
     *overfull |= join.range[r].overfull;
@@ -204,7 +207,10 @@ static bool map_borders(void *user, struct parallel_range edges) {
   for (size_t e = edges.begin; e < edges.end; e += 64) {
     size_t bits = edges.end - e < 64 ? edges.end - e : 64;
     uint64_t word = 0;
+    unsigned all = 2; /* which is in 2 and 3 uses */
     for (size_t k = 0; k < bits; k++)
+      all &= edge[e + k].uses;
+    for (size_t k = 0; all == 0 && k < bits; k++)
       word |= (uint64_t)(edge[e + k].uses == 1) << k;
     topology->border[e / 64] = word;
   }
@@ -218,11 +224,15 @@ static size_t count_bits(const uint64_t *word, size_t words) {
   return count;
 }
 
-/* Finds the edges of one face in one pass, as several steps look at them. */
+/* Finds the edges of one face in one pass, as several steps look at them; most
+ * scenes are known to have none.  topology->borders is at least how many there
+ * are, and then exactly that. */
 static bool find_borders(struct topology *topology) {
   size_t edges = topology->edge.count, words = edges / 64 + 1;
   mem_free(topology->border);
   topology->border = mem_calloc(words, sizeof *topology->border);
+  if (topology->border != NULL && topology->borders == 0)
+    return true;
   if (topology->border == NULL ||
       !parallel_ranges(parallel_workers(edges, EDGES_IN_RANGE), edges,
                        EDGES_IN_RANGE, map_borders, topology))

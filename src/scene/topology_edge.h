@@ -32,17 +32,18 @@ topology_new_edge(uint32_t lower, uint32_t upper, uint32_t face, bool forward) {
   };
 }
 
-/* Adds a face to an edge that has one.
+/* Adds a face to an edge that has one; returns whether it is the second one.
  * forward  it runs along it from its lower point to its upper one */
-static inline void topology_use_edge(struct topology_edge *edge, uint32_t face,
+static inline bool topology_use_edge(struct topology_edge *edge, uint32_t face,
                                      bool forward) {
   if (edge->uses == 1) {
     edge->second = face & TOPOLOGY_FACE_BITS;
     edge->same_way = edge->same_way == forward;
     edge->uses = 2;
-  } else {
-    edge->uses = 3;
+    return true;
   }
+  edge->uses = 3;
+  return false;
 }
 
 #endif

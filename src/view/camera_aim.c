@@ -90,7 +90,9 @@ static recto_status check_view(const struct aim *aim) {
 /* The bounding box of all that is drawn: its centre and diagonal. */
 static recto_status measure_scene(struct aim *aim) {
   struct used_box box;
-  if (!used_box_find(&box, aim->scene, aim->used, NULL))
+  if (aim->box != NULL)
+    box = *aim->box;
+  else if (!used_box_find(&box, aim->scene, aim->used, NULL))
     return error_cancelled(aim->error);
   const double *low = box.low, *high = box.high;
   if (low[0] > high[0])
@@ -222,7 +224,8 @@ static recto_status set_eye(struct aim *aim) {
 /* The depths, and what an orthographic view needs of the same points. */
 static recto_status measure_depth(struct aim *aim) {
   struct used_box box;
-  if (!used_box_find(&box, aim->scene, aim->used, aim->camera))
+  const uint8_t *used = aim->box != NULL ? NULL : aim->used;
+  if (!used_box_find(&box, aim->scene, used, aim->camera))
     return error_cancelled(aim->error);
   aim->d_low = box.low[2];
   aim->d_high = box.high[2];
@@ -332,15 +335,17 @@ static recto_status begin_aim(struct aim *aim) {
   return aim->used != NULL ? RECTO_OK : error_memory(aim->error);
 }
 
-recto_status camera_aim_at_used(struct camera *camera,
-                                const struct scene *scene, const uint8_t *used,
-                                const recto_options *options,
-                                recto_error *error) {
+recto_status camera_aim_at_points(struct camera *camera,
+                                  const struct scene *scene,
+                                  struct known_points known,
+                                  const recto_options *options,
+                                  recto_error *error) {
   struct aim aim = {.camera = camera,
                     .scene = scene,
                     .options = options,
                     .error = error,
-                    .used = used};
+                    .used = known.used,
+                    .box = known.box};
   recto_status status = begin_aim(&aim);
   if (status == RECTO_OK)
     status = aim_and_fit(&aim);
@@ -350,7 +355,8 @@ recto_status camera_aim_at_used(struct camera *camera,
 
 recto_status camera_aim(struct camera *camera, const struct scene *scene,
                         const recto_options *options, recto_error *error) {
-  return camera_aim_at_used(camera, scene, NULL, options, error);
+  return camera_aim_at_points(camera, scene, (struct known_points){NULL, NULL},
+                              options, error);
 }
 
 recto_status camera_find_section(struct camera_section *section,

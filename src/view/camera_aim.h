@@ -3,6 +3,7 @@
 #define VIEW_CAMERA_AIM_H
 
 #include "view/camera.h"
+#include "view/used_box.h"
 
 /* The plane of a section: it is parallel to the page, at the options' depth. */
 struct camera_section {
@@ -31,12 +32,19 @@ USE_RESULT recto_status camera_aim(struct camera *camera,
                                    const recto_options *options,
                                    recto_error *error);
 
-/* The same for a scene whose used points are known already: see used.h.  Faces
- * and polylines of the scene count only where the near plane clips it. */
-USE_RESULT recto_status camera_aim_at_used(struct camera *camera,
-                                           const struct scene *scene,
-                                           const uint8_t *used,
-                                           const recto_options *options,
-                                           recto_error *error);
+/* What is known of the points of a scene. */
+struct known_points {
+  const uint8_t *used;        /* one a point, as of used.h */
+  const struct used_box *box; /* all are used, and lie in this box; NULL: some
+                                 may not be */
+};
+
+/* The same for a scene whose used points are known already.  Faces and
+ * polylines of the scene count only where the near plane clips it. */
+USE_RESULT recto_status camera_aim_at_points(struct camera *camera,
+                                             const struct scene *scene,
+                                             struct known_points known,
+                                             const recto_options *options,
+                                             recto_error *error);
 
 #endif

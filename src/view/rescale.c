@@ -39,16 +39,16 @@ static double largest_used(const struct scene *scene, double enough) {
 }
 
 /* The exponent of the power of two to divide by; 0 also where the caller
- * cancelled, which is found later. */
-static int choose_exponent(const struct scene *scene) {
+ * cancelled, which is found later.
+ * box  gets that of all points */
+static int choose_exponent(const struct scene *scene, struct used_box *box) {
   const double largest_kept = ldexp(1, LARGEST_EXPONENT),
                least = 1 / largest_kept;
-  struct used_box box;
   double largest = 0;
-  if (!used_box_find(&box, scene, NULL, NULL))
+  if (!used_box_find(box, scene, NULL, NULL))
     return 0;
   for (int k = 0; k < 3; k++)
-    largest = max_number(largest, max_number(-box.low[k], box.high[k]));
+    largest = max_number(largest, max_number(-box->low[k], box->high[k]));
   if (largest <= largest_kept && largest_used(scene, least) >= least)
     return 0;
   largest = largest_used(scene, INFINITY);
@@ -132,7 +132,8 @@ static bool scale_lengths(recto_options *o, int exponent) {
 
 recto_status rescale(struct rescaled *rescaled, const struct scene *scene,
                      recto_error *error) {
-  *rescaled = (struct rescaled){*scene, choose_exponent(scene)};
+  *rescaled = (struct rescaled){.scene = *scene};
+  rescaled->exponent = choose_exponent(scene, &rescaled->box);
   if (rescaled->exponent == 0)
     return RECTO_OK;
   recto_status status = scale_points(rescaled, error);

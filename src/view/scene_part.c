@@ -14,16 +14,24 @@
 
 /* ---- 1. Faces ------------------------------------------------------------ */
 
+/* The first index from `from` on of a byte of this value; `end`: there is
+ * none. */
+static uint32_t next_with(const uint8_t *byte, uint8_t value, uint32_t from,
+                          uint32_t end) {
+  const uint8_t *found =
+      from < end ? memchr(byte + from, value, end - from) : NULL;
+  return found != NULL ? (uint32_t)(found - byte) : end;
+}
+
 static bool copy_faces(struct scene_part *part, const struct scene *whole,
                        const uint8_t *left_out) {
   struct scene *scene = &part->scene;
   uint32_t faces = scene_face_count(whole);
   ARRAY(uint32_t) number = {0};
   bool ok = true;
-  for (uint32_t f = 0; ok && f < faces; f++) {
-    ok = poll_at(f);
-    if (left_out[f])
-      continue;
+  for (uint32_t f = next_with(left_out, 0, 0, faces); ok && f < faces;
+       f = next_with(left_out, 0, f + 1, faces)) {
+    ok = poll_at(number.count);
     uint32_t start = scene_face_start(whole, f),
              count = scene_face_corners(whole, f);
     ok = ok && ARRAY_PUSH(&number, f) && ARRAY_RESERVE(&scene->corner, count);
@@ -52,26 +60,38 @@ static bool copy_wires(struct scene *scene, const struct scene *whole) {
 
 /* ---- 2. Points ----------------------------------------------------------- */
 
+/* Copies the ranges of precision from *next on that begin at a point of the
+ * whole scene or before it. */
+static bool copy_precisions(struct scene *scene, const struct scene *whole,
+                            uint32_t point, size_t *next) {
+  const struct precision_range *range = whole->precision.item;
+  bool ok = true;
+  for (; ok && *next < whole->precision.count &&
+         range[*next].first_point <= point;
+       ++*next) {
+    struct precision_range own = range[*next];
+    own.first_point = (uint32_t)scene->point.count;
+    ok = ARRAY_PUSH(&scene->precision, own);
+  }
+  return ok;
+}
+
 /* Lists the points that are used.
  * used    one a point of the whole scene
  * number  gets the number in the part of each of them */
 static bool copy_used_points(struct scene *scene, const struct scene *whole,
                              const uint8_t *used, uint32_t *number) {
-  const struct precision_range *range = whole->precision.item;
-  size_t ranges = whole->precision.count, next = 0;
+  uint32_t points = (uint32_t)whole->point.count;
+  size_t next = 0;
   bool ok = true;
-  for (size_t p = 0; ok && p < whole->point.count; p++) {
-    for (; ok && next < ranges && range[next].first_point <= p; next++) {
-      struct precision_range own = range[next];
-      own.first_point = (uint32_t)scene->point.count;
-      ok = ARRAY_PUSH(&scene->precision, own);
-    }
-    if (!used[p])
-      continue;
+  for (uint32_t p = next_with(used, 1, 0, points); ok && p < points;
+       p = next_with(used, 1, p + 1, points)) {
     number[p] = (uint32_t)scene->point.count;
-    ok = ok && ARRAY_PUSH(&scene->point, whole->point.item[p]);
+    ok = copy_precisions(scene, whole, p, &next) &&
+         ARRAY_PUSH(&scene->point, whole->point.item[p]);
   }
-  return ok;
+  return ok &&
+         (points == 0 || copy_precisions(scene, whole, points - 1, &next));
 }
 
 /* ---- 3. Corners ---------------------------------------------------------- */

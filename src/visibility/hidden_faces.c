@@ -311,6 +311,11 @@ static void mark_run(const struct hiding *hiding, size_t r, uint8_t *marked) {
 
 static bool has_mark(const struct hiding *hiding, size_t r,
                      const uint8_t *marked) {
+  const struct face_run *run = &hiding->runs.run.item[r];
+  if (hiding->topology->weld == NULL &&
+      memchr(marked + run->first_point, 1, run->end_point - run->first_point) ==
+          NULL)
+    return false;
   struct corner_range corners = corners_of_run(hiding, r);
   for (uint32_t c = corners.begin; c < corners.end; c++)
     if (marked[welded(hiding, c)])

@@ -3,6 +3,11 @@
  * What is near in a file is near in space as a rule, so that one test of a box
  * decides about all faces of a run.  A run ends where the next face is of
  * another group, or lies beside the box; a large face is a run of its own.
+ *
+ * Points that are near in a file mostly belong to the same faces, so that a box
+ * is made of ranges of points where these are not much more: each is looked at
+ * once, not once for each of its faces.  Then a box may be larger than that of
+ * its faces.
  */
 #ifndef VISIBILITY_CULLING_FACE_RUNS_H
 #define VISIBILITY_CULLING_FACE_RUNS_H
@@ -10,9 +15,11 @@
 #include "scene/scene.h"
 
 struct face_run {
-  uint32_t first;         /* face; the run ends where the next one begins */
-  bool hidden;            /* by what is nearer; set by its user */
-  double low[3], high[3]; /* of the points of its faces */
+  uint32_t first; /* face; the run ends where the next one begins */
+  bool hidden;    /* by what is nearer; set by its user */
+  /* The points of its faces are from this one to before that. */
+  uint32_t first_point, end_point;
+  double low[3], high[3]; /* a box of at least these */
 };
 
 /* A face that may hide much, and how much: the largest product of two extents
