@@ -24,6 +24,10 @@ enum { FEW_SIDES = 24, MANY_EDGES = 48 };
 /* Where points are as they are, sides may pass by that many on the average. */
 enum { MANY_PASSED = 8 };
 
+/* The lists of so many points are in the cache; whether a block of sides has
+ * no more is asked of so many of its corners. */
+enum { NEAR_POINTS = 1 << 14, NEAR_SAMPLES = 32 };
+
 /* ---- Hubs ---------------------------------------------------------------- */
 
 /* A side of a hub. */
@@ -250,22 +254,39 @@ static inline void end_sides(struct edge_range *range,
   range->overfull |= loop->passed > MANY_PASSED * sides;
 }
 
+/* Up to where corners are fetched ahead that are numbered in a block: 0 where
+ * its points seem to be near each other in the file, so that their lists are in
+ * the cache. */
+static size_t end_of_fetching(const struct scene *scene, uint32_t first,
+                              uint32_t count) {
+  size_t corners = scene->corner.count, left = corners - first;
+  size_t step = (count < left ? count : left) / NEAR_SAMPLES;
+  const uint32_t *corner = scene->corner.item + first;
+  uint32_t least = *corner, most = least;
+  for (size_t i = 1; i < NEAR_SAMPLES; i++) {
+    uint32_t point = corner[i * step];
+    least = point < least ? point : least;
+    most = point > most ? point : most;
+  }
+  return most - least < NEAR_POINTS ? 0 : corners;
+}
+
 /* The same as number_edges, where all faces are triangles, no point is welded
  * to another, and there are no hubs. */
 static bool number_edges_of_triangles(struct edge_range *range) {
   struct side_loop loop;
   enum { BLOCK = POLL_ITEMS / 3 }; /* as many sides as elsewhere */
-  size_t corners = range->scene->corner.count;
   for (uint32_t f = range->face; f < range->end_face && !range->overfull;) {
     uint32_t left = range->end_face - f;
     uint32_t end = f + (left < BLOCK ? left : BLOCK);
     size_t sides = 3 * (size_t)(end - f);
     if (!begin_sides(range, &loop, sides))
       return false;
+    size_t fetched = end_of_fetching(range->scene, 3 * f, (uint32_t)sides);
     const uint32_t *corner = range->scene->corner.item + 3 * (size_t)f;
     uint32_t *edge = range->corner_edge + 3 * (size_t)f;
     for (; f < end; f++, corner += 3, edge += 3) {
-      if (3 * (size_t)f + 2 * MEM_PREFETCH_AHEAD + 3 <= corners) {
+      if (3 * (size_t)f + 2 * MEM_PREFETCH_AHEAD + 3 <= fetched) {
         prefetch_side(&loop, corner);
         prefetch_side(&loop, corner + 1);
         prefetch_side(&loop, corner + 2);
@@ -279,14 +300,16 @@ static bool number_edges_of_triangles(struct edge_range *range) {
   return true;
 }
 
-/* Numbers the sides of a polygon. */
+/* Numbers the sides of a polygon.
+ * fetched  where corners end that are fetched ahead */
 static inline void number_sides_of_face(const struct edge_range *range,
                                         struct side_loop *loop, uint32_t face,
-                                        uint32_t start, uint32_t end) {
+                                        uint32_t start, uint32_t end,
+                                        size_t fetched) {
   const struct scene *scene = range->scene;
   const uint32_t *corner = scene->corner.item;
   uint32_t *edge = range->corner_edge, c = start, from = corner[start];
-  if (end + 2 * (size_t)MEM_PREFETCH_AHEAD <= scene->corner.count)
+  if (end + 2 * (size_t)MEM_PREFETCH_AHEAD <= fetched)
     for (uint32_t k = start; k < end; k++)
       prefetch_side(loop, corner + k);
   for (; c + 1 < end; c++) {
@@ -326,8 +349,9 @@ static bool number_edges_of_polygons(struct edge_range *range) {
     uint32_t first = start[f];
     if (!begin_sides(range, &loop, POLL_ITEMS))
       return false;
+    size_t fetched = end_of_fetching(range->scene, first, POLL_ITEMS);
     for (; f < range->end_face && start[f + 1] - first <= POLL_ITEMS; f++)
-      number_sides_of_face(range, &loop, f, start[f], start[f + 1]);
+      number_sides_of_face(range, &loop, f, start[f], start[f + 1], fetched);
     end_sides(range, &loop, start[f] - first);
     if (start[f] == first && !number_sides_of_large_face(range, f++))
       return false;
