@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "base/clock.h"
+#include "base/poll.h"
 #include "ink/lines/nearest.h"
 #include "ink/order/stroke_order.h"
 #include "tests/ink_fixture.h"
@@ -447,23 +448,27 @@ static void lists_of_the_nearest_are_complete_and_in_order(void **state) {
 }
 
 /* As many of the points are equally near, the order of the boxes counts. */
-static void
-tree_split_where_asked_finds_what_the_whole_one_finds(void **state) {
-  enum { COUNT = 1000, WANTED = 4, MOST = 5 };
+static void assert_split_tree_finds_the_same(size_t at_once, int threads) {
+  enum { COUNT = 6000, WANTED = 4, MOST = 5 };
+  static struct drawing_point point[COUNT];
   struct random random = {101};
-  struct drawing_point point[COUNT];
   struct nearest whole, part;
-  (void)state;
+  recto_options options;
+  struct poll poll;
+  recto_options_init(&options);
+  options.solver.threads = threads;
+  poll_open(&poll, &options);
   for (uint32_t i = 0; i < COUNT; i++)
-    point[i] = (struct drawing_point){random_int(&random, 0, 60),
-                                      random_int(&random, 0, 60)};
+    point[i] = (struct drawing_point){random_int(&random, 0, 150),
+                                      random_int(&random, 0, 150)};
   assert_true(nearest_init(&whole, point, COUNT));
   assert_true(nearest_init_unsplit(&part, point, COUNT));
-  for (uint32_t i = 0; i < COUNT; i += 7) {
+  for (uint32_t i = 0; i < COUNT / 2; i++) {
     uint32_t of_whole[WANTED], of_part[WANTED];
     uint32_t found =
         nearest_list(&whole, point[i], NEAREST_NONE, MOST, of_whole, WANTED);
-    nearest_split(&part, point[i], MOST);
+    if (i % at_once == 0)
+      assert_true(nearest_split(&part, &point[i], at_once, MOST));
     assert_int_equal(
         nearest_list(&part, point[i], NEAREST_NONE, MOST, of_part, WANTED),
         found);
@@ -471,6 +476,15 @@ tree_split_where_asked_finds_what_the_whole_one_finds(void **state) {
   }
   nearest_fini(&whole);
   nearest_fini(&part);
+  poll_close(&poll);
+}
+
+static void
+tree_split_where_asked_finds_what_the_whole_one_finds(void **state) {
+  (void)state;
+  assert_split_tree_finds_the_same(1, 1);
+  assert_split_tree_finds_the_same(3000, 1);
+  assert_split_tree_finds_the_same(3000, 3);
 }
 
 /* ---- Lifts, options ------------------------------------------------------ */

@@ -8,6 +8,8 @@
  *   3 close    with a segment between the two nodes
  * Nothing that is drawn moves.  Ink is added at most half a pen from ink, and
  * half a pen long. */
+#include <string.h>
+
 #include "base/parallel.h"
 #include "base/sort.h"
 #include "ink/lines/nearest.h"
@@ -50,23 +52,65 @@ static bool has_one_end(const struct segment_graph *graph, uint32_t node) {
   return graph->ends.start[node + 1] - graph->ends.start[node] == 1;
 }
 
-static bool collect_loose_ends(struct gaps *g) {
-  const struct segment_graph *graph = g->graph;
-  for (size_t n = 0; n < graph->node.count; n++) {
-    uint32_t first = graph->ends.start[n];
-    if (!poll_at(n))
-      return false;
+/* What a range of nodes has. */
+struct loose_range {
+  ARRAY(struct sort_key) loose; /* as of the gaps */
+};
+
+struct loose_collection {
+  const struct gaps *gaps;
+  struct loose_range *range;
+};
+
+static bool collect_of_range(void *user, struct parallel_range range) {
+  const struct loose_collection *all = user;
+  const struct segment_graph *graph = all->gaps->graph;
+  struct loose_range *own = &all->range[range.begin / PARALLEL_ITEMS];
+  for (size_t n = range.begin; n < range.end; n++) {
     if (!has_one_end(graph, (uint32_t)n))
       continue;
-    uint32_t end = graph->ends.item[first];
-    const struct graph_segment *s = segment_of(g, end);
-    struct sort_key loose = {key_of_gap(g, end), end};
+    uint32_t end = graph->ends.item[graph->ends.start[n]];
+    const struct graph_segment *s = segment_of(all->gaps, end);
+    struct sort_key loose = {key_of_gap(all->gaps, end), end};
     if (!graph_segment_is_hidden(s) &&
         (s->style_key & SEGMENT_GRAPH_FEATURES) != 0 &&
-        !ARRAY_PUSH(&g->loose, loose))
+        !ARRAY_PUSH(&own->loose, loose))
       return false;
   }
-  struct sort_key *scratch = mem_alloc(g->loose.count, sizeof *scratch);
+  return true;
+}
+
+/* Joins what the ranges have, in order. */
+static bool join_loose_ends(struct gaps *g, struct loose_range *range,
+                            size_t ranges) {
+  size_t sum = 0;
+  for (size_t r = 0; r < ranges; r++)
+    sum += range[r].loose.count;
+  if (!ARRAY_RESERVE(&g->loose, sum))
+    return false;
+  for (size_t r = 0; r < ranges; r++) {
+    size_t count = range[r].loose.count;
+    if (count > 0)
+      memcpy(g->loose.item + g->loose.count, range[r].loose.item,
+             count * sizeof *g->loose.item);
+    g->loose.count += count;
+  }
+  return true;
+}
+
+static bool collect_loose_ends(struct gaps *g) {
+  size_t nodes = g->graph->node.count,
+         ranges = parallel_range_count(nodes, PARALLEL_ITEMS);
+  struct loose_collection all = {g, mem_calloc(ranges, sizeof *all.range)};
+  bool ok = all.range != NULL &&
+            parallel_ranges(parallel_workers(nodes, PARALLEL_ITEMS), nodes,
+                            PARALLEL_ITEMS, collect_of_range, &all) &&
+            join_loose_ends(g, all.range, ranges);
+  for (size_t r = 0; all.range != NULL && r < ranges; r++)
+    ARRAY_FREE(&all.range[r].loose);
+  mem_free(all.range);
+  struct sort_key *scratch =
+      ok ? mem_alloc(g->loose.count, sizeof *scratch) : NULL;
   if (scratch != NULL)
     sort_keys(g->loose.item, scratch, g->loose.count);
   mem_free(scratch);
@@ -109,6 +153,7 @@ struct gap_group {
   uint32_t count, *next; /* of each: the nearest other one; NO_END: none;
                             SEVERAL_ENDS: several are equally near */
   double near, most;     /* what is as far away as `most` ends no gap */
+  uint8_t *ends_gap;     /* of each: it is the lower end of one */
 };
 
 /* The end for which another one is sought, and the nearest one so far. */
@@ -202,27 +247,55 @@ static bool find_next_of_range(void *user, struct parallel_range range) {
   return true;
 }
 
-/* Finds the others where several are equally near: as a search of a k-d tree
- * finds the first of them.  Returns false when memory ran out. */
-static bool find_among_several(const struct gap_group *group) {
-  struct nearest tree = {0};
-  struct drawing_point *at = mem_alloc(group->count, sizeof *at);
-  bool ok = at != NULL;
-  for (uint32_t i = 0; ok && i < group->count; i++) {
+/* The search for the others where several are equally near: as a search of a
+ * k-d tree finds the first of them. */
+struct several_search {
+  const struct gap_group *group;
+  struct nearest tree;
+  struct drawing_point *at;            /* one an end of the group */
+  ARRAY(struct drawing_point) several; /* the places of those sought for */
+};
+
+static bool place_several(struct several_search *search) {
+  const struct gap_group *group = search->group;
+  search->at = mem_alloc(group->count, sizeof *search->at);
+  for (uint32_t i = 0; search->at != NULL && i < group->count; i++) {
     struct ink_point p = end_point(group->g, group->loose[i].value);
-    at[i] = (struct drawing_point){p.x, p.y};
+    search->at[i] = (struct drawing_point){p.x, p.y};
+    if (group->next[i] == SEVERAL_ENDS &&
+        !ARRAY_PUSH(&search->several, search->at[i]))
+      return false;
   }
-  ok = ok && nearest_init_unsplit(&tree, at, group->count);
-  for (uint32_t i = 0; ok && i < group->count; i++) {
+  return search->at != NULL;
+}
+
+static bool find_several_of_range(void *user, struct parallel_range range) {
+  const struct several_search *search = user;
+  const struct gap_group *group = search->group;
+  for (uint32_t i = (uint32_t)range.begin; i < range.end; i++) {
     uint32_t found[2] = {i, i};
     if (group->next[i] != SEVERAL_ENDS)
       continue;
-    nearest_split(&tree, at[i], group->most);
-    (void)nearest_list(&tree, at[i], NEAREST_NONE, group->most, found, 2);
+    (void)nearest_list(&search->tree, search->at[i], NEAREST_NONE, group->most,
+                       found, 2);
     group->next[i] = group->loose[found[found[0] == i]].value;
   }
-  nearest_fini(&tree);
-  mem_free(at);
+  return true;
+}
+
+/* Returns false when memory ran out or the caller cancelled. */
+static bool find_among_several(const struct gap_group *group) {
+  struct several_search search = {.group = group};
+  size_t count = group->count;
+  bool ok = place_several(&search) &&
+            nearest_init_unsplit(&search.tree, search.at, group->count) &&
+            nearest_split(&search.tree, search.several.item,
+                          search.several.count, group->most) &&
+            parallel_ranges(parallel_workers(count, ENDS_IN_RANGE), count,
+                            ENDS_IN_RANGE, find_several_of_range, &search);
+  nearest_fini(&search.tree);
+  mem_free(search.at);
+  ARRAY_FREE(&search.several);
   return ok;
 }
 
@@ -247,24 +320,43 @@ static size_t place_in_group(const struct gap_group *group, uint32_t end) {
   return i;
 }
 
+/* Finds the ends of a range that end a gap to a later node. */
+static bool find_gaps_of_range(void *user, struct parallel_range range) {
+  const struct gap_group *group = user;
+  const struct gaps *g = group->g;
+  for (size_t i = range.begin; i < range.end; i++) {
+    uint32_t end = group->loose[i].value, next = group->next[i];
+    group->ends_gap[i] =
+        next != NO_END &&
+        node_of_loose_end(g, next) > node_of_loose_end(g, end) &&
+        is_gap(g, end, next, group->near) &&
+        group->next[place_in_group(group, next)] == end;
+  }
+  return true;
+}
+
 /* Closes the gaps between the ends of a group.
  * loose  `count` of them, with equal keys */
 static bool close_group(struct gaps *g, const struct sort_key *loose,
                         uint32_t count) {
   uint32_t pen = (uint32_t)(loose->key >> 9) / RECTO_EDGE_CLASS_COUNT;
   double near = pens_width_mm(g->pens, pen) / 2 * SHEET_UNITS_PER_MM;
-  struct gap_group group = {
-      g, loose, count, mem_alloc(count, sizeof *group.next), near, near + 1};
-  bool ok = group.next != NULL && find_nearest_ends(&group);
-  for (uint32_t i = 0; ok && i < count; i++) {
-    uint32_t end = loose[i].value, next = group.next[i];
-    if (next != NO_END &&
-        node_of_loose_end(g, next) > node_of_loose_end(g, end) &&
-        is_gap(g, end, next, near) &&
-        group.next[place_in_group(&group, next)] == end)
-      ok = close_gap(g, end, next);
-  }
+  struct gap_group group = {.g = g,
+                            .loose = loose,
+                            .count = count,
+                            .next = mem_alloc(count, sizeof *group.next),
+                            .near = near,
+                            .most = near + 1,
+                            .ends_gap = mem_alloc(count, 1)};
+  bool ok = group.next != NULL && group.ends_gap != NULL &&
+            find_nearest_ends(&group) &&
+            parallel_ranges(parallel_workers(count, ENDS_IN_RANGE), count,
+                            ENDS_IN_RANGE, find_gaps_of_range, &group);
+  for (uint32_t i = 0; ok && i < count; i++)
+    if (group.ends_gap[i])
+      ok = close_gap(g, loose[i].value, group.next[i]);
   mem_free(group.next);
+  mem_free(group.ends_gap);
   return ok;
 }
 

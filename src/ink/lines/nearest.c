@@ -14,7 +14,13 @@
 
 #include <math.h>
 
-enum { LEAF_MAX = 8, LEVEL_MAX = 32, SERIAL_LEVELS = 2 };
+enum {
+  LEAF_MAX = 8,
+  LEVEL_MAX = 32,
+  SERIAL_LEVELS = 2,
+  PLACES_WORTHWHILE =
+      PARALLEL_RANGE(1 << 8) /* for each thread, to be split at */
+};
 #define UNSPLIT UINT32_MAX
 
 struct nearest_item {
@@ -297,25 +303,78 @@ static void search_tree(const struct nearest *t, struct search *s) {
   }
 }
 
-void nearest_split(struct nearest *t, struct drawing_point from, double most) {
+/* Splits the box, which is no leaf, unless it is, and fills the boxes below. */
+static void split_once(struct nearest *t, int level, uint32_t j) {
+  if (t->box[2 * ((UINT32_C(1) << level) + j)].left != UNSPLIT)
+    return;
+  split_box(t, level, j);
+  fill_box(t, level + 1, 2 * j);
+  fill_box(t, level + 1, 2 * j + 1);
+}
+
+/* Splits the boxes nearer than `most` to a place, from box j of a level on. */
+static void split_near(struct nearest *t, int first_level, uint32_t first_j,
+                       struct drawing_point from, double most) {
   struct {
     uint32_t level, j;
-  } stack[LEVEL_MAX + 2] = {{0, 0}};
+  } stack[LEVEL_MAX + 2] = {{(uint32_t)first_level, first_j}};
   for (uint32_t depth = 1; depth > 0;) {
     int level = (int)stack[--depth].level;
     uint32_t j = stack[depth].j, box = (UINT32_C(1) << level) + j;
     if (level == t->levels || box_distance2(&t->box[box], from) >= most * most)
       continue;
-    if (t->box[2 * box].left == UNSPLIT) {
-      split_box(t, level, j);
-      fill_box(t, level + 1, 2 * j);
-      fill_box(t, level + 1, 2 * j + 1);
-    }
+    split_once(t, level, j);
     for (uint32_t child = 0; child < 2; child++) {
       stack[depth].level = (uint32_t)level + 1;
       stack[depth++].j = 2 * j + child;
     }
   }
+}
+
+/* Boxes that are split beside each other. */
+struct split_work {
+  struct nearest *tree;
+  int level;
+  const struct drawing_point *from;
+  size_t count;
+  double most;
+};
+
+/* Splits boxes of a level. */
+static bool split_boxes(void *user, struct parallel_range range) {
+  const struct split_work *work = user;
+  for (uint32_t j = (uint32_t)range.begin; j < range.end; j++)
+    split_once(work->tree, work->level, j);
+  return true;
+}
+
+/* Splits the boxes near the places, from those of a level on. */
+static bool split_below(void *user, struct parallel_range range) {
+  const struct split_work *work = user;
+  for (uint32_t j = (uint32_t)range.begin; j < range.end; j++)
+    for (size_t i = 0; i < work->count; i++) {
+      if (!poll_at(i))
+        return false;
+      split_near(work->tree, work->level, j, work->from[i], work->most);
+    }
+  return true;
+}
+
+bool nearest_split(struct nearest *t, const struct drawing_point *from,
+                   size_t count, double most) {
+  enum { DIVIDED_LEVELS = 4 };
+  int workers = parallel_workers(count, PLACES_WORTHWHILE);
+  struct split_work work = {t, 0, from, count, most};
+  bool ok = true;
+  /* With several threads, all boxes of the first levels, and those that are
+   * near below each of these. */
+  for (; ok && workers > 1 && work.level < DIVIDED_LEVELS &&
+         work.level < t->levels;
+       work.level++)
+    ok = parallel_ranges(workers, (size_t)1 << work.level, 1, split_boxes,
+                         &work);
+  return ok && parallel_ranges(workers, (size_t)1 << work.level, 1, split_below,
+                               &work);
 }
 
 uint32_t nearest_find(const struct nearest *t, struct drawing_point from) {

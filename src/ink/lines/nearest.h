@@ -26,10 +26,12 @@ USE_RESULT bool nearest_init_unsplit(struct nearest *nearest,
                                      const struct drawing_point *point,
                                      uint32_t count);
 
-/* Builds as much of that tree as nearest_list with `most` visits; that then
- * finds the same points in the same order as in the whole tree. */
-void nearest_split(struct nearest *nearest, struct drawing_point from,
-                   double most);
+/* Builds as much of that tree as nearest_list with `most` visits from so many
+ * places; that then finds the same points in the same order as in the whole
+ * tree.  Returns false when the caller cancelled. */
+USE_RESULT bool nearest_split(struct nearest *nearest,
+                              const struct drawing_point *from, size_t count,
+                              double most);
 
 void nearest_fini(struct nearest *nearest);
 

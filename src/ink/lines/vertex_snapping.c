@@ -7,6 +7,8 @@
  *   3 duplicates  segments between the same two clusters are consecutive, best
  *                 first; one whose ends are near those of a better one is
  *                 removed
+ * In parallel  the search for nodes that later ones are near, as only these
+ *   begin clusters, and for the segments of which both ends are in clusters.
  * Invariant  A merge target never moves and a moved node is never a target, so
  *   each node moves at most once, and by at most one output step.
  * Cost  The segments kept between two clusters differ by at least a step at one
@@ -18,6 +20,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/parallel.h"
 #include "base/poll.h"
 #include "base/sort.h"
 #include "ink/lines/overlap.h"
@@ -74,43 +77,81 @@ bool vertex_snapping_unite(struct vertex_snapping *snapping, uint32_t from,
 
 /* ---- 1. Clusters --------------------------------------------------------- */
 
-/* Adds to the cluster of node i the nodes near it in [k, end), a range of one
- * row in order of x, that are in no other cluster. */
-static void add_near_nodes(const struct vertex_snapping *snapping,
-                           uint32_t *cluster, uint32_t i, uint32_t k,
-                           uint32_t end) {
-  const struct ink_point *at = snapping->graph->node.item;
-  int64_t x_max = (int64_t)at[i].x + snapping->output_step;
-  for (; k < end && at[k].x <= x_max; k++)
-    if (cluster[k] == k &&
-        llabs((int64_t)at[k].y - at[i].y) <= snapping->output_step)
-      cluster[k] = i;
+struct node_clusters {
+  const struct vertex_snapping *snapping;
+  const struct node_rows *rows;
+  uint32_t *of_node; /* the node whose cluster each is in, which is itself for
+                        the first node of a cluster and one with none near */
+  uint8_t *others;   /* of each node that begins a cluster: how many further
+                        nodes the cluster has, at most LARGE_CLUSTER_MIN */
+  size_t moved;      /* nodes that are in the cluster of another */
+};
+
+/* Visits the nodes near node i in [k, end), a range of one row in order of x.
+ * add  adds those that are in no other cluster to that of node i; else returns
+ *      whether there are any */
+static bool visit_near_nodes(struct node_clusters *clusters, uint32_t i,
+                             uint32_t k, uint32_t end, bool add) {
+  const struct ink_point *at = clusters->snapping->graph->node.item;
+  int32_t step = clusters->snapping->output_step;
+  int64_t x_max = (int64_t)at[i].x + step;
+  for (; k < end && at[k].x <= x_max; k++) {
+    if (llabs((int64_t)at[k].y - at[i].y) > step)
+      continue;
+    if (!add)
+      return true;
+    if (clusters->of_node[k] != k)
+      continue;
+    clusters->of_node[k] = i;
+    if (clusters->others[i] < LARGE_CLUSTER_MIN)
+      clusters->others[i]++;
+    clusters->moved++;
+  }
+  return false;
 }
 
-/* Sets cluster[i] of every node to the node whose cluster it is in, which is i
- * itself for the first node of a cluster and for a node with none near. */
-static void gather_clusters(const struct vertex_snapping *snapping,
-                            uint32_t *cluster, const struct node_rows *rows) {
-  const struct ink_point *at = snapping->graph->node.item;
-  for (uint32_t i = 0; i < snapping->graph->node.count; i++)
-    cluster[i] = i;
-  for (uint32_t r = 0; r < rows->count; r++) {
-    uint32_t end = rows->start[r + 1];
-    for (uint32_t i = rows->start[r]; i < end; i++) {
-      (void)poll_at(i);
-      if (cluster[i] != i)
-        continue;
-      add_near_nodes(snapping, cluster, i, i + 1, end);
-      for (uint32_t q = r + 1; at[i].y + snapping->output_step >= rows->low[q];
-           q++) {
-        uint32_t last = rows->start[q + 1];
-        size_t k;
-        LOWER_BOUND(k, rows->start[q], last,
-                    at[k].x < at[i].x - snapping->output_step);
-        add_near_nodes(snapping, cluster, i, (uint32_t)k, last);
-      }
-    }
+/* The same of all nodes after node i, which is in row r. */
+static bool visit_later_nodes(struct node_clusters *clusters, uint32_t r,
+                              uint32_t i, bool add) {
+  const struct node_rows *rows = clusters->rows;
+  const struct ink_point *at = clusters->snapping->graph->node.item;
+  int32_t step = clusters->snapping->output_step;
+  if (visit_near_nodes(clusters, i, i + 1, rows->start[r + 1], add))
+    return true;
+  for (uint32_t q = r + 1; at[i].y + step >= rows->low[q]; q++) {
+    uint32_t last = rows->start[q + 1];
+    size_t k;
+    LOWER_BOUND(k, rows->start[q], last, at[k].x < at[i].x - step);
+    if (visit_near_nodes(clusters, i, (uint32_t)k, last, add))
+      return true;
   }
+  return false;
+}
+
+/* Sets others[i] of the nodes that later ones are near. */
+static bool find_near_of_range(void *user, struct parallel_range range) {
+  struct node_clusters *clusters = user;
+  for (uint32_t i = (uint32_t)range.begin; i < range.end; i++) {
+    clusters->of_node[i] = i;
+    clusters->others[i] =
+        visit_later_nodes(clusters, clusters->rows->row[i], i, false);
+  }
+  return true;
+}
+
+/* Returns false when the caller cancelled. */
+static bool gather_clusters(struct node_clusters *clusters) {
+  size_t count = clusters->snapping->graph->node.count;
+  if (!parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
+                       PARALLEL_ITEMS, find_near_of_range, clusters))
+    return false;
+  for (uint32_t i = 0; i < count; i++) {
+    bool may_begin = clusters->others[i] != 0;
+    clusters->others[i] = 0;
+    if (may_begin && clusters->of_node[i] == i)
+      (void)visit_later_nodes(clusters, clusters->rows->row[i], i, true);
+  }
+  return true;
 }
 
 /* ---- 2. and 3. Contraction, duplicates ----------------------------------- */
@@ -158,34 +199,69 @@ static void drop_duplicate_segments(struct vertex_snapping *snapping,
   }
 }
 
-/* Contracts the segments inside large clusters, and lists the other segments
- * of which both ends are in clusters of two or more nodes, since only those can
- * have duplicates.  Returns how many it listed.
- * others  of each node that begins a cluster: how many further nodes the
- *         cluster has, at most LARGE_CLUSTER_MIN
- * pair    the list: the keys are the two clusters, the values segments */
-static size_t list_possible_duplicates(struct vertex_snapping *snapping,
-                                       const uint32_t *cluster,
-                                       const uint8_t *others,
-                                       struct sort_key *pair) {
-  const struct segment_graph *graph = snapping->graph;
-  size_t count = 0;
-  for (uint32_t i = 0; i < graph->segment.count; i++) {
-    const uint32_t *node = graph->segment.item[i].node;
-    uint32_t a = cluster[node[0]], b = cluster[node[1]];
-    (void)poll_at(i);
-    if (!others[a] || !others[b])
-      continue;
-    bool is_large = others[a] == LARGE_CLUSTER_MIN;
+/* The segments of which both ends are in clusters of two or more nodes, since
+ * only those can have duplicates. */
+struct snapping_candidates {
+  const struct node_clusters *clusters;
+  struct sort_key *pair; /* one a segment: the values are segments */
+  size_t *kept;          /* one a range */
+};
+
+static bool list_candidates_of_range(void *user, struct parallel_range range) {
+  const struct snapping_candidates *candidates = user;
+  const struct node_clusters *clusters = candidates->clusters;
+  const struct graph_segment *s = clusters->snapping->graph->segment.item;
+  size_t n = range.begin;
+  for (size_t i = range.begin; i < range.end; i++)
+    if (clusters->others[clusters->of_node[s[i].node[0]]] &&
+        clusters->others[clusters->of_node[s[i].node[1]]])
+      candidates->pair[n++].value = (uint32_t)i;
+  candidates->kept[range.begin / PARALLEL_ITEMS] = n - range.begin;
+  return true;
+}
+
+/* Lists these segments.  Returns false when memory ran out or the caller
+ * cancelled. */
+static bool list_snapping_candidates(const struct node_clusters *clusters,
+                                     struct sort_key *pair, size_t *listed) {
+  size_t count = clusters->snapping->graph->segment.count;
+  struct snapping_candidates candidates = {
+      clusters, pair,
+      mem_calloc(parallel_range_count(count, PARALLEL_ITEMS),
+                 sizeof *candidates.kept)};
+  bool ok =
+      candidates.kept != NULL &&
+      parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
+                      PARALLEL_ITEMS, list_candidates_of_range, &candidates);
+  if (ok)
+    *listed = parallel_gather(pair, sizeof *pair, count, PARALLEL_ITEMS,
+                              candidates.kept);
+  mem_free(candidates.kept);
+  return ok;
+}
+
+/* Of `count` segments that were listed, contracts those inside large clusters.
+ * Returns how many others there are, first in the list.
+ * pair  the list: the keys become the two clusters */
+static size_t contract_clusters(struct vertex_snapping *snapping,
+                                const struct node_clusters *clusters,
+                                struct sort_key *pair, size_t count) {
+  size_t kept = 0;
+  for (size_t n = 0; n < count; n++) {
+    uint32_t i = pair[n].value;
+    const uint32_t *node = snapping->graph->segment.item[i].node;
+    uint32_t a = clusters->of_node[node[0]], b = clusters->of_node[node[1]];
+    (void)poll_at(n);
+    bool is_large = clusters->others[a] == LARGE_CLUSTER_MIN;
     if (a == b && is_large &&
         vertex_snapping_is_near(snapping, node[0], node[1]) &&
         vertex_snapping_unite(snapping, node[1], node[0]))
       remove_segment(snapping, i);
     else if (a != b || is_large) /* a segment inside a small cluster is left to
                                     the search for overlaps */
-      pair[count++] = (struct sort_key){sort_pair_key(a, b), i};
+      pair[kept++] = (struct sort_key){sort_pair_key(a, b), i};
   }
-  return count;
+  return kept;
 }
 
 /* Sorts the list by the two clusters, and each group of equal keys by priority,
@@ -209,34 +285,31 @@ static void drop_all_duplicates(struct vertex_snapping *snapping,
 bool vertex_snapping_drop_duplicates(struct vertex_snapping *snapping,
                                      const struct node_rows *rows) {
   size_t nodes = snapping->graph->node.count, count = 0;
-  uint32_t *cluster = mem_alloc(nodes, sizeof *cluster);
-  uint8_t *others = mem_calloc(nodes, sizeof *others);
+  struct node_clusters clusters = {
+      .snapping = snapping,
+      .rows = rows,
+      .of_node = mem_alloc(nodes, sizeof *clusters.of_node),
+      .others = mem_calloc(nodes, sizeof *clusters.others)};
   struct sort_key *pair = NULL, *scratch = NULL;
   uint32_t *kept = NULL;
-  bool ok = cluster != NULL && others != NULL;
-  if (ok && nodes > 0) {
-    gather_clusters(snapping, cluster, rows);
-    for (uint32_t i = 0; i < nodes; i++)
-      if (cluster[i] != i) {
-        others[cluster[i]] =
-            (uint8_t)(others[cluster[i]] +
-                      (others[cluster[i]] < LARGE_CLUSTER_MIN));
-        count++;
-      }
-  }
-  if (ok && count > 0) {
+  bool ok = clusters.of_node != NULL && clusters.others != NULL &&
+            (nodes == 0 || gather_clusters(&clusters));
+  if (ok && clusters.moved > 0) {
     count = snapping->graph->segment.count;
     pair = mem_alloc(count, sizeof *pair);
-    scratch = mem_alloc(count, sizeof *scratch);
-    kept = mem_alloc(count, sizeof *kept);
-    ok = pair != NULL && scratch != NULL && kept != NULL;
+    ok = pair != NULL && list_snapping_candidates(&clusters, pair, &count);
   }
   if (ok && count > 0) {
-    count = list_possible_duplicates(snapping, cluster, others, pair);
+    scratch = mem_alloc(count, sizeof *scratch);
+    kept = mem_alloc(count, sizeof *kept);
+    ok = scratch != NULL && kept != NULL;
+  }
+  if (ok && count > 0) {
+    count = contract_clusters(snapping, &clusters, pair, count);
     drop_all_duplicates(snapping, pair, scratch, count, kept);
   }
-  mem_free(cluster);
-  mem_free(others);
+  mem_free(clusters.of_node);
+  mem_free(clusters.others);
   mem_free(pair);
   mem_free(scratch);
   mem_free(kept);
