@@ -169,21 +169,56 @@ static bool drop_path(struct ink *ink, const struct ink_path *path,
                             line->point.count, line->closed);
 }
 
+/* Which paths are too short. */
+struct short_search {
+  const struct ink *ink;
+  const struct ink_paths *paths;
+  uint8_t *is_short; /* one a path */
+};
+
+static bool find_short_range(void *user, struct parallel_range range) {
+  const struct short_search *search = user;
+  struct stroke_line line = {0};
+  bool ok = true;
+  for (size_t i = range.begin; ok && i < range.end; i++) {
+    const struct ink_path *path = &search->paths->path.item[i];
+    ok = copy_points(search->ink, search->paths, path, &line);
+    search->is_short[i] = ok && is_too_short(search->ink, path, &line);
+  }
+  ARRAY_FREE(&line.point);
+  return ok;
+}
+
+/* One byte a path; NULL when memory ran out or the caller cancelled. */
+static uint8_t *find_short_paths(const struct ink *ink,
+                                 const struct ink_paths *paths) {
+  size_t count = paths->path.count;
+  struct short_search search = {ink, paths, mem_alloc(count, 1)};
+  if (search.is_short == NULL ||
+      parallel_ranges(parallel_workers(count, PATHS_IN_RANGE), count,
+                      PATHS_IN_RANGE, find_short_range, &search))
+    return search.is_short;
+  mem_free(search.is_short);
+  return NULL;
+}
+
 /* Adds the paths as strokes; with `filter` those that are too short are left
  * out. */
 static bool add_paths(struct ink *ink, const struct ink_paths *paths,
                       bool filter) {
   struct stroke_line line = {0};
-  bool ok = ARRAY_RESERVE(&ink->drawing->point, paths->point.count) &&
+  uint8_t *is_short = filter ? find_short_paths(ink, paths) : NULL;
+  bool ok = (!filter || is_short != NULL) &&
+            ARRAY_RESERVE(&ink->drawing->point, paths->point.count) &&
             ARRAY_RESERVE(&ink->drawing->stroke, paths->path.count);
   for (size_t i = 0; ok && i < paths->path.count; i++) {
     const struct ink_path *path = &paths->path.item[i];
     ok = poll_at(i) && copy_points(ink, paths, path, &line);
-    ok = ok && (filter && is_too_short(ink, path, &line)
-                    ? drop_path
-                    : add_drawn_path)(ink, path, &line);
+    ok = ok &&
+         (filter && is_short[i] ? drop_path : add_drawn_path)(ink, path, &line);
   }
   ARRAY_FREE(&line.point);
+  mem_free(is_short);
   return ok;
 }
 
@@ -194,19 +229,16 @@ static bool mark_short(struct ink *ink, const struct ink_paths *paths,
                        const uint32_t *path_of_segment, size_t segments,
                        uint8_t *drop) {
   struct stroke_line line = {0};
-  uint8_t *path_is_short = mem_calloc(paths->path.count, 1);
-  bool ok = path_is_short != NULL;
+  uint8_t *is_short = find_short_paths(ink, paths);
+  bool ok = is_short != NULL;
   for (size_t i = 0; ok && i < paths->path.count; i++) {
     const struct ink_path *path = &paths->path.item[i];
-    ok = poll_at(i) && copy_points(ink, paths, path, &line);
-    if (ok && is_too_short(ink, path, &line)) {
-      path_is_short[i] = 1;
-      ok = drop_path(ink, path, &line);
-    }
+    ok = poll_at(i) && (!is_short[i] || (copy_points(ink, paths, path, &line) &&
+                                         drop_path(ink, path, &line)));
   }
   for (size_t i = 0; ok && i < segments; i++)
-    drop[i] = path_is_short[path_of_segment[i]];
-  mem_free(path_is_short);
+    drop[i] = is_short[path_of_segment[i]];
+  mem_free(is_short);
   ARRAY_FREE(&line.point);
   return ok;
 }

@@ -176,6 +176,14 @@ static bool decide_range(void *user, struct parallel_range range) {
   return true;
 }
 
+static bool set_covered_of_range(void *user, struct parallel_range range) {
+  const struct covering *c = user;
+  for (size_t i = range.begin; i < range.end; i++)
+    c->paths->path.item[i].is_covered =
+        verdict_of(c, (uint32_t)i) == COVER_FOUND;
+  return true;
+}
+
 static bool list_undecided(struct covering *c) {
   for (size_t r = 0; r < c->paths->path.count; r++)
     if (!poll_at(r) || (verdict_of(c, c->by_rank[r]) == COVER_UNDECIDED &&
@@ -196,8 +204,7 @@ bool covering_decide(struct covering *c) {
   for (size_t i = 0; i < count; i++)
     if (verdict_of(c, c->undecided.item[i]) == COVER_UNDECIDED)
       (void)decide_range(c, (struct parallel_range){i, i + 1, 0});
-  for (size_t i = 0; i < c->paths->path.count; i++)
-    c->paths->path.item[i].is_covered =
-        verdict_of(c, (uint32_t)i) == COVER_FOUND;
-  return true;
+  count = c->paths->path.count;
+  return parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
+                         PARALLEL_ITEMS, set_covered_of_range, c);
 }

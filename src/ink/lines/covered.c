@@ -96,6 +96,16 @@ static bool measure_all(struct path_measuring *of) {
   return ok;
 }
 
+static bool rank_range_of_paths(void *user, struct parallel_range range) {
+  const struct path_measuring *of = user;
+  for (size_t r = range.begin; r < range.end; r++) {
+    uint32_t path = of->key[r].value;
+    of->c->by_rank[r] = path;
+    of->c->measured[path].rank = (uint32_t)r;
+  }
+  return true;
+}
+
 /* Returns false when memory ran out or the caller cancelled. */
 static bool measure_paths(struct covering *c) {
   size_t count = c->paths->path.count;
@@ -104,10 +114,8 @@ static bool measure_paths(struct covering *c) {
   bool ok = of.key != NULL && scratch != NULL && measure_all(&of);
   if (ok && c->hairs > 0) {
     sort_keys(of.key, scratch, count);
-    for (uint32_t r = 0; r < count; r++) {
-      c->by_rank[r] = of.key[r].value;
-      c->measured[of.key[r].value].rank = r;
-    }
+    ok = parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
+                         PARALLEL_ITEMS, rank_range_of_paths, &of);
   }
   mem_free(of.key);
   mem_free(scratch);
@@ -161,9 +169,17 @@ static void mark_hair(const struct covering *c, uint32_t number) {
     }
     int left = x[0] > x[1], low = y[0] > y[1];
     for (int64_t row = y[low]; row <= y[!low]; row++)
-      memset(c->marked + row * c->count[0] + x[left], 1,
-             (size_t)(x[!left] - x[left] + 1));
+      for (int64_t k = x[left]; k <= x[!left]; k++) /* others mark cells, too */
+        __atomic_store_n(&c->marked[row * c->count[0] + k], 1,
+                         __ATOMIC_RELAXED);
   }
+}
+
+static bool mark_hairs_of_range(void *user, struct parallel_range range) {
+  const struct covering *c = user;
+  for (size_t i = range.begin; i < range.end; i++)
+    mark_hair(c, c->hair[i].value);
+  return true;
 }
 
 /* ---- 3 List -------------------------------------------------------------- */
@@ -279,10 +295,10 @@ bool paths_find_covered(struct ink_paths *paths, const struct sheet *sheet,
   bool ok = c.measured != NULL && c.by_rank != NULL && c.verdict != NULL &&
             measure_paths(&c);
   if (ok && c.hairs > 0) {
-    ok = make_cells(&c) && list_hairs(&c);
-    for (size_t i = 0; ok && i < c.hairs; i++)
-      mark_hair(&c, c.hair[i].value);
-    ok = ok && list_sides(&c) && covering_decide(&c);
+    ok = make_cells(&c) && list_hairs(&c) &&
+         parallel_ranges(parallel_workers(c.hairs, PATHS_IN_RANGE), c.hairs,
+                         PATHS_IN_RANGE, mark_hairs_of_range, &c) &&
+         list_sides(&c) && covering_decide(&c);
   }
   mem_free(c.measured);
   mem_free(c.by_rank);

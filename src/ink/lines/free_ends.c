@@ -12,6 +12,7 @@
 
 #include <math.h>
 
+#include "base/parallel.h"
 #include "base/poll.h"
 #include "base/tolerance.h"
 
@@ -67,24 +68,61 @@ static bool is_free_end(const struct segment_graph *graph,
   return false; /* within an edge */
 }
 
+/* What the ranges of paths have in common. */
+struct free_end_search {
+  struct ink_paths *paths;
+  const struct segment_graph *graph;
+  const struct sheet *sheet;
+  double near;
+  uint8_t *count;      /* see is_free_end */
+  atomic_bool any_may; /* end free */
+};
+
+static bool find_candidates_of_range(void *user, struct parallel_range range) {
+  struct free_end_search *search = user;
+  bool any = false;
+  for (size_t i = range.begin; i < range.end; i++) {
+    struct ink_path *path = &search->paths->path.item[i];
+    path->is_free = may_end_free(search->graph, path);
+    any = any || path->is_free;
+  }
+  if (any)
+    atomic_store(&search->any_may, true);
+  return true;
+}
+
+static bool test_ends_of_range(void *user, struct parallel_range range) {
+  const struct free_end_search *s = user;
+  for (size_t i = range.begin; i < range.end; i++) {
+    struct ink_path *path = &s->paths->path.item[i];
+    path->is_free =
+        path->is_free &&
+        (is_free_end(s->graph, s->sheet, path->end[0], s->near, s->count) ||
+         is_free_end(s->graph, s->sheet, path->end[1], s->near, s->count));
+  }
+  return true;
+}
+
 bool paths_find_free_ends(struct ink_paths *paths,
                           const struct segment_graph *graph,
                           const struct sheet *sheet, const uint8_t *dropped,
                           double output_step) {
-  double near = output_step + 2 * TOLERANCE_COINCIDENT_UNITS;
-  uint8_t *count = NULL;
-  bool ok = true;
-  for (size_t i = 0; ok && i < paths->path.count; i++) {
-    struct ink_path *path = &paths->path.item[i];
-    if (!may_end_free(graph, path))
-      continue;
-    if (count == NULL)
-      count = count_edges_at_vertices(sheet, dropped);
-    ok = count != NULL;
-    path->is_free =
-        ok && (is_free_end(graph, sheet, path->end[0], near, count) ||
-               is_free_end(graph, sheet, path->end[1], near, count));
-  }
-  mem_free(count);
+  size_t count = paths->path.count;
+  int workers = parallel_workers(count, PARALLEL_ITEMS);
+  struct free_end_search search = {.paths = paths,
+                                   .graph = graph,
+                                   .sheet = sheet,
+                                   .near = output_step +
+                                           2 * TOLERANCE_COINCIDENT_UNITS};
+  if (!parallel_ranges(workers, count, PARALLEL_ITEMS, find_candidates_of_range,
+                       &search))
+    return false;
+  if (!atomic_load(&search.any_may))
+    return true;
+  search.count = count_edges_at_vertices(sheet, dropped);
+  bool ok =
+      search.count != NULL && parallel_ranges(workers, count, PARALLEL_ITEMS,
+                                              test_ends_of_range, &search);
+  mem_free(search.count);
   return ok;
 }

@@ -53,6 +53,24 @@ static int bit_width(uint64_t value) {
   return width;
 }
 
+struct node_keys {
+  const struct unite *unite;
+  struct sort_key *key; /* one a node */
+  int y_bits;
+};
+
+static bool make_keys_of_range(void *user, struct parallel_range range) {
+  const struct node_keys *keys = user;
+  const struct unite *u = keys->unite;
+  for (size_t i = range.begin; i < range.end; i++) {
+    struct ink_point p = u->graph->node.item[i];
+    uint64_t x = (uint64_t)((int64_t)p.x - u->x_low);
+    uint64_t y = (uint64_t)((int64_t)p.y - u->y_low);
+    keys->key[i] = (struct sort_key){x << keys->y_bits | y, (uint32_t)i};
+  }
+  return true;
+}
+
 /* The node numbers by x, then y; NULL when memory ran out. */
 static struct sort_key *sort_nodes(struct unite *u) {
   const struct ink_point *node = u->graph->node.item;
@@ -70,11 +88,9 @@ static struct sort_key *sort_nodes(struct unite *u) {
   struct sort_key *key = mem_alloc(u->count, sizeof *key);
   struct sort_key *scratch = mem_alloc(u->count, sizeof *scratch);
   if (key != NULL && scratch != NULL) {
-    for (size_t i = 0; i < u->count; i++) {
-      uint64_t x = (uint64_t)((int64_t)node[i].x - u->x_low);
-      uint64_t y = (uint64_t)((int64_t)node[i].y - u->y_low);
-      key[i] = (struct sort_key){x << y_bits | y, (uint32_t)i};
-    }
+    struct node_keys keys = {u, key, y_bits};
+    (void)parallel_ranges(parallel_workers(u->count, PARALLEL_ITEMS), u->count,
+                          PARALLEL_ITEMS, make_keys_of_range, &keys);
     sort_keys(key, scratch, u->count);
   } else {
     mem_free(key);

@@ -37,15 +37,53 @@ struct walk_lane {
 
 /* ---- 1 List -------------------------------------------------------------- */
 
+/* How many of the ends of a range are open; then how many before it are. */
+struct open_end_list {
+  struct open_paths *paths;
+  const uint32_t *mate;
+  size_t *open; /* one a range */
+};
+
+static bool count_open_ends(void *user, struct parallel_range range) {
+  const struct open_end_list *list = user;
+  size_t open = 0;
+  for (size_t end = range.begin; end < range.end; end++)
+    open += list->mate[end] == SEGMENT_GRAPH_NONE;
+  list->open[range.begin / PARALLEL_ITEMS] = open;
+  return true;
+}
+
+static bool store_open_ends(void *user, struct parallel_range range) {
+  const struct open_end_list *list = user;
+  struct open_walk *walk =
+      list->paths->walk.item + list->open[range.begin / PARALLEL_ITEMS];
+  for (size_t end = range.begin; end < range.end; end++)
+    if (list->mate[end] == SEGMENT_GRAPH_NONE)
+      *walk++ = (struct open_walk){.open = (uint32_t)end};
+  return true;
+}
+
 static bool list_open_ends(struct open_paths *paths, const uint32_t *mate,
                            size_t count) {
-  for (size_t end = 0; end < 2 * count; end++) {
-    struct open_walk walk = {.open = (uint32_t)end};
-    if (!poll_at(end) ||
-        (mate[end] == SEGMENT_GRAPH_NONE && !ARRAY_PUSH(&paths->walk, walk)))
-      return false;
+  size_t ends = 2 * count, sum = 0,
+         ranges = parallel_range_count(ends, PARALLEL_ITEMS);
+  int workers = parallel_workers(ends, PARALLEL_ITEMS);
+  struct open_end_list list = {paths, mate,
+                               mem_alloc(ranges, sizeof *list.open)};
+  bool ok = list.open != NULL && parallel_ranges(workers, ends, PARALLEL_ITEMS,
+                                                 count_open_ends, &list);
+  for (size_t r = 0; ok && r < ranges; r++) {
+    size_t open = list.open[r];
+    list.open[r] = sum;
+    sum += open;
   }
-  return true;
+  ok = ok && ARRAY_RESERVE(&paths->walk, sum);
+  if (ok)
+    paths->walk.count = sum;
+  ok = ok &&
+       parallel_ranges(workers, ends, PARALLEL_ITEMS, store_open_ends, &list);
+  mem_free(list.open);
+  return ok;
 }
 
 /* ---- 2 Walk -------------------------------------------------------------- */

@@ -85,19 +85,53 @@ static int sort_range(const struct culling_candidate *candidate) {
   return SORT_RANGES - 1 - (candidate->nearest >> SORT_SHIFT);
 }
 
-/* A counting sort from near to far, by ranges of depth. */
-static void sort_candidates(const struct culling_candidate *from, size_t n,
+/* Equal parts of the candidates: each is counted, and distributed, by one
+ * thread. */
+struct candidate_sort {
+  const struct culling_candidate *from;
+  struct culling_candidate *to;
+  size_t part;                    /* candidates of a part */
+  uint32_t (*start)[SORT_RANGES]; /* of each part: where its next candidate of
+                                     each range goes */
+};
+
+static bool count_candidates(void *user, struct parallel_range range) {
+  const struct candidate_sort *sort = user;
+  uint32_t *count = sort->start[range.begin / sort->part];
+  for (size_t i = range.begin; i < range.end; i++)
+    count[sort_range(&sort->from[i])]++;
+  return true;
+}
+
+static bool distribute_candidates(void *user, struct parallel_range range) {
+  const struct candidate_sort *sort = user;
+  uint32_t *next = sort->start[range.begin / sort->part];
+  for (size_t i = range.begin; i < range.end; i++)
+    sort->to[next[sort_range(&sort->from[i])]++] = sort->from[i];
+  return true;
+}
+
+/* A counting sort from near to far, by ranges of depth.  Those of a range keep
+ * their order, for any number of parts.  Returns false when memory ran out or
+ * the caller cancelled. */
+static bool sort_candidates(const struct culling_work *work,
                             struct culling_candidate *to) {
-  uint32_t start[SORT_RANGES] = {0}, sum = 0;
-  for (size_t i = 0; i < n; i++)
-    start[sort_range(&from[i])]++;
-  for (int k = 0; k < SORT_RANGES; k++) {
-    uint32_t count = start[k];
-    start[k] = sum;
-    sum += count;
-  }
-  for (size_t i = 0; i < n; i++)
-    to[start[sort_range(&from[i])]++] = from[i];
+  size_t n = work->sheet->triangle.count, parts = (size_t)work->workers;
+  struct candidate_sort sort = {work->candidate, to, (n + parts - 1) / parts,
+                                mem_calloc(parts, sizeof *sort.start)};
+  uint32_t sum = 0;
+  bool ok = sort.start != NULL && parallel_ranges(work->workers, n, sort.part,
+                                                  count_candidates, &sort);
+  for (int k = 0; ok && k < SORT_RANGES; k++)
+    for (size_t p = 0; p < parts; p++) {
+      uint32_t count = sort.start[p][k];
+      sort.start[p][k] = sum;
+      sum += count;
+    }
+  ok = ok && parallel_ranges(work->workers, n, sort.part, distribute_candidates,
+                             &sort);
+  mem_free(sort.start);
+  return ok;
 }
 
 /* ---- Culling ------------------------------------------------------------- */
@@ -115,9 +149,7 @@ static bool list_candidates(struct culling_work *work) {
                 COVERAGE_MIN *
                     (double)triangle_grid_cell_count(&work->buffer->cells)) {
     sorted = mem_alloc(n, sizeof *sorted);
-    ok = sorted != NULL;
-    if (ok)
-      sort_candidates(work->candidate, n, sorted);
+    ok = sorted != NULL && sort_candidates(work, sorted);
   }
   mem_free(work->candidate);
   work->candidate = sorted;
