@@ -400,7 +400,7 @@
  * line, and no parabola is fitted to them.
  * Unit        share of the product of the diagonal
  * Derivation  half of the digits of doubles, so that what is left has six.
- * Users       ink/curve/curves.c
+ * Users       ink/curve/part_fit.c
  * Ten times   slightly fewer directions follow a parabola. */
 #define TOLERANCE_PARABOLA_SHARE 1e-6
 

@@ -14,6 +14,7 @@ librecto_core_la_SOURCES += \
   %D%/curve/curve_samples.c %D%/curve/curve_samples.h \
   %D%/curve/curves.c %D%/curve/curves.h \
   %D%/curve/fit_targets.c %D%/curve/fit_targets.h \
+  %D%/curve/part_fit.c %D%/curve/part_fit.h \
   %D%/curve/stroke_shape.c %D%/curve/stroke_shape.h \
   %D%/fill/fill.c %D%/fill/fill.h \
   %D%/fill/light.c %D%/fill/light.h \

@@ -128,9 +128,10 @@ static bool is_other(const struct clearance *c,
                      const struct clearance_place *place) {
   if (piece->stroke != place->stroke)
     return true;
-  double apart = fabs(piece->along - (place->start + place->along));
-  apart = fmod(apart, place->whole);
-  return fmin(apart, place->whole - apart) > c->apart;
+  double ahead =
+      remainder(piece->along - (place->start + place->along), place->whole);
+  double along = place->along + ahead;
+  return fabs(ahead) > c->apart || along < place->low || along > place->high;
 }
 
 /* The parameter, 0 to 1, of the point of the segment a b that is nearest to

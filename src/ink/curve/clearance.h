@@ -6,7 +6,7 @@
 
 /* All strokes of a drawing, cut into short pieces, in a uniform grid.  Other
  * ink than a point's own is every other stroke, and the parts of its own that
- * are farther along it than `apart`. */
+ * are farther along it than `apart`, or beyond a corner. */
 struct clearance {
   double reach, apart;    /* mm */
   double cell, low[2];    /* mm: the side of the grid's cells, and its corner */
@@ -19,9 +19,11 @@ struct clearance {
 struct clearance_place {
   struct drawing_point at;
   uint32_t stroke;
-  double along; /* mm along the stroke from `start` */
-  double start; /* mm from the stroke's first point */
-  double whole; /* the length of a closed stroke; INFINITY of an open one */
+  double along;     /* mm along the stroke from `start` */
+  double start;     /* mm from the stroke's first point */
+  double whole;     /* the length of a closed stroke; INFINITY of an open one */
+  double low, high; /* mm along the stroke from `start`: the corners before and
+                       after it; infinite: there is none */
 };
 
 /* reach  mm, > 0: beyond it distances do not matter

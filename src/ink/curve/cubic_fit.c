@@ -153,7 +153,7 @@ static bool keeps_within(const struct fit_sample *sample, size_t samples,
       double allowed =
           sample[i].from + k / 3.0 * (sample[i].to - sample[i].from);
       if (distance_to_line(part[k], sample[i].at, sample[i + 1].at) >
-          allowed + TOLERANCE_FIT_ROUNDING_MM)
+          fmin(allowed, tolerance) + TOLERANCE_FIT_ROUNDING_MM)
         return false;
     }
   }
@@ -247,4 +247,62 @@ bool cubic_fit(const struct cubic_fit *fit, double *t, point curve[4]) {
     improve_parameters(sample, samples, curve, t);
   }
   return false;
+}
+
+/* ---- Lines --------------------------------------------------------------- */
+
+/* Sets the parameters of the samples to those of the points of a line that are
+ * nearest to them. */
+static void set_line_parameters(const struct cubic_fit *fit,
+                                const point line[4], double *t) {
+  size_t last = fit->samples - 1;
+  point run = point_difference(line[3], line[0]);
+  for (size_t i = 1; i < last; i++) {
+    point off = point_difference(fit->sample[i].at, line[0]);
+    t[i] = geom_nearest_parameter(run.x, run.y, off.x, off.y);
+  }
+  t[0] = 0;
+  t[last] = 1;
+}
+
+/* Puts a line to that end in the place of the one so far, if it keeps within
+ * the distances. */
+static bool accept_line(const struct cubic_fit *fit, double *t, point end,
+                        point line[4]) {
+  point run = point_difference(end, line[0]);
+  const point trial[4] = {line[0],
+                          point_sum(line[0], point_scaled(run, 1 / 3.0)),
+                          point_sum(line[0], point_scaled(run, 2 / 3.0)), end};
+  set_line_parameters(fit, trial, t);
+  if (!keeps_within(fit->sample, fit->samples, fit->tolerance, t, trial))
+    return false;
+  line[1] = line[0];
+  line[2] = line[3] = end;
+  return true;
+}
+
+static bool round_line(const struct cubic_fit *fit, double *t, double step,
+                       point line[4]) {
+  point place = fit->sample[fit->samples - 1].at;
+  point end = round_from(line[0], line[3], step);
+  if (drawing_distance(end, place) > fit->end_limit)
+    end = round_back(line[0], line[3], place, step);
+  return drawing_distance(end, place) <= fit->end_limit &&
+         is_turned_little(point_difference(line[3], line[0]),
+                          point_difference(end, line[0])) &&
+         accept_line(fit, t, end, line);
+}
+
+bool line_fit(const struct cubic_fit *fit, double *t, point line[4]) {
+  const struct fit_sample *last = &fit->sample[fit->samples - 1];
+  line[0] = fit->sample[0].target;
+  if (!accept_line(fit, t, last->target, line) &&
+      !accept_line(fit, t, last->at, line))
+    return false;
+  double most = pow(10, floor(log10(fit->tolerance)));
+  double least = most * pow(10, -DECIMALS_TRIED);
+  for (double step = most; fit->end_limit > 0 && step > least; step /= 10)
+    if (round_line(fit, t, step, line))
+      break;
+  return true;
 }

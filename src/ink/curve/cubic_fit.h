@@ -34,4 +34,8 @@ struct cubic_fit {
 bool cubic_fit(const struct cubic_fit *fit, double *parameter,
                struct drawing_point curve[4]);
 
+/* The same for a line, which needs no directions. */
+bool line_fit(const struct cubic_fit *fit, double *parameter,
+              struct drawing_point line[4]);
+
 #endif

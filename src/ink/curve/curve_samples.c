@@ -1,4 +1,4 @@
-/* curve_samples.c - samples a smooth part of a stroke for a curve.
+/* curve_samples.c - samples a stroke for its curve.
  *
  * Between two samples the allowed distance is a share of the part's distance
  * from other ink; or, from a sample where it meets other ink, grows by the
@@ -23,6 +23,7 @@ struct sampling {
 
 static bool add_sample(struct sampling *c, uint8_t flags) {
   struct fit_sample sample = {.at = c->to->place.at,
+                              .target = c->to->place.at,
                               .along = c->to->place.along};
   return ARRAY_PUSH(&c->to->sample, sample) && ARRAY_PUSH(&c->to->flags, flags);
 }
@@ -103,28 +104,101 @@ static void allow_distance(const struct sampling *c, size_t i) {
   sample->to = fmin(c->tolerance, CURVE_CLEARANCE_SHARE * to);
 }
 
+/* Sets between which corners the side after a vertex is, vertex by vertex; of a
+ * closed stroke the one before the first vertex, or after the last one, is a
+ * whole turn away.  Visits each vertex a few times in all. */
+static void set_place_corners(struct clearance_place *place,
+                              const struct stroke_shape *shape, size_t vertex) {
+  const struct stroke_vertex *v = shape->vertex.item;
+  size_t last = shape->vertex.count - 1, after = vertex + 1;
+  size_t before = vertex > 0 ? vertex : last;
+  double turn = shape->closed ? shape->length : INFINITY;
+  if (vertex > 0 && !v[vertex].corner)
+    return;
+  while (before > 0 && !v[before].corner)
+    before--;
+  while (after < last && !v[after].corner)
+    after++;
+  place->low = v[before].corner ? v[before].along : -INFINITY;
+  if (before > vertex)
+    place->low -= turn;
+  place->high = v[after].corner ? v[after].along : INFINITY;
+  for (size_t i = 0; !v[after].corner && i < vertex; i++)
+    if (v[i].corner) {
+      place->high = v[i].along + turn;
+      break;
+    }
+}
+
+/* Sets how far from each sample what stands for it may be: of what is allowed
+ * on either side, and up to the next sample at which a curve may end, half. */
+static bool set_limits(struct curve_samples *samples) {
+  const struct fit_sample *sample = samples->sample.item;
+  size_t last = samples->sample.count - 1;
+  double ahead = 0;
+  samples->limit.count = 0;
+  if (!ARRAY_RESERVE(&samples->limit, last + 1))
+    return false;
+  samples->limit.count = last + 1;
+  samples->limit.item[last] = 0;
+  for (size_t i = last; i-- > 0;) {
+    double least = fmin(sample[i].from, sample[i].to);
+    ahead = samples->flags.item[i + 1] != 0 ? least : fmin(ahead, least);
+    samples->limit.item[i] =
+        i == 0 ? 0 : FIT_TARGET_SHARE * fmin(ahead, sample[i - 1].to);
+  }
+  return true;
+}
+
+/* Samples the sides of the shape, between its vertices. */
+static bool sample_sides(struct sampling *c, const struct stroke_shape *shape) {
+  size_t vertices = shape->vertex.count;
+  bool ok =
+      ARRAY_RESERVE(&c->to->of_vertex, vertices) && add_sample(c, CURVE_VERTEX);
+  for (size_t i = 0; ok && i < vertices; i++) {
+    c->to->of_vertex.item[c->to->of_vertex.count++] = c->to->sample.count - 1;
+    if (i + 1 < vertices) {
+      set_place_corners(&c->to->place, shape, i);
+      ok = poll_at(i * SIDE_ITEMS) && sample_side(c, &shape->vertex.item[i]);
+    }
+  }
+  return ok;
+}
+
+static bool allow_distances(const struct sampling *c,
+                            const struct stroke_shape *shape) {
+  const size_t *of_vertex = c->to->of_vertex.item;
+  bool ok = true;
+  for (size_t i = 0; ok && i + 1 < shape->vertex.count; i++) {
+    set_place_corners(&c->to->place, shape, i);
+    for (size_t k = of_vertex[i]; ok && k < of_vertex[i + 1]; k++)
+      if ((ok = poll_at(k * SIDE_ITEMS)))
+        allow_distance(c, k);
+  }
+  return ok;
+}
+
 bool curve_samples_take(struct curve_samples *samples,
                         const struct clearance *clearance,
-                        const struct stroke_shape *shape, size_t from,
-                        size_t to, double tolerance) {
+                        const struct stroke_shape *shape, double tolerance) {
   const struct stroke_vertex *v = shape->vertex.item;
   struct sampling c = {samples, clearance, tolerance, tolerance * TOUCH_SHARE};
-  samples->sample.count = samples->flags.count = 0;
-  samples->place.at = v[from].at;
-  samples->place.along = v[from].along;
-  bool ok = add_sample(&c, CURVE_VERTEX);
-  for (size_t i = from; ok && i < to; i++)
-    ok = poll_at(i * SIDE_ITEMS) && sample_side(&c, &v[i]);
-  for (size_t i = 0; ok && i + 1 < samples->sample.count; i++)
-    if ((ok = poll_at(i * SIDE_ITEMS)))
-      allow_distance(&c, i);
-  return ok &&
-         fit_targets_set(&samples->targets, samples->sample.item,
-                         samples->sample.count, samples->flags.item, tolerance);
+  samples->sample.count = samples->flags.count = samples->of_vertex.count = 0;
+  samples->place.at = v[0].at;
+  samples->place.along = v[0].along;
+  if (!sample_sides(&c, shape) || !allow_distances(&c, shape) ||
+      !set_limits(samples))
+    return false;
+  for (size_t i = 0; i < shape->vertex.count; i++)
+    if (v[i].corner)
+      samples->limit.item[samples->of_vertex.item[i]] = 0;
+  return true;
 }
 
 void curve_samples_fini(struct curve_samples *samples) {
   ARRAY_FREE(&samples->sample);
   ARRAY_FREE(&samples->flags);
+  ARRAY_FREE(&samples->limit);
+  ARRAY_FREE(&samples->of_vertex);
   fit_targets_fini(&samples->targets);
 }

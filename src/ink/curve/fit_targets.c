@@ -21,10 +21,6 @@
 #define WINDOW_TOLERANCES 100
 #define WINDOW_RATIO 1.25
 
-/* The share of the allowed distance by which a target may be off; the rest is
- * that of the curve from the targets. */
-#define TARGET_SHARE 0.5
-
 /* A sample counts where nearly all of the tolerance is allowed, and so many of
  * those may be beyond their limits. */
 #define COUNTED_SHARE 0.8
@@ -38,6 +34,7 @@ struct smoothing {
   struct fit_targets *memory;
   struct fit_sample *sample;
   size_t samples;
+  const double *limit;      /* mm, one a sample */
   double length, tolerance; /* mm */
 };
 
@@ -104,19 +101,15 @@ static void average(const struct smoothing *s, const struct drawing_point *line,
 
 /* ---- Limits -------------------------------------------------------------- */
 
-/* Sets how far each target may be off.  Returns how many samples count. */
-static size_t set_limits(const struct smoothing *s, const uint8_t *knot) {
-  double *limit = s->memory->limit.item;
-  size_t last = s->samples - 1, counted = 0;
-  double ahead = 0;
-  limit[last] = 0;
-  for (size_t i = last; i-- > 0;) {
-    const struct fit_sample *sample = &s->sample[i];
-    double least = fmin(sample->from, sample->to);
-    ahead = knot[i + 1] != 0 ? least : fmin(ahead, least);
-    limit[i] = i == 0 ? 0 : TARGET_SHARE * fmin(ahead, sample[-1].to);
-    counted += limit[i] >= COUNTED_SHARE * TARGET_SHARE * s->tolerance;
-  }
+/* Whether a sample counts: nearly all of the tolerance is allowed there. */
+static bool is_counted(const struct smoothing *s, size_t i) {
+  return s->limit[i] >= COUNTED_SHARE * FIT_TARGET_SHARE * s->tolerance;
+}
+
+static size_t count_samples(const struct smoothing *s) {
+  size_t counted = 0;
+  for (size_t i = 1; i + 1 < s->samples; i++)
+    counted += is_counted(s, i);
   return counted;
 }
 
@@ -126,16 +119,15 @@ static size_t smooth_by(const struct smoothing *s, double window) {
   const struct drawing_point *line = s->memory->line.item;
   struct drawing_point *mean = s->memory->mean.item;
   struct drawing_point *twice = s->memory->twice.item;
-  const double *limit = s->memory->limit.item;
+  const double *limit = s->limit;
   size_t beyond = 0;
   average(s, line, window, mean);
   average(s, mean, window, twice);
-  for (size_t i = 0; i < s->samples; i++) {
+  for (size_t i = 1; i + 1 < s->samples; i++) {
     const struct drawing_point smooth = {2 * mean[i].x - twice[i].x,
                                          2 * mean[i].y - twice[i].y};
     double off = drawing_distance(line[i], smooth);
-    beyond += off > limit[i] &&
-              limit[i] >= COUNTED_SHARE * TARGET_SHARE * s->tolerance;
+    beyond += off > limit[i] && is_counted(s, i);
     double share = off > limit[i] ? limit[i] / off : 1;
     s->sample[i].target = drawing_point_between(line[i], smooth, share);
   }
@@ -146,29 +138,27 @@ static size_t smooth_by(const struct smoothing *s, double window) {
 
 static bool reserve(struct fit_targets *t, size_t samples) {
   t->line.count = t->integral.count = t->mean.count = 0;
-  t->twice.count = t->limit.count = 0;
+  t->twice.count = 0;
   return ARRAY_RESERVE(&t->line, samples) &&
          ARRAY_RESERVE(&t->integral, samples) &&
-         ARRAY_RESERVE(&t->mean, samples) &&
-         ARRAY_RESERVE(&t->twice, samples) && ARRAY_RESERVE(&t->limit, samples);
+         ARRAY_RESERVE(&t->mean, samples) && ARRAY_RESERVE(&t->twice, samples);
 }
 
 bool fit_targets_set(struct fit_targets *targets, struct fit_sample *sample,
-                     size_t samples, const uint8_t *knot, double tolerance) {
-  for (size_t i = 0; i < samples; i++)
-    sample[i].target = sample[i].at;
-  targets->limit.count = 0;
+                     size_t samples, const double *limit, double tolerance) {
   if (samples < SAMPLES_MIN)
     return true;
   if (!reserve(targets, samples))
     return false;
-  const struct smoothing s = {targets, sample, samples,
+  const struct smoothing s = {targets,
+                              sample,
+                              samples,
+                              limit,
                               sample[samples - 1].along - sample[0].along,
                               tolerance};
   for (size_t i = 0; i < samples; i++)
     targets->line.item[i] = sample[i].at;
-  size_t counted = set_limits(&s, knot);
-  targets->limit.count = samples;
+  size_t counted = count_samples(&s);
   double window = fmin(WINDOW_TOLERANCES * tolerance, s.length / 2);
   for (; counted > 0 && window > tolerance; window /= WINDOW_RATIO) {
     if (!poll_now())
@@ -176,13 +166,9 @@ bool fit_targets_set(struct fit_targets *targets, struct fit_sample *sample,
     if ((double)smooth_by(&s, window) <= BEYOND_SHARE * (double)counted)
       return true;
   }
-  for (size_t i = 0; i < samples; i++)
+  for (size_t i = 1; i + 1 < samples; i++)
     sample[i].target = sample[i].at;
   return true;
-}
-
-double fit_targets_limit(const struct fit_targets *targets, size_t i) {
-  return i < targets->limit.count ? targets->limit.item[i] : 0;
 }
 
 void fit_targets_fini(struct fit_targets *targets) {
@@ -190,5 +176,4 @@ void fit_targets_fini(struct fit_targets *targets) {
   ARRAY_FREE(&targets->integral);
   ARRAY_FREE(&targets->mean);
   ARRAY_FREE(&targets->twice);
-  ARRAY_FREE(&targets->limit);
 }
