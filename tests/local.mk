@@ -174,6 +174,9 @@ unit_tests += %D%/test_stream
 %C%_test_stream_SOURCES = %D%/test_stream.c \
   %D%/temporary.c %D%/temporary.h
 
+unit_tests += %D%/test_slits
+%C%_test_slits_SOURCES = %D%/test_slits.c
+%C%_test_slits_LDADD = %D%/scenes/libscenes.la $(LDADD)
 unit_tests += %D%/test_weld
 %C%_test_weld_SOURCES = %D%/test_weld.c
 %C%_test_weld_LDADD = %D%/scenes/libscenes.la $(LDADD)

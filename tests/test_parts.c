@@ -526,6 +526,29 @@ static void corners_that_may_be_welded_are_refused(void **state) {
     }
 }
 
+/* A side, and two others along it: parts cannot close the slit between. */
+static void slits_are_refused(void **state) {
+  const double large[] = {0, 0, 0, 4, 0, 0, 4, 4, 0, 0, 4, 0};
+  const double left[] = {0, 0, 0, 2, 0, 0, 1, -2, 0};
+  const double right[] = {2, 0, 0, 4, 0, 0, 3, -2, 0};
+  for (int k = 0; k < 2; k++) {
+    recto_scene *scene;
+    recto_options options;
+    recto_error error = {0};
+    assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+    recto_options_init(&options);
+    options.mesh.weld = k == 0 ? -1 : 0;
+    build_polygon(&scene->scene, large, 4);
+    build_polygon(&scene->scene, left, 3);
+    build_polygon(&scene->scene, right, 3);
+    recto_status status = write_parts(state, scene, &options, 2, &error);
+    recto_scene_destroy(scene);
+    assert_int_equal(status, k == 0 ? RECTO_ERROR_UNSUPPORTED : RECTO_OK);
+    if (k == 0)
+      assert_non_null(strstr(error.text, "whose slits parts cannot close"));
+  }
+}
+
 static void a_limit_of_hiding_faces_may_be_left_out(void **state) {
   recto_options options;
   recto_scene *scene = make_parts(state, &options);
@@ -617,6 +640,7 @@ int main(void) {
       IN_FOLDER(a_whole_part_of_the_drawing_is_there),
       IN_FOLDER(what_parts_do_not_have_is_refused),
       IN_FOLDER(corners_that_may_be_welded_are_refused),
+      IN_FOLDER(slits_are_refused),
       IN_FOLDER(a_limit_of_hiding_faces_may_be_left_out),
       IN_FOLDER(what_runs_out_of_memory_says_so)};
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -14,30 +14,61 @@
 #include "parts/part_common.h"
 #include "parts/part_file.h"
 #include "parts/side_marks.h"
+#include "scene/slits.h"
+#include "scene/thin_faces.h"
 #include "view/layout.h"
 #include "visibility/quantitative_invisibility.h"
 #include "visibility/solver.h"
 
-/* Finds the edges, and refuses what parts cannot weld. */
+/* Whether an undivided drawing would leave out faces of the part's scene, or
+ * close slits of it.  Returns false when memory ran out. */
+static bool find_slits(const struct part_solve *work, bool *has_slits) {
+  const struct scene *scene = &work->scene.scene;
+  struct precision unstated = work->part.common.camera.unstated;
+  uint64_t *thin;
+  size_t faces;
+  slit_points points = {.item = NULL};
+  bool ok = thin_faces_find(scene, &work->topology, unstated, &thin, &faces) &&
+            slits_find(scene, &work->topology, unstated, &points);
+  *has_slits = faces > 0 || points.count > 0;
+  mem_free(thin);
+  ARRAY_FREE(&points);
+  return ok;
+}
+
+/* Refuses what parts cannot weld. */
+static recto_status check_welding(const struct part_solve *work,
+                                  recto_error *error) {
+  bool may_weld, has_slits = false;
+  if (!part_scene_may_weld(&work->scene, &work->topology, work->weld,
+                           &may_weld) ||
+      (work->weld > 0 && !find_slits(work, &has_slits)))
+    return error_memory(error);
+  if (may_weld)
+    return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
+                     "corners of borders lie within %.3g of each other, which "
+                     "parts cannot weld: make the parts, or their plan, with "
+                     "--weld 0, which leaves them apart",
+                     work->weld);
+  if (has_slits)
+    return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
+                     "there are faces without width, or corners on sides of "
+                     "other faces, whose slits parts cannot close: make the "
+                     "parts, or their plan, with --weld 0, which leaves them "
+                     "open");
+  return RECTO_OK;
+}
+
+/* Finds the edges. */
 static recto_status find_part_edges(struct part_solve *work,
                                     recto_error *error) {
-  bool may_weld = false;
   recto_status status =
       topology_init(&work->topology, &work->scene.scene, error);
   if (status == RECTO_OK &&
       !side_marks_apply(work->scene.crease_mark, &work->topology,
                         &work->scene.scene))
     status = error_memory(error);
-  if (status == RECTO_OK && !part_scene_may_weld(&work->scene, &work->topology,
-                                                 work->weld, &may_weld))
-    status = error_memory(error);
-  if (status == RECTO_OK && may_weld)
-    return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
-                     "corners of borders lie within %.3g of each other, which "
-                     "parts cannot weld: make the parts, or their plan, with "
-                     "--weld 0, which leaves them apart",
-                     work->weld);
-  return status;
+  return status == RECTO_OK ? check_welding(work, error) : status;
 }
 
 static recto_status solve_part_scene(struct part_solve *work,

@@ -19,6 +19,7 @@
 #include "base/hash.h"
 #include "ink/tone.h"
 #include "parts/part_common.h"
+#include "scene/weld_candidates.h"
 #include "scene/weld_near.h"
 #include "view/camera_aim.h"
 #include "view/project.h"
@@ -121,14 +122,17 @@ static recto_status aim_part(struct part_survey *survey, const uint8_t *used,
   const struct weld_request weld = {mesh->weld,
                                     precision_of_bits(mesh->coordinate_bits)};
   survey->weld = weld_near_length_most(scene, &weld);
+  if (survey->weld == 0 && mesh->weld != 0)
+    survey->weld = WELD_LENGTH_OF_SLITS;
   return RECTO_OK;
 }
 
 int64_t part_survey_margin(const struct part_survey *survey) {
   const struct camera *camera = &survey->camera;
   const double most = 1 << 30;
-  double units = (4 * camera->contact_most + survey->weld) * camera->s *
-                 SHEET_UNITS_PER_MM;
+  double weld = survey->weld < WELD_LENGTH_LEAST ? 0 : survey->weld;
+  double units =
+      (4 * camera->contact_most + weld) * camera->s * SHEET_UNITS_PER_MM;
   if (camera->perspective)
     units /= camera->d_min;
   return 64 + (int64_t)(units < most ? ceil(units) : most);

@@ -111,8 +111,9 @@ static double slope(const struct judge_facings *facings,
 double judge_fan_slope(const struct judge_facings *facings,
                        const struct judge_side_triangle *side_triangle,
                        struct judge_point3 at) {
-  bool sure = !facings->facing[side_triangle->face].thin &&
-              is_thick(facings, &side_triangle->triangle, 0);
+  const struct judge_facing *facing = &facings->facing[side_triangle->face];
+  bool sure = !facing->thin &&
+              is_thick(facings, &side_triangle->triangle, facing->contact);
   return sure ? slope(facings, side_triangle->triangle.normal, at) : 0;
 }
 
@@ -179,6 +180,7 @@ static bool set_facings(struct judge_facings *facings, const double *contact) {
        t++) {
     const struct judge_triangle *triangle = &facings->all->triangle.item[t];
     struct judge_facing *facing = &facings->facing[triangle->face];
+    facing->contact = fmax(facing->contact, triangle->planar);
     if (facing->clipped && facing->thin &&
         is_thick(facings, triangle, contact[triangle->face]))
       facing->thin = false;

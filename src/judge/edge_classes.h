@@ -20,8 +20,10 @@ struct judge_side {
 /* How a face lies in space and towards the viewer. */
 struct judge_facing {
   struct judge_point3 normal; /* unit */
-  bool has_no_area;           /* in space */
-  bool clipped;               /* a part of it is not drawn */
+  double contact;   /* the largest contact tolerance of its triangles, whatever
+                     their normals: judge_triangle.planar */
+  bool has_no_area; /* in space */
+  bool clipped;     /* a part of it is not drawn */
   bool thin; /* what is drawn of it is no thicker than contact: rounding may
                 decide which side of it is seen */
   bool open; /* it is not planar, and its triangulation is unknown */
@@ -44,8 +46,8 @@ USE_RESULT bool judge_facings_init(struct judge_facings *facings,
 void judge_facings_fini(struct judge_facings *facings);
 
 /* The sine of the angle between the view through a point and the plane of a
- * triangle of a face that is not planar; 0 where rounding may turn the
- * triangle's image over. */
+ * triangle of a face that is not planar; 0 where rounding, of its coordinates
+ * too, may turn the triangle's image over. */
 double judge_fan_slope(const struct judge_facings *facings,
                        const struct judge_side_triangle *side_triangle,
                        struct judge_point3 at);

@@ -8,6 +8,7 @@
 #include "base/hash.h"
 #include "base/poll.h"
 #include "parts/part_scene.h"
+#include "scene/weld_candidates.h"
 
 /* The width of a cell, in lengths. */
 enum { CELL_LENGTHS = 4 };
@@ -142,7 +143,7 @@ bool part_scene_may_weld(const struct part_scene *part,
                                  .cell = CELL_LENGTHS * length};
   struct weld_list close = {.item = NULL};
   *may_weld = false;
-  if (!(length > 0))
+  if (length < WELD_LENGTH_LEAST)
     return true;
   bool ok = list_border_points(&points, part, topology) &&
             list_close_points(&points, &close);

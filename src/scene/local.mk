@@ -12,6 +12,7 @@ librecto_core_la_SOURCES += \
   %D%/edge_range.c %D%/edge_range.h \
   %D%/exact.c %D%/exact.h \
   %D%/face.c \
+  %D%/face_rewrite.c %D%/face_rewrite.h \
   %D%/import_format.c %D%/import_format.h \
   %D%/isolated_members.c %D%/isolated_members.h \
   %D%/limit.h \
@@ -43,7 +44,9 @@ librecto_core_la_SOURCES += \
   %D%/self_intersection.c %D%/self_intersection.h \
   %D%/side_iterator.h \
   %D%/slot_table.c %D%/slot_table.h \
+  %D%/slits.c %D%/slits.h \
   %D%/smoothing.c %D%/smoothing.h \
+  %D%/thin_faces.c %D%/thin_faces.h \
   %D%/topology.c %D%/topology.h \
   %D%/topology_edge.h \
   %D%/triangulate.c %D%/triangulate.h \

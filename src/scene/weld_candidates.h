@@ -10,6 +10,9 @@
 #define WELD_LENGTH_MAX 0x1p200
 #define WELD_LENGTH_LEAST 0x1p-900
 
+/* Joins nothing, but closes slits, which a length of 0 does not. */
+#define WELD_LENGTH_OF_SLITS (WELD_LENGTH_LEAST / 2)
+
 typedef ARRAY(struct cluster_member) cluster_members;
 
 struct weld_candidates {

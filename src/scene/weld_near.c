@@ -11,6 +11,7 @@
  *   join        into clusters (cluster.h); one member's position represents
  *               all, none is made up.
  *   rewrite     faces and polylines use the points that represent theirs.
+ *   slits       thin faces are left out, and slits are closed (face_rewrite.h).
  *
  * What rounding explains.  A file's coordinates have a common scale S, the
  * power of two below which nine in ten of the candidates' coordinates lie: one
@@ -34,7 +35,10 @@
 #include "base/tolerance.h"
 #include "geom/vector.h"
 #include "scene/corner_normals.h"
+#include "scene/face_rewrite.h"
 #include "scene/isolated_members.h"
+#include "scene/slits.h"
+#include "scene/thin_faces.h"
 #include "scene/weld_candidates.h"
 
 /* ---- Radii --------------------------------------------------------------- */
@@ -192,20 +196,6 @@ static bool map_corners(const uint32_t *corner, size_t count,
   return changed;
 }
 
-/* Notes what the file says of a face's hard and smooth edges, and then of the
- * normals of its corners from `first` on, if it was added. */
-static bool map_smoothing(struct scene *to, const struct scene *from,
-                          uint32_t face) {
-  return from->smoothing.range.count == 0 ||
-         smoothing_set(&to->smoothing, to->face_count,
-                       smoothing_of_face(&from->smoothing, face));
-}
-static bool map_normals(struct scene *to, size_t first,
-                        const struct scene *from, uint32_t face) {
-  return from->point_normal.count == 0 ||
-         corner_normals_copy(to, first, from, face);
-}
-
 /* Adds a face of `from` with its corners mapped.  One that keeps them is
  * without fault; others are examined as if they were new.
  * corner  room for its corners */
@@ -217,7 +207,7 @@ static recto_status map_face(struct scene *to, const struct scene *from,
   size_t first = to->corner.count;
   recto_status status = RECTO_OK;
   to->current_group = scene_face_group(from, face);
-  if (!map_smoothing(to, from, face))
+  if (!face_rewrite_smoothing(to, from, face))
     return error_memory(error);
   if (map_corners(own, count, map, corner)) {
     status = scene_add_face(to, corner, count, 0, NULL, error);
@@ -227,7 +217,7 @@ static recto_status map_face(struct scene *to, const struct scene *from,
     if (!scene_end_face(to, to->current_group))
       status = error_memory(error);
   }
-  return status == RECTO_OK && !map_normals(to, first, from, face)
+  return status == RECTO_OK && !face_rewrite_normals(to, first, from, face)
              ? error_memory(error)
              : status;
 }
@@ -272,13 +262,8 @@ static recto_status map_wires(struct scene *to, const struct scene *from,
 static void share_arrays(struct welded *welded, const struct scene *scene) {
   struct scene *own = &welded->scene;
   *own = *scene;
-  own->face_count = 0;
-  memset(&own->corner, 0, sizeof own->corner);
-  memset(&own->face_start, 0, sizeof own->face_start);
-  memset(&own->face_group, 0, sizeof own->face_group);
-  memset(&own->face_skipped, 0, sizeof own->face_skipped);
-  memset(&own->corner_normal, 0, sizeof own->corner_normal);
-  memset(&own->smoothing, 0, sizeof own->smoothing);
+  face_rewrite_begin(own);
+  welded->owns_faces = welded->owns_wires = true;
   memset(&own->wire_corner, 0, sizeof own->wire_corner);
   memset(&own->wire_start, 0, sizeof own->wire_start);
   memset(&own->wire_group, 0, sizeof own->wire_group);
@@ -348,16 +333,17 @@ static bool join_close_points(struct welded *welded,
   return ok;
 }
 
-recto_status weld_near(struct welded *welded, struct topology *topology,
-                       const struct scene *scene,
-                       const struct weld_request *request, recto_error *error) {
+/* Builds the edges and welds. */
+static recto_status weld_points(struct welded *welded,
+                                struct topology *topology,
+                                const struct scene *scene,
+                                const struct weld_request *request,
+                                recto_error *error) {
   struct weld_candidates candidates = {.number = NULL};
-  *welded = (struct welded){.scene = *scene};
   recto_status status = topology_init(topology, scene, error);
   if (status != RECTO_OK)
     return status;
-  welded->borders = topology->borders;
-  if (request->length == 0 || welded->borders == 0)
+  if (request->length == 0 || topology->borders == 0)
     return status;
   if (!join_close_points(welded, &candidates, topology, request)) {
     welded->joined = 0;
@@ -368,10 +354,72 @@ recto_status weld_near(struct welded *welded, struct topology *topology,
     status = rewrite(welded, scene, map, error);
     if (status == RECTO_OK)
       status = topology_init(topology, &welded->scene, error);
-    if (status == RECTO_OK)
-      welded->borders = topology->borders;
   }
   weld_candidates_fini(&candidates);
+  return status;
+}
+
+/* ---- Slits --------------------------------------------------------------- */
+
+/* Replaces the faces by those without the thin ones, which have the points that
+ * lie on their sides, and builds the edges anew. */
+static recto_status replace_faces(struct welded *welded,
+                                  struct topology *topology,
+                                  const uint64_t *thin,
+                                  const slit_points *points,
+                                  recto_error *error) {
+  struct scene next = welded->scene;
+  face_rewrite_begin(&next);
+  topology_fini(topology);
+  recto_status status =
+      face_rewrite(&next, &welded->scene, thin, points, error);
+  if (welded->owns_faces)
+    face_rewrite_fini(&welded->scene);
+  welded->scene = next;
+  welded->owns_faces = true;
+  return status == RECTO_OK ? topology_init(topology, &welded->scene, error)
+                            : status;
+}
+
+static recto_status drop_thin_faces(struct welded *welded,
+                                    struct topology *topology,
+                                    const struct weld_request *request,
+                                    recto_error *error) {
+  uint64_t *thin;
+  recto_status status = RECTO_OK;
+  if (!thin_faces_find(&welded->scene, topology, request->unstated, &thin,
+                       &welded->thin))
+    status = error_memory(error);
+  else if (welded->thin > 0)
+    status = replace_faces(welded, topology, thin, NULL, error);
+  mem_free(thin);
+  return status;
+}
+
+static recto_status close_slits(struct welded *welded,
+                                struct topology *topology,
+                                const struct weld_request *request,
+                                recto_error *error) {
+  slit_points points = {.item = NULL};
+  recto_status status = RECTO_OK;
+  if (!slits_find(&welded->scene, topology, request->unstated, &points))
+    status = error_memory(error);
+  else if (points.count > 0)
+    status = replace_faces(welded, topology, NULL, &points, error);
+  ARRAY_FREE(&points);
+  return status;
+}
+
+recto_status weld_near(struct welded *welded, struct topology *topology,
+                       const struct scene *scene,
+                       const struct weld_request *request, recto_error *error) {
+  *welded = (struct welded){.scene = *scene};
+  recto_status status = weld_points(welded, topology, scene, request, error);
+  if (status == RECTO_OK && request->length != 0)
+    status = drop_thin_faces(welded, topology, request, error);
+  if (status == RECTO_OK && request->length != 0)
+    status = close_slits(welded, topology, request, error);
+  welded->borders = topology->borders;
   if (status != RECTO_OK) {
     topology_fini(topology);
     welded_fini(welded);
@@ -381,13 +429,9 @@ recto_status weld_near(struct welded *welded, struct topology *topology,
 
 void welded_fini(struct welded *welded) {
   struct scene *own = &welded->scene;
-  if (welded->joined > 0) {
-    ARRAY_FREE(&own->corner);
-    ARRAY_FREE(&own->face_start);
-    ARRAY_FREE(&own->face_group);
-    ARRAY_FREE(&own->face_skipped);
-    ARRAY_FREE(&own->corner_normal);
-    ARRAY_FREE(&own->smoothing.range);
+  if (welded->owns_faces)
+    face_rewrite_fini(own);
+  if (welded->owns_wires) {
     ARRAY_FREE(&own->wire_corner);
     ARRAY_FREE(&own->wire_start);
     ARRAY_FREE(&own->wire_group);

@@ -11,11 +11,13 @@ struct weld_request {
 };
 
 struct welded {
-  struct scene scene; /* borrowed, not owned, except the faces and polylines
-                         where points were welded */
+  struct scene scene; /* borrowed, not owned, except */
+  bool owns_faces;    /* the faces, where points were welded or slits closed */
+  bool owns_wires;    /* the polylines, where points were welded */
   double length;      /* the largest length used, scene units */
   size_t joined;      /* points welded to another */
   size_t lost;        /* faces that have no area any more */
+  size_t thin;        /* faces left out that rounding explains */
   size_t borders;     /* edges of one face that are left */
 };
 
@@ -25,6 +27,11 @@ struct welded {
  * that lose their area or length are removed, and later ones renumbered.
  * Only points of edges with a single face are welded, so that closed shells
  * that touch stay separate.
+ *
+ * Then closes slits (slits.h), among them those that faces leave which readers
+ * skip as they have no area, and those of thin faces (thin_faces.h), which are
+ * left out first: a face there gets the points that lie on its side.  Not with
+ * a length of 0.
  * Errors  RECTO_ERROR_MEMORY: both are then empty
  * Owner   `scene` is to live as long.
  * Cost    linear in the corners. */

@@ -5,7 +5,9 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "geom/vector.h"
 #include "view/coordinate_error.h"
+#include "view/layout_clipping.h"
 
 /* How far the contact tolerance moves a point of this depth on the page, in
  * grid units, with one unit for rounding. */
@@ -72,6 +74,26 @@ static bool is_sign_unsure(const struct sheet *sheet, size_t triangle) {
   return 2 * area <= perimeter + 4; /* sheet triangles are not clockwise */
 }
 
+/* Whether a triangle is as thin in space as the contact tolerance, so that
+ * rounding of its face's coordinates may have turned it: where corners of a
+ * polygon are on one line but for that. */
+static bool is_thin_in_space(const struct layout *layout,
+                             const struct layout_triangle *triangle) {
+  const struct scene_point *point = layout->scene->point.item;
+  double side[3][3], longest = 0, cross[3];
+  for (int k = 0; k < 3; k++) {
+    const struct scene_point *p = &point[triangle->point[k]];
+    const struct scene_point *q = &point[triangle->point[(k + 1) % 3]];
+    side[k][0] = q->x - p->x;
+    side[k][1] = q->y - p->y;
+    side[k][2] = q->z - p->z;
+    longest = fmax(longest, vector_length(side[k]));
+  }
+  vector_cross(side[0], side[1], cross);
+  return vector_length(cross) <=
+         longest * coordinate_error_contact(layout->sheet, triangle->face);
+}
+
 /* Whether the triangles from `first` on have one sign; 0 is none. */
 static bool have_one_sign(const struct layout *layout, size_t first,
                           int *sign) {
@@ -93,7 +115,9 @@ bool layout_face_sign(const struct layout *layout, uint32_t face, size_t first,
   for (int unsure = 0; unsure <= 1 && !plus && !minus; unsure++)
     for (size_t t = first; t < layout->flags.count; t++) {
       uint8_t flags = layout->flags.item[t];
-      if (unsure || !is_sign_unsure(layout->sheet, t)) {
+      if (unsure ||
+          (!is_sign_unsure(layout->sheet, t) &&
+           !is_thin_in_space(layout, &layout->whole.item[t - first]))) {
         plus = plus || flags == 0;
         minus = minus || flags == SHEET_FLIPPED;
       }

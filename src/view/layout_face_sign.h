@@ -6,10 +6,11 @@
 #include "view/layout_phases.h"
 
 /* The orientation of a face on the page, whose triangles are the last ones,
- * from `first` on.
+ * from `first` on, and those of layout.whole.
  *   All triangles whose sign is sure have one sign: that is the face's.  A
- *     polygon of many corners has triangles that rounding turns, and with two
- *     signs their diagonals would be drawn as silhouettes.
+ *     polygon of many corners has triangles that rounding turns, to the page
+ *     grid or in its file, and with two signs their diagonals would be drawn as
+ *     silhouettes.
  *   The signs differ: the face folds over, and each triangle has its own sign.
  *   The signs differ, but the face is seen edge-on within the contact
  *     tolerance: only rounding made them differ, and the sign is 0.

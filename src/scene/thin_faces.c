@@ -1,0 +1,163 @@
+/* thin_faces.c - finds triangles whose height is no more than what rounding of
+ * their corners explains.
+ *
+ * A first test compares the square of the area with the fourth power of the
+ * sides: nearly every face is settled by it. */
+#include "scene/thin_faces.h"
+
+#include <math.h>
+
+#include "base/parallel.h"
+#include "base/tolerance.h"
+#include "geom/vector.h"
+
+double thin_faces_length(const struct scene *scene, uint32_t point, double side,
+                         struct precision unstated) {
+  const double certain = 4; /* 2 sqrt(3), rounded up: two roundings */
+  const struct scene_point *p = &scene->point.item[point];
+  double largest = max_number(fabs(p->x), max_number(fabs(p->y), fabs(p->z)));
+  double error =
+      precision_error(scene_point_precision(scene, point, unstated), largest);
+  return fmin(certain * error, TOLERANCE_WELD_FACE_SHARE * side);
+}
+
+struct thin_search {
+  const struct scene *scene;
+  const struct topology *topology;
+  struct precision unstated;
+  uint64_t *thin;
+};
+
+static void difference(const struct scene_point *from,
+                       const struct scene_point *to, double d[3]) {
+  d[0] = to->x - from->x;
+  d[1] = to->y - from->y;
+  d[2] = to->z - from->z;
+}
+
+/* Whether the corner opposite a triangle's longest side is on that side but for
+ * rounding, and away from its ends.
+ * side    its vector, and what leads from its first end to the corner
+ * corner  the point there */
+static bool is_within_rounding(const struct thin_search *search,
+                               const double side[3], const double to[3],
+                               uint32_t corner) {
+  double cross[3];
+  vector_cross(side, to, cross);
+  double length = vector_length(side);
+  double most =
+      thin_faces_length(search->scene, corner, length, search->unstated);
+  double along = vector_dot(side, to) / length;
+  return most > 0 && along > most && along < length - most &&
+         vector_length(cross) <= most * length;
+}
+
+/* Whether a triangle may be such a one: false for nearly all.  The square of
+ * the longest side is at most twice the sum of the squares of the others. */
+static inline bool may_be_thin(const struct scene_point *point,
+                               const uint32_t *corner) {
+  const double share =
+      4 * TOLERANCE_WELD_FACE_SHARE * TOLERANCE_WELD_FACE_SHARE;
+  const struct scene_point *p = &point[corner[0]], *q = &point[corner[1]],
+                           *r = &point[corner[2]];
+  double ax = q->x - p->x, ay = q->y - p->y, az = q->z - p->z;
+  double bx = r->x - p->x, by = r->y - p->y, bz = r->z - p->z;
+  double x = ay * bz - az * by, y = az * bx - ax * bz, z = ax * by - ay * bx;
+  double sides = ax * ax + ay * ay + az * az + bx * bx + by * by + bz * bz;
+  return x * x + y * y + z * z <= share * sides * sides;
+}
+
+/* Whether a triangle is such a one, whatever is beside it. */
+static bool is_thin_triangle(const struct thin_search *search,
+                             const uint32_t *corner) {
+  const struct scene_point *point = search->scene->point.item;
+  double side[3][3], square[3], to[3];
+  for (int k = 0; k < 3; k++) {
+    difference(&point[corner[k]], &point[corner[(k + 1) % 3]], side[k]);
+    square[k] = vector_dot(side[k], side[k]);
+  }
+  int k = square[0] >= square[1] ? 0 : 1;
+  k = square[k] >= square[2] ? k : 2;
+  difference(&point[corner[k]], &point[corner[(k + 2) % 3]], to);
+  return is_within_rounding(search, side[k], to, corner[(k + 2) % 3]);
+}
+
+/* Whether each side of a triangle has one other face. */
+static bool is_between_faces(const struct topology *topology, uint32_t start) {
+  for (uint32_t c = start; c < start + 3; c++)
+    if (topology->edge.item[topology->corner_edge[c]].uses != 2)
+      return false;
+  return true;
+}
+
+/* Faces that a thread takes at once: whole words of the map. */
+enum { FACES_IN_RANGE = 64 * PARALLEL_RANGE(POLL_ITEMS / 64) };
+
+static void note_if_thin(const struct thin_search *search, size_t face,
+                         uint32_t start) {
+  if (is_thin_triangle(search, search->scene->corner.item + start) &&
+      is_between_faces(search->topology, start))
+    search->thin[face / 64] |= UINT64_C(1) << face % 64;
+}
+
+static bool map_thin(void *user, struct parallel_range faces) {
+  const struct thin_search *search = user;
+  const struct scene *scene = search->scene;
+  const struct scene_point *point = scene->point.item;
+  for (size_t f = faces.begin; f < faces.end; f++) {
+    uint32_t start = scene_face_start(scene, (uint32_t)f);
+    if (scene_face_corners(scene, (uint32_t)f) == 3 &&
+        may_be_thin(point, scene->corner.item + start))
+      note_if_thin(search, f, start);
+  }
+  return true;
+}
+
+/* The same where all faces are triangles. */
+static bool map_thin_triangles(void *user, struct parallel_range faces) {
+  const struct thin_search *search = user;
+  const struct scene_point *point = search->scene->point.item;
+  const uint32_t *corner = search->scene->corner.item + 3 * faces.begin;
+  for (size_t f = faces.begin; f < faces.end; f++, corner += 3)
+    if (may_be_thin(point, corner))
+      note_if_thin(search, f, 3 * (uint32_t)f);
+  return true;
+}
+
+static bool rounds_nothing(struct precision precision) {
+  return precision.absolute == 0 && precision.relative == 0;
+}
+
+/* Whether rounding moved no point of the scene. */
+static bool has_exact_points(const struct scene *scene,
+                             struct precision unstated) {
+  const struct precision_range *range = scene->precision.item;
+  bool exact = true,
+       is_stated = scene->precision.count > 0 && range[0].first_point == 0;
+  for (size_t r = 0; r < scene->precision.count; r++) {
+    is_stated = is_stated && range[r].stated;
+    exact = exact && (!range[r].stated || rounds_nothing(range[r].precision));
+  }
+  return exact && (is_stated || rounds_nothing(unstated));
+}
+
+bool thin_faces_find(const struct scene *scene, const struct topology *topology,
+                     struct precision unstated, uint64_t **thin,
+                     size_t *count) {
+  size_t faces = scene_face_count(scene), words = faces / 64 + 1;
+  struct thin_search search = {scene, topology, unstated,
+                               mem_calloc(words, sizeof *search.thin)};
+  *thin = search.thin;
+  *count = 0;
+  if (search.thin != NULL && has_exact_points(scene, unstated))
+    return true;
+  if (search.thin == NULL ||
+      !parallel_ranges(
+          parallel_workers(faces, FACES_IN_RANGE), faces, FACES_IN_RANGE,
+          scene->face_start.count == 0 ? map_thin_triangles : map_thin,
+          &search))
+    return false;
+  for (size_t w = 0; w < words; w++)
+    *count += (size_t)__builtin_popcountll(search.thin[w]);
+  return true;
+}
