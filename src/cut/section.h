@@ -23,6 +23,14 @@ struct section_node {
   uint32_t point; /* the caller's number; SECTION_NONE: a crossing */
 };
 
+/* <0, 0, >0: the order of (u, v). */
+static inline int section_compare_nodes(const struct section_node *a,
+                                        const struct section_node *b) {
+  if (a->u != b->u)
+    return a->u < b->u ? -1 : 1;
+  return a->v != b->v ? (a->v < b->v ? -1 : 1) : 0;
+}
+
 /* A line from a point to another, with the inside on its left. */
 struct section_segment {
   uint32_t from, to; /* nodes */

@@ -14,14 +14,6 @@ static inline int section_side(const struct section_node *a,
   return (left > right) - (left < right);
 }
 
-/* <0, 0, >0: the order of (u, v). */
-static inline int section_compare_nodes(const struct section_node *a,
-                                        const struct section_node *b) {
-  if (a->u != b->u)
-    return a->u < b->u ? -1 : 1;
-  return a->v != b->v ? (a->v < b->v ? -1 : 1) : 0;
-}
-
 /* Splits the segments where they cross or touch: sets the paths.
  * Errors  RECTO_ERROR_MEMORY, RECTO_ERROR_LIMIT */
 USE_RESULT recto_status section_snap(struct section *section,
