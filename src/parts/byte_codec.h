@@ -78,12 +78,6 @@ static inline void byte_codec_u8(struct byte_codec *codec, uint8_t *value) {
   *value = (uint8_t)number;
 }
 
-static inline void byte_codec_u16(struct byte_codec *codec, uint16_t *value) {
-  uint64_t number = codec->writes ? *value : 0;
-  byte_codec_number(codec, &number, 2);
-  *value = (uint16_t)number;
-}
-
 static inline void byte_codec_u32(struct byte_codec *codec, uint32_t *value) {
   uint64_t number = codec->writes ? *value : 0;
   byte_codec_number(codec, &number, 4);

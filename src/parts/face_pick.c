@@ -257,6 +257,14 @@ static recto_status take_faces_and_wires(void *user,
   return status == RECTO_OK ? take_wires(user, block, error) : status;
 }
 
+static void picked_fini(struct picked *picked) {
+  scene_fini(&picked->scene);
+  ARRAY_FREE(&picked->face_number);
+  ARRAY_FREE(&picked->wire_number);
+  ARRAY_FREE(&picked->face_in_group);
+  ARRAY_FREE(&picked->wire_in_group);
+}
+
 recto_status face_pick_pass(struct face_pick *pick, recto_error *error) {
   if (!have_flags(pick))
     return error_memory(error);
@@ -279,14 +287,6 @@ struct scene face_pick_scene(const struct face_pick *pick) {
   scene.group.item = source->group.item;
   scene.group.count = source->group.count;
   return scene;
-}
-
-void picked_fini(struct picked *picked) {
-  scene_fini(&picked->scene);
-  ARRAY_FREE(&picked->face_number);
-  ARRAY_FREE(&picked->wire_number);
-  ARRAY_FREE(&picked->face_in_group);
-  ARRAY_FREE(&picked->wire_in_group);
 }
 
 void face_pick_fini(struct face_pick *pick) {

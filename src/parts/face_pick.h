@@ -54,6 +54,5 @@ bool face_pick_uses(const struct face_pick *pick, size_t point);
 struct scene face_pick_scene(const struct face_pick *pick);
 
 void face_pick_fini(struct face_pick *pick);
-void picked_fini(struct picked *picked);
 
 #endif
