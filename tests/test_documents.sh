@@ -46,6 +46,20 @@ awk '/^\.SH/ { on = $2 == "METHODS" }
 claim "the manual and --help have the same methods" \
   same "$scratch/methods-help" "$scratch/methods-manual"
 
+# The words of the first paragraph of --view.
+awk '/^\.BR .*-view =/ { on = 1; next } /^\.TP/ { on = 0 } on' "$manual" \
+  >"$scratch/view-manual"
+has_all_views() {
+  local view count=0
+  for view in $(help_words Views "$scratch/help.txt"); do
+    grep -qwF "$view" "$scratch/view-manual" ||
+      { say "not explained: $view" && return 1; }
+    count=$((count + 1))
+  done
+  test "$count" -ge 9
+}
+claim "the manual explains the views of --help" has_all_views
+
 # ---- The manual page of the library -----------------------------------------
 
 header=$srcdir/src/recto.h

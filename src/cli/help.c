@@ -38,6 +38,8 @@ void help_print(void) {
       print_entry(entry);
   }
   printf("\n");
+  print_list("Views:", name_view);
+  printf("\n");
   print_list("Edge classes:", name_edge_class);
   printf(";\n  all; none; default: all of these but smooth\n");
   print_list("Methods:", name_method);

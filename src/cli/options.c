@@ -25,7 +25,7 @@ const char *name_method(size_t index) {
                                     : NULL;
 }
 
-static const char *name_view(size_t index) {
+const char *name_view(size_t index) {
   return recto_view_name(index, NULL, NULL);
 }
 
@@ -275,7 +275,7 @@ const struct option_entry option_table[] = {
     HEADING("Camera"),
     {OPTION_PARSED, "view", 0, "NAME",
      "iso, front, back, left, right, top, bottom, dimetric or trimetric",
-     "iso (default) front back left right top bottom", .given = AT(view_given),
+     "direction to look from (iso): see below", .given = AT(view_given),
      .parse = parse_view, .word = name_view, .of_parts = true, .adds = true},
     {OPTION_PARSED, "sheet", 0, "HOW", "first or third",
      "front, top, side on one page: first or third angle",

@@ -9,7 +9,7 @@ extern const struct option_entry option_table[];
 
 bool option_is_end(const struct option_entry *entry);
 
-/* The names of all methods, and of all classes of edges. */
-word_fn name_method, name_edge_class;
+/* The names of all views, methods and classes of edges. */
+word_fn name_view, name_method, name_edge_class;
 
 #endif
