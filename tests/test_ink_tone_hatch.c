@@ -372,7 +372,8 @@ static double length_of(const struct drawing *d, size_t s) {
 }
 
 /* Lit from the eye the ball's tone is 0.7 (1 - sqrt(1 - r^2)) at radius r: 0.7
- * thirds of its disc.  Where it is below FULL_COVERAGE one layer makes it. */
+ * thirds of its disc.  Where it is below the full coverage of a direction,
+ * lines of one direction make it. */
 static void lines_over_a_ball_cover_the_share_of_its_tone(void **state) {
   struct pipeline p;
   recto_options options;
@@ -390,7 +391,7 @@ static void lines_over_a_ball_cover_the_share_of_its_tone(void **state) {
       ink += (length_of(&p.drawing, s) + pi() / 4 * options.ink.pen_mm) *
              options.ink.pen_mm;
   }
-  /* The first layer's share: the tone, up to FULL_COVERAGE = 1 - sqrt(0.4). */
+  /* The first direction's share: the tone, up to the full coverage. */
   double full = 1 - sqrt(0.4), expected = 0;
   enum { RINGS = 10000 };
   for (int i = 0; i < RINGS; i++) {

@@ -108,7 +108,7 @@ static void along_a_side_only_one_side_is_covered(void **state) {
   exact_sheet_fini(&sheet);
 }
 
-/* The products of cut_to_outline at their largest. */
+/* The products of clip_to_outline at their largest. */
 static void outlines_at_the_ends_of_the_range_do_not_overflow(void **state) {
   static const int corner[3][3] = {
       {-XY_MAX, -XY_MAX, 9}, {XY_MAX, XY_MAX, 9}, {-XY_MAX, XY_MAX, 9}};

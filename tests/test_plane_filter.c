@@ -182,7 +182,7 @@ static void doubles_are_right_or_undecided(void **state) {
     int bits = 4 + i % 26, depth_bits = 4 + i % 36;
     compare_with_exact(i % 2 == 0, bits, depth_bits, certain);
   }
-  /* And they mostly know. */
+  /* And they mostly decide. */
   assert_true(certain[0] > 15000);
   assert_true(certain[1] > 150000);
   assert_true(certain[2] > 1000);
@@ -193,7 +193,7 @@ static void doubles_are_right_or_undecided(void **state) {
   assert_true(certain[8] > 400);
 }
 
-/* ---- Octagons ------------------------------------------------------------ */
+/* ---- Keys of 8-DOPs ------------------------------------------------------ */
 
 static struct kdop8 kdop8_of(const struct geom_point p[3], int count) {
   struct kdop8 kdop = kdop8_of_point(p[0]);

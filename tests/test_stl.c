@@ -234,7 +234,7 @@ static void a_truncated_binary_file_is_an_error(void **state) {
  * without taking any memory for them. */
 static void a_size_is_checked_before_memory_is_taken(void **state) {
   (void)state;
-  struct binary *binary = start_binary("liar");
+  struct binary *binary = start_binary("too many");
   put_uint32(binary->bytes + 80, UINT32_C(4000000000));
   mem_fail_after(1);
   assert_broken(binary->bytes, 100, 1,

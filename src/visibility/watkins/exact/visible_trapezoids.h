@@ -31,7 +31,7 @@ struct visible_trapezoids {
   bool keep;         /* store parts, instead of only clearing `hidden` */
   bool too_many;     /* a limit was exceeded */
   uint8_t *ties;     /* one a triangle: its parts with ties so far */
-  size_t pieces_max; /* CELLS_PIECES_MAX; tests set less */
+  size_t pieces_max; /* TRAPEZOIDS_PIECES_MAX; tests set less */
   ARRAY(struct visible_trapezoid) part;
   sweep_list tied;
   sweep_list candidate; /* scratch */
