@@ -41,7 +41,7 @@ static bool take(struct reader *reader, const char *word) {
 static int64_t take_int(struct reader *reader) {
   int64_t value = 0;
   const char *after = number_parse_int(reader->at, reader->end, &value);
-  if (!after || *reader->at == '+') {
+  if (after == NULL || *reader->at == '+') {
     complain(reader, "no number");
     return 0;
   }

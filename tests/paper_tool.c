@@ -71,7 +71,7 @@ static int write_drawing(const char *name, const char *format, const char *path,
   struct drawing drawing;
   struct stream *stream;
   recto_error error = {.code = RECTO_OK};
-  if (!writer)
+  if (writer == NULL)
     return CANNOT;
   if (!drawing_fixture_named(&drawing, name)) {
     printf("no drawing is called %s\n", name);
@@ -124,7 +124,7 @@ static struct picture load(const char *path) {
   const unsigned char *row = cairo_image_surface_get_data(paper);
   size_t pixels = (size_t)picture.width * (size_t)picture.height;
   picture.ink = malloc(pixels * sizeof *picture.ink);
-  if (!row || !picture.ink)
+  if (row == NULL || picture.ink == NULL)
     abort();
   for (int y = 0; y < picture.height; y++) {
     for (int x = 0; x < picture.width; x++) {

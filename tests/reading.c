@@ -36,7 +36,7 @@ void reading_fini(struct reading *reading) { scene_fini(&reading->scene); }
 recto_status reading_bytes(struct reading *reading, const struct reader *reader,
                            const char *bytes, size_t count) {
   char *block = malloc(count + 1);
-  if (!block)
+  if (block == NULL)
     abort();
   memcpy(block, bytes, count);
   block[count] = '\0';
@@ -132,7 +132,7 @@ const char *reading_fault(const struct scene *scene) {
         scene->smoothing.range.item[i - 1].first_face)
       return "smoothing groups out of order";
   const char *fault = faces_fault(scene);
-  if (fault)
+  if (fault != NULL)
     return fault;
   return element_fault(scene, false, scene->wire_start.item,
                        scene->wire_start.count, scene->wire_corner.item,

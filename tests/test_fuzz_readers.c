@@ -199,7 +199,7 @@ static void assert_survives(const struct reader *reader,
   recto_status status = reading_bytes(&r, reader, file->bytes, file->count);
   if (status == RECTO_OK) {
     const char *fault = reading_fault(&r.scene);
-    if (fault)
+    if (fault != NULL)
       fail_msg("seed %d: %s", seed, fault);
   } else if (status != RECTO_ERROR_FORMAT || r.error.line == 0 ||
              !*r.error.text) {

@@ -90,7 +90,7 @@ static int set_up(void **state) {
 }
 
 static int tear_down(void **state) {
-  if (usual_importer)
+  if (usual_importer != NULL)
     setenv("RECTO_IMPORT", usual_importer, 1);
   else
     unsetenv("RECTO_IMPORT");

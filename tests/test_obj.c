@@ -26,7 +26,7 @@ static void read_text(struct reading *r, const char *text) {
   if (r->status != RECTO_OK)
     fail_msg("line %lu: %s", r->error.line, r->error.text);
   const char *fault = reading_fault(&r->scene);
-  if (fault)
+  if (fault != NULL)
     fail_msg("%s", fault);
 }
 

@@ -165,7 +165,7 @@ static void assert_told(struct ink_fixture *k, const char *said) {
   k->options.user = &heard;
   pens_warn_unused(&pens, &k->options);
   assert_int_equal(heard.count, said != NULL);
-  if (said)
+  if (said != NULL)
     assert_memory_equal(heard.text[0], said, strlen(said));
   pens_fini(&pens);
 }

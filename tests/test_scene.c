@@ -30,7 +30,7 @@ static int tear_down(void **state) {
   struct reading *reading = *state;
   mem_fail_after(0);
   const char *fault = reading_fault(&reading->scene);
-  if (fault)
+  if (fault != NULL)
     print_error("%s\n", fault);
   reading_fini(reading);
   return fault ? -1 : 0;

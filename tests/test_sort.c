@@ -33,7 +33,7 @@ static void sort_random_keys(struct random *random, size_t count,
   struct sort_key *item = calloc(count + 1, sizeof *item);
   struct sort_key *scratch = calloc(count + 1, sizeof *scratch);
   uint64_t *key = calloc(count + 1, sizeof *key);
-  assert_true(item && scratch && key);
+  assert_true(item != NULL && scratch != NULL && key != NULL);
   for (size_t i = 0; i < count; i++) {
     key[i] = random_next(random) & mask;
     item[i] = (struct sort_key){key[i], (uint32_t)i};

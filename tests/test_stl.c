@@ -24,7 +24,7 @@ static void assert_read(const struct reading *r) {
   if (r->status != RECTO_OK)
     fail_msg("line %lu: %s", r->error.line, r->error.text);
   const char *fault = reading_fault(&r->scene);
-  if (fault)
+  if (fault != NULL)
     fail_msg("%s", fault);
 }
 

@@ -647,7 +647,7 @@ static void a_noisy_teapot_is_drawn_as_a_clean_one(void **state) {
   struct diagnostics diagnostics = {.file = path};
   recto_error error;
   scene_init(&scene);
-  if (!models ||
+  if (models == NULL ||
       scene_read(&scene, path, NULL, &diagnostics, &error) != RECTO_OK) {
     print_message("no teapot.obj where RECTO_MODELS says\n");
     scene_fini(&scene);

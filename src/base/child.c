@@ -57,10 +57,11 @@ int child_input_of(const char *bytes, size_t count) {
   int descriptor = move_descriptor(memfd_create("recto", MFD_CLOEXEC));
 #else
   FILE *file = tmpfile();
-  int descriptor =
-      file ? fcntl(fileno(file), F_DUPFD_CLOEXEC, (int)LOWEST_DESCRIPTOR) : -1;
-  if (file)
+  int descriptor = -1;
+  if (file != NULL) {
+    descriptor = fcntl(fileno(file), F_DUPFD_CLOEXEC, (int)LOWEST_DESCRIPTOR);
     fclose(file);
+  }
 #endif
   for (size_t done = 0; descriptor >= 0 && done < count;) {
     ssize_t written =
