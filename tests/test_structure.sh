@@ -272,7 +272,7 @@ check_reports() {
 
 # The formatter leaves comments as they are, so that it does not wrap them.
 check_width() {
-  (cd "$1" && find src backends bench examples tests -name '*.[ch]' |
+  (cd "$1" && find src backends bench examples tests -name '*.[ch]' 2>/dev/null |
     LC_ALL=C sort | xargs awk '
     length($0) > 80 { print FILENAME ": line " FNR " is too long" }')
 }
@@ -397,7 +397,8 @@ static inline int *count_vertices(int a,
 struct planted_tag { int x; };
 END
 mkdir "$copy/tests"
-touch "$copy"/tests/test_{twin,line}.c "$copy"/tests/test_{twin,lines}.sh
+printf '/* %80s */\n' wide >"$copy/tests/test_line.c"
+touch "$copy"/tests/test_twin.c "$copy"/tests/test_{twin,lines}.sh
 echo "/* new.c - nothing. */" >"$copy/src/visibility/included/new.c"
 yes "" | head -451 >>"$copy/src/geom/wide.c"
 {
@@ -437,6 +438,7 @@ claim "a listed user of a tolerance must use it" finds users \
 claim "a report may not be read" finds reports "src/api/render.c: reads" ""
 claim "a comment may not be wider than the page" finds width \
   "src/geom/ratio.c: line" "too long"
+claim "nor one of a test" finds width "tests/test_line.c: line" "too long"
 claim "a source may not open without its job" finds sources \
   "src/geom/new.c: does not open" ""
 claim "nor with a reference in its place" finds sources \
