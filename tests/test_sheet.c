@@ -972,6 +972,49 @@ static void every_failed_allocation_is_reported(void **state) {
   sheet_fixture_fini(&fixture);
 }
 
+/* ---- Sides that the topology left out ------------------------------------- */
+
+/* A page that clips needs them: the sheet is the same as with them. */
+static void sides_that_were_left_out_are_found(void **state) {
+  (void)state;
+  struct sheet_fixture fixture[2];
+  recto_error error = {0};
+  for (int i = 0; i < 2; i++) {
+    struct sheet_fixture *f = &fixture[i];
+    sheet_fixture_start(f);
+    f->options.camera.fit = RECTO_FIT_SCALE;
+    f->options.camera.scale = 20;
+    for (int p = 0; p < 9; p++)
+      build_point(&f->scene, 5 * (p % 3), 0.1 * p * p, 5 * (p / 3));
+    build_group(&f->scene, "grid");
+    for (uint32_t p = 0; p < 5; p += p == 1 ? 2 : 1) {
+      build_triangle(&f->scene, p, p + 1, p + 4);
+      build_triangle(&f->scene, p, p + 4, p + 3);
+    }
+    sheet_fixture_out(f, true);
+    assert_true(f->sheet.clipped_page > 0);
+  }
+  struct sheet *sheet = &fixture[1].sheet, *whole = &fixture[0].sheet;
+  sheet_fini(sheet);
+  topology_fini(&fixture[1].topology);
+  assert_int_equal(
+      topology_init_edges(&fixture[1].topology, &fixture[1].scene, &error),
+      RECTO_OK);
+  assert_null(fixture[1].topology.corner_edge);
+  assert_int_equal(layout_sheet(sheet, &fixture[1].scene, &fixture[1].topology,
+                                &fixture[1].camera, &fixture[1].options, true,
+                                &error),
+                   RECTO_OK);
+  assert_int_equal(sheet->edge.count, whole->edge.count);
+  assert_int_equal(sheet->triangle.count, whole->triangle.count);
+  assert_memory_equal(sheet->edge.item, whole->edge.item,
+                      sheet->edge.count * sizeof *sheet->edge.item);
+  assert_memory_equal(sheet->triangle.item, whole->triangle.item,
+                      sheet->triangle.count * sizeof *sheet->triangle.item);
+  for (int i = 0; i < 2; i++)
+    sheet_fixture_fini(&fixture[i]);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_scenes_keep_every_invariant),
@@ -1009,6 +1052,7 @@ int main(void) {
       cmocka_unit_test(warped_faces_are_counted_and_drawn),
       cmocka_unit_test(powers_of_two_change_no_bit_of_the_sheet),
       cmocka_unit_test(every_failed_allocation_is_reported),
+      cmocka_unit_test(sides_that_were_left_out_are_found),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -101,6 +101,44 @@ static void check(const struct scene *scene, const struct topology *topology) {
   free(forward);
 }
 
+/* Finds the edges without those of the sides, and then these, and checks that
+ * all is the same as when they are found together. */
+static void check_without_sides(const struct scene *scene) {
+  struct topology topology, sparse;
+  recto_error error;
+  find(&topology, scene);
+  assert_int_equal(topology_init_edges(&sparse, scene, &error), RECTO_OK);
+  if (scene->face_start.count > 0 || topology.weld != NULL)
+    assert_non_null(sparse.corner_edge);
+  assert_true(topology_find_corners(&sparse, scene));
+  check(scene, &sparse);
+  assert_int_equal(sparse.edge.count, topology.edge.count);
+  for (size_t c = 0; c < scene->corner.count; c++)
+    assert_int_equal(sparse.corner_edge[c], topology.corner_edge[c]);
+  topology_fini(&topology);
+  topology_fini(&sparse);
+}
+
+/* One of triangles that are not welded has none of the sides at first. */
+static void sides_are_left_out_where_they_can_be(void **state) {
+  (void)state;
+  struct scene scene;
+  struct topology topology;
+  recto_error error;
+  scene_init(&scene);
+  build_group(&scene, "triangles");
+  for (int p = 0; p < 5; p++)
+    build_point(&scene, p, (double)p * p, (double)p * p * p);
+  build_triangle(&scene, 0, 1, 2);
+  build_triangle(&scene, 2, 1, 3);
+  build_triangle(&scene, 3, 4, 2);
+  assert_int_equal(topology_init_edges(&topology, &scene, &error), RECTO_OK);
+  assert_null(topology.corner_edge);
+  topology_fini(&topology);
+  check_without_sides(&scene);
+  scene_fini(&scene);
+}
+
 static void the_scenes_have_the_edges_that_a_search_finds(void **state) {
   (void)state;
   for (const struct scenes_entry *entry = scene_list; entry->name; entry++) {
@@ -114,6 +152,7 @@ static void the_scenes_have_the_edges_that_a_search_finds(void **state) {
       find(&topology, &scene);
       check(&scene, &topology);
       topology_fini(&topology);
+      check_without_sides(&scene);
     }
     scene_fini(&scene);
   }
@@ -139,6 +178,7 @@ static void dense_points_have_the_edges_that_a_search_finds(void **state) {
     find(&topology, &scene);
     check(&scene, &topology);
     topology_fini(&topology);
+    check_without_sides(&scene);
     scene_fini(&scene);
   }
 }
@@ -591,6 +631,7 @@ int main(void) {
       cmocka_unit_test(the_scenes_have_the_edges_that_a_search_finds),
       cmocka_unit_test(dense_points_have_the_edges_that_a_search_finds),
       cmocka_unit_test(polygons_have_the_edges_that_a_search_finds),
+      cmocka_unit_test(sides_are_left_out_where_they_can_be),
       cmocka_unit_test(a_box_has_twelve_edges_of_two_faces_each),
       cmocka_unit_test(no_faces_have_no_edges),
       cmocka_unit_test(a_fan_of_100000_triangles_is_drawn_in_bounded_time),

@@ -291,7 +291,7 @@ struct fixture {
 
 static void weld(struct fixture *fixture, double length,
                  struct precision precision) {
-  const struct weld_request request = {length, precision};
+  const struct weld_request request = {.length = length, .unstated = precision};
   recto_error error;
   assert_int_equal(weld_near(&fixture->welded, &fixture->topology,
                              &fixture->scene, &request, &error),
@@ -490,7 +490,7 @@ static void each_file_is_welded_by_its_own_precision(void **state) {
 static void exhausted_memory_is_reported(void **state) {
   (void)state;
   struct fixture f;
-  const struct weld_request request = {-1, single};
+  const struct weld_request request = {.length = -1, .unstated = single};
   recto_error error;
   scene_init(&f.scene);
   add_torus(&f.scene, 1e-6);

@@ -302,7 +302,7 @@ static recto_status check_views(const struct scene *scene,
     options->page.may_turn = false;
   }
   recto_status status =
-      preparation_init(&prepared, scene, options, false, error);
+      preparation_init(&prepared, scene, options, PREPARATION_FOR_VIEW, error);
   topology_fini(&prepared.topology); /* the judge has its own */
   if (status == RECTO_OK)
     status = (multiview_is_requested(options) ? check_sheet : check_view_alone)(

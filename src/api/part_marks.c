@@ -28,7 +28,7 @@ recto_status part_marks_find(struct side_marks *marks, const recto_scene *model,
   recto_status status = is_held ? RECTO_OK : read_whole(model, &whole, error);
   if (status == RECTO_OK)
     status = preparation_init(&preparation, is_held ? source->scene : &whole,
-                              options, false, error);
+                              options, PREPARATION_FOR_VIEW, error);
   if (status == RECTO_OK &&
       !side_marks_list(marks, preparation.scene, &preparation.topology))
     status = error_memory(error);

@@ -119,8 +119,9 @@ static recto_status aim_part(struct part_survey *survey, const uint8_t *used,
                      "what the page or the near plane may clip cannot be drawn "
                      "in parts: let the drawing fill the page");
   const recto_mesh_options *mesh = &survey->options->mesh;
-  const struct weld_request weld = {mesh->weld,
-                                    precision_of_bits(mesh->coordinate_bits)};
+  const struct weld_request weld = {
+      .length = mesh->weld,
+      .unstated = precision_of_bits(mesh->coordinate_bits)};
   survey->weld = weld_near_length_most(scene, &weld);
   if (survey->weld == 0 && mesh->weld != 0)
     survey->weld = WELD_LENGTH_OF_SLITS;

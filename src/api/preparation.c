@@ -102,10 +102,22 @@ static recto_status keep_used(struct preparation *preparation,
   return RECTO_OK;
 }
 
+/* Whether something but fills and smooth contours may ask for the sides of
+ * faces: marks of edges, cuts, and clipping, of which there is none where the
+ * drawing fills the page. */
+static bool may_use_sides(const struct scene *scene,
+                          const recto_options *options) {
+  return scene->point_normal.count > 0 || scene->smoothing.range.count > 0 ||
+         options->mesh.cut_count > 0 || options->camera.has_section ||
+         options->camera.kind != RECTO_CAMERA_DIRECTION ||
+         options->camera.fit != RECTO_FIT_PAGE ||
+         options->camera.near_distance > 0;
+}
+
 recto_status preparation_init(struct preparation *preparation,
                               const struct scene *scene,
-                              const recto_options *options, bool classes,
-                              recto_error *error) {
+                              const recto_options *options,
+                              enum preparation_use use, recto_error *error) {
   recto_options scaled;
   *preparation =
       (struct preparation){.weld = options->mesh.weld,
@@ -123,7 +135,10 @@ recto_status preparation_init(struct preparation *preparation,
   if (status != RECTO_OK)
     return status;
   const struct weld_request request = {
-      scaled.mesh.weld, precision_of_bits(options->mesh.coordinate_bits)};
+      .length = scaled.mesh.weld,
+      .unstated = precision_of_bits(options->mesh.coordinate_bits),
+      .leaves_out_corners =
+          use == PREPARATION_FOR_LINES && !may_use_sides(scene, options)};
   status = weld_near(&preparation->welded, &preparation->topology,
                      &preparation->rescaled.scene, &request, error);
   preparation->scene = &preparation->welded.scene;
@@ -138,8 +153,8 @@ recto_status preparation_init(struct preparation *preparation,
     status = add_section(preparation, options, error);
   if (status == RECTO_OK && anything && preparation->planes > 0)
     status = cut_prepared(preparation, error);
-  if (status == RECTO_OK &&
-      (classes || options->ink.contours == RECTO_CONTOURS_SMOOTH))
+  if (status == RECTO_OK && (use == PREPARATION_FOR_VIEWS ||
+                             options->ink.contours == RECTO_CONTOURS_SMOOTH))
     status = store_classes(preparation, options, error);
   return status == RECTO_OK ? keep_used(preparation, error) : status;
 }

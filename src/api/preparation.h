@@ -29,13 +29,21 @@ struct preparation {
   double crease_deg; /* where marks of creases depend on it */
 };
 
+/* What a scene is prepared for. */
+enum preparation_use {
+  PREPARATION_FOR_LINES, /* of one view, which needs no sides of faces, unless
+                            marks, cuts or clipping do */
+  PREPARATION_FOR_VIEW,
+  PREPARATION_FOR_VIEWS /* several: the classes of edges are kept too */
+};
+
 /* Prepares a scene, which is to live as long and not to change.
- * classes  whether to keep the classes of the edges too, for several views
  * Errors   RECTO_ERROR_MEMORY; preparation_fini it in any case */
 USE_RESULT recto_status preparation_init(struct preparation *preparation,
                                          const struct scene *scene,
                                          const recto_options *options,
-                                         bool classes, recto_error *error);
+                                         enum preparation_use use,
+                                         recto_error *error);
 /* The planes of the options' cut, in the units of the prepared scene. */
 void preparation_planes(const struct preparation *preparation,
                         struct cut_plane plane[RECTO_CUT_MAX]);

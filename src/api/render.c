@@ -111,13 +111,15 @@ static void report_preparation(const struct render *render) {
 static recto_status find_topology(struct render *render, recto_error *error) {
   const recto_options *o = render->options;
   const struct preparation *shared = render->request->prepared;
+  bool uses_sides = needs_fragments(render) || draws_smooth_contours(render);
   recto_status status = RECTO_OK;
   if (shared != NULL && preparation_is_valid_for(shared, o)) {
     render->prepared = shared;
     render->topology = shared->topology;
   } else {
-    status =
-        preparation_init(&render->own, &render->model->scene, o, false, error);
+    status = preparation_init(
+        &render->own, &render->model->scene, o,
+        uses_sides ? PREPARATION_FOR_VIEW : PREPARATION_FOR_LINES, error);
     render->topology = render->own.topology;
     render->own.topology = (struct topology){.corner_edge = NULL};
   }
@@ -135,9 +137,7 @@ static recto_status find_topology(struct render *render, recto_error *error) {
     return error_set(error, RECTO_ERROR_EMPTY, NULL, 0,
                      "there is nothing to draw: the weld length is larger than "
                      "all faces");
-  render->topology.drop_corners = !needs_fragments(render) &&
-                                  !draws_smooth_contours(render) &&
-                                  !is_shared(render);
+  render->topology.drop_corners = !uses_sides && !is_shared(render);
   render->topology.drop_edges = !uses_topology(render) && !is_shared(render) &&
                                 scene_wire_count(render->prepared->scene) == 0;
   return status;

@@ -133,7 +133,7 @@ static recto_status prepare(struct multiview_work *work, recto_error *error) {
     work->prepared = shared;
   else
     status = preparation_init(&work->own, &work->scene->scene, work->options,
-                              true, error);
+                              PREPARATION_FOR_VIEWS, error);
   if (status == RECTO_OK)
     status = multiview_arrange(
         &work->views, work->prepared, work->options,

@@ -56,7 +56,8 @@ recto_status recto_scene_prepare(recto_scene *scene,
   struct poll poll;
   shares_open_poll(&poll, &own, SHARE_TOPOLOGY, "topology");
   own.camera.has_section = false; /* each view has its own */
-  status = preparation_init(scene->prepared, &scene->scene, &own, true, error);
+  status = preparation_init(scene->prepared, &scene->scene, &own,
+                            PREPARATION_FOR_VIEWS, error);
   poll_close(&poll);
   if (status != RECTO_OK)
     scene_forget_preparation(scene);

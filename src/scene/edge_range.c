@@ -284,16 +284,22 @@ static bool number_edges_of_triangles(struct edge_range *range) {
       return false;
     size_t fetched = end_of_fetching(range->scene, 3 * f, (uint32_t)sides);
     const uint32_t *corner = range->scene->corner.item + 3 * (size_t)f;
-    uint32_t *edge = range->corner_edge + 3 * (size_t)f;
-    for (; f < end; f++, corner += 3, edge += 3) {
+    uint32_t *edge = range->corner_edge;
+    edge = edge != NULL ? edge + 3 * (size_t)f : NULL;
+    for (; f < end; f++, corner += 3) {
       if (3 * (size_t)f + 2 * MEM_PREFETCH_AHEAD + 3 <= fetched) {
         prefetch_side(&loop, corner);
         prefetch_side(&loop, corner + 1);
         prefetch_side(&loop, corner + 2);
       }
-      edge[0] = number_side(&loop, corner[0], corner[1], f);
-      edge[1] = number_side(&loop, corner[1], corner[2], f);
-      edge[2] = number_side(&loop, corner[2], corner[0], f);
+      uint32_t side[3];
+      side[0] = number_side(&loop, corner[0], corner[1], f);
+      side[1] = number_side(&loop, corner[1], corner[2], f);
+      side[2] = number_side(&loop, corner[2], corner[0], f);
+      if (edge != NULL) {
+        memcpy(edge, side, sizeof side);
+        edge += 3;
+      }
     }
     end_sides(range, &loop, sides);
   }

@@ -10,7 +10,8 @@ struct edge_range {
   const struct scene *scene;
   const uint32_t *weld;    /* NULL: points as they are */
   uint32_t face, end_face; /* from this to before that */
-  uint32_t *corner_edge;   /* of the scene; those of these faces get edges */
+  uint32_t *corner_edge; /* of the scene; those of these faces get edges; NULL:
+                            not wanted, of triangles as they are alone */
   ARRAY(struct topology_edge) edge; /* in order of first use */
   size_t shared;  /* how many of these more than one face has */
   uint32_t *head; /* one a point of the scene: the last of its edges, or

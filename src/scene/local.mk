@@ -4,6 +4,7 @@ librecto_core_la_SOURCES += \
   %D%/cluster.c %D%/cluster.h \
   %D%/coarse_parts.c %D%/coarse_parts.h \
   %D%/conversion.c %D%/conversion.h \
+  %D%/corner_edges.c \
   %D%/corner_normals.c %D%/corner_normals.h \
   %D%/crease_marks.c %D%/crease_marks.h \
   %D%/diagnostics.c %D%/diagnostics.h \

@@ -23,7 +23,6 @@ double thin_faces_length(const struct scene *scene, uint32_t point, double side,
 
 struct thin_search {
   const struct scene *scene;
-  const struct topology *topology;
   struct precision unstated;
   uint64_t *thin;
 };
@@ -82,21 +81,12 @@ static bool is_thin_triangle(const struct thin_search *search,
   return is_within_rounding(search, side[k], to, corner[(k + 2) % 3]);
 }
 
-/* Whether each side of a triangle has one other face. */
-static bool is_between_faces(const struct topology *topology, uint32_t start) {
-  for (uint32_t c = start; c < start + 3; c++)
-    if (topology->edge.item[topology->corner_edge[c]].uses != 2)
-      return false;
-  return true;
-}
-
 /* Faces that a thread takes at once: whole words of the map. */
 enum { FACES_IN_RANGE = 64 * PARALLEL_RANGE(POLL_ITEMS / 64) };
 
 static void note_if_thin(const struct thin_search *search, size_t face,
                          uint32_t start) {
-  if (is_thin_triangle(search, search->scene->corner.item + start) &&
-      is_between_faces(search->topology, start))
+  if (is_thin_triangle(search, search->scene->corner.item + start))
     search->thin[face / 64] |= UINT64_C(1) << face % 64;
 }
 
@@ -124,6 +114,30 @@ static bool map_thin_triangles(void *user, struct parallel_range faces) {
   return true;
 }
 
+/* Whether each side of a triangle has one other face. */
+static bool is_between_faces(const struct topology *topology, uint32_t start) {
+  for (uint32_t c = start; c < start + 3; c++)
+    if (topology->edge.item[topology->corner_edge[c]].uses != 2)
+      return false;
+  return true;
+}
+
+/* Leaves of the triangles those that are between faces; counts them. */
+static size_t keep_between_faces(const struct scene *scene,
+                                 const struct topology *topology,
+                                 uint64_t *thin, size_t words) {
+  size_t count = 0;
+  for (size_t w = 0; w < words; w++)
+    for (uint64_t left = thin[w]; left != 0; left &= left - 1) {
+      uint32_t face = (uint32_t)(64 * w) + (uint32_t)__builtin_ctzll(left);
+      if (is_between_faces(topology, scene_face_start(scene, face)))
+        count++;
+      else
+        thin[w] &= ~(left & -left);
+    }
+  return count;
+}
+
 static bool rounds_nothing(struct precision precision) {
   return precision.absolute == 0 && precision.relative == 0;
 }
@@ -141,11 +155,11 @@ static bool has_exact_points(const struct scene *scene,
   return exact && (is_stated || rounds_nothing(unstated));
 }
 
-bool thin_faces_find(const struct scene *scene, const struct topology *topology,
+bool thin_faces_find(const struct scene *scene, struct topology *topology,
                      struct precision unstated, uint64_t **thin,
                      size_t *count) {
-  size_t faces = scene_face_count(scene), words = faces / 64 + 1;
-  struct thin_search search = {scene, topology, unstated,
+  size_t faces = scene_face_count(scene), words = faces / 64 + 1, found = 0;
+  struct thin_search search = {scene, unstated,
                                mem_calloc(words, sizeof *search.thin)};
   *thin = search.thin;
   *count = 0;
@@ -157,7 +171,12 @@ bool thin_faces_find(const struct scene *scene, const struct topology *topology,
           scene->face_start.count == 0 ? map_thin_triangles : map_thin,
           &search))
     return false;
-  for (size_t w = 0; w < words; w++)
-    *count += (size_t)__builtin_popcountll(search.thin[w]);
+  while (found < words && search.thin[found] == 0)
+    found++;
+  if (found == words)
+    return true;
+  if (!topology_find_corners(topology, scene))
+    return false;
+  *count = keep_between_faces(scene, topology, search.thin, words);
   return true;
 }

@@ -19,9 +19,10 @@ double thin_faces_length(const struct scene *scene, uint32_t point, double side,
  * thin   set to a new map of a bit a face, which the caller owns, also on
  *        failure
  * count  gets how many there are
- * Returns false when memory ran out. */
+ * Finds corner_edge of the topology where any may be such.  Returns false when
+ * memory ran out, or the caller cancelled. */
 USE_RESULT bool thin_faces_find(const struct scene *scene,
-                                const struct topology *topology,
+                                struct topology *topology,
                                 struct precision unstated, uint64_t **thin,
                                 size_t *count);
 

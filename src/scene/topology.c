@@ -141,7 +141,8 @@ static bool join_range(struct edge_join *join, size_t at, int workers) {
   ok =
       ok &&
       parallel_ranges(workers, edges, PARALLEL_ITEMS, add_joined_edges, join) &&
-      parallel_ranges(workers, corners, PARALLEL_ITEMS, renumber_sides, join);
+      (range->corner_edge == NULL ||
+       parallel_ranges(workers, corners, PARALLEL_ITEMS, renumber_sides, join));
   mem_free(join->first);
   return ok;
 }
@@ -253,13 +254,24 @@ uint32_t topology_next_border(const struct topology *topology, uint32_t edge) {
                    : (uint32_t)edges;
 }
 
-/* Builds corner_edge and the edges with the points as they are welded. */
+/* Makes room for corner_edge where there is none; false when memory ran out. */
+static bool reserve_corners(struct topology *topology,
+                            const struct scene *scene) {
+  if (topology->corner_edge == NULL)
+    topology->corner_edge =
+        mem_alloc(scene->corner.count, sizeof *topology->corner_edge);
+  return topology->corner_edge != NULL;
+}
+
+/* Builds the edges with the points as they are welded, and corner_edge where
+ * there is room for it, or hubs need it. */
 static bool build_edges(struct topology *topology, const struct scene *scene) {
   int workers = parallel_workers(scene_face_count(scene), PARALLEL_ITEMS);
   bool overfull;
   ARRAY_FREE(&topology->edge);
   return (find_in_ranges(topology, scene, workers, false, &overfull) ||
-          (overfull && find_in_ranges(topology, scene, 1, true, &overfull))) &&
+          (overfull && reserve_corners(topology, scene) &&
+           find_in_ranges(topology, scene, 1, true, &overfull))) &&
          find_borders(topology);
 }
 
@@ -305,28 +317,49 @@ static bool weld_border(struct topology *topology, const struct scene *scene) {
   return ok;
 }
 
-recto_status topology_init_welded(struct topology *topology,
-                                  const struct scene *scene,
-                                  recto_error *error) {
+/* As topology_init_welded.
+ * corners  whether corner_edge is wanted also where it can be left out */
+static recto_status init_edges(struct topology *topology,
+                               const struct scene *scene, bool corners,
+                               recto_error *error) {
+  bool leaves_out = !corners && scene->face_start.count == 0;
   memset(topology, 0, sizeof *topology);
-  topology->corner_edge =
-      mem_alloc(scene->corner.count, sizeof *topology->corner_edge);
-  if (topology->corner_edge != NULL && build_edges(topology, scene))
+  if ((leaves_out || reserve_corners(topology, scene)) &&
+      build_edges(topology, scene))
     return RECTO_OK;
   topology_fini(topology);
   return error_memory(error);
 }
 
-recto_status topology_init(struct topology *topology, const struct scene *scene,
-                           recto_error *error) {
-  recto_status status = topology_init_welded(topology, scene, error);
-  if (status != RECTO_OK)
-    return status;
+/* Welds the border of a scene whose edges were found, and finds them anew if
+ * that changed them. */
+static recto_status weld_edges(struct topology *topology,
+                               const struct scene *scene, recto_error *error) {
   if (weld_border(topology, scene) &&
-      (topology->weld == NULL || build_edges(topology, scene)))
+      (topology->weld == NULL ||
+       (reserve_corners(topology, scene) && build_edges(topology, scene))))
     return RECTO_OK;
   topology_fini(topology);
   return error_memory(error);
+}
+
+recto_status topology_init_welded(struct topology *topology,
+                                  const struct scene *scene,
+                                  recto_error *error) {
+  return init_edges(topology, scene, true, error);
+}
+
+recto_status topology_init(struct topology *topology, const struct scene *scene,
+                           recto_error *error) {
+  recto_status status = init_edges(topology, scene, true, error);
+  return status == RECTO_OK ? weld_edges(topology, scene, error) : status;
+}
+
+recto_status topology_init_edges(struct topology *topology,
+                                 const struct scene *scene,
+                                 recto_error *error) {
+  recto_status status = init_edges(topology, scene, false, error);
+  return status == RECTO_OK ? weld_edges(topology, scene, error) : status;
 }
 
 void topology_drop_corners(struct topology *topology) {

@@ -13,7 +13,8 @@
 struct topology {
   ARRAY(struct topology_edge) edge; /* in order of first use by a face */
   uint32_t *corner_edge; /* for corner c of a face, the edge from it to the
-                            face's next corner; one per scene corner */
+                            face's next corner; one per scene corner; NULL:
+                            left out, or given up */
   uint64_t *border;      /* a bit an edge: one face alone has it */
   size_t borders;        /* how many there are */
   uint8_t *class_masks;  /* of all edges at the angle crease_deg, as of
@@ -41,7 +42,17 @@ USE_RESULT recto_status topology_init(struct topology *topology,
 USE_RESULT recto_status topology_init_welded(struct topology *topology,
                                              const struct scene *scene,
                                              recto_error *error);
+/* The same as topology_init without corner_edge, where all faces are triangles
+ * and no points are welded; else with it. */
+USE_RESULT recto_status topology_init_edges(struct topology *topology,
+                                            const struct scene *scene,
+                                            recto_error *error);
 void topology_fini(struct topology *topology);
+
+/* Finds corner_edge where it was left out, which takes about as long as finding
+ * the edges.  False when memory ran out, or the caller cancelled. */
+USE_RESULT bool topology_find_corners(struct topology *topology,
+                                      const struct scene *scene);
 
 /* The first edge from `edge` on that one face alone has; the number of edges:
  * there is none.  Few edges of most meshes are such. */

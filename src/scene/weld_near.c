@@ -340,7 +340,9 @@ static recto_status weld_points(struct welded *welded,
                                 const struct weld_request *request,
                                 recto_error *error) {
   struct weld_candidates candidates = {.number = NULL};
-  recto_status status = topology_init(topology, scene, error);
+  recto_status status = request->leaves_out_corners
+                            ? topology_init_edges(topology, scene, error)
+                            : topology_init(topology, scene, error);
   if (status != RECTO_OK)
     return status;
   if (request->length == 0 || topology->borders == 0)

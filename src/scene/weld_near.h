@@ -8,6 +8,7 @@ struct weld_request {
   double length; /* scene units; 0: only equal positions are welded; negative:
                     the rounding error of the coordinates */
   struct precision unstated; /* of points whose precision is not stated */
+  bool leaves_out_corners;   /* the topology's, as of topology_init_edges */
 };
 
 struct welded {

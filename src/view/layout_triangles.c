@@ -342,6 +342,9 @@ recto_status layout_triangles(struct layout *layout) {
   size_t triangles = layout->scene->corner.count - 2 * (size_t)faces;
   if (!layout_orient_all_faces(layout))
     return error_memory(layout->error);
+  if (!layout->leaves_out_sides &&
+      !topology_find_corners(layout->topology, layout->scene))
+    return error_memory(layout->error);
   if (layout->face_range != NULL)
     return RECTO_OK;
   layout->sides =

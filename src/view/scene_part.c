@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/poll.h"
+#include "base/sort.h"
 
 /* ---- 1. Faces ------------------------------------------------------------ */
 
@@ -145,20 +146,21 @@ void scene_part_fini(struct scene_part *part) {
 
 /* ---- Its sheet ----------------------------------------------------------- */
 
-/* The whole scene's number of each edge of the part; NULL when memory ran
- * out. */
+/* The whole scene's number of each edge of the part; NULL when memory ran out.
+ * Both have edges in the order of their first faces, and of the sides of these;
+ * no other face has an edge of the part. */
 static uint32_t *number_of_edges(const struct scene_part *part,
-                                 const struct scene *whole,
                                  const struct topology *topology) {
-  uint32_t *number = mem_alloc(part->topology.edge.count, sizeof *number);
-  for (uint32_t f = 0; number != NULL && f < scene_face_count(&part->scene);
-       f++) {
-    uint32_t own = scene_face_start(&part->scene, f),
-             start = scene_face_start(whole, part->face[f]),
-             count = scene_face_corners(&part->scene, f);
-    for (uint32_t c = 0; c < count; c++)
-      number[part->topology.corner_edge[own + c]] =
-          topology->corner_edge[start + c];
+  const struct topology_edge *own = part->topology.edge.item,
+                             *of = topology->edge.item;
+  size_t edges = part->topology.edge.count;
+  uint32_t *number = mem_alloc(edges, sizeof *number);
+  size_t at = 0;
+  for (size_t e = 0; number != NULL && e < edges; e++, at++) {
+    if (e == 0 || own[e].first != own[e - 1].first)
+      LOWER_BOUND(at, at, topology->edge.count,
+                  of[at].first < part->face[own[e].first]);
+    number[e] = (uint32_t)at;
   }
   return number;
 }
@@ -167,7 +169,7 @@ static uint32_t *number_of_edges(const struct scene_part *part,
 static bool refer_to_whole(struct sheet *sheet, const struct scene_part *part,
                            const struct scene *whole,
                            const struct topology *topology) {
-  uint32_t *number = number_of_edges(part, whole, topology);
+  uint32_t *number = number_of_edges(part, topology);
   if (number == NULL)
     return false;
   for (size_t t = 0; t < sheet->triangle.count; t++)

@@ -29,7 +29,7 @@ void scene_part_fini(struct scene_part *part);
 
 /* Lays out the part as layout_sheet does; the faces and edges to which the
  * sheet refers are those of the whole.  Ends the part's own topology.
- * topology  of the whole scene, with its corner_edge */
+ * topology  of the whole scene */
 USE_RESULT recto_status scene_part_layout(
     struct sheet *sheet, struct scene_part *part, const struct scene *whole,
     const struct topology *topology, const struct camera *camera,
