@@ -331,6 +331,21 @@ static bool star_crosses(uint32_t count, uint32_t step, double tilt) {
   return answer;
 }
 
+/* A star of five corners, gone around 2,000 times: more tests of equal sides
+ * than are made, if each counted. */
+static void a_star_gone_around_very_often_crosses(void **state) {
+  struct reading *r = *state;
+  enum { PLACES = 5, CORNERS = 2000 * PLACES };
+  static uint32_t corner[CORNERS];
+  for (uint32_t i = 0; i < PLACES; i++) {
+    double angle = 2 * 3.14159265358979 * i / PLACES;
+    add_point(r, cos(angle), sin(angle), 0);
+  }
+  for (uint32_t i = 0; i < CORNERS; i++)
+    corner[i] = 2 * i % PLACES;
+  assert_true(polygon_intersects_itself(&r->scene, corner, CORNERS));
+}
+
 static void stars_cross_and_circles_do_not(void **state) {
   (void)state;
   for (int k = 0; k < 7; k++) {
@@ -641,6 +656,7 @@ int main(void) {
       T(an_index_out_of_range_is_no_face),
       T(a_bow_tie_is_kept_with_a_warning),
       T(stars_cross_and_circles_do_not),
+      T(a_star_gone_around_very_often_crosses),
       T(touching_sides_do_not_cross),
       T(polygons_cross_where_two_sides_do),
       T(a_huge_comb_takes_bounded_time),

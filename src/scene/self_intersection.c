@@ -5,7 +5,7 @@
  * ends.  Those that the sweep has not yet left behind are active, and each new
  * side is tested against them.  Long sides that stay active make this
  * quadratic; the number of tests is bounded, since all that hangs on the answer
- * is a warning.
+ * is a warning.  Where very many sides start at one x, equal ones count once.
  */
 #include "scene/self_intersection.h"
 
@@ -136,6 +136,38 @@ static bool is_convex(const double (*projected)[2], size_t count) {
 
 /* ---- The sweep ----------------------------------------------------------- */
 
+/* Compares sides, given by their keys, by the coordinates of their ends. */
+static int compare_sides(const void *a, const void *b, void *user) {
+  const struct sort_key *p = a, *q = b;
+  const struct polygon_side *side = user;
+  const struct polygon_side *s = &side[p->value], *t = &side[q->value];
+  const double one[4] = {s->left[0], s->left[1], s->right[0], s->right[1]};
+  const double two[4] = {t->left[0], t->left[1], t->right[0], t->right[1]};
+  int k = 0;
+  while (k < 3 && one[k] == two[k])
+    k++;
+  return (one[k] > two[k]) - (one[k] < two[k]);
+}
+
+/* Keeps one of equal sides in each run of many that start at one x; returns how
+ * many sides are left.  All are kept where memory ran out. */
+static size_t unite_equal_sides(const struct side_sweep *sweep, size_t count) {
+  struct sort_key *order = sweep->order;
+  size_t kept = 0;
+  for (size_t i = 0, end; i < count; i = end) {
+    for (end = i + 1; end < count && order[end].key == order[i].key;)
+      end++;
+    bool unite =
+        end - i > FEW_SIDES && sort_stable(order + i, end - i, sizeof *order,
+                                           compare_sides, sweep->side);
+    for (size_t k = i; k < end; k++)
+      if (!unite || k == i ||
+          compare_sides(&order[kept - 1], &order[k], sweep->side) != 0)
+        order[kept++] = order[k];
+  }
+  return kept;
+}
+
 static void make_sides(const struct side_sweep *sweep, size_t count) {
   for (size_t i = 0; i < count; i++) {
     struct polygon_side *side = &sweep->side[i];
@@ -165,7 +197,8 @@ static bool sides_cross(const struct polygon_side *a,
 static bool find_bowtie_crossing(const struct side_sweep *sweep, size_t count) {
   size_t active = 0, tests = 0;
   make_sides(sweep, count);
-  for (size_t i = 0; i < count; i++) {
+  size_t distinct = unite_equal_sides(sweep, count);
+  for (size_t i = 0; i < distinct; i++) {
     const struct polygon_side *side = &sweep->side[sweep->order[i].value];
     size_t kept = 0;
     for (size_t k = 0; k < active; k++) {
