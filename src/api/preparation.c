@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/tolerance.h"
 #include "scene/coarse_parts.h"
 #include "scene/crease_marks.h"
 #include "scene/edge_classes.h"
@@ -183,14 +184,29 @@ recto_status preparation_rescale(const struct preparation *preparation,
   return status;
 }
 
+/* A cut may leave so little that the page shows the grid of its points. */
+static recto_status check_cut_scale(const struct preparation *preparation,
+                                    const struct camera *camera,
+                                    recto_error *error) {
+  double mm = camera->s / (camera->perspective ? camera->d_min : 1);
+  if (!(preparation->cut.unit * mm > TOLERANCE_CUT_MM))
+    return RECTO_OK;
+  return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
+                   "the cut leaves so little that it would be enlarged beyond "
+                   "the precision of a cut: a smaller --scale shows where it "
+                   "is");
+}
+
 recto_status preparation_aim(struct camera *camera,
                              const struct preparation *preparation,
                              const uint8_t *used, const recto_options *options,
                              recto_error *error) {
   const struct known_points known = {
       used, preparation->is_all_used ? &preparation->rescaled.box : NULL};
-  return camera_aim_at_points(camera, preparation->scene, known, options,
-                              error);
+  recto_status status =
+      camera_aim_at_points(camera, preparation->scene, known, options, error);
+  return status == RECTO_OK ? check_cut_scale(preparation, camera, error)
+                            : status;
 }
 
 /* Whether the marks of creases that were found are those of these options. */

@@ -58,7 +58,8 @@ preparation_rescale(const struct preparation *preparation,
 
 /* Aims the camera at a prepared scene.
  * used    one a point, as of used.h; NULL: not known
- * Errors  as of camera_aim */
+ * Errors  as of camera_aim; RECTO_ERROR_LIMIT also where a cut leaves less than
+ *         its precision */
 USE_RESULT recto_status preparation_aim(struct camera *camera,
                                         const struct preparation *preparation,
                                         const uint8_t *used,

@@ -25,7 +25,6 @@
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "base/poll.h"
-#include "base/tolerance.h"
 #include "ink/cut_hatch.h"
 #include "ink/ink.h"
 #include "ink/pens.h"
@@ -73,6 +72,13 @@ static bool draws_smooth_contours(const struct render *render) {
 static bool uses_topology(const struct render *render) {
   return has_fills(render) || draws_smooth_contours(render) ||
          render->topology.crease_mark != NULL || render->options->ink.ids ||
+         render->options->results != 0;
+}
+
+/* Whether the edges of sides are: of fills, by hatching. */
+static bool uses_corners(const struct render *render) {
+  return render->options->ink.fill == RECTO_FILL_HATCH ||
+         cut_hatch_is_drawn(render->options) || draws_smooth_contours(render) ||
          render->options->results != 0;
 }
 
@@ -143,25 +149,10 @@ static recto_status find_topology(struct render *render, recto_error *error) {
   return status;
 }
 
-/* A cut may leave so little that the page shows the grid of its points. */
-static recto_status check_cut_scale(const struct render *render,
-                                    recto_error *error) {
-  const struct camera *camera = &render->camera;
-  double mm = camera->s / (camera->perspective ? camera->d_min : 1);
-  if (!(render->prepared->cut.unit * mm > TOLERANCE_CUT_MM))
-    return RECTO_OK;
-  return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
-                   "the cut leaves so little that it would be enlarged beyond "
-                   "the precision of a cut: a smaller --scale shows where it "
-                   "is");
-}
-
 static recto_status aim(struct render *render, recto_error *error) {
   recto_status status =
       preparation_aim(&render->camera, render->prepared, render->topology.used,
                       &render->scaled, error);
-  if (status == RECTO_OK)
-    status = check_cut_scale(render, error);
   if (status != RECTO_OK)
     return status;
   for (int k = 0; k < 2; k++)
@@ -195,6 +186,8 @@ static recto_status project_scene(struct render *render, recto_error *error) {
   if (!uses_topology(render)) {
     render->sheet.topology = NULL;
     drop_topology(render);
+  } else if (!uses_corners(render) && !is_shared(render)) {
+    topology_drop_corners(&render->topology);
   }
   return status;
 }

@@ -146,7 +146,7 @@
  * Unit        mm
  * Derivation  as of TOLERANCE_SCALE_MM; what is left is then a 2^-24 of the
  *             model that fills a page of 200 mm.
- * Users       api/render.c
+ * Users       api/preparation.c
  * Ten times   cut faces end where they do not, by half a pen. */
 #define TOLERANCE_CUT_MM 0.01
 
