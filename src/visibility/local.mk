@@ -82,6 +82,7 @@ librecto_core_la_SOURCES += \
   %D%/newell/newell_tests.c %D%/newell/newell_tests.h \
   %D%/newell/painter.c %D%/newell/painter.h \
   %D%/pairwise/edge_query.c %D%/pairwise/edge_query.h \
+  %D%/pairwise/overlap_query.c %D%/pairwise/overlap_query.h \
   %D%/pairwise/pairwise_fallback.c %D%/pairwise/pairwise_fallback.h \
   %D%/pairwise/tile_candidates.c %D%/pairwise/tile_candidates.h \
   %D%/pairwise/tile_classification.c %D%/pairwise/tile_classification.h \

@@ -26,7 +26,7 @@
 
 #include "base/parallel.h"
 #include "base/sort.h"
-#include "visibility/index/bsp.h"
+#include "visibility/pairwise/overlap_query.h"
 #include "visibility/predicate/surrounder.h"
 
 /* ---- Contours by tile ---------------------------------------------------- */
@@ -124,9 +124,8 @@ enum {
 
 struct triangle_solver {
   struct deferred_triangles *d;
-  struct triangle_grid_query query;
+  struct overlap_query query; /* of the current triangle */
   struct occluder_subtraction subtraction;
-  struct kdop8 kdop; /* of the current triangle */
   struct deferred_triangles_counts counts;
   struct progress progress;
   struct fragments part;
@@ -161,114 +160,15 @@ static bool is_crossed(const struct triangle_solver *solver) {
   return false;
 }
 
-/* ---- Candidates ---------------------------------------------------------- */
-
-/* Adds triangle g to the candidates unless it was seen before, which is asked
- * first: many are in several cells of the query.  A hidden triangle is no
- * occluder and is added only if it is earlier than the current one: visible
- * pieces may be passed on to it if the two are in contact. */
-static bool add_candidate(struct triangle_solver *solver, uint32_t g) {
-  return !triangle_grid_query_first(&solver->query, g) ||
-         g == solver->subtraction.triangle ||
-         (g > solver->subtraction.triangle && is_hidden(solver, g)) ||
-         sheet_is_edge_on(solver->d->sheet, g) ||
-         ARRAY_PUSH(&solver->query.found, g);
-}
-
-static bool find_in_bsp(struct triangle_solver *solver, uint32_t root) {
-  const struct bsp *bsp = solver->d->lists->grid.bsp;
-  const struct bsp_query shape = {.kind = BSP_TRIANGLE,
-                                  .triangle = solver->subtraction.triangle,
-                                  .sheet = solver->d->sheet,
-                                  .box = solver->subtraction.box};
-  struct bsp_traversal traversal = bsp_traversal_from(root);
-  const struct bsp_node *node;
-  while ((node = bsp_next(bsp, &traversal, &shape)) != NULL)
-    for (uint32_t i = node->from; i < node->from + node->count; i++)
-      if (!add_candidate(solver, bsp->member.item[i].triangle))
-        return false;
-  return true;
-}
-
-/* Finds the triangles in a cell that may overlap the current one on the page,
- * but for those that are behind it. */
-static bool find_nearer_in_cell(struct triangle_solver *solver, int x, int y) {
-  const struct tile_candidates *lists = solver->d->lists;
-  size_t cell = triangle_grid_index(&lists->grid, x, y);
-  uint32_t i = lists->grid.lists.start[cell],
-           end = lists->grid.lists.start[cell + 1];
-  if (i == end)
-    return true;
-  if (triangle_grid_bsp(&lists->grid, cell) != SHEET_NONE)
-    return find_in_bsp(solver, triangle_grid_bsp(&lists->grid, cell));
-  bool is_sorted = tile_candidates_is_sorted(lists, cell);
-  struct kdop8_range range = tile_candidates_range(lists, x, y);
-  uint64_t query = kdop8_query(&range, &solver->kdop);
-  for (; i < end; i++) {
-    uint64_t lanes = kdop8_compare(lists->key[i], query);
-    if (lanes == KDOP8_GUARDS) {
-      if (!add_candidate(solver, lists->grid.lists.item[i]))
-        return false;
-    } else if (is_sorted && kdop8_is_behind(lanes)) {
-      break; /* so are all that follow */
-    }
-  }
-  return true;
-}
-
-/* Finds the others, which are behind it, as some may be in contact with it. */
-static bool find_behind_in_cell(struct triangle_solver *solver, int x, int y) {
-  const struct tile_candidates *lists = solver->d->lists;
-  size_t cell = triangle_grid_index(&lists->grid, x, y);
-  uint32_t begin = lists->grid.lists.start[cell],
-           i = lists->grid.lists.start[cell + 1];
-  if (i == begin || triangle_grid_bsp(&lists->grid, cell) != SHEET_NONE)
-    return true;
-  bool is_sorted = tile_candidates_is_sorted(lists, cell);
-  struct kdop8_range range = tile_candidates_range(lists, x, y);
-  uint64_t query = kdop8_query(&range, &solver->kdop);
-  while (i-- > begin) {
-    uint64_t lanes = kdop8_compare(lists->key[i], query);
-    if (!kdop8_is_behind(lanes) && is_sorted)
-      break;
-    if (kdop8_is_behind(lanes) && kdop8_overlaps_page(lanes) &&
-        !add_candidate(solver, lists->grid.lists.item[i]))
-      return false;
-  }
-  return true;
-}
-
-static bool find_in_cells(struct triangle_solver *solver,
-                          bool (*find)(struct triangle_solver *solver, int x,
-                                       int y)) {
-  struct cell_range r =
-      triangle_grid_cells(&solver->d->lists->grid, solver->subtraction.box);
-  for (int y = r.y0; y <= r.y1; y++)
-    for (int x = r.x0; x <= r.x1; x++)
-      if (!find(solver, x, y))
-        return false;
-  return true;
-}
-
-/* Finds what may be an occluder. */
-static bool find_candidates(struct triangle_solver *solver) {
-  const struct geom_point *p = solver->subtraction.plane.p;
-  triangle_grid_query_start(&solver->d->lists->grid, &solver->query);
-  solver->kdop = kdop8_of_point(p[0]);
-  kdop8_add(&solver->kdop, p[1]);
-  kdop8_add(&solver->kdop, p[2]);
-  return find_in_cells(solver, find_nearer_in_cell);
-}
-
 /* ---- Solving ------------------------------------------------------------- */
 
-/* Tests the candidates as occluders, until one hides the current triangle
- * completely, or one and the one before it. */
+/* Tests the candidates as occluders, but for those known to be hidden, until
+ * one hides the current triangle completely, or one and the one before it. */
 static bool test_candidates(struct triangle_solver *solver) {
   struct occluder_subtraction *subtraction = &solver->subtraction;
   enum { AHEAD = 4 }; /* lists are short */
-  const uint32_t *candidate = solver->query.found.item;
-  size_t count = solver->query.found.count;
+  const uint32_t *candidate = solver->query.found.found.item;
+  size_t count = solver->query.found.found.count;
   if (!progress_step(subtraction->progress, count))
     return false;
   for (size_t i = 0; i < count && !subtraction->covered; i++) {
@@ -291,10 +191,10 @@ static bool mark_hidden(struct triangle_solver *solver, uint32_t triangle) {
  * behind it may be in contact with it. */
 static bool add_visible(struct triangle_solver *solver, uint32_t triangle) {
   const struct occluder_subtraction *subtraction = &solver->subtraction;
-  if (solver->part.contact && !find_in_cells(solver, find_behind_in_cell))
+  if (solver->part.contact && !overlap_query_add_behind(&solver->query))
     return false;
-  const uint32_t *candidate = solver->query.found.item;
-  size_t count = solver->query.found.count;
+  const uint32_t *candidate = solver->query.found.found.item;
+  size_t count = solver->query.found.found.count;
   if (subtraction->whole) {
     solver->counts.whole++;
     return fragments_add_with_candidates(&solver->part, triangle, NULL, 0,
@@ -310,7 +210,8 @@ static bool add_visible(struct triangle_solver *solver, uint32_t triangle) {
 static bool solve_triangle(struct triangle_solver *solver, uint32_t triangle) {
   struct occluder_subtraction *subtraction = &solver->subtraction;
   occluder_subtraction_begin(subtraction, triangle);
-  if (!find_candidates(solver) || !test_candidates(solver))
+  if (!overlap_query_find_nearer(&solver->query, triangle) ||
+      !test_candidates(solver))
     return false;
   if (subtraction->covered)
     return mark_hidden(solver, triangle);
@@ -389,7 +290,7 @@ static bool init_solver(struct triangle_solver *solver,
   fragments_init_part(&solver->part, fragments);
   occluder_subtraction_init(&solver->subtraction, d->sheet);
   solver->subtraction.progress = &solver->progress;
-  return triangle_grid_query_init(&solver->query, &d->lists->grid);
+  return overlap_query_init(&solver->query, d->sheet, d->lists);
 }
 
 /* Adds what a solver counted, and ends it. */
@@ -404,7 +305,7 @@ static void end_solver(struct triangle_solver *solver,
                                   &solver->subtraction.counts);
   fragments_adopt(fragments, &solver->part);
   fragments_fini(&solver->part);
-  triangle_grid_query_fini(&solver->query);
+  overlap_query_fini(&solver->query);
   occluder_subtraction_fini(&solver->subtraction);
 }
 
