@@ -28,9 +28,14 @@ enum { FOLD_SEGMENTS_MAX = 32 };
 
 /* A thin loop that goes so far to and fro, as a multiple of that height, over
  * so many segments is a fold of the surface: noise makes short ones.  Where a
- * loop is a part of a curve its ends alone are lost, which are spurs. */
+ * loop is a part of a curve its ends alone are lost, which are spurs.  One over
+ * so many segments whose area is about a triangle's, in squares of that height,
+ * and whose mean width is no less than a share of it, is a fold, too: what
+ * noise makes is either short or narrow. */
 #define LONG_CURVE_HEIGHTS 8
 #define LONG_LOOP_HEIGHTS 16
+#define FOLD_AREA 0.5
+#define FOLD_SHARE 0.1
 enum { LONG_SEGMENTS_MIN = 24 };
 
 /* The faces of a body for each segment of a loop that is none of its
@@ -149,12 +154,14 @@ static bool is_thin(const struct page_loop *loop) {
   return loop->area < THIN_SHARE * loop->length * loop->height;
 }
 
-/* Whether a loop is a fold however thin it is: it is long, and something can be
- * drawn between its two sides. */
+/* Whether a loop is a fold however thin it is: it is long, or long and wide,
+ * and something can be drawn between its two sides. */
 static bool is_long(const struct page_loop *loop, double heights) {
   return loop->segments >= LONG_SEGMENTS_MIN &&
-         loop->length >= 2 * heights * loop->height &&
-         loop->area >= RECTO_FINEST_MM * SHEET_UNITS_PER_MM * loop->length;
+         loop->area >= RECTO_FINEST_MM * SHEET_UNITS_PER_MM * loop->length &&
+         (loop->length >= 2 * heights * loop->height ||
+          (loop->area >= 2 * FOLD_AREA * loop->height * loop->height &&
+           loop->area >= FOLD_SHARE * loop->length * loop->height));
 }
 
 /* ---- The stack ----------------------------------------------------------- */
