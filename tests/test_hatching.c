@@ -223,8 +223,59 @@ static void scan_lines_do_not_cut_hatching_up(void **state) {
   }
 }
 
+/* Two faces in one plane, and above the lower one a third that goes back from
+ * the higher one: of the higher one's side, a part is a line, and the pen may
+ * not go along the other, between the two. */
+static recto_scene *scene_with_half_a_line(void) {
+  static const double points[] = {0, 0, 0, 4, 0, 0, 4, 2, 0, 4,  4, 0, 0, 4,
+                                  0, 8, 0, 0, 8, 2, 0, 4, 2, -2, 4, 4, -2};
+  static const uint32_t corners[] = {2, 3, 4, 0, 1, 1, 5, 6, 2, 2, 7, 8, 3};
+  static const uint32_t offsets[] = {0, 5, 9, 13};
+  const recto_mesh mesh = {.points = points,
+                           .point_count = 9,
+                           .corners = corners,
+                           .corner_count = 13,
+                           .face_offsets = offsets,
+                           .face_count = 3};
+  recto_scene *scene = NULL;
+  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+  assert_int_equal(recto_scene_add_mesh(scene, &mesh, NULL), RECTO_OK);
+  return scene;
+}
+
+static void the_pen_goes_along_drawn_parts_of_sides_alone(void **state) {
+  recto_scene *scene = scene_with_half_a_line();
+  recto_drawing *drawing = NULL;
+  recto_options options;
+  recto_stroke stroke;
+  double x = 0, low = 0;
+  size_t along = 0, lines = 0;
+  (void)state;
+  recto_options_init(&options);
+  options.ink.fill = RECTO_FILL_HATCH;
+  assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
+                   RECTO_OK);
+  for (size_t i = 0; recto_drawing_stroke(drawing, i, &stroke); i++)
+    if (stroke.edge_class == RECTO_EDGE_CREASE) {
+      lines++;
+      x = stroke.points[0];
+      low = fmin(stroke.points[1], stroke.points[3]);
+    }
+  assert_int_equal(lines, 1);
+  for (size_t i = 0; recto_drawing_stroke(drawing, i, &stroke); i++)
+    for (size_t k = 1; stroke.edge_class == 0 && k < stroke.count; k++) {
+      const double *p = stroke.points + 2 * (k - 1);
+      along += fabs(p[0] - x) < 0.01 && fabs(p[2] - x) < 0.01 &&
+               fmin(p[1], p[3]) < low - 0.01;
+    }
+  assert_int_equal(along, 0);
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(scene);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(the_pen_goes_along_drawn_parts_of_sides_alone),
       cmocka_unit_test(hatched_length_is_area_over_pitch),
       cmocka_unit_test(scan_lines_do_not_cut_hatching_up),
       cmocka_unit_test(the_angle_of_hatching_changes_no_length),

@@ -37,6 +37,36 @@ static bool is_within_cut_face(const struct hatch_regions *regions,
             hatch_regions_side_is_inked(regions, &map->corner.item[b->side])));
 }
 
+/* Whether a side's edge is not drawn and lies between two faces. */
+static bool is_undrawn_between(const struct hatch_regions *regions,
+                               const struct map_corner *corner, uint32_t face,
+                               uint32_t other) {
+  const struct sheet *sheet = regions->sheet;
+  if (corner->id >= sheet->edge.count ||
+      hatch_regions_side_is_inked(regions, corner))
+    return false;
+  const uint32_t *of = sheet->edge.item[corner->id].triangle;
+  if (of[0] == SHEET_NONE || of[1] == SHEET_NONE)
+    return false;
+  uint32_t one = sheet->triangle.item[of[0]].face;
+  uint32_t two = sheet->triangle.item[of[1]].face;
+  return (one == face && two == other) || (one == other && two == face);
+}
+
+/* Whether twins are beside one mesh edge that is not drawn.  A side of several
+ * edges on one line has the number of one of them alone: another edge of it,
+ * that of both faces, may be that of the other side. */
+static bool are_at_undrawn_edge(const struct hatch_regions *regions,
+                                const struct map_corner *p,
+                                const struct map_corner *q, uint32_t face,
+                                uint32_t other) {
+  if (p->side != MAP_SIDE_EDGE || q->side != MAP_SIDE_EDGE)
+    return false;
+  return p->id == q->id ? !hatch_regions_side_is_inked(regions, p)
+                        : is_undrawn_between(regions, p, face, other) ||
+                              is_undrawn_between(regions, q, face, other);
+}
+
 /* Whether the fragments of two twins belong to one region: they are beside one
  * mesh edge that is not drawn, and one pen hatches both, or parts of one face
  * that a scan-line method has split. */
@@ -53,8 +83,7 @@ static bool is_within_region(const struct hatch_regions *regions,
     return true;
   if (p->side == MAP_SIDE_CLIP && q->side == MAP_SIDE_CLIP)
     return face == other;
-  return p->side == MAP_SIDE_EDGE && q->side == MAP_SIDE_EDGE &&
-         p->id == q->id && !hatch_regions_side_is_inked(regions, p) &&
+  return are_at_undrawn_edge(regions, p, q, face, other) &&
          scene_is_cut_face(scene, face) == scene_is_cut_face(scene, other) &&
          pens_of_hatch(pens, scene_face_group(scene, face)) ==
              pens_of_hatch(pens, scene_face_group(scene, other));
