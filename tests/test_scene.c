@@ -313,6 +313,55 @@ static void a_bow_tie_is_kept_with_a_warning(void **state) {
   assert_string_equal(r->warning[0], "7: face whose sides cross each other");
 }
 
+/* What a strictly convex polygon is, and what is not one: a star that goes round
+ * twice, a corner on a side, one at the place of another, a dent. */
+static void only_convex_polygons_are_strictly_convex(void **state) {
+  struct reading *r = *state;
+  enum { CIRCLE, STAR, TWICE, DENT, KINDS };
+  for (uint32_t count = 5; count <= 40; count++)
+    for (int kind = 0; kind < KINDS; kind++) {
+      double point[40][3];
+      uint32_t corner[40];
+      uint32_t step = kind == STAR ? 2 : 1,
+               before = (uint32_t)r->scene.point.count;
+      for (uint32_t i = 0; i < count; i++) {
+        double angle = 2 * 3.14159265358979 * step * i / count;
+        point[i][0] = cos(angle);
+        point[i][1] = sin(angle);
+        point[i][2] = 0.25 * cos(angle) + 1;
+        corner[i] = before + i;
+      }
+      for (int k = 0; k < 3; k++)
+        point[3][k] = kind == TWICE  ? point[1][k]
+                      : kind == DENT ? (k == 2 ? 1 : 0)
+                                     : point[3][k];
+      for (uint32_t i = 0; i < count; i++)
+        add_point(r, point[i][0], point[i][1], point[i][2]);
+      bool expected = kind == CIRCLE;
+      assert_int_equal(polygon_is_strictly_convex(&r->scene, corner, count),
+                       expected && count <= 32);
+    }
+  static const double straight[][3] = {
+      {0, 0, 0}, {2, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}};
+  uint32_t corner[5];
+  for (uint32_t i = 0; i < 5; i++) {
+    corner[i] = (uint32_t)r->scene.point.count;
+    add_point(r, straight[i][0], straight[i][1], straight[i][2]);
+  }
+  assert_false(polygon_is_strictly_convex(&r->scene, corner, 5));
+}
+
+/* Corners at one position are one point, also of many corners. */
+static void corners_at_one_position_are_united(void **state) {
+  struct reading *r = *state;
+  static const double pinched[][3] = {{0, 0, 0}, {4, 0, 0}, {4, 2, 0},
+                                      {2, 1, 0}, {4, 4, 0}, {0, 4, 0},
+                                      {2, 1, 0}};
+  add_polygon(r, pinched, 7);
+  assert_int_equal(r->scene.corner.count, 7);
+  assert_int_equal(r->scene.corner.item[3], r->scene.corner.item[6]);
+}
+
 /* A star of `count` corners around a circle, each side `step` corners wide:
  * one without crossings for a step of 1. */
 static bool star_crosses(uint32_t count, uint32_t step, double tilt) {
@@ -654,6 +703,8 @@ int main(void) {
       T(corners_on_one_line_are_no_face),
       T(a_face_with_area_is_kept),
       T(an_index_out_of_range_is_no_face),
+      T(only_convex_polygons_are_strictly_convex),
+      T(corners_at_one_position_are_united),
       T(a_bow_tie_is_kept_with_a_warning),
       T(stars_cross_and_circles_do_not),
       T(a_star_gone_around_very_often_crosses),

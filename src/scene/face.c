@@ -2,7 +2,8 @@
  *
  * Nearly every face is a triangle or a convex quadrangle without fault, and
  * one look at its area settles that: three corners that are not on one line
- * are distinct.  All others are examined step by step.
+ * are distinct.  Nor has a polygon a fault that is strictly convex.  All others
+ * are examined step by step.
  */
 #include "scene/scene.h"
 
@@ -32,6 +33,8 @@ static bool is_certainly_valid(const struct scene *scene,
   const struct scene_point *point = scene->point.item;
   if (count == 3)
     return !on_one_line(scene, corner[0], corner[1], corner[2]);
+  if (count > 4)
+    return polygon_is_strictly_convex(scene, corner, count);
   return count == 4 && !on_one_line(scene, corner[0], corner[1], corner[2]) &&
          !on_one_line(scene, corner[0], corner[2], corner[3]) &&
          exact_halves_agree(&point[corner[0]], &point[corner[1]],

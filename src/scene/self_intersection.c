@@ -115,15 +115,17 @@ static bool runs_right(const double a[2], const double b[2]) {
 
 /* Whether all corners turn one way (or not at all) and the sides change
  * between right and left only twice, so that the turns add up to a full one:
- * then no side can meet another. */
-static bool is_convex(const double (*projected)[2], size_t count) {
+ * then no side can meet another.
+ * strictly  every corner is to turn: then no two corners are at one place */
+static bool is_convex(const double (*projected)[2], size_t count,
+                      bool strictly) {
   int way = 0, changes = 0;
   const double *a = projected[count - 2], *b = projected[count - 1];
   bool right = runs_right(a, b);
   for (size_t i = 0; i < count; i++) {
     const double *c = projected[i];
     int turn = exact_orient2d(a, b, c);
-    if (turn * way < 0)
+    if (turn * way < 0 || (strictly && turn == 0))
       return false;
     way = way ? way : turn;
     changes += runs_right(b, c) != right;
@@ -218,12 +220,27 @@ static bool find_bowtie_crossing(const struct side_sweep *sweep, size_t count) {
   return false;
 }
 
-static bool has_crossing(const struct scene *scene, const uint32_t *corner,
-                         size_t count, const struct side_sweep *sweep) {
+/* The corners as they are seen along the axis. */
+static void project_corners(const struct scene *scene, const uint32_t *corner,
+                            size_t count, double (*projected)[2]) {
   int axis = choose_view_axis(scene, corner, count);
   for (size_t i = 0; i < count; i++)
-    drop_axis(&scene->point.item[corner[i]], axis, sweep->projected[i]);
-  return !is_convex((const double(*)[2])sweep->projected, count) &&
+    drop_axis(&scene->point.item[corner[i]], axis, projected[i]);
+}
+
+bool polygon_is_strictly_convex(const struct scene *scene,
+                                const uint32_t *corner, size_t count) {
+  double projected[FEW_SIDES][2];
+  if (count < 3 || count > FEW_SIDES)
+    return false;
+  project_corners(scene, corner, count, projected);
+  return is_convex((const double(*)[2])projected, count, true);
+}
+
+static bool has_crossing(const struct scene *scene, const uint32_t *corner,
+                         size_t count, const struct side_sweep *sweep) {
+  project_corners(scene, corner, count, sweep->projected);
+  return !is_convex((const double(*)[2])sweep->projected, count, false) &&
          find_bowtie_crossing(sweep, count);
 }
 

@@ -15,4 +15,11 @@
 bool polygon_intersects_itself(const struct scene *scene,
                                const uint32_t *corner, size_t count);
 
+/* Whether a polygon of few corners is seen to be strictly convex along the axis
+ * that shows most of it: then no two of its corners are at one position, no
+ * sides meet but at corners, and it has an area.  False also where that is not
+ * asked, of many corners. */
+bool polygon_is_strictly_convex(const struct scene *scene,
+                                const uint32_t *corner, size_t count);
+
 #endif
