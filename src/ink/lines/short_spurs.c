@@ -119,7 +119,10 @@ static uint32_t walk(const struct spur_search *s, uint32_t end, bool *is_long) {
   return end;
 }
 
-static bool add_spur(struct spur_search *s, uint32_t end) {
+typedef ARRAY(struct spur) spur_array;
+
+static bool add_spur(const struct spur_search *s, uint32_t end,
+                     spur_array *spurs) {
   bool is_long = false;
   uint32_t last = walk(s, end, &is_long);
   if (last == SEGMENT_GRAPH_NONE || is_cut_off(s, end))
@@ -132,21 +135,47 @@ static bool add_spur(struct spur_search *s, uint32_t end) {
     return true;
   struct spur spur = {.end = {end, both ? last : SEGMENT_GRAPH_NONE},
                       .is_dash = is_long || is_crease};
-  return ARRAY_PUSH(&s->spur, spur);
+  return ARRAY_PUSH(spurs, spur);
 }
 
-static bool find_spurs(struct spur_search *s) {
-  const struct segment_graph *graph = s->graph;
-  for (size_t n = 0; n < graph->node.count; n++) {
+/* What the ranges of nodes find. */
+struct spur_finding {
+  const struct spur_search *search;
+  spur_array *found; /* one a range */
+};
+
+static bool find_spurs_of_range(void *user, struct parallel_range range) {
+  const struct spur_finding *finding = user;
+  const struct spur_search *s = finding->search;
+  const struct number_lists *ends = &s->graph->ends;
+  spur_array *found = &finding->found[range.begin / PARALLEL_ITEMS];
+  for (size_t n = range.begin; n < range.end; n++) {
     if (!poll_at(n))
       return false;
     if (ends_at(s, (uint32_t)n) != 1) /* there are nodes without any */
       continue;
-    uint32_t end = graph->ends.item[graph->ends.start[n]];
-    if (spur_class(s, end >> 1) != 0 && !add_spur(s, end))
+    uint32_t end = ends->item[ends->start[n]];
+    if (spur_class(s, end >> 1) != 0 && !add_spur(s, end, found))
       return false;
   }
   return true;
+}
+
+/* The spurs of the ranges follow each other in order. */
+static bool find_spurs(struct spur_search *s) {
+  size_t nodes = s->graph->node.count,
+         ranges = parallel_range_count(nodes, PARALLEL_ITEMS);
+  struct spur_finding finding = {s, mem_calloc(ranges, sizeof *finding.found)};
+  bool ok = finding.found != NULL &&
+            parallel_ranges(parallel_workers(nodes, PARALLEL_ITEMS), nodes,
+                            PARALLEL_ITEMS, find_spurs_of_range, &finding);
+  for (size_t r = 0; finding.found != NULL && r < ranges; r++) {
+    for (size_t i = 0; ok && i < finding.found[r].count; i++)
+      ok = ARRAY_PUSH(&s->spur, finding.found[r].item[i]);
+    ARRAY_FREE(&finding.found[r]);
+  }
+  mem_free(finding.found);
+  return ok;
 }
 
 /* Lists the segments of a spur. */

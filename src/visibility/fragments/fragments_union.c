@@ -40,10 +40,50 @@ static size_t count_pieces(const struct fragment_piece *piece, size_t count) {
   return n;
 }
 
-static int compare_faces(const void *a, const void *b, void *user) {
-  const struct fragment_piece *p = a, *q = b;
-  (void)user;
-  return (p->face > q->face) - (p->face < q->face);
+/* ---- The order of pieces ------------------------------------------------- */
+
+struct piece_order {
+  const struct fragment_piece *from;
+  struct fragment_piece *to;
+  struct sort_key *key; /* a face, and the number of a piece of it */
+};
+
+static bool key_pieces(void *user, struct parallel_range range) {
+  const struct piece_order *order = user;
+  for (size_t i = range.begin; i < range.end; i++)
+    order->key[i] = (struct sort_key){order->from[i].face, (uint32_t)i};
+  return true;
+}
+
+static bool move_pieces(void *user, struct parallel_range range) {
+  const struct piece_order *order = user;
+  for (size_t i = range.begin; i < range.end; i++)
+    order->to[i] = order->from[order->key[i].value];
+  return true;
+}
+
+/* Sorts the pieces by face; those of one keep their order.  Returns false when
+ * memory ran out or the caller cancelled. */
+static bool sort_pieces_by_face(struct fragments *f) {
+  size_t n = f->piece.count;
+  int workers = parallel_workers(n, PARALLEL_ITEMS);
+  struct piece_order order = {f->piece.item, NULL,
+                              mem_alloc(n, sizeof *order.key)};
+  bool ok = order.key != NULL &&
+            parallel_ranges(workers, n, PARALLEL_ITEMS, key_pieces, &order) &&
+            sort_keys_alone(order.key, n);
+  order.to = ok ? mem_alloc(n, sizeof *order.to) : NULL;
+  ok = order.to != NULL &&
+       parallel_ranges(workers, n, PARALLEL_ITEMS, move_pieces, &order);
+  mem_free(order.key);
+  if (!ok) {
+    mem_free(order.to);
+    return false;
+  }
+  mem_free(f->piece.item);
+  f->piece.item = order.to;
+  f->piece.capacity = n;
+  return true;
 }
 
 /* ---- The index of sides -------------------------------------------------- */
@@ -231,10 +271,9 @@ static bool unite(struct union_work *work, int workers) {
   work->face = mem_calloc((size_t)workers, sizeof *work->face);
   work->output = mem_calloc(work->ranges, sizeof *work->output);
   work->place = mem_calloc(work->ranges, sizeof *work->place);
-  bool ok =
-      work->has_outline != NULL && work->face != NULL && work->output != NULL &&
-      work->place != NULL &&
-      sort_stable(f->piece.item, n, sizeof *f->piece.item, compare_faces, NULL);
+  bool ok = work->has_outline != NULL && work->face != NULL &&
+            work->output != NULL && work->place != NULL &&
+            sort_pieces_by_face(f);
   for (int k = 0; ok && k < workers; k++)
     face_union_init(&work->face[k], f, &work->sides);
   ok = ok && parallel_ranges(workers, n, work->items, find_outlines, work) &&

@@ -165,20 +165,54 @@ static bool match_sides(struct subdivision_work *work, struct sort_key *side,
   return true;
 }
 
+/* The lines of the sides that are not paired. */
+struct line_keys {
+  const struct subdivision_work *work;
+  const side_lines *lines;
+  const uint8_t *paired; /* one a side */
+  struct sort_key *key;  /* one a side: those of a range from its begin on */
+  size_t *kept;          /* one a range: how many it has */
+};
+
+static bool key_sides_of_range(void *user, struct parallel_range range) {
+  const struct line_keys *keys = user;
+  const struct subdivision_work *work = keys->work;
+  size_t n = range.begin;
+  for (size_t s = range.begin; s < range.end; s++)
+    if (!keys->paired[s])
+      keys->key[n++] = (struct sort_key){
+          keys->lines->item[s] != OF_EDGE
+              ? keys->lines->item[s]
+              : key_of_edge(work->sheet, work->map->corner.item[s].id),
+          (uint32_t)s};
+  keys->kept[range.begin / PARALLEL_ITEMS] = n - range.begin;
+  return true;
+}
+
+/* Lists these sides with the keys of their lines, in order; *count: how many.
+ * Returns false when memory ran out or the caller cancelled. */
+static bool key_sides(struct line_keys *keys, size_t *count) {
+  size_t sides = keys->work->map->corner.count;
+  keys->kept = mem_alloc(parallel_range_count(sides, PARALLEL_ITEMS),
+                         sizeof *keys->kept);
+  bool ok = keys->kept != NULL &&
+            parallel_ranges(parallel_workers(sides, PARALLEL_ITEMS), sides,
+                            PARALLEL_ITEMS, key_sides_of_range, keys);
+  if (ok)
+    *count = parallel_gather(keys->key, sizeof *keys->key, sides,
+                             PARALLEL_ITEMS, keys->kept);
+  mem_free(keys->kept);
+  return ok;
+}
+
 static bool match_lines(struct subdivision_work *work,
                         const side_lines *lines) {
-  const struct map *map = work->map;
-  size_t sides = map->corner.count, count = 0;
+  size_t sides = work->map->corner.count, count = 0;
   struct sort_key *key = mem_alloc(sides, 2 * sizeof *key);
   uint8_t *paired = mem_calloc(sides, 1);
-  bool ok = key != NULL && paired != NULL && pair_edges(work, paired);
-  for (uint32_t s = 0; ok && s < sides; s++)
-    if (!paired[s])
-      key[count++] = (struct sort_key){
-          lines->item[s] != OF_EDGE
-              ? lines->item[s]
-              : key_of_edge(work->sheet, map->corner.item[s].id),
-          s};
+  struct line_keys keys = {work, lines, paired, key, NULL};
+  bool ok = key != NULL && paired != NULL && pair_edges(work, paired) &&
+            key_sides(&keys, &count);
   if (ok)
     sort_keys(key, key + count, count);
   for (size_t i = 0, j, n = 0; ok && i < count; i = j, n++) {
@@ -347,20 +381,26 @@ static bool divide_loops(struct subdivision_work *work) {
          for_all(work, work->stretch.count, PARALLEL_ITEMS, store_twins);
 }
 
+static bool find_ends_of_range(void *user, struct parallel_range range) {
+  const struct subdivision_work *work = user;
+  for (size_t l = range.begin; l < range.end; l++) {
+    const struct map_loop *loop = &work->map->loop.item[l];
+    for (uint32_t i = 0; i < loop->count; i++)
+      work->end[loop->corner + i] =
+          loop->corner + (i + 1 < loop->count ? i + 1 : 0);
+  }
+  return true;
+}
+
 bool planar_subdivision_store(const side_lines *lines,
                               const struct sheet *sheet, struct map *map) {
   size_t count = map->corner.count;
   struct subdivision_work work = {
       .sheet = sheet, .map = map, .end = mem_alloc(count, sizeof *work.end)};
-  bool ok = work.end != NULL;
-  for (size_t l = 0; ok && l < map->loop.count; l++) {
-    const struct map_loop *loop = &map->loop.item[l];
-    for (uint32_t i = 0; i < loop->count; i++)
-      work.end[loop->corner + i] =
-          loop->corner + (i + 1 < loop->count ? i + 1 : 0);
-  }
-  ok = ok && match_lines(&work, lines) && list_by_side(&work) &&
-       divide_loops(&work);
+  bool ok =
+      work.end != NULL &&
+      for_all(&work, map->loop.count, PARALLEL_ITEMS, find_ends_of_range) &&
+      match_lines(&work, lines) && list_by_side(&work) && divide_loops(&work);
   mem_free(work.end);
   number_lists_fini(&work.along);
   mem_free(work.before);
