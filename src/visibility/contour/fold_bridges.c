@@ -33,6 +33,7 @@ struct fold_bridges {
   const struct outline_gaps_input *in;
   const float *heights;
   uint8_t *degree; /* one a point of contours: visible ones there, at most 2 */
+  uint8_t *is_cut; /* the same: a thin loop was left out there */
   ARRAY(struct bridge_end) start;
   ARRAY(struct bridge_end) stop;
   struct segment_grid grid; /* visible contours, and the mesh's outlines with
@@ -46,13 +47,21 @@ static bool is_visible_contour(const struct fold_bridges *b, uint32_t edge) {
   return b->in->map->edge_state[edge] != MAP_HIDDEN;
 }
 
+/* Whether a gap may begin or end at a point: where a contour does, or, if
+ * `at_cuts`, where one turns since a loop was left out, whose side led on. */
+static bool is_open(const struct fold_bridges *b, uint32_t point,
+                    bool at_cuts) {
+  uint32_t at = point - b->in->first_point;
+  return b->degree[at] == 1 || (at_cuts && b->is_cut[at]);
+}
+
 static bool list_end(struct fold_bridges *b, uint32_t edge, int k) {
   const struct sheet *sheet = b->in->sheet;
   uint32_t point = sheet->edge.item[edge].point[k];
   struct geom_segment s = sheet_ends(sheet, sheet->edge.item[edge].point);
   double x = (double)s.q.x - s.p.x, y = (double)s.q.y - s.p.y;
   double length = hypot(x, y);
-  if (b->degree[point - b->in->first_point] != 1 || length == 0)
+  if (!is_open(b, point, true) || length == 0)
     return true;
   struct geom_point at = k == 0 ? s.p : s.q;
   struct bridge_end end = {point, edge, at.x, at.y, x / length, y / length};
@@ -65,11 +74,20 @@ static int compare_bridge_ends(const void *a, const void *b, void *user) {
   return (p->x > q->x) - (p->x < q->x);
 }
 
+static void mark_cuts(struct fold_bridges *b) {
+  const struct zero_set *set = b->in->set;
+  for (size_t i = 0; i < set->node.count; i++)
+    if (set->node.item[i].is_cut && set->node.item[i].sheet_point != SHEET_NONE)
+      b->is_cut[set->node.item[i].sheet_point - b->in->first_point] = 1;
+}
+
 static bool list_bridge_ends(struct fold_bridges *b) {
   const struct sheet *sheet = b->in->sheet;
   b->degree = mem_calloc(sheet->point.count - b->in->first_point, 1);
-  if (b->degree == NULL)
+  b->is_cut = mem_calloc(sheet->point.count - b->in->first_point, 1);
+  if (b->degree == NULL || b->is_cut == NULL)
     return false;
+  mark_cuts(b);
   for (uint32_t e = b->in->first; e < sheet->edge.count; e++)
     for (int k = 0; is_visible_contour(b, e) && k < 2; k++) {
       uint8_t *degree =
@@ -86,10 +104,12 @@ static bool list_bridge_ends(struct fold_bridges *b) {
 
 /* ---- Gaps ---------------------------------------------------------------- */
 
-/* The end that faces one; NULL: there is none. */
+/* The end that faces one; NULL: there is none.
+ * at_cut  one of the two is where a loop was left out, and not both */
 static const struct bridge_end *find_facing(const struct fold_bridges *b,
                                             const struct bridge_end *from,
-                                            double height) {
+                                            double height, bool at_cut) {
+  bool to_cut = at_cut && is_open(b, from->point, false);
   double least = BRIDGE_HEIGHTS * height, reach = least;
   const struct bridge_end *best = NULL;
   size_t first = 0;
@@ -99,8 +119,8 @@ static const struct bridge_end *find_facing(const struct fold_bridges *b,
        i < b->start.count && b->start.item[i].x <= from->x + reach; i++) {
     const struct bridge_end *to = &b->start.item[i];
     double x = to->x - from->x, y = to->y - from->y, length = hypot(x, y);
-    if (length == 0 || length >= least ||
-        b->degree[to->point - b->in->first_point] != 1 ||
+    if (length == 0 || length >= least || !is_open(b, to->point, to_cut) ||
+        is_open(b, to->point, false) == to_cut ||
         x * from->dx + y * from->dy < FACING_COSINE * length ||
         x * to->dx + y * to->dy < FACING_COSINE * length)
       continue;
@@ -215,18 +235,23 @@ static bool add_bridge(const struct fold_bridges *b,
   edge.point[1] = to->point;
   b->degree[from->point - b->in->first_point] = 2;
   b->degree[to->point - b->in->first_point] = 2;
+  b->is_cut[from->point - b->in->first_point] = 0;
+  b->is_cut[to->point - b->in->first_point] = 0;
   map->edge_state[map->edge_count++] = MAP_VISIBLE;
   return ARRAY_PUSH(&sheet->edge, edge);
 }
 
-static bool bridge_all_gaps(struct fold_bridges *b) {
+/* at_cuts  gaps between an end and where a loop was left out, and no others */
+static bool bridge_all_gaps(struct fold_bridges *b, bool at_cuts) {
   bool ok = true;
   for (size_t i = 0; ok && i < b->stop.count; i++) {
     const struct bridge_end *from = &b->stop.item[i];
     double height = (double)b->heights[from->edge - b->in->first];
-    const struct bridge_end *to = find_facing(b, from, height);
     if (!poll_at(i))
       return false;
+    if (!is_open(b, from->point, at_cuts))
+      continue;
+    const struct bridge_end *to = find_facing(b, from, height, at_cuts);
     if (to != NULL && is_along_folds(b, from, to, height, &ok) && ok)
       ok = add_bridge(b, from, to);
   }
@@ -238,9 +263,11 @@ bool fold_bridges_add(const struct outline_gaps_input *input,
   struct fold_bridges b = {.in = input,
                            .heights = heights,
                            .edges = (uint32_t)input->sheet->edge.count};
-  bool ok = list_bridge_ends(&b) && bridge_all_gaps(&b);
+  bool ok = list_bridge_ends(&b) && bridge_all_gaps(&b, false) &&
+            bridge_all_gaps(&b, true);
   segment_grid_fini(&b.grid);
   mem_free(b.degree);
+  mem_free(b.is_cut);
   ARRAY_FREE(&b.start);
   ARRAY_FREE(&b.stop);
   return ok;
