@@ -172,6 +172,25 @@ static void a_length_of_0_closes_none(void **state) {
   end(&f);
 }
 
+/* A disc as a fan about a point of its rim, whose first triangles are thin. */
+static void thin_faces_along_a_curve_stay(void **state) {
+  (void)state;
+  enum { SIDES = 4000 };
+  struct fixture f;
+  scene_init(&f.scene);
+  for (int i = 0; i < SIDES; i++) {
+    double turn = 8 * atan(1) * i / SIDES;
+    struct scene_point p =
+        placed(10 * cos(turn) + 500, 10 * sin(turn) + 300, 0, 0.7, true);
+    assert_true(ARRAY_PUSH(&f.scene.point, p));
+  }
+  for (uint32_t i = 1; i + 1 < SIDES; i++)
+    add_face(&f.scene, (const uint32_t[]){0, i, i + 1}, 3);
+  begin(&f, -1, single);
+  assert_int_equal(f.welded.borders, SIDES);
+  end(&f);
+}
+
 /* A thin face alone is a line that someone wants to see. */
 static void thin_faces_alone_stay(void **state) {
   (void)state;
@@ -317,6 +336,7 @@ int main(void) {
       cmocka_unit_test(rounded_faces_without_width_leave_no_line),
       cmocka_unit_test(exact_coordinates_keep_narrow_faces),
       cmocka_unit_test(a_length_of_0_closes_none),
+      cmocka_unit_test(thin_faces_along_a_curve_stay),
       cmocka_unit_test(thin_faces_alone_stay),
       cmocka_unit_test(borders_that_do_not_meet_again_stay),
       cmocka_unit_test(normals_and_groups_stay_with_their_faces),

@@ -22,7 +22,7 @@
 
 /* Whether an undivided drawing would leave out faces of the part's scene, or
  * close slits of it.  Returns false when memory ran out. */
-static bool find_slits(const struct part_solve *work, bool *has_slits) {
+static bool find_slits(struct part_solve *work, bool *has_slits) {
   const struct scene *scene = &work->scene.scene;
   struct precision unstated = work->part.common.camera.unstated;
   uint64_t *thin;
@@ -37,8 +37,7 @@ static bool find_slits(const struct part_solve *work, bool *has_slits) {
 }
 
 /* Refuses what parts cannot weld. */
-static recto_status check_welding(const struct part_solve *work,
-                                  recto_error *error) {
+static recto_status check_welding(struct part_solve *work, recto_error *error) {
   bool may_weld, has_slits = false;
   if (!part_scene_may_weld(&work->scene, &work->topology, work->weld,
                            &may_weld) ||

@@ -1,6 +1,9 @@
 /* thin_faces.c - finds triangles whose height is no more than what rounding of
  * their corners explains.
  *
+ * Those that have sides in common are looked at as one: a fan of them may be a
+ * curve, though each of its triangles is thin.
+ *
  * A first test compares the square of the area with the fourth power of the
  * sides: nearly every face is settled by it. */
 #include "scene/thin_faces.h"
@@ -8,7 +11,9 @@
 #include <math.h>
 
 #include "base/parallel.h"
+#include "base/sort.h"
 #include "base/tolerance.h"
+#include "base/union_find.h"
 #include "geom/vector.h"
 
 double thin_faces_length(const struct scene *scene, uint32_t point, double side,
@@ -23,6 +28,7 @@ double thin_faces_length(const struct scene *scene, uint32_t point, double side,
 
 struct thin_search {
   const struct scene *scene;
+  const struct topology *topology;
   struct precision unstated;
   uint64_t *thin;
 };
@@ -123,17 +129,17 @@ static bool is_between_faces(const struct topology *topology, uint32_t start) {
 }
 
 /* Leaves of the triangles those that are between faces; counts them. */
-static size_t keep_between_faces(const struct scene *scene,
-                                 const struct topology *topology,
-                                 uint64_t *thin, size_t words) {
+static size_t keep_between_faces(const struct thin_search *search,
+                                 size_t words) {
   size_t count = 0;
   for (size_t w = 0; w < words; w++)
-    for (uint64_t left = thin[w]; left != 0; left &= left - 1) {
-      uint32_t face = (uint32_t)(64 * w) + (uint32_t)__builtin_ctzll(left);
-      if (is_between_faces(topology, scene_face_start(scene, face)))
+    for (uint64_t left = search->thin[w]; left != 0; left &= left - 1) {
+      uint32_t face = (uint32_t)(64 * w) + (uint32_t)__builtin_ctzll(left),
+               start = scene_face_start(search->scene, face);
+      if (is_between_faces(search->topology, start))
         count++;
       else
-        thin[w] &= ~(left & -left);
+        search->thin[w] &= ~(left & -left);
     }
   return count;
 }
@@ -155,11 +161,106 @@ static bool has_exact_points(const struct scene *scene,
   return exact && (is_stated || rounds_nothing(unstated));
 }
 
+/* ---- Connected ones ------------------------------------------------------ */
+
+static bool is_marked(const struct thin_search *search, uint32_t face) {
+  return search->thin[face / 64] >> face % 64 & 1;
+}
+
+/* Joins thin faces that have a side in common, and lists all by the first of
+ * those that are joined. */
+static void join_thin(const struct thin_search *search, uint32_t *root,
+                      struct sort_key *list) {
+  const struct topology *topology = search->topology;
+  uint32_t faces = scene_face_count(search->scene);
+  size_t count = 0;
+  for (uint32_t f = 0; f < faces; f++) {
+    uint32_t start = scene_face_start(search->scene, f);
+    for (uint32_t c = start; is_marked(search, f) && c < start + 3; c++) {
+      const struct topology_edge *edge =
+          &topology->edge.item[topology->corner_edge[c]];
+      uint32_t other = edge->first == f ? edge->second : edge->first;
+      if (is_marked(search, other))
+        union_find_join(root, f, other);
+    }
+  }
+  for (uint32_t f = 0; f < faces; f++)
+    if (is_marked(search, f))
+      list[count++] = (struct sort_key){union_find_root(root, f), f};
+}
+
+/* The corner of some faces that is farthest from a point. */
+static uint32_t farthest_corner_of(const struct scene *scene,
+                                   const struct sort_key *face, size_t count,
+                                   uint32_t from) {
+  const struct scene_point *point = scene->point.item;
+  uint32_t farthest = from;
+  double most = 0, d[3];
+  for (size_t i = 0; i < 3 * count; i++) {
+    uint32_t corner =
+        scene->corner.item[scene_face_start(scene, face[i / 3].value) + i % 3];
+    difference(&point[from], &point[corner], d);
+    if (vector_dot(d, d) > most) {
+      most = vector_dot(d, d);
+      farthest = corner;
+    }
+  }
+  return farthest;
+}
+
+/* Whether the corners of faces lie on one line but for rounding. */
+static bool are_straight(const struct thin_search *search,
+                         const struct sort_key *face, size_t count) {
+  const struct scene *scene = search->scene;
+  const struct scene_point *point = scene->point.item;
+  uint32_t first = scene->corner.item[scene_face_start(scene, face[0].value)];
+  uint32_t a = farthest_corner_of(scene, face, count, first);
+  uint32_t b = farthest_corner_of(scene, face, count, a);
+  double side[3], to[3], cross[3];
+  difference(&point[a], &point[b], side);
+  double length = vector_length(side);
+  for (size_t i = 0; i < 3 * count; i++) {
+    uint32_t corner =
+        scene->corner.item[scene_face_start(scene, face[i / 3].value) + i % 3];
+    difference(&point[a], &point[corner], to);
+    vector_cross(side, to, cross);
+    if (vector_length(cross) >
+        length * thin_faces_length(scene, corner, length, search->unstated))
+      return false;
+  }
+  return true;
+}
+
+/* Keeps those of the thin faces that are straight together.  Returns false when
+ * memory ran out. */
+static bool keep_straight(const struct thin_search *search, size_t *count) {
+  uint32_t *root = union_find_create(scene_face_count(search->scene));
+  struct sort_key *list = mem_alloc(*count, sizeof *list);
+  bool ok = root != NULL && list != NULL;
+  size_t listed = *count;
+  if (ok) {
+    join_thin(search, root, list);
+    ok = sort_keys_alone(list, listed);
+  }
+  for (size_t i = 0, past; ok && i < listed; i = past) {
+    for (past = i + 1; past < listed && list[past].key == list[i].key;)
+      past++;
+    if (are_straight(search, list + i, past - i))
+      continue;
+    for (size_t k = i; k < past; k++)
+      search->thin[list[k].value / 64] &= ~(UINT64_C(1) << list[k].value % 64);
+    *count -= past - i;
+  }
+  mem_free(root);
+  mem_free(list);
+  return ok;
+}
+
 bool thin_faces_find(const struct scene *scene, struct topology *topology,
                      struct precision unstated, uint64_t **thin,
                      size_t *count) {
   size_t faces = scene_face_count(scene), words = faces / 64 + 1, found = 0;
-  struct thin_search search = {scene, unstated,
+  struct thin_search search = {scene, topology, unstated,
                                mem_calloc(words, sizeof *search.thin)};
   *thin = search.thin;
   *count = 0;
@@ -177,6 +278,6 @@ bool thin_faces_find(const struct scene *scene, struct topology *topology,
     return true;
   if (!topology_find_corners(topology, scene))
     return false;
-  *count = keep_between_faces(scene, topology, search.thin, words);
-  return true;
+  *count = keep_between_faces(&search, words);
+  return *count == 0 || keep_straight(&search, count);
 }

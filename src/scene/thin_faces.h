@@ -15,7 +15,8 @@ double thin_faces_length(const struct scene *scene, uint32_t point, double side,
 /* Finds the triangles whose corners are on one line but for that, one between
  * the two others, and each of whose sides another face has: as programs make
  * them of points that are on one line before they are rounded.  Their normals
- * mean nothing.
+ * mean nothing.  Of those that have sides in common all corners are on one
+ * line.
  * thin   set to a new map of a bit a face, which the caller owns, also on
  *        failure
  * count  gets how many there are
