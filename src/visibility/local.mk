@@ -34,6 +34,7 @@ librecto_core_la_SOURCES += \
   %D%/intersection/intersection_segment.c %D%/intersection/intersection_segment.h \
   %D%/intersection/intersection_estimate.c \
   %D%/intersection/intersection_estimate.h \
+  %D%/intersection/pair_sweep.h \
   %D%/intersection/sweep_direction.c %D%/intersection/sweep_direction.h \
   %D%/intersection/swept_triangle.h \
   %D%/culling/face_runs.c %D%/culling/face_runs.h \

@@ -2,48 +2,7 @@
 #ifndef VISIBILITY_INTERSECTION_CANDIDATE_PAIRS_H
 #define VISIBILITY_INTERSECTION_CANDIDATE_PAIRS_H
 
-#include "base/sort.h"
-#include "visibility/index/bsp.h"
-#include "visibility/index/triangle_grid.h"
-#include "visibility/predicate/coarse_plane.h"
-#include "visibility/progress.h"
-
-struct swept_triangle; /* swept_triangle.h */
-
-/* An entry of a list.
- * right_copy  of bsp.h; 0 where the list is that of a cell */
-struct listed_triangle {
-  uint64_t right_copy;
-  uint32_t triangle;
-};
-
-/* The search for pairs in the cells of a grid, by one thread or by several,
- * each of which has its own. */
-struct pair_sweep {
-  const struct sheet *sheet;
-  const struct triangle_grid *grid;
-  const uint8_t *cells; /* per cell, not 0: selected; NULL: all are */
-  bool (*visit)(void *user, const struct swept_triangle *f,
-                const struct swept_triangle *g, bool straddle);
-  void *user;
-  struct progress *progress; /* counts the work */
-  uint64_t met; /* the number of pairs of one list whose ranges overlap, in
-                   depth or along the list's direction */
-  struct occlusion_bound all;           /* of contact tolerances */
-  int x, y;                             /* the current cell */
-  ARRAY(struct listed_triangle) listed; /* those of the current list */
-  ARRAY(struct swept_triangle) swept;   /* the same, sorted by depth */
-  ARRAY(struct swept_box) box;          /* of these */
-  ARRAY(uint32_t) met_now; /* scratch: those that a triangle is tested with */
-  ARRAY(struct sort_key) key;   /* twice as many: by depth, and scratch */
-  ARRAY(struct sort_key) other; /* those that are not of the face, or about the
-                                   edge, that most of the list's triangles are
-                                   of */
-  bool is_along_normal; /* the current list has the keys of sweep_direction.h */
-  ARRAY(struct sort_key) along; /* scratch: such keys, twice as many */
-  ARRAY(int64_t) high;          /* scratch: high ends of ranges */
-  struct bsp bsp;
-};
+#include "visibility/intersection/pair_sweep.h"
 
 /* The caller sets the members up to `progress`, the others to 0. */
 void pair_sweep_fini(struct pair_sweep *sweep);

@@ -43,7 +43,7 @@ struct sweep_range {
   int64_t high;
 };
 
-static double coordinate(struct geom_point p, int axis) {
+static double coordinate_of(struct geom_point p, int axis) {
   return axis == 0 ? p.x : axis == 1 ? p.y : (double)p.z;
 }
 
@@ -52,7 +52,8 @@ static double value_along(const struct sweep_direction *direction,
                           struct geom_point p) {
   double value = 0;
   for (int k = 0; k < 3; k++)
-    value += direction->normal[k] * (coordinate(p, k) - direction->origin[k]);
+    value +=
+        direction->normal[k] * (coordinate_of(p, k) - direction->origin[k]);
   return value;
 }
 
@@ -76,8 +77,8 @@ sweep_direction_of(const struct swept_triangle *swept, size_t count,
       direction.from = fmin(direction.from, value);
       to = fmax(to, value);
       for (int k = 0; k < 3; k++) {
-        low[k] = fmin(low[k], coordinate(p, k));
-        high[k] = fmax(high[k], coordinate(p, k));
+        low[k] = fmin(low[k], coordinate_of(p, k));
+        high[k] = fmax(high[k], coordinate_of(p, k));
       }
     }
   for (int k = 0; k < 3; k++)
@@ -87,8 +88,8 @@ sweep_direction_of(const struct swept_triangle *swept, size_t count,
   return direction;
 }
 
-/* Half of w, by which a triangle's range is widened; INFINITY or no number where that has
- * no bound. */
+/* Half of w, by which a triangle's range is widened; INFINITY or no number
+ * where that has no bound. */
 static double widening(const struct sweep_direction *direction,
                        const struct coarse_plane *plane) {
   const double *n = direction->normal;

@@ -7,12 +7,13 @@
 #ifndef VISIBILITY_INTERSECTION_SWEEP_DIRECTION_H
 #define VISIBILITY_INTERSECTION_SWEEP_DIRECTION_H
 
-#include "visibility/intersection/candidate_pairs.h"
+#include "visibility/intersection/pair_sweep.h"
 
 /* Gives the list, which is sorted by depth, the keys and high ends of another
- * direction, where that leaves clearly fewer pairs; sets is_along_normal.  Where
- * the ranges of two triangles do not overlap, all corners of one are certainly
- * on one side of the other's coarse plane, farther than the contact tolerance.
+ * direction, where that leaves clearly fewer pairs; sets is_along_normal.
+ * Where the ranges of two triangles do not overlap, all corners of one are
+ * certainly on one side of the other's coarse plane, farther than the contact
+ * tolerance.
  * Returns false when memory ran out. */
 USE_RESULT bool sweep_direction_choose(struct pair_sweep *sweep);
 
