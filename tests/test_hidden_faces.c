@@ -146,7 +146,7 @@ static void faces_of_one_size_are_whole(void **state) {
   }
 }
 
-/* ---- Runs ----------------------------------------------------------------- */
+/* ---- Runs ---------------------------------------------------------------- */
 
 /* Checks that the runs are all faces in order, that the points of each are
  * within its box and its range, and that the large faces are listed. */

@@ -1,5 +1,5 @@
-/* test_slits.c - where faces without width were, and where points lie on sides of
- * faces, there is no border; and no line within a flat side of a body. */
+/* test_slits.c - where faces without width were, and where points lie on sides
+ * of faces, there is no border; and no line within a flat side of a body. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -27,9 +27,9 @@ struct fixture {
 
 /* ---- A slab whose top is divided ----------------------------------------- */
 
-/* The top of the slab, 60 by 40, is divided along y = 20, where there are points
- * at these x: the lower part has the first and the last alone, the upper part
- * all.  Triangles without width may lie between them. */
+/* The top of the slab, 60 by 40, is divided along y = 20, where there are
+ * points at these x: the lower part has the first and the last alone, the upper
+ * part all.  Triangles without width may lie between them. */
 static const double middle[] = {0, 7, 13, 22, 31, 44, 60};
 enum { POINTS = sizeof middle / sizeof *middle, LAST = POINTS - 1 };
 
