@@ -1,6 +1,6 @@
 /* writer.h - the interface of all output formats.
  *
- * A writer receives a drawing in millimetres and a stream, which remembers its
+ * A writer receives a drawing in millimetres and a stream, which keeps its
  * first error; it uses nothing else of the library.  README.md in this folder
  * says how to add one. */
 #ifndef BACKENDS_WRITER_H

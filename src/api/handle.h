@@ -19,7 +19,7 @@ struct recto_scene {
   struct preparation *prepared; /* recto_scene_prepare; NULL: not prepared */
 };
 
-/* Forgets what was prepared, as the scene changes. */
+/* Drops what was prepared, as the scene changes. */
 void scene_forget_preparation(recto_scene *scene);
 
 /* A drawable edge and its parts. */

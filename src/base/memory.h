@@ -93,7 +93,7 @@ struct arena {
 /* Zero-initialised is empty.  Blocks are aligned for any type; NULL when
  * memory ran out. */
 void *arena_alloc(struct arena *arena, size_t count, size_t size);
-/* Keeps the memory's largest block, forgets what was in it. */
+/* Keeps the memory's largest block, and drops what was in it. */
 void arena_reset(struct arena *arena);
 void arena_fini(struct arena *arena);
 /* Moves all blocks of another arena, which is empty then, to this one: they are

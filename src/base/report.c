@@ -47,7 +47,7 @@ void report_unlock(struct report *report) {
     (void)pthread_mutex_unlock(&report->lock);
 }
 
-static void forget_value(struct report_entry *entry) {
+static void free_value(struct report_entry *entry) {
   mem_free(entry->text);
   mem_free(entry->numbers);
   report_destroy(entry->part);
@@ -61,7 +61,7 @@ void report_destroy(struct report *report) {
   if (report == NULL)
     return;
   for (size_t i = 0; i < report->entry.count; i++)
-    forget_value(&report->entry.item[i]);
+    free_value(&report->entry.item[i]);
   ARRAY_FREE(&report->entry);
   stream_discard(report->json);
   (void)pthread_mutex_destroy(&report->lock);
@@ -95,7 +95,7 @@ static struct report_entry *make_entry(struct report *report,
       return NULL;
     entry = &report->entry.item[report->entry.count - 1];
   }
-  forget_value(entry);
+  free_value(entry);
   entry->kind = kind;
   return entry;
 }

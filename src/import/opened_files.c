@@ -1,4 +1,4 @@
-/* opened_files.c - opens files for Assimp, and remembers which. */
+/* opened_files.c - opens files for Assimp, and lists them. */
 #include "import/opened_files.h"
 
 #include <limits.h>

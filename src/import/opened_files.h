@@ -1,4 +1,4 @@
-/* opened_files.h - opens files for Assimp, and remembers which: formats such as
+/* opened_files.h - opens files for Assimp, and lists them: formats such as
  * glTF have their data in other files beside the model, and no output may
  * replace what was read. */
 #ifndef IMPORT_OPENED_FILES_H
@@ -12,7 +12,7 @@
 struct opened_files {
   struct aiFileIO io; /* for aiImportFileEx; its files are read only */
   ARRAY(struct file_identity) file; /* every regular file that was opened */
-  bool no_memory;                   /* some could not be remembered */
+  bool no_memory;                   /* some could not be listed */
 };
 
 void opened_files_init(struct opened_files *files);
