@@ -10,8 +10,9 @@
  * at most a few heights of the triangles there, and if everywhere along it,
  * nearer than such a height, a visible fold of the mesh runs in that direction
  * and no contour does.  Where a thin loop was left out (thin_loops.h) a contour
- * counts as one that ends or begins, for gaps that have no other end there.  A surface that folds over in a strip narrower than a
- * triangle has no vertex whose mean normal is turned away, and so no contour.
+ * counts as one that ends or begins, for gaps that have no other end there.
+ * A surface that folds over in a strip narrower than a triangle has no vertex
+ * whose mean normal is turned away, and so no contour.
  * heights  one a contour's edge, as many as bulges: that of its triangle, grid
  *          units
  * Cost     near linear in the contours and outlines
