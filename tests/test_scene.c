@@ -313,8 +313,8 @@ static void a_bow_tie_is_kept_with_a_warning(void **state) {
   assert_string_equal(r->warning[0], "7: face whose sides cross each other");
 }
 
-/* What a strictly convex polygon is, and what is not one: a star that goes round
- * twice, a corner on a side, one at the place of another, a dent. */
+/* What a strictly convex polygon is, and what is not one: a star that goes
+ * round twice, a corner on a side, one at the place of another, a dent. */
 static void only_convex_polygons_are_strictly_convex(void **state) {
   struct reading *r = *state;
   enum { CIRCLE, STAR, TWICE, DENT, KINDS };

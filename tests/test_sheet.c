@@ -972,7 +972,7 @@ static void every_failed_allocation_is_reported(void **state) {
   sheet_fixture_fini(&fixture);
 }
 
-/* ---- Sides that the topology left out ------------------------------------- */
+/* ---- Sides that the topology left out ------------------------------------ */
 
 /* A page that clips needs them: the sheet is the same as with them. */
 static void sides_that_were_left_out_are_found(void **state) {
