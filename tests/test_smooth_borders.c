@@ -6,6 +6,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include <cmocka.h>
@@ -187,6 +188,68 @@ static void the_outline_of_folds_is_covered(void **state) {
   recto_scene_destroy(scene);
 }
 
+/* The distance from a stroke's end to other silhouettes and borders, mm. */
+static double distance_to_others(const recto_drawing *drawing, size_t stroke,
+                                 const double at[2]) {
+  double least = 1e9;
+  for (size_t s = 0; s < recto_drawing_stroke_count(drawing); s++) {
+    recto_stroke other;
+    assert_true(recto_drawing_stroke(drawing, s, &other));
+    size_t sides = other.count - !other.closed;
+    if (s == stroke ||
+        !(other.edge_class & (RECTO_EDGE_SILHOUETTE | RECTO_EDGE_BORDER)))
+      continue;
+    for (size_t i = 0; i < sides; i++)
+      least = fmin(least, smooth_distance_to_segment(
+                              at, other.points + 2 * i,
+                              other.points + 2 * ((i + 1) % other.count)));
+  }
+  return least;
+}
+
+/* How many ends of silhouettes and borders no other one is near. */
+static int count_loose_ends(const recto_drawing *drawing) {
+  int loose = 0;
+  for (size_t s = 0; s < recto_drawing_stroke_count(drawing); s++) {
+    recto_stroke own;
+    assert_true(recto_drawing_stroke(drawing, s, &own));
+    if (own.closed ||
+        !(own.edge_class & (RECTO_EDGE_SILHOUETTE | RECTO_EDGE_BORDER)))
+      continue;
+    for (int k = 0; k < 2; k++) {
+      const double *at = own.points + 2 * (k == 0 ? 0 : own.count - 1);
+      loose += distance_to_others(drawing, s, at) > 0.3;
+    }
+  }
+  return loose;
+}
+
+/* Its contour ends on the rim next to an edge of which the last bit is
+ * hidden. */
+static void the_rim_of_the_teapot_reaches_its_contour(void **state) {
+  (void)state;
+  const char *folder = getenv("RECTO_MODELS");
+  char path[1000];
+  recto_scene *scene;
+  recto_options options;
+  if (folder == NULL)
+    skip();
+  snprintf(path, sizeof path, "%.900s/teapot.obj", folder);
+  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+  if (recto_scene_read(scene, path, NULL, NULL, NULL) != RECTO_OK) {
+    recto_scene_destroy(scene);
+    print_message("no teapot\n");
+    skip();
+  }
+  recto_options_init(&options);
+  options.ink.contours = RECTO_CONTOURS_SMOOTH;
+  recto_drawing *drawing = smooth_draw(scene, &options);
+  /* 16 without that bit. */
+  assert_in_range(count_loose_ends(drawing), 0, 14);
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(scene);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_bowl_has_its_whole_outline),
@@ -194,6 +257,7 @@ int main(void) {
       cmocka_unit_test(a_torus_with_faces_twice_has_its_whole_outline),
       cmocka_unit_test(waves_of_warped_faces_have_their_whole_outline),
       cmocka_unit_test(the_outline_of_folds_is_covered),
+      cmocka_unit_test(the_rim_of_the_teapot_reaches_its_contour),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

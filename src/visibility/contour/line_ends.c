@@ -9,6 +9,13 @@
 #include "visibility/contour/segment_grid.h"
 #include "visibility/contour/zero_segments.h"
 
+/* The visible interval of a border that ends nearest to a point. */
+struct border_reach {
+  double rest;       /* grid units from its end to the point; INFINITY: none */
+  uint32_t interval; /* of the map; SHEET_NONE: the border is visible there */
+  bool begins;       /* at the border's first point */
+};
+
 /* Where an edge crosses a contour. */
 struct line_crossing {
   uint32_t edge;
@@ -30,8 +37,7 @@ struct line_ends {
   uint8_t *degree;      /* one a point of contours: how many of their edges meet
                       there, at most 2 */
   ARRAY(struct line_crossing) crossing;
-  uint8_t *reached; /* one a point: a visible border reaches it; NULL: not asked
-                     */
+  struct border_reach *reach;        /* one a point; NULL: not asked */
   ARRAY(struct line_crossing) shown; /* where hidden borders are to end */
 };
 
@@ -275,30 +281,56 @@ static bool cut_whole(struct map *map, const struct line_crossing *crossing,
 
 /* ---- Hidden borders ------------------------------------------------------ */
 
-/* Marks the points which visible borders reach. */
-static bool find_reached(struct line_ends *l) {
+static void note_reach(struct line_ends *l, uint32_t point,
+                       struct border_reach made) {
+  if (made.rest < l->reach[point].rest)
+    l->reach[point] = made;
+}
+
+static double edge_length(const struct line_ends *l, uint32_t edge) {
+  struct geom_segment s = sheet_ends(l->sheet, l->sheet->edge.item[edge].point);
+  return hypot((double)s.q.x - s.p.x, (double)s.q.y - s.p.y);
+}
+
+/* Finds how near to each point visible borders reach. */
+static bool find_reach(struct line_ends *l) {
   const struct map *map = l->map;
-  size_t next = 0;
-  l->reached = mem_calloc(l->sheet->point.count, 1);
-  for (uint32_t e = 0; l->reached != NULL && e < l->first; e++) {
+  size_t next = 0, points = l->sheet->point.count;
+  l->reach = mem_alloc(points, sizeof *l->reach);
+  for (size_t i = 0; l->reach != NULL && i < points; i++)
+    l->reach[i] = (struct border_reach){INFINITY, SHEET_NONE, false};
+  for (uint32_t e = 0; l->reach != NULL && e < l->first; e++) {
     const struct sheet_edge *edge = &l->sheet->edge.item[e];
-    struct map_interval from = {ratio_of(0, 1), ratio_of(1, 1)}, to = from;
+    struct border_reach from = {0, SHEET_NONE, true},
+                        to = {0, SHEET_NONE, false};
+    double length = edge_length(l, e);
     if (map->edge_state[e] == MAP_MIXED) {
       const struct map_mixed *own = &map->mixed.item[next++];
-      from = map->interval.item[own->interval];
-      to = map->interval.item[own->interval + own->count - 1];
+      from.interval = own->interval;
+      to.interval = own->interval + own->count - 1;
+      from.rest =
+          length * ratio_to_double(map->interval.item[from.interval].t0);
+      to.rest =
+          length * (1 - ratio_to_double(map->interval.item[to.interval].t1));
     }
     if (map->edge_state[e] == MAP_HIDDEN ||
         edge->edge_class != RECTO_EDGE_BORDER)
       continue;
-    l->reached[edge->point[0]] |= from.t0.num == 0;
-    l->reached[edge->point[1]] |= to.t1.num == to.t1.den;
+    note_reach(l, edge->point[0], from);
+    note_reach(l, edge->point[1], to);
   }
-  return l->reached != NULL;
+  return l->reach != NULL;
 }
 
-/* Finds the hidden borders on which contours end next to where a visible one
- * ends: the mesh folds over the border there, beyond its contour. */
+/* The point of a border from which it is visible up to a crossing. */
+static uint32_t shown_from(const struct line_ends *l,
+                           const struct line_crossing *c) {
+  return l->sheet->edge.item[c->edge].point[c->leaves ? 0 : 1];
+}
+
+/* Finds the hidden borders on which contours end near to where a visible one
+ * ends, before or within the next one: the mesh folds over the border there,
+ * beyond its contour. */
 static bool find_shown(struct line_ends *l) {
   for (size_t i = 0; i < l->crossing.count; i++) {
     const struct line_crossing *c = &l->crossing.item[i];
@@ -308,10 +340,11 @@ static bool find_shown(struct line_ends *l) {
         !(length > 0) || !(length < fmin(1, c->bound)) ||
         (count > 0 && l->shown.item[count - 1].edge == c->edge))
       continue;
-    if (l->reached == NULL && !find_reached(l))
+    if (l->reach == NULL && !find_reach(l))
       return false;
-    uint32_t from = l->sheet->edge.item[c->edge].point[c->leaves ? 0 : 1];
-    if (l->reached[from] && !ARRAY_PUSH(&l->shown, *c))
+    if (l->reach[shown_from(l, c)].rest <
+            (c->bound - length) * edge_length(l, c->edge) &&
+        !ARRAY_PUSH(&l->shown, *c))
       return false;
   }
   return true;
@@ -322,10 +355,15 @@ static bool show_borders(struct line_ends *l) {
   struct map *map = l->map;
   for (size_t i = 0; i < l->shown.count; i++) {
     const struct line_crossing *c = &l->shown.item[i];
+    const struct border_reach *reach = &l->reach[shown_from(l, c)];
     struct map_interval part = {ratio_of(0, 1), ratio_of(1, 1)};
     struct map_mixed made = {c->edge, (uint32_t)map->interval.count, 1};
     *(c->leaves ? &part.t1 : &part.t0) = ratio_near(c->t);
     map->edge_state[c->edge] = MAP_MIXED;
+    if (reach->interval != SHEET_NONE && reach->begins)
+      map->interval.item[reach->interval].t0 = ratio_of(0, 1);
+    else if (reach->interval != SHEET_NONE)
+      map->interval.item[reach->interval].t1 = ratio_of(1, 1);
     if (!ARRAY_PUSH(&map->interval, part) || !ARRAY_PUSH(&map->mixed, made))
       return false;
   }
@@ -367,7 +405,7 @@ bool line_ends_move(struct map *map, const struct sheet *sheet,
        (segment_grid_make(&l.grid) && find_crossings(&l) && move_all(&l)));
   segment_grid_fini(&l.grid);
   mem_free(l.degree);
-  mem_free(l.reached);
+  mem_free(l.reach);
   ARRAY_FREE(&l.crossing);
   ARRAY_FREE(&l.shown);
   return ok;
