@@ -92,7 +92,7 @@ static void add_slab(struct scene *scene, double turn, bool rounded,
 
 static void begin(struct fixture *f, double length,
                   struct precision precision) {
-  const struct weld_request request = {length, precision};
+  const struct weld_request request = {.length = length, .unstated = precision};
   recto_error error;
   assert_int_equal(
       weld_near(&f->welded, &f->topology, &f->scene, &request, &error),
@@ -258,7 +258,7 @@ static void memory_may_run_out(void **state) {
   struct memory_faults faults = {.least = 10};
   while (memory_faults_go_on(&faults)) {
     struct fixture f;
-    const struct weld_request request = {-1, single};
+    const struct weld_request request = {.length = -1, .unstated = single};
     recto_error error;
     scene_init(&f.scene);
     add_slab(&f.scene, 0.17, true, GAP_TRIANGLES);
