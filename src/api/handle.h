@@ -20,7 +20,7 @@ struct recto_scene {
 };
 
 /* Drops what was prepared, as the scene changes. */
-void scene_forget_preparation(recto_scene *scene);
+void scene_drop_preparation(recto_scene *scene);
 
 /* A drawable edge and its parts. */
 struct result_edge {

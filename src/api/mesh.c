@@ -152,7 +152,7 @@ recto_status recto_scene_add_mesh_sized(recto_scene *scene,
   if (status != RECTO_OK)
     return status;
   struct scene_snapshot before;
-  scene_forget_preparation(scene);
+  scene_drop_preparation(scene);
   scene_snapshot(&scene->scene, &before);
   status = add_mesh_points(&scene->scene, &own, error);
   if (status == RECTO_OK)

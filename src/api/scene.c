@@ -24,7 +24,7 @@ recto_status recto_scene_create(recto_scene **scene, recto_error *error) {
 void recto_scene_destroy(recto_scene *scene) {
   if (scene == NULL)
     return;
-  scene_forget_preparation(scene);
+  scene_drop_preparation(scene);
   scene_fini(&scene->scene);
   mem_free(scene->path);
   mem_free(scene->format);
@@ -33,7 +33,7 @@ void recto_scene_destroy(recto_scene *scene) {
 
 /* ---- Preparation --------------------------------------------------------- */
 
-void scene_forget_preparation(recto_scene *scene) {
+void scene_drop_preparation(recto_scene *scene) {
   if (scene->prepared != NULL)
     preparation_fini(scene->prepared);
   mem_free(scene->prepared);
@@ -49,7 +49,7 @@ recto_status recto_scene_prepare(recto_scene *scene,
   recto_status status = options_copy_valid(&own, options, error);
   if (status != RECTO_OK)
     return status;
-  scene_forget_preparation(scene);
+  scene_drop_preparation(scene);
   scene->prepared = mem_calloc(1, sizeof *scene->prepared);
   if (scene->prepared == NULL)
     return error_memory(error);
@@ -60,7 +60,7 @@ recto_status recto_scene_prepare(recto_scene *scene,
                             PREPARATION_FOR_VIEWS, error);
   poll_close(&poll);
   if (status != RECTO_OK)
-    scene_forget_preparation(scene);
+    scene_drop_preparation(scene);
   return status;
 }
 
@@ -104,7 +104,7 @@ static recto_status read_model(recto_scene *scene, const void *bytes,
       own.mesh.crease_marks != RECTO_CREASE_MARKS_NONE;
   scene->scene.keeps_unit = own.camera.unit_mm > 0;
   scene->scene.keeps_up = up[0] != 0 || up[1] != 0 || up[2] != 0;
-  scene_forget_preparation(scene);
+  scene_drop_preparation(scene);
   double cpu = clock_cpu(), wall = clock_wall();
   struct poll poll;
   shares_open_poll(&poll, &own, SHARE_READ, "read");
@@ -156,7 +156,7 @@ recto_status recto_scene_read_for_parts(recto_scene *scene, const char *path,
     return error_memory(error);
   }
   read_passes_close(passes);
-  scene_forget_preparation(scene);
+  scene_drop_preparation(scene);
   scene->is_deferred = true;
   scene->format = named;
   keep_path(scene, kept);
@@ -183,7 +183,7 @@ recto_status recto_scene_add_point(recto_scene *scene, const double xyz[3],
   if (!isfinite(xyz[0]) || !isfinite(xyz[1]) || !isfinite(xyz[2]))
     return error_set(error, RECTO_ERROR_ARGUMENT, NULL, 0,
                      "a point is not finite");
-  scene_forget_preparation(scene);
+  scene_drop_preparation(scene);
   if (scene->scene.point.count >= SCENE_LIMIT)
     return error_set(error, RECTO_ERROR_LIMIT, NULL, 0,
                      "the scene has more than 2^31 points");
@@ -203,7 +203,7 @@ recto_status recto_scene_add_group(recto_scene *scene, const char *name,
                                    recto_error *error) {
   if (scene == NULL || name == NULL)
     return error_null(error, scene == NULL ? "the scene" : "the name");
-  scene_forget_preparation(scene);
+  scene_drop_preparation(scene);
   return scene_use_group(&scene->scene, name, strlen(name), error);
 }
 
@@ -229,7 +229,7 @@ recto_status recto_scene_add_face(recto_scene *scene, const uint32_t *corner,
   struct diagnostics diagnostics = {.file = ""};
   recto_status status = check_corners(scene, corner, count, 3, error);
   if (status == RECTO_OK)
-    scene_forget_preparation(scene);
+    scene_drop_preparation(scene);
   if (status == RECTO_OK)
     status =
         scene_add_face(&scene->scene, corner, count, 0, &diagnostics, error);
@@ -244,7 +244,7 @@ recto_status recto_scene_add_polyline(recto_scene *scene,
   struct diagnostics diagnostics = {.file = ""};
   recto_status status = check_corners(scene, corner, count, 2, error);
   if (status == RECTO_OK)
-    scene_forget_preparation(scene);
+    scene_drop_preparation(scene);
   if (status == RECTO_OK)
     status =
         scene_add_wire(&scene->scene, corner, count, 0, &diagnostics, error);

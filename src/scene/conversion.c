@@ -78,7 +78,7 @@ static void warn_of_earlier(struct scene *scene,
                             struct diagnostics *diagnostics) {
   for (size_t i = 0; i < scene->without_unit.count; i++)
     warn_of_unit(diagnostics, scene->without_unit.item[i]);
-  scene_forget_without_unit(scene);
+  scene_clear_without_unit(scene);
 }
 
 static recto_status note_without_unit(struct scene *scene, const char *path,

@@ -7,7 +7,8 @@
 
 #include "base/poll.h"
 
-enum { TOLD = 3 };
+/* Faults of a kind of which each has a warning; the rest are counted. */
+enum { WARNINGS_MAX = 3 };
 
 static const char *fault_text(enum scene_fault fault) {
   switch (fault) {
@@ -39,7 +40,8 @@ void diagnostics_fault(struct diagnostics *diagnostics, enum scene_fault fault,
     return;
   unsigned long before =
       diagnostics->count[fault]++ - diagnostics->settled[fault];
-  if (before >= TOLD || !diagnostics->warning || fault == SCENE_FAULT_WARPED)
+  if (before >= WARNINGS_MAX || !diagnostics->warning ||
+      fault == SCENE_FAULT_WARPED)
     return;
   char text[256];
   va_list arguments;
@@ -69,11 +71,12 @@ void diagnostics_finish(struct diagnostics *diagnostics) {
   for (int i = 0; i < SCENE_FAULT_COUNT; i++) {
     unsigned long count = diagnostics->count[i] - diagnostics->settled[i];
     diagnostics->settled[i] = diagnostics->count[i];
-    if (count <= TOLD || !diagnostics->warning || i == SCENE_FAULT_WARPED)
+    if (count <= WARNINGS_MAX || !diagnostics->warning ||
+        i == SCENE_FAULT_WARPED)
       continue;
     char text[128];
-    snprintf(text, sizeof text, "... and %lu more with %s", count - TOLD,
-             fault_text((enum scene_fault)i));
+    snprintf(text, sizeof text, "... and %lu more with %s",
+             count - WARNINGS_MAX, fault_text((enum scene_fault)i));
     diagnostics->warning(diagnostics->user,
                          diagnostics->file != NULL ? diagnostics->file : "", 0,
                          text);

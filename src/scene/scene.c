@@ -25,14 +25,14 @@ static void drop_groups(struct scene *scene, size_t count) {
     mem_free(scene->group.item[--scene->group.count].name);
 }
 
-void scene_forget_without_unit(struct scene *scene) {
+void scene_clear_without_unit(struct scene *scene) {
   while (scene->without_unit.count > 0)
     mem_free(scene->without_unit.item[--scene->without_unit.count]);
 }
 
 void scene_fini(struct scene *scene) {
   drop_groups(scene, 0);
-  scene_forget_without_unit(scene);
+  scene_clear_without_unit(scene);
   ARRAY_FREE(&scene->without_unit);
   ARRAY_FREE(&scene->point);
   scene->face_count = 0;

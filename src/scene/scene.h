@@ -155,7 +155,7 @@ static inline bool scene_groups_differ(const struct scene *scene, uint32_t a,
 USE_RESULT bool scene_note_file(struct scene *scene, const struct input *input);
 
 /* Forgets which files state no unit. */
-void scene_forget_without_unit(struct scene *scene);
+void scene_clear_without_unit(struct scene *scene);
 
 /* What is added up to scene_end_file is of a file, and in groups of its own:
  * where a group of another one has the name, this is "STEM/name", or has a

@@ -74,8 +74,9 @@ bool coordinate_error_store(struct sheet *sheet, uint32_t face) {
   return ARRAY_PUSH(&sheet->face_error, error);
 }
 
-void coordinate_error_of_face(const struct sheet *sheet, uint32_t face,
-                              double error[3]) {
+/* As coordinate_error_of_triangle, of a face. */
+static void coordinate_error_of_face(const struct sheet *sheet, uint32_t face,
+                                     double error[3]) {
   const struct sheet_face_error *stored = sheet->face_error.item;
   size_t i;
   if (sheet->scene == NULL || sheet->camera.error > 0) {

@@ -18,13 +18,9 @@
  * of more than three corners.  Returns false when memory ran out. */
 USE_RESULT bool coordinate_error_store(struct sheet *sheet, uint32_t face);
 
-/* Sets for each axis k the bound 2 e[k] of a face, in scene units: twice the
- * largest error of its corners.  0 where the sheet has no scene: coordinates
- * are then exact. */
-void coordinate_error_of_face(const struct sheet *sheet, uint32_t face,
-                              double error[3]);
-
-/* The same of a triangle's face. */
+/* Sets for each axis k the bound 2 e[k] of a triangle's face, in scene units:
+ * twice the largest error of its corners.  0 where the sheet has no scene:
+ * coordinates are then exact. */
 void coordinate_error_of_triangle(const struct sheet *sheet, uint32_t triangle,
                                   double error[3]);
 

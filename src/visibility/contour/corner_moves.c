@@ -104,8 +104,9 @@ static void try_point(const struct corner_moves *moves, uint32_t point,
     try_contour(moves, moves->of_point.item[i], beyond, move);
 }
 
-bool sheet_edge_is_outline(const struct sheet *sheet,
-                           const struct sheet_edge *edge) {
+/* Whether an edge is an outline: its triangles are on one side of it. */
+static bool is_outline_edge(const struct sheet *sheet,
+                            const struct sheet_edge *edge) {
   int side[2] = {0, 0};
   struct geom_segment s = sheet_ends(sheet, edge->point);
   for (int k = 0; k < 2; k++) {
@@ -129,7 +130,7 @@ bool corner_moves_is_along(const struct corner_moves *moves,
   const struct sheet_edge *edge = &moves->sheet->edge.item[corner->id];
   return edge->edge_class == 0 && edge->source < moves->topology->edge.count &&
          (corner->side == MAP_SIDE_OCCLUDER ||
-          sheet_edge_is_outline(moves->sheet, edge));
+          is_outline_edge(moves->sheet, edge));
 }
 
 /* How far a corner is moved on an edge, at most: by half of the width of the
@@ -169,7 +170,7 @@ static void try_side(const struct corner_moves *moves,
     moved.occluder = true;
     moved.distance = INFINITY;
   }
-  bool beyond = !occluder && !sheet_edge_is_outline(sheet, edge);
+  bool beyond = !occluder && !is_outline_edge(sheet, edge);
   double most = farthest_move(moves, edge, beyond);
   double least = fmin(moved.distance, most * most);
   moved.distance = least;

@@ -50,8 +50,4 @@ corner_moves_at(const struct corner_moves *moves, uint32_t corner) {
 bool corner_moves_is_along(const struct corner_moves *moves,
                            const struct map_corner *corner);
 
-/* Whether an edge is an outline: its triangles are on one side of it. */
-bool sheet_edge_is_outline(const struct sheet *sheet,
-                           const struct sheet_edge *edge);
-
 #endif
