@@ -171,8 +171,10 @@ static bool test_bvh(struct edge_query *query, const struct bvh *bvh,
   return true;
 }
 
-/* How many entries of a list are compared before the first is tested. */
-enum { ENTRIES_AT_ONCE = 32 };
+/* How many entries of a list are compared before one is tested: few at first,
+ * as those are the nearest and may hide all of the edge, then twice as many each
+ * time. */
+enum { ENTRIES_AT_FIRST = 4, ENTRIES_AT_ONCE = 32 };
 
 /* Gathers the entries from `from` to before `end` whose 8-DOPs overlap that of
  * the edge, without a jump for each, as no processor predicts which do.
@@ -234,10 +236,11 @@ static bool test_cell(struct edge_query *query, int x, int y) {
   const struct bvh *bvh = tile_candidates_bvh(list, cell);
   if (bvh != NULL)
     return test_bvh(query, bvh, &at);
-  while (i < end && !query->intervals.occluded) {
+  for (uint32_t entries = ENTRIES_AT_FIRST;
+       i < end && !query->intervals.occluded;
+       entries = entries < ENTRIES_AT_ONCE ? 2 * entries : ENTRIES_AT_ONCE) {
     uint32_t found[ENTRIES_AT_ONCE],
-        last = end - i > ENTRIES_AT_ONCE ? i + ENTRIES_AT_ONCE : end,
-        past = last;
+        last = end - i > entries ? i + entries : end, past = last;
     size_t n = gather_overlapping(list->key, at.kdop_query, i, &past, found);
     if (list->occluder == NULL)
       n = drop_beside(query, list->grid.lists.item, found, n);
