@@ -224,8 +224,8 @@ static int count_loose_ends(const recto_drawing *drawing) {
   return loose;
 }
 
-/* Its contour ends on the rim next to an edge of which the last bit is
- * hidden. */
+/* Its contour ends on the rim next to an edge of which the last bit is hidden,
+ * and goes on along a crease in a fold that is made straight. */
 static void the_rim_of_the_teapot_reaches_its_contour(void **state) {
   (void)state;
   const char *folder = getenv("RECTO_MODELS");
@@ -244,8 +244,9 @@ static void the_rim_of_the_teapot_reaches_its_contour(void **state) {
   recto_options_init(&options);
   options.ink.contours = RECTO_CONTOURS_SMOOTH;
   recto_drawing *drawing = smooth_draw(scene, &options);
-  /* 16 without that bit. */
-  assert_in_range(count_loose_ends(drawing), 0, 14);
+  /* 14 where the straight line counts as within the surface, 16 without that
+   * bit, too. */
+  assert_in_range(count_loose_ends(drawing), 0, 12);
   recto_drawing_destroy(drawing);
   recto_scene_destroy(scene);
 }

@@ -295,6 +295,25 @@ static bool is_back_and_forth(const struct thin_loops *l, size_t from,
   return length - sqrt(x * x + y * y) < most + 0x1p-32 * (length + most);
 }
 
+/* Makes one segment of a step of the stack and those after it.  It leaves the
+ * crease along which the first one ran, and the surface beside that is as high
+ * as the triangle: what is on the crease itself would be within it. */
+static bool straighten(struct thin_loops *l, size_t from) {
+  struct contour_step *step = &l->step.item[from];
+  struct contour_step end = l->step.item[l->step.count - 1];
+  l->step.count = from + 2;
+  step[1] = end;
+  l->set->node.item[step->node].is_cut = true;
+  l->set->node.item[end.node].is_cut = true;
+  if (!add_segment_part(l->set, step->segment, step->node, end.node,
+                        &step->segment))
+    return false;
+  struct contour_segment *made = &l->set->segment.item[step->segment];
+  made->along_crease = false;
+  made->width = made->height;
+  return measure_segment(l, from);
+}
+
 /* Makes one segment of the last ones of the stack that fold back and forth
  * along a straight line. */
 static bool straighten_fold(struct thin_loops *l) {
@@ -314,18 +333,9 @@ static bool straighten_fold(struct thin_loops *l) {
   for (size_t i = last; i > lowest; i--) {
     length += measure_of(l, i - 1)->length;
     heights += measure_of(l, i - 1)->height;
-    if (i > turn || !is_back_and_forth(l, i - 1, last, length, heights) ||
-        !is_straight_fold(l, i - 1, last))
-      continue;
-    struct contour_step *from = &l->step.item[i - 1];
-    struct contour_step end = l->step.item[last];
-    l->step.count = i + 1;
-    l->step.item[i] = end;
-    l->set->node.item[from->node].is_cut = true;
-    l->set->node.item[end.node].is_cut = true;
-    return add_segment_part(l->set, from->segment, from->node, end.node,
-                            &from->segment) &&
-           measure_segment(l, i - 1);
+    if (i <= turn && is_back_and_forth(l, i - 1, last, length, heights) &&
+        is_straight_fold(l, i - 1, last))
+      return straighten(l, i - 1);
   }
   return true;
 }
