@@ -15,6 +15,7 @@
 
 #include "exact_fixture/sheet.h"
 #include "scene/read.h"
+#include "tests/scenes/pipeline.h"
 #include "tests/scenes/solver_named.h"
 #include "tests/memory_peak.h"
 

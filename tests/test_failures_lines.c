@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "tests/scenes/exact.h"
+#include "tests/scenes/pipeline.h"
 #include "tests/scenes/solver_named.h"
 
 /* mm^2 of the fragments of a face. */

@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "exact_fixture/scene.h"
 #include "visibility/contour/occluders.h"
 #include "visibility/index/partial_grid.h"
 
