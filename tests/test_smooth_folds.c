@@ -143,24 +143,111 @@ static void folds_that_are_as_large_as_a_triangle_are_drawn(void **state) {
   recto_scene_destroy(scene);
 }
 
-/* Spot's belly ends at its leg in a line that no vertex normal makes, beside
- * where a small loop is left out. */
-static void lines_lead_on_to_where_loops_are_left_out(void **state) {
-  (void)state;
+/* The model spot; NULL: it is not there. */
+static recto_scene *read_spot(void) {
   const char *models = getenv("RECTO_MODELS");
   char name[4096];
   recto_scene *scene;
   snprintf(name, sizeof name, "%s/spot.obj", models == NULL ? "." : models);
   FILE *file = fopen(name, "rb");
   if (file == NULL)
-    skip();
+    return NULL;
   fclose(file);
   assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
   assert_int_equal(recto_scene_read(scene, name, NULL, NULL, NULL), RECTO_OK);
+  return scene;
+}
+
+/* Spot's belly ends at its leg in a line that no vertex normal makes, beside
+ * where a small loop is left out. */
+static void lines_lead_on_to_where_loops_are_left_out(void **state) {
+  (void)state;
+  recto_scene *scene = read_spot();
+  if (scene == NULL)
+    skip();
   double mm = missing_by_default(scene, 208, -4);
   /* 4.58 mm while the gap was open. */
   if (!(mm < 2))
     fail_msg("%g mm from ink", mm);
+  recto_scene_destroy(scene);
+}
+
+/* The rows of a button upon a disk: distances from the axis, and along it.  One
+ * strip of its side leans outwards, by less than the strips beside it lean
+ * inwards. */
+enum { BUTTON_ROWS = 24, BUTTON_EDGE = 18 };
+static const double button_row[BUTTON_ROWS + 1][2] = {
+    {0, -0.4},         {1, -0.4},         {1.1236, -0.3804}, {1.2351, -0.3236},
+    {1.3236, -0.2351}, {1.3804, -0.1236}, {1.4, 0},          {1.3804, 0.1236},
+    {1.3236, 0.2351},  {1.2351, 0.3236},  {1.1236, 0.3804},  {1, 0.4},
+    {0.85, 0.4},       {0.7, 0.4},        {0.6436, 0.4205},  {0.5977, 0.4591},
+    {0.5677, 0.5110},  {0.5542, 0.5695},  {0.5583, 0.6294},  {0.5448, 0.6878},
+    {0.5148, 0.7398},  {0.4689, 0.7784},  {0.4125, 0.7989},  {0.2063, 0.7989},
+    {0, 0.7989}};
+
+static void button(double u, double v, double p[3]) {
+  const double *row = button_row[lrint(v * BUTTON_ROWS / (2 * M_PI))];
+  p[0] = row[0] * cos(u);
+  p[1] = row[0] * sin(u);
+  p[2] = row[1];
+}
+
+/* Seen along its axis, and nearly so, the strip of the button's side that leans
+ * outwards is turned away, and no vertex's mean normal is, so that there is no
+ * zero set.  The line is drawn once, by default as well. */
+static void folds_without_a_zero_set_are_drawn(void **state) {
+  enum { SIDES_ABOUT = 48 };
+  (void)state;
+  recto_scene *scene = smooth_scene(button, true, SIDES_ABOUT, BUTTON_ROWS);
+  for (int k = 0; k < 4; k++) {
+    recto_options options;
+    smooth_view(&options, 0);
+    options.camera.azimuth_deg = 2 * (k % 2);
+    options.camera.elevation_deg = k / 2;
+    options.ink.exact = k < 2;
+    struct smooth_axes axes = smooth_axes_of(&options);
+    recto_drawing *drawing = smooth_draw(scene, &options);
+    assert_int_equal(recto_drawing_stroke_count(drawing), 2);
+    for (int i = 0; i < SIDES_ABOUT; i++) {
+      double p[3];
+      button(2 * M_PI * i / SIDES_ABOUT, 2 * M_PI * BUTTON_EDGE / BUTTON_ROWS,
+             p);
+      const double at[2] = {
+          SMOOTH_PAGE_MM / 2 + SMOOTH_SCALE_MM * smooth_dot(p, axes.right),
+          SMOOTH_PAGE_MM / 2 + SMOOTH_SCALE_MM * smooth_dot(p, axes.up)};
+      double mm = smooth_distance_to_ink(drawing, RECTO_EDGES_ALL, at);
+      if (!(mm < 0.5))
+        fail_msg("view %d, side %d: %g mm from ink", k, i, mm);
+    }
+    recto_drawing_destroy(drawing);
+  }
+  recto_scene_destroy(scene);
+}
+
+/* Spot's hind legs, seen from below, are such folds. */
+static void arcs_of_legs_are_drawn(void **state) {
+  (void)state;
+  recto_scene *scene = read_spot();
+  if (scene == NULL)
+    skip();
+  recto_options options;
+  smooth_view(&options, 0);
+  options.camera.azimuth_deg = 0;
+  options.camera.elevation_deg = -75;
+  options.ink.contours = RECTO_CONTOURS_MESH;
+  recto_drawing *mesh = smooth_draw(scene, &options);
+  options.ink.contours = RECTO_CONTOURS_SMOOTH;
+  recto_drawing *drawing = smooth_draw(scene, &options);
+  for (size_t s = 0; s < recto_drawing_stroke_count(mesh); s++) {
+    recto_stroke stroke;
+    assert_true(recto_drawing_stroke(mesh, s, &stroke));
+    const double *middle = stroke.points + stroke.count / 2 * 2;
+    double mm = smooth_distance_to_ink(drawing, RECTO_EDGES_ALL, middle);
+    if (length_of(&stroke) > 15 && !(mm < 1.5))
+      fail_msg("a line of %g mm is %g mm from ink", length_of(&stroke), mm);
+  }
+  recto_drawing_destroy(mesh);
+  recto_drawing_destroy(drawing);
   recto_scene_destroy(scene);
 }
 
@@ -170,6 +257,8 @@ int main(void) {
       cmocka_unit_test(lines_from_a_crossing_to_a_cusp_are_drawn),
       cmocka_unit_test(folds_that_are_as_large_as_a_triangle_are_drawn),
       cmocka_unit_test(lines_lead_on_to_where_loops_are_left_out),
+      cmocka_unit_test(folds_without_a_zero_set_are_drawn),
+      cmocka_unit_test(arcs_of_legs_are_drawn),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

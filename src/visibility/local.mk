@@ -61,10 +61,13 @@ librecto_core_la_SOURCES += \
   %D%/contour/fit_fragments.c %D%/contour/fit_fragments.h \
   %D%/contour/fit_outline.c %D%/contour/fit_outline.h \
   %D%/contour/fold_bridges.c %D%/contour/fold_bridges.h \
+  %D%/contour/fold_lines.c %D%/contour/fold_lines.h \
+  %D%/contour/fold_samples.c %D%/contour/fold_samples.h \
   %D%/contour/intersection_cuts.c %D%/contour/intersection_cuts.h \
   %D%/contour/line_ends.c %D%/contour/line_ends.h \
   %D%/contour/loop_changes.c %D%/contour/loop_changes.h \
   %D%/contour/occluders.c %D%/contour/occluders.h \
+  %D%/contour/outline_chains.c %D%/contour/outline_chains.h \
   %D%/contour/outline_gaps.c %D%/contour/outline_gaps.h \
   %D%/contour/page_cover.c %D%/contour/page_cover.h \
   %D%/contour/page_crossings.c %D%/contour/page_crossings.h \

@@ -19,6 +19,7 @@
 #include "visibility/contour/fit_fragments.h"
 #include "visibility/contour/fit_outline.h"
 #include "visibility/contour/fold_bridges.h"
+#include "visibility/contour/fold_lines.h"
 #include "visibility/contour/intersection_cuts.h"
 #include "visibility/contour/line_ends.h"
 #include "visibility/contour/outline_gaps.h"
@@ -253,7 +254,8 @@ static bool close_gaps(struct contour_pieces *c, uint32_t first,
                                            .bulges = (uint32_t)c->bulge.count,
                                            .grid = &c->grid.grid,
                                            .query = &c->query};
-  return fold_bridges_add(&input, c->height.item) && outline_gaps_close(&input);
+  return fold_bridges_add(&input, c->height.item) &&
+         outline_gaps_close(&input) && fold_lines_add(&input);
 }
 
 static bool add_pieces(struct contour_pieces *c) {

@@ -1,0 +1,131 @@
+/* fold_samples.c - places samples on outlines, and smooths runs of them by the
+ * mean of those about each. */
+#include "visibility/contour/fold_samples.h"
+
+#include <math.h>
+
+#include "geom/vector.h"
+#include "scene/newell_normal.h"
+
+/* Samples for each height of a triangle, and of an outline, at most. */
+enum { SAMPLES_A_HEIGHT = 4, SAMPLES_MAX = 64 };
+
+/* The length of a run, at least, as a multiple of the mean height of its
+ * triangles, and the outlines that it is of. */
+#define LONG_HEIGHTS 6
+enum { MANY_OUTLINES = 8 };
+
+/* The share of a run that may be on creases. */
+#define CREASE_SHARE 0.5
+
+/* How far about a sample the mean of a zigzag is found, in heights, and how far
+ * apart the places of a line are. */
+#define MEAN_HEIGHTS 1.5
+#define PLACE_HEIGHTS 0.5
+
+/* The height of a face's triangles on the page, grid units: the least one of a
+ * triangle, and about as much of the triangles of a polygon. */
+static double height_of_face(const struct sheet *sheet, uint32_t face) {
+  const struct scene *scene = sheet->scene;
+  const struct scene_point *point = scene->point.item;
+  uint32_t start = scene_face_start(scene, face);
+  uint32_t stop = scene_face_start(scene, face + 1);
+  const struct scene_point *o = &point[scene->corner.item[start]];
+  double n[3], longest = 0;
+  for (uint32_t c = start; c < stop; c++) {
+    const struct scene_point *p = &point[scene->corner.item[c]];
+    const struct scene_point *q =
+        &point[scene->corner.item[c + 1 < stop ? c + 1 : start]];
+    const double side[3] = {q->x - p->x, q->y - p->y, q->z - p->z};
+    const double from[3] = {p->x - o->x, p->y - o->y, p->z - o->z};
+    longest =
+        fmax(longest, fmax(vector_dot(side, side), vector_dot(from, from)));
+  }
+  newell_normal_of_face(scene, face, n);
+  double height = sqrt(vector_dot(n, n) / longest) / (stop - start - 2) *
+                  sheet->camera.s * SHEET_UNITS_PER_MM;
+  return sheet->camera.perspective ? height / camera_view(&sheet->camera, o).d
+                                   : height;
+}
+
+bool fold_samples_add(struct fold_samples *samples, const struct sheet *sheet,
+                      const struct contour_outline *outline, uint32_t number) {
+  struct geom_segment s = outline->image;
+  double x = (double)s.q.x - s.p.x, y = (double)s.q.y - s.p.y;
+  double length = hypot(x, y);
+  double height = height_of_face(sheet, outline->face);
+  if (length == 0 || !(height > 0))
+    return true;
+  double count = fmin(ceil(SAMPLES_A_HEIGHT * length / height), SAMPLES_MAX);
+  for (int k = 0; k < (int)count; k++) {
+    double t = (k + 0.5) / count;
+    struct fold_sample made = {.x = s.p.x + t * x,
+                               .y = s.p.y + t * y,
+                               .z = (double)s.p.z + t * (double)(s.q.z - s.p.z),
+                               .along = {x / length, y / length},
+                               .step = length / count,
+                               .height = height,
+                               .outline = number,
+                               .face = outline->face};
+    if (!ARRAY_PUSH(samples, made))
+      return false;
+  }
+  return true;
+}
+
+bool fold_run_is_long(struct fold_run run, double *height) {
+  double length = 0, sum = 0, on_creases = 0;
+  int outlines = 0;
+  for (size_t i = 0; i < run.count; i++) {
+    const struct fold_sample *s = &run.sample[i];
+    length += s->step;
+    sum += s->step * s->height;
+    on_creases += s->is_on_crease ? s->step : 0;
+    outlines += i == 0 || s->outline != run.sample[i - 1].outline;
+  }
+  *height = length > 0 ? sum / length : 0;
+  return outlines >= MANY_OUTLINES && on_creases <= CREASE_SHARE * length &&
+         length >= LONG_HEIGHTS * *height;
+}
+
+/* The mean of the samples about one, as far to either side as there are such of
+ * the run. */
+static struct fold_place mean_about(struct fold_run run, size_t i,
+                                    double reach) {
+  const struct fold_sample *s = &run.sample[i];
+  size_t before = run.is_ring ? run.count / 4 : i;
+  size_t after = run.is_ring ? run.count / 4 : run.count - 1 - i;
+  struct fold_place mean = {s->step * s->x, s->step * s->y, s->step * s->z,
+                            s->face};
+  double weight = s->step, away = 0;
+  for (size_t k = 1; k <= before && k <= after && away < reach; k++)
+    for (int side = 0; side < 2; side++) {
+      size_t at = side == 0 ? i + run.count - k : i + k;
+      const struct fold_sample *n = &run.sample[at % run.count];
+      mean.x += n->step * n->x;
+      mean.y += n->step * n->y;
+      mean.z += n->step * n->z;
+      weight += n->step;
+      away += n->step / 2;
+    }
+  mean.x /= weight;
+  mean.y /= weight;
+  mean.z /= weight;
+  return mean;
+}
+
+bool fold_run_smooth(struct fold_run run, double height,
+                     struct fold_places *places) {
+  struct fold_place last = {0, 0, 0, 0};
+  places->count = 0;
+  for (size_t i = 0; i < run.count; i++) {
+    struct fold_place mean = mean_about(run, i, MEAN_HEIGHTS * height);
+    double away = hypot(mean.x - last.x, mean.y - last.y);
+    if (i > 0 && i + 1 < run.count && away < PLACE_HEIGHTS * height)
+      continue;
+    last = mean;
+    if (!ARRAY_PUSH(places, mean))
+      return false;
+  }
+  return true;
+}

@@ -1,0 +1,60 @@
+/* fold_samples.h - samples of a chain of a mesh's outlines, and the smooth line
+ * along them. */
+#ifndef VISIBILITY_CONTOUR_FOLD_SAMPLES_H
+#define VISIBILITY_CONTOUR_FOLD_SAMPLES_H
+
+#include "base/memory.h"
+#include "visibility/contour/zero_segments.h"
+
+struct fold_sample {
+  double x, y, z;  /* of the page */
+  double along[2]; /* the direction of its outline, of unit length */
+  double step;     /* the length of the outline that it stands for */
+  double height;   /* of its triangle, on the page, grid units */
+  uint32_t outline, face;
+  bool is_beside;    /* a line is drawn beside it */
+  bool is_on_crease; /* a crease is on it */
+};
+
+/* A run of samples. */
+struct fold_run {
+  const struct fold_sample *sample;
+  size_t count;
+  bool is_ring; /* the first one follows the last one */
+};
+
+struct fold_place {
+  double x, y, z;
+  uint32_t face;
+};
+
+struct fold_places {
+  struct fold_place *item;
+  size_t count, capacity;
+};
+
+struct fold_samples {
+  struct fold_sample *item;
+  size_t count, capacity;
+};
+
+/* Adds samples of an outline.  Returns false when memory ran out. */
+USE_RESULT bool fold_samples_add(struct fold_samples *samples,
+                                 const struct sheet *sheet,
+                                 const struct contour_outline *outline,
+                                 uint32_t number);
+
+/* Whether a run is long, as a multiple of the mean height of its triangles, and
+ * of many outlines, no more than half of them creases.
+ * height  gets that height */
+bool fold_run_is_long(struct fold_run run, double *height);
+
+/* Finds the places of a smooth line along a run: means of the samples about
+ * some of them.  The first and the last sample are places themselves, but of a
+ * ring.
+ * height  the mean height of the triangles
+ * Returns false when memory ran out. */
+USE_RESULT bool fold_run_smooth(struct fold_run run, double height,
+                                struct fold_places *places);
+
+#endif
