@@ -287,7 +287,7 @@ static void note_reach(struct line_ends *l, uint32_t point,
     l->reach[point] = made;
 }
 
-static double edge_length(const struct line_ends *l, uint32_t edge) {
+static double length_of_edge(const struct line_ends *l, uint32_t edge) {
   struct geom_segment s = sheet_ends(l->sheet, l->sheet->edge.item[edge].point);
   return hypot((double)s.q.x - s.p.x, (double)s.q.y - s.p.y);
 }
@@ -303,7 +303,7 @@ static bool find_reach(struct line_ends *l) {
     const struct sheet_edge *edge = &l->sheet->edge.item[e];
     struct border_reach from = {0, SHEET_NONE, true},
                         to = {0, SHEET_NONE, false};
-    double length = edge_length(l, e);
+    double length = length_of_edge(l, e);
     if (map->edge_state[e] == MAP_MIXED) {
       const struct map_mixed *own = &map->mixed.item[next++];
       from.interval = own->interval;
@@ -343,7 +343,7 @@ static bool find_shown(struct line_ends *l) {
     if (l->reach == NULL && !find_reach(l))
       return false;
     if (l->reach[shown_from(l, c)].rest <
-            (c->bound - length) * edge_length(l, c->edge) &&
+            (c->bound - length) * length_of_edge(l, c->edge) &&
         !ARRAY_PUSH(&l->shown, *c))
       return false;
   }

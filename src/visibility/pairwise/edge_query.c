@@ -172,8 +172,8 @@ static bool test_bvh(struct edge_query *query, const struct bvh *bvh,
 }
 
 /* How many entries of a list are compared before one is tested: few at first,
- * as those are the nearest and may hide all of the edge, then twice as many each
- * time. */
+ * as those are the nearest and may hide all of the edge, then twice as many
+ * each time. */
 enum { ENTRIES_AT_FIRST = 4, ENTRIES_AT_ONCE = 32 };
 
 /* Gathers the entries from `from` to before `end` whose 8-DOPs overlap that of

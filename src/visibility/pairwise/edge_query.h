@@ -8,9 +8,9 @@
  * buffer does not hide: what hides only the rest changes nothing.
  *
  * Where a list is so long that it has a BVH, only what may hide the remaining
- * part by its bounds is tested, and the triangles that hid much of the
- * edges before are tested first: where many overlap, the same few near ones hide
- * most edges, and what they hide is tested against no other.
+ * part by its bounds is tested, and the triangles that hid much of the edges
+ * before are tested first: where many overlap, the same few near ones hide most
+ * edges, and what they hide is tested against no other.
  */
 #ifndef VISIBILITY_PAIRWISE_EDGE_QUERY_H
 #define VISIBILITY_PAIRWISE_EDGE_QUERY_H
