@@ -71,7 +71,8 @@ static bool make_keys_of_range(void *user, struct parallel_range range) {
   return true;
 }
 
-/* The node numbers by x, then y; NULL when memory ran out. */
+/* The node numbers by x, then y; NULL when memory ran out or the caller
+ * cancelled. */
 static struct sort_key *sort_nodes(struct unite *u) {
   const struct ink_point *node = u->graph->node.item;
   int32_t y_high = node[0].y;
@@ -87,10 +88,10 @@ static struct sort_key *sort_nodes(struct unite *u) {
 
   struct sort_key *key = mem_alloc(u->count, sizeof *key);
   struct sort_key *scratch = mem_alloc(u->count, sizeof *scratch);
-  if (key != NULL && scratch != NULL) {
-    struct node_keys keys = {u, key, y_bits};
-    (void)parallel_ranges(parallel_workers(u->count, PARALLEL_ITEMS), u->count,
-                          PARALLEL_ITEMS, make_keys_of_range, &keys);
+  struct node_keys keys = {u, key, y_bits};
+  if (key != NULL && scratch != NULL &&
+      parallel_ranges(parallel_workers(u->count, PARALLEL_ITEMS), u->count,
+                      PARALLEL_ITEMS, make_keys_of_range, &keys)) {
     sort_keys(key, scratch, u->count);
   } else {
     mem_free(key);

@@ -30,7 +30,9 @@ struct box2 box2_of_sheet(const struct sheet *sheet) {
       PTHREAD_MUTEX_INITIALIZER,
       {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN},
   };
-  (void)parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
-                        PARALLEL_ITEMS, bound_range, &bounding);
+  if (!parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
+                       PARALLEL_ITEMS, bound_range, &bounding))
+    /* The caller cancelled: all points are needed all the same. */
+    (void)bound_range(&bounding, (struct parallel_range){0, count, 0});
   return count > 0 ? bounding.all : (struct box2){0, 0, 0, 0};
 }
