@@ -69,7 +69,8 @@
  *             width: a gap that ink fills.
  * Users       visibility/contour/doubled_contours.c,
  *             visibility/contour/fold_lines.c,
- *             visibility/contour/outline_gaps.c, visibility/smooth_contours.c
+ *             visibility/contour/outline_gaps.c,
+ *             visibility/contour/thin_loops.c, visibility/smooth_contours.c
  * Ten times   gaps of a millimetre stay open. */
 #define TOLERANCE_OUTLINE_UNITS (1 << 17)
 

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/poll.h"
+#include "base/tolerance.h"
 #include "visibility/contour/segment_grid.h"
 
 /* The segments of a loop, at most. */
@@ -30,13 +31,15 @@ enum { FOLD_SEGMENTS_MAX = 32 };
  * so many segments is a fold of the surface: noise makes short ones.  Where a
  * loop is a part of a curve its ends alone are lost, which are spurs.  One over
  * so many segments whose area is about a triangle's, in squares of that height,
- * and whose mean width is no less than a share of it, is a fold, too: what
- * noise makes is either short or narrow. */
+ * and whose sides ink does not join is a fold, too: what noise makes is either
+ * short or narrow. */
 #define LONG_CURVE_HEIGHTS 8
 #define LONG_LOOP_HEIGHTS 16
 #define FOLD_AREA 0.5
-#define FOLD_SHARE 0.1
 enum { LONG_SEGMENTS_MIN = 24 };
+
+/* What is narrower is one line in ink: common pens are wider, grid units. */
+#define VISIBLE_WIDTH (2.0 * TOLERANCE_OUTLINE_UNITS)
 
 /* The faces of a body for each segment of a loop that is none of its
  * contours. */
@@ -161,7 +164,7 @@ static bool is_long(const struct page_loop *loop, double heights) {
          loop->area >= RECTO_FINEST_MM * SHEET_UNITS_PER_MM * loop->length &&
          (loop->length >= 2 * heights * loop->height ||
           (loop->area >= 2 * FOLD_AREA * loop->height * loop->height &&
-           loop->area >= FOLD_SHARE * loop->length * loop->height));
+           loop->area >= VISIBLE_WIDTH * loop->length));
 }
 
 /* ---- The stack ----------------------------------------------------------- */
@@ -297,11 +300,13 @@ static bool is_back_and_forth(const struct thin_loops *l, size_t from,
 
 /* Makes one segment of a step of the stack and those after it.  It leaves the
  * crease along which the first one ran, and the surface beside that is as high
- * as the triangle: what is on the crease itself would be within it. */
+ * as the triangle: what is on the crease itself would be within it.  Where the
+ * triangle is narrower than ink the crease and the line are one. */
 static bool straighten(struct thin_loops *l, size_t from) {
   struct contour_step *step = &l->step.item[from];
   struct contour_step end = l->step.item[l->step.count - 1];
   l->step.count = from + 2;
+  double height = measure_of(l, from)->height;
   step[1] = end;
   l->set->node.item[step->node].is_cut = true;
   l->set->node.item[end.node].is_cut = true;
@@ -309,8 +314,10 @@ static bool straighten(struct thin_loops *l, size_t from) {
                         &step->segment))
     return false;
   struct contour_segment *made = &l->set->segment.item[step->segment];
-  made->along_crease = false;
-  made->width = made->height;
+  if (height >= VISIBLE_WIDTH) {
+    made->along_crease = false;
+    made->width = made->height;
+  }
   return measure_segment(l, from);
 }
 
