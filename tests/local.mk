@@ -89,6 +89,9 @@ unit_tests += %D%/test_smooth_intersections
 unit_tests += %D%/test_smooth_solids
 %C%_test_smooth_solids_SOURCES = %D%/test_smooth_solids.c \
   %D%/smooth_surfaces.c %D%/smooth_surfaces.h
+unit_tests += %D%/test_cubic_fit
+%C%_test_cubic_fit_SOURCES = %D%/test_cubic_fit.c
+
 unit_tests += %D%/test_curves
 %C%_test_curves_SOURCES = %D%/test_curves.c %D%/drawing_fixture.c \
   %D%/drawing_fixture.h

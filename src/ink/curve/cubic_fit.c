@@ -128,34 +128,58 @@ static point blossom(const point p[4], double s, double t, double u) {
   return point_sum(point_scaled(b[0], 1 - u), point_scaled(b[1], u));
 }
 
-static double distance_to_line(point p, point a, point b) {
-  point run = point_difference(b, a), off = point_difference(p, a);
-  double t = geom_nearest_parameter(run.x, run.y, off.x, off.y);
-  point rest = point_difference(off, point_scaled(run, t));
-  return sqrt(point_dot(rest, rest));
+/* The line from a sample to the next one, and how far from its ends a curve may
+ * be, mm. */
+struct fit_side {
+  point at, run;
+  double length2, from, to;
+};
+
+static struct fit_side side_after(const struct fit_sample *sample,
+                                  double tolerance) {
+  struct fit_side side = {.at = sample[0].at,
+                          .run = point_difference(sample[1].at, sample->at)};
+  double from = sample->from, to = sample->to;
+  side.length2 = point_dot(side.run, side.run);
+  side.from = from < tolerance ? from : tolerance;
+  side.to = to < tolerance ? to : tolerance;
+  return side;
+}
+
+/* Whether a point is as near to the line as is allowed beside its place along
+ * it.  That is so in a convex set, as the distance is a convex function of the
+ * point and what is allowed a concave one. */
+static bool is_allowed_beside(const struct fit_side *side, point p) {
+  point off = point_difference(p, side->at);
+  double along = point_dot(side->run, off);
+  double place = side->length2 > 0 ? along / side->length2 : 0;
+  double t = !(place > 0) ? 0 : place < 1 ? place : 1;
+  point rest = point_difference(off, point_scaled(side->run, t));
+  double most = side->from > side->to ? side->from : side->to;
+  double allowed = side->from + place * (side->to - side->from);
+  allowed = (allowed < most ? allowed : most) + TOLERANCE_FIT_ROUNDING_MM;
+  return allowed >= 0 && point_dot(rest, rest) <= allowed * allowed;
 }
 
 /* Whether the curve keeps within the distances, in the samples' order, and
- * within the tolerance of each sample.  The
- * distance from a line is convex.  So the curve between two parameters is as
- * near to it as the control points of that part are. */
+ * within the tolerance of each sample: between the parameters of two samples it
+ * does if the control points of that part do. */
 static bool keeps_within(const struct fit_sample *sample, size_t samples,
                          double tolerance, const double *t, const point c[4]) {
+  point start = c[0];
   for (size_t i = 0; i + 1 < samples; i++) {
     double p = t[i], q = t[i + 1];
     if (q <= p)
       return false;
-    const point part[4] = {blossom(c, p, p, p), blossom(c, p, p, q),
-                           blossom(c, p, q, q), blossom(c, q, q, q)};
+    const point part[4] = {start, blossom(c, p, p, q), blossom(c, p, q, q),
+                           blossom(c, q, q, q)};
     if (drawing_distance(part[0], sample[i].at) > tolerance)
       return false;
-    for (int k = 0; k < 4; k++) {
-      double allowed =
-          sample[i].from + k / 3.0 * (sample[i].to - sample[i].from);
-      if (distance_to_line(part[k], sample[i].at, sample[i + 1].at) >
-          fmin(allowed, tolerance) + TOLERANCE_FIT_ROUNDING_MM)
+    const struct fit_side side = side_after(&sample[i], tolerance);
+    for (int k = 0; k < 4; k++)
+      if (!is_allowed_beside(&side, part[k]))
         return false;
-    }
+    start = part[3];
   }
   return true;
 }
@@ -213,6 +237,16 @@ static bool round_end(const struct cubic_fit *fit, const double *t, double step,
          accept_rounded(fit, t, rounded, curve);
 }
 
+/* A curve whose handles are both at one end is a line, as others are. */
+static void make_straight(point curve[4]) {
+  double start = drawing_distance(curve[1], curve[0]);
+  double end = drawing_distance(curve[2], curve[3]);
+  if (start == 0 && drawing_distance(curve[2], curve[0]) == 0)
+    curve[2] = curve[3];
+  else if (end == 0 && drawing_distance(curve[1], curve[3]) == 0)
+    curve[1] = curve[0];
+}
+
 /* Rounds the handles of a curve, and its end if that may move, to the fewest
  * decimals that are within the distances.  As they are offsets from its start,
  * the output may round that as it likes: what is relative to it stays short. */
@@ -226,6 +260,7 @@ static void round_curve(const struct cubic_fit *fit, const double *t,
   for (double step = most; fit->end_limit > 0 && step > least; step /= 10)
     if (round_end(fit, t, step, curve))
       break;
+  make_straight(curve);
 }
 
 /* ---- The whole ----------------------------------------------------------- */

@@ -31,10 +31,10 @@ enum { SAVED_RATIO = 2 };
 
 /* How far a line may be from sides in whose place a curve would fit, as a share
  * of the tolerance: where the two meet they hardly turn. */
-#define LINE_SHARE 0.25
+#define LINE_SHARE 0.5
 
-/* The most by which such a line may turn from what is before it: 3 degrees. */
-#define LINE_TURN (3.141592653589793 / 60)
+/* The most by which such a line may turn from what is before it, radians. */
+#define LINE_TURN (1.0 / 64)
 
 /* ---- Output -------------------------------------------------------------- */
 
@@ -103,6 +103,11 @@ struct fitted_piece {
   double line_tolerance; /* mm: how far a line may be from its sides */
 };
 
+static struct drawing_point last_direction(const struct fitted_piece *piece) {
+  bool straight = drawing_piece_is_straight(piece->control);
+  return unit_towards(piece->control[straight ? 0 : 2], piece->control[3]);
+}
+
 /* Fits a piece to the samples of a part from one knot to another one. */
 typedef bool fit_piece(struct part_fit *c, const struct stroke_part *part,
                        size_t from, size_t to, struct fitted_piece *piece);
@@ -131,7 +136,7 @@ static bool fit_curve(struct part_fit *c, const struct stroke_part *part,
   if (!cubic_fit(&problem, c->parameter.item, piece->control))
     return false;
   if (to < part->to)
-    piece->end = unit_towards(piece->control[2], piece->control[3]);
+    piece->end = last_direction(piece);
   return true;
 }
 
@@ -239,11 +244,11 @@ static int count_number(double number) {
   return characters;
 }
 
-/* How many characters the points of a piece take in SVG, from the k-th on. */
-static int count_characters(const struct fitted_piece *piece, int k) {
+/* How many characters the points of a piece take in SVG. */
+static int count_characters(const struct fitted_piece *piece) {
   const struct drawing_point *p = piece->control;
   int characters = 0;
-  for (; k < 4; k++)
+  for (int k = drawing_piece_is_straight(p) ? 3 : 1; k < 4; k++)
     characters += count_number(p[k].x - p[0].x) + count_number(p[k].y - p[0].y);
   return characters;
 }
@@ -269,7 +274,7 @@ static struct line_cost find_lines(struct part_fit *c,
                                 piece.control[3].y - piece.control[0].y};
     cost.turns = cost.turns ||
                  (is_prescribed(start) && turn_between(start, run) > LINE_TURN);
-    cost.characters += count_characters(&piece, 3);
+    cost.characters += count_characters(&piece);
     start = run;
   }
   if (to == part->to && is_prescribed(part->end))
@@ -285,7 +290,7 @@ static struct line_cost find_lines(struct part_fit *c,
 static bool is_worth_while(struct part_fit *c, const struct stroke_part *part,
                            size_t from, size_t to,
                            const struct fitted_piece *piece, int *saved) {
-  int curve = count_characters(piece, 1);
+  int curve = count_characters(piece);
   struct line_cost lines =
       find_lines(c, part, from, to, piece->start, SAVED_RATIO * curve);
   if (!lines.turns && lines.characters <= curve)
