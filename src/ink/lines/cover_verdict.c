@@ -82,6 +82,21 @@ static bool may_cover(const struct cover_side *side,
   return side->layer == hair->layer && side->weight >= hair->weight;
 }
 
+/* The next side that may cover the hair; NULL: there is none, or enough have
+ * been tried. */
+static const struct cover_side *next_coverer(const struct covering *c,
+                                             const struct measured_path *hair,
+                                             struct cover_trial *trial) {
+  while (trial->side < trial->end && trial->tried < SIDES_TRIED_MAX) {
+    const struct cover_side *side = &c->side.item[*trial->side++];
+    if (side->rank >= hair->rank)
+      break;
+    if (may_cover(side, hair))
+      return side;
+  }
+  return NULL;
+}
+
 /* Does the side that covered the last piece cover this one?  It would be found
  * in this cell, too, as it is listed in all that it is near; only where so many
  * are that not all are tried it might not. */
@@ -99,16 +114,11 @@ static enum cover_verdict judge_piece(const struct covering *c,
                                       const double at[4],
                                       struct last_cover *last) {
   struct cover_trial trial = trial_at(c, at);
+  const struct cover_side *side;
   bool found = false;
   if (covers_again(last, &trial, hair, at))
     return COVER_FOUND;
-  for (; trial.side < trial.end && trial.tried < SIDES_TRIED_MAX;
-       trial.side++) {
-    const struct cover_side *side = &c->side.item[*trial.side];
-    if (side->rank >= hair->rank)
-      break;
-    if (!may_cover(side, hair))
-      continue;
+  while ((side = next_coverer(c, hair, &trial)) != NULL) {
     trial.tried++;
     if (!cover_side_is_near(side, at, hair->near))
       continue;
@@ -130,15 +140,10 @@ static enum cover_verdict decide_piece(const struct covering *c,
   struct cover_trial trial = trial_at(c, at);
   bool all_are_tried = trial.end - trial.side <= SIDES_TRIED_MAX;
   enum cover_verdict none = COVER_NONE;
+  const struct cover_side *side;
   if (covers_again(last, &trial, hair, at))
     return COVER_FOUND;
-  for (; trial.side < trial.end && trial.tried < SIDES_TRIED_MAX;
-       trial.side++) {
-    const struct cover_side *side = &c->side.item[*trial.side];
-    if (side->rank >= hair->rank)
-      break;
-    if (!may_cover(side, hair))
-      continue;
+  while ((side = next_coverer(c, hair, &trial)) != NULL) {
     enum cover_verdict its =
         side->is_hair ? verdict_of(c, c->by_rank[side->rank]) : COVER_NONE;
     if (its == COVER_FOUND)

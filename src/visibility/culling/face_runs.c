@@ -16,20 +16,25 @@ struct box3 {
   double low[3], high[3];
 };
 
+static inline struct box3 box_of_point(const struct scene_point *p) {
+  return (struct box3){{p->x, p->y, p->z}, {p->x, p->y, p->z}};
+}
+
+static inline void extend_box(struct box3 *box, const struct scene_point *p) {
+  box->low[0] = min_number(box->low[0], p->x);
+  box->low[1] = min_number(box->low[1], p->y);
+  box->low[2] = min_number(box->low[2], p->z);
+  box->high[0] = max_number(box->high[0], p->x);
+  box->high[1] = max_number(box->high[1], p->y);
+  box->high[2] = max_number(box->high[2], p->z);
+}
+
 static inline struct box3 space_of_face(const struct scene *scene,
                                         uint32_t start, uint32_t end) {
   const struct scene_point *point = scene->point.item;
-  const struct scene_point *p = &point[scene->corner.item[start]];
-  struct box3 box = {{p->x, p->y, p->z}, {p->x, p->y, p->z}};
-  for (uint32_t c = start + 1; c < end; c++) {
-    p = &point[scene->corner.item[c]];
-    box.low[0] = min_number(box.low[0], p->x);
-    box.low[1] = min_number(box.low[1], p->y);
-    box.low[2] = min_number(box.low[2], p->z);
-    box.high[0] = max_number(box.high[0], p->x);
-    box.high[1] = max_number(box.high[1], p->y);
-    box.high[2] = max_number(box.high[2], p->z);
-  }
+  struct box3 box = box_of_point(&point[scene->corner.item[start]]);
+  for (uint32_t c = start + 1; c < end; c++)
+    extend_box(&box, &point[scene->corner.item[c]]);
   return box;
 }
 
@@ -107,15 +112,9 @@ static struct box3 space_of_points(const struct scene *scene,
                                    struct point_range points) {
   const struct scene_point *p = &scene->point.item[points.first],
                            *end = scene->point.item + points.end;
-  struct box3 box = {{p->x, p->y, p->z}, {p->x, p->y, p->z}};
-  for (p++; p < end; p++) {
-    box.low[0] = min_number(box.low[0], p->x);
-    box.low[1] = min_number(box.low[1], p->y);
-    box.low[2] = min_number(box.low[2], p->z);
-    box.high[0] = max_number(box.high[0], p->x);
-    box.high[1] = max_number(box.high[1], p->y);
-    box.high[2] = max_number(box.high[2], p->z);
-  }
+  struct box3 box = box_of_point(p);
+  for (p++; p < end; p++)
+    extend_box(&box, p);
   return box;
 }
 
