@@ -237,7 +237,7 @@
  * Unit        share of the face's longest side
  * Derivation  parts of a face that are so thin are not seen, even where the
  *             face is as large as the page: a millimetre by 297 mm.
- * Users       scene/weld_near.c, scene/thin_faces.c
+ * Users       scene/weld_near.c, scene/thin_faces.c, scene/face_normal.c
  * Ten times   gaps of a tenth of a face are closed, which can be seen. */
 #define TOLERANCE_WELD_FACE_SHARE 0x1p-8
 

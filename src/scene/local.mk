@@ -13,6 +13,7 @@ librecto_core_la_SOURCES += \
   %D%/edge_range.c %D%/edge_range.h \
   %D%/exact.c %D%/exact.h \
   %D%/face.c \
+  %D%/face_normal.c %D%/face_normal.h \
   %D%/face_rewrite.c %D%/face_rewrite.h \
   %D%/import_format.c %D%/import_format.h \
   %D%/isolated_members.c %D%/isolated_members.h \

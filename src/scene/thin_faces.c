@@ -4,8 +4,8 @@
  * Those that have sides in common are looked at as one: a fan of them may be a
  * curve, though each of its triangles is thin.
  *
- * A first test compares the square of the area with the fourth power of the
- * sides: nearly every face is settled by it. */
+ * Nearly every face is settled by a first test: it is not narrow
+ * (face_normal.h). */
 #include "scene/thin_faces.h"
 
 #include <math.h>
@@ -15,6 +15,7 @@
 #include "base/tolerance.h"
 #include "base/union_find.h"
 #include "geom/vector.h"
+#include "scene/face_normal.h"
 
 double thin_faces_length(const struct scene *scene, uint32_t point, double side,
                          struct precision unstated) {
@@ -57,21 +58,6 @@ static bool is_within_rounding(const struct thin_search *search,
          vector_length(cross) <= most * length;
 }
 
-/* Whether a triangle may be such a one: false for nearly all.  The square of
- * the longest side is at most twice the sum of the squares of the others. */
-static inline bool may_be_thin(const struct scene_point *point,
-                               const uint32_t *corner) {
-  const double share =
-      4 * TOLERANCE_WELD_FACE_SHARE * TOLERANCE_WELD_FACE_SHARE;
-  const struct scene_point *p = &point[corner[0]], *q = &point[corner[1]],
-                           *r = &point[corner[2]];
-  double ax = q->x - p->x, ay = q->y - p->y, az = q->z - p->z;
-  double bx = r->x - p->x, by = r->y - p->y, bz = r->z - p->z;
-  double x = ay * bz - az * by, y = az * bx - ax * bz, z = ax * by - ay * bx;
-  double sides = ax * ax + ay * ay + az * az + bx * bx + by * by + bz * bz;
-  return x * x + y * y + z * z <= share * sides * sides;
-}
-
 /* Whether a triangle is such a one, whatever is beside it. */
 static bool is_thin_triangle(const struct thin_search *search,
                              const uint32_t *corner) {
@@ -90,34 +76,43 @@ static bool is_thin_triangle(const struct thin_search *search,
 /* Faces that a thread takes at once: whole words of the map. */
 enum { FACES_IN_RANGE = 64 * PARALLEL_RANGE(POLL_ITEMS / 64) };
 
-static void note_if_thin(const struct thin_search *search, size_t face,
-                         uint32_t start) {
-  if (is_thin_triangle(search, search->scene->corner.item + start))
-    search->thin[face / 64] |= UINT64_C(1) << face % 64;
-}
-
-static bool map_thin(void *user, struct parallel_range faces) {
+static bool map_narrow(void *user, struct parallel_range faces) {
   const struct thin_search *search = user;
   const struct scene *scene = search->scene;
-  const struct scene_point *point = scene->point.item;
-  for (size_t f = faces.begin; f < faces.end; f++) {
-    uint32_t start = scene_face_start(scene, (uint32_t)f);
+  for (size_t f = faces.begin; f < faces.end; f++)
     if (scene_face_corners(scene, (uint32_t)f) == 3 &&
-        may_be_thin(point, scene->corner.item + start))
-      note_if_thin(search, f, start);
-  }
+        face_is_narrow_triangle(scene, (uint32_t)f))
+      search->thin[f / 64] |= UINT64_C(1) << f % 64;
   return true;
 }
 
-/* The same where all faces are triangles. */
-static bool map_thin_triangles(void *user, struct parallel_range faces) {
-  const struct thin_search *search = user;
-  const struct scene_point *point = search->scene->point.item;
-  const uint32_t *corner = search->scene->corner.item + 3 * faces.begin;
-  for (size_t f = faces.begin; f < faces.end; f++, corner += 3)
-    if (may_be_thin(point, corner))
-      note_if_thin(search, f, 3 * (uint32_t)f);
-  return true;
+/* Finds the narrow triangles.  Where all faces are triangles, the directions of
+ * normals, which the classes of edges need, are found in the same pass.
+ * Returns false when memory ran out, or the caller cancelled. */
+static bool find_narrow(struct thin_search *search, struct topology *topology) {
+  size_t faces = scene_face_count(search->scene);
+  if (search->scene->face_start.count > 0)
+    return parallel_ranges(parallel_workers(faces, FACES_IN_RANGE), faces,
+                           FACES_IN_RANGE, map_narrow, search);
+  topology_drop_directions(topology);
+  topology->direction = face_directions_find(search->scene, search->thin);
+  return topology->direction != NULL;
+}
+
+/* Leaves of the narrow triangles the thin ones; returns whether there are
+ * any. */
+static bool keep_thin(const struct thin_search *search, size_t words) {
+  bool any = false;
+  for (size_t w = 0; w < words; w++)
+    for (uint64_t left = search->thin[w]; left != 0; left &= left - 1) {
+      uint32_t face = (uint32_t)(64 * w) + (uint32_t)__builtin_ctzll(left);
+      if (is_thin_triangle(search, search->scene->corner.item +
+                                       scene_face_start(search->scene, face)))
+        any = true;
+      else
+        search->thin[w] &= ~(left & -left);
+    }
+  return any;
 }
 
 /* Whether each side of a triangle has one other face. */
@@ -259,22 +254,16 @@ static bool keep_straight(const struct thin_search *search, size_t *count) {
 bool thin_faces_find(const struct scene *scene, struct topology *topology,
                      struct precision unstated, uint64_t **thin,
                      size_t *count) {
-  size_t faces = scene_face_count(scene), words = faces / 64 + 1, found = 0;
+  size_t words = scene_face_count(scene) / 64 + 1;
   struct thin_search search = {scene, topology, unstated,
                                mem_calloc(words, sizeof *search.thin)};
   *thin = search.thin;
   *count = 0;
   if (search.thin != NULL && has_exact_points(scene, unstated))
     return true;
-  if (search.thin == NULL ||
-      !parallel_ranges(
-          parallel_workers(faces, FACES_IN_RANGE), faces, FACES_IN_RANGE,
-          scene->face_start.count == 0 ? map_thin_triangles : map_thin,
-          &search))
+  if (search.thin == NULL || !find_narrow(&search, topology))
     return false;
-  while (found < words && search.thin[found] == 0)
-    found++;
-  if (found == words)
+  if (!keep_thin(&search, words))
     return true;
   if (!topology_find_corners(topology, scene))
     return false;

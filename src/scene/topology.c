@@ -367,6 +367,11 @@ void topology_drop_corners(struct topology *topology) {
   topology->corner_edge = NULL;
 }
 
+void topology_drop_directions(struct topology *topology) {
+  mem_free(topology->direction);
+  topology->direction = NULL;
+}
+
 void topology_fini(struct topology *topology) {
   ARRAY_FREE(&topology->edge);
   mem_free(topology->corner_edge);
@@ -375,6 +380,7 @@ void topology_fini(struct topology *topology) {
   mem_free(topology->class_masks);
   mem_free(topology->coarse);
   mem_free(topology->crease_mark);
+  mem_free(topology->direction);
   mem_free(topology->used);
   memset(topology, 0, sizeof *topology);
 }

@@ -24,6 +24,9 @@ struct topology {
                       class_masks; NULL: not kept */
   uint8_t *crease_mark; /* one an edge, enum crease_mark: what files say of it;
                            NULL: nothing */
+  struct face_direction *direction; /* one a face of the scene (face_normal.h),
+                                       where they were found before the classes
+                                       of edges, which need them; or NULL */
   uint8_t *used; /* one a point: whether a face or a polyline uses it, owned;
                     NULL: not kept */
   /* What may be freed once it was laid out, as it is not used later: */
@@ -68,5 +71,8 @@ USE_RESULT bool topology_border_points(const struct topology *topology,
 
 /* Gives up corner_edge. */
 void topology_drop_corners(struct topology *topology);
+
+/* Gives up the directions of faces. */
+void topology_drop_directions(struct topology *topology);
 
 #endif

@@ -5,7 +5,7 @@
 #include "view/layout_phases.h"
 
 recto_status layout_classes(struct layout *layout) {
-  const struct topology *topology = layout->topology;
+  struct topology *topology = layout->topology;
   const struct scene *scene = layout->scene;
   double crease_deg = layout->options->mesh.crease_deg;
   double start_deg = layout->options->mesh.crease_start_deg;
@@ -18,6 +18,7 @@ recto_status layout_classes(struct layout *layout) {
       (start_deg > crease_deg &&
        !topology_drop_weak_creases(topology, scene, start_deg, masks)))
     return error_memory(layout->error);
+  topology_drop_directions(topology);
   if (layout->options->ink.contours != RECTO_CONTOURS_SMOOTH)
     return RECTO_OK;
   layout->coarse = mem_alloc(scene->point.count, 1);
