@@ -14,6 +14,7 @@ enum name_kind { NAME_OBJECT, NAME_GROUP, NAME_MATERIAL, NAME_COUNT };
 
 struct line_blocks;
 struct obj_blocks;
+struct obj_run_kind;
 
 struct obj_parser {
   struct scene *scene;
@@ -33,6 +34,9 @@ struct obj_parser {
   unsigned long strange; /* line of the first that was not; 0 */
   const char *run_end;   /* where the last run of plain statements ended */
   size_t run_bytes;      /* its length, with those right before it */
+  /* The statements that room was made for at once, when a run of them was long;
+   * or NULL. */
+  const struct obj_run_kind *has_room_for;
   struct precision_sample sample;
   ARRAY(uint32_t) bad; /* points that cannot be used, ascending */
   ARRAY(uint32_t) corner;

@@ -34,7 +34,8 @@ enum {
 #endif
   PARTS_MAX = 256, /* at once */
   TIMES_SO_FAR = 4,
-  STATEMENT_BYTES = 8, /* of the shortest one: "v 0 0 0", "f 1 2 3" */
+  AHEAD_BYTES = 1 << 24, /* a file of more is large */
+  STATEMENT_BYTES = 8,   /* of the shortest one: "v 0 0 0", "f 1 2 3" */
   ROOM_BYTES = 2 * OBJ_PLAIN_ROOM, /* behind a part that may be looked at */
 };
 
@@ -267,13 +268,28 @@ static recto_status read_ahead(struct obj_parser *p,
 
 /* ---- Runs ---------------------------------------------------------------- */
 
+/* Makes room for all that is left of a large file, if it is like a run of
+ * PLAIN_RUN statements of so many bytes: arrays that do not grow step by step
+ * are in large pages from their beginning (base/memory.c).  Where there is not
+ * as much memory, they grow. */
+static void reserve_ahead(struct obj_parser *p, const struct obj_run_kind *kind,
+                          size_t bytes) {
+  size_t left = bytes_left(p), count = left / (bytes / PLAIN_RUN);
+  p->has_room_for = kind;
+  if (left > AHEAD_BYTES && count < SCENE_LIMIT / 4)
+    (void)kind->reserve(p, count);
+}
+
 /* Reads up to PLAIN_RUN statements. */
 static recto_status read_alone(struct obj_parser *p,
                                const struct obj_run_kind *kind) {
   struct obj_run run = {
       .at = p->at, .end = p->end, .limit = p->end, .most = PLAIN_RUN};
   bool ok = kind->reserve(p, PLAIN_RUN) && kind->read(p, &run);
-  p->run_bytes += (size_t)(run.at - p->at);
+  size_t bytes = (size_t)(run.at - p->at);
+  if (run.count == PLAIN_RUN && p->has_room_for != kind)
+    reserve_ahead(p, kind, bytes);
+  p->run_bytes += bytes;
   if (ok)
     take_run(p, kind, &run);
   p->at = run.at;
