@@ -24,28 +24,42 @@ enum clip_plane {
 /* Where this bit of an outcode is set the others have no meaning. */
 enum { CLIP_NEAR_BIT = 1 << CLIP_NEAR };
 
+/* Where a point is along an axis of the page, and how far the printable area
+ * reaches there on both sides, in units that grow with its depth. */
+struct clip_reach {
+  double at, half;
+};
+
+static inline struct clip_reach
+clip_reach_of(const struct projection *projection, struct view_point p,
+              int axis) {
+  double depth = projection->perspective ? p.d : 1;
+  return (struct clip_reach){(axis ? p.y : p.x) * projection->units +
+                                 projection->offset[axis] * depth,
+                             (projection->half[axis] + 0.5) * depth};
+}
+
 /* A linear function of the point that is negative outside the plane. */
 static inline double clip_distance(const struct projection *projection,
                                    struct view_point p, int plane) {
   if (plane == CLIP_NEAR)
     return p.d - projection->near_d;
-  int axis = plane >= CLIP_BOTTOM;
-  double depth = projection->perspective ? p.d : 1;
-  double at =
-      (axis ? p.y : p.x) * projection->units + projection->offset[axis] * depth;
-  double half_extent = (projection->half[axis] + 0.5) * depth;
-  return plane == CLIP_LEFT || plane == CLIP_BOTTOM ? half_extent + at
-                                                    : half_extent - at;
+  struct clip_reach reach = clip_reach_of(projection, p, plane >= CLIP_BOTTOM);
+  return plane == CLIP_LEFT || plane == CLIP_BOTTOM ? reach.half + reach.at
+                                                    : reach.half - reach.at;
 }
 
 /* The Cohen-Sutherland outcode: bit k is set where the point is outside plane
- * k. */
+ * k.  Written out, as compilers leave a loop over the planes. */
 static inline uint8_t clip_outcode(const struct projection *projection,
                                    struct view_point p) {
-  unsigned code = 0;
-  for (int plane = 0; plane < CLIP_PLANE_COUNT; plane++)
-    code |= (unsigned)!(clip_distance(projection, p, plane) >= 0) << plane;
-  return (uint8_t)code;
+  struct clip_reach x = clip_reach_of(projection, p, 0),
+                    y = clip_reach_of(projection, p, 1);
+  return (uint8_t)(!(p.d - projection->near_d >= 0) << CLIP_NEAR |
+                   !(x.half + x.at >= 0) << CLIP_LEFT |
+                   !(x.half - x.at >= 0) << CLIP_RIGHT |
+                   !(y.half + y.at >= 0) << CLIP_BOTTOM |
+                   !(y.half - y.at >= 0) << CLIP_TOP);
 }
 
 /* Clips a segment.
