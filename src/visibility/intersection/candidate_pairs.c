@@ -23,13 +23,20 @@ enum { BSP_LIST_MIN = 256 };
  * of the first few has it. */
 enum { FACE_LIST_MIN = 64, FIRST_SAMPLES = 12, SAMPLE_STEP = 37 };
 
-static void make_swept_triangle(const struct pair_sweep *sweep,
-                                uint32_t triangle, uint64_t right_copy,
-                                struct swept_triangle *s) {
+/* Makes what is used of a triangle; returns the depth of its farthest corner.
+ * right_copy  of bsp.h; 0 where the list is that of a cell */
+static inline int64_t make_swept_triangle(const struct pair_sweep *sweep,
+                                          uint32_t triangle,
+                                          uint64_t right_copy,
+                                          struct swept_triangle *s) {
   const struct sheet *sheet = sweep->sheet;
   const struct triangle_grid *grid = sweep->grid;
+  const uint32_t *own = sheet->triangle.item[triangle].point;
+  const int32_t p = (int32_t)own[0], q = (int32_t)own[1], r = (int32_t)own[2];
   int64_t low;
-  memcpy(s->point, sheet->triangle.item[triangle].point, sizeof s->point);
+  s->point[0] = (swept_numbers){p, q, r};
+  s->point[1] = (swept_numbers){q, r, p};
+  s->point[2] = (swept_numbers){r, p, q};
   s->corners = sheet_corners(sheet, triangle);
   s->box =
       box2_of_corners(&s->corners.p[0], &s->corners.p[1], &s->corners.p[2]);
@@ -42,6 +49,7 @@ static void make_swept_triangle(const struct pair_sweep *sweep,
   s->has_inner_sides = (sheet->triangle_flags[triangle] & 7 * SHEET_INNER) != 0;
   s->has_coarse_plane = false;
   s->has_plane = false;
+  return low;
 }
 
 /* Are both triangles listed in a cell that is selected? */
@@ -139,38 +147,29 @@ static inline bool visit_pair(const struct pair_sweep *sweep,
 
 /* Starts a list, with room for n triangles. */
 static bool start_list(struct pair_sweep *sweep, size_t n) {
-  sweep->listed.count = 0;
-  return ARRAY_RESERVE(&sweep->listed, n) && ARRAY_RESERVE(&sweep->swept, n) &&
-         ARRAY_RESERVE(&sweep->box, n) && ARRAY_RESERVE(&sweep->key, 2 * n) &&
-         ARRAY_RESERVE(&sweep->met_now, n);
+  sweep->swept.count = 0;
+  sweep->left = sweep->x > 0 && is_pair_selected(sweep, sweep->x - 1, sweep->y);
+  sweep->below =
+      sweep->y > 0 && is_pair_selected(sweep, sweep->x, sweep->y - 1);
+  return ARRAY_RESERVE(&sweep->swept, n) && ARRAY_RESERVE(&sweep->box, n) &&
+         ARRAY_RESERVE(&sweep->key, 2 * n) && ARRAY_RESERVE(&sweep->met_now, n);
 }
 
 /* Adds a triangle, with its key: the depth of its farthest corner. */
 static inline void add_to_list(struct pair_sweep *sweep, uint32_t triangle,
                                uint64_t right_copy) {
-  size_t i = sweep->listed.count++;
-  int64_t low, high;
-  geom_depth_range(sheet_corners(sweep->sheet, triangle).p, &low, &high);
-  sweep->listed.item[i] =
-      (struct listed_triangle){.right_copy = right_copy, .triangle = triangle};
+  size_t i = sweep->swept.count++;
+  struct swept_triangle *s = &sweep->swept.item[i];
+  int64_t low = make_swept_triangle(sweep, triangle, right_copy, s);
+  sweep->box.item[i] =
+      swept_box_of(s, sweep->x, sweep->y, sweep->left, sweep->below);
   sweep->key.item[i] = (struct sort_key){(uint64_t)low, (uint32_t)i};
 }
 
-/* Sorts the list by depth: swept triangle i then is that of key i, unless
- * another direction is chosen. */
-static void sort_swept(struct pair_sweep *sweep) {
-  size_t n = sweep->swept.count = sweep->listed.count;
-  struct sort_key *key = sweep->key.item;
-  bool left = sweep->x > 0 && is_pair_selected(sweep, sweep->x - 1, sweep->y),
-       below = sweep->y > 0 && is_pair_selected(sweep, sweep->x, sweep->y - 1);
-  sort_keys(key, key + n, n);
-  for (size_t i = 0; i < n; i++) {
-    struct listed_triangle t = sweep->listed.item[key[i].value];
-    make_swept_triangle(sweep, t.triangle, t.right_copy, &sweep->swept.item[i]);
-    sweep->box.item[i] =
-        swept_box_of(&sweep->swept.item[i], sweep->x, sweep->y, left, below);
-    key[i].value = (uint32_t)i;
-  }
+/* Triangle i of the list in the order of its keys. */
+static inline struct swept_triangle *
+swept_of_key(const struct pair_sweep *sweep, size_t i) {
+  return &sweep->swept.item[sweep->key.item[i].value];
 }
 
 /* ---- Groups -------------------------------------------------------------- */
@@ -210,7 +209,7 @@ static uint32_t majority_face(const struct pair_sweep *sweep) {
   size_t lead = 0;
   for (size_t i = 0; i < sweep->swept.count; i++) {
     uint32_t own =
-        sweep->sheet->triangle.item[sweep->swept.item[i].triangle].face;
+        sweep->sheet->triangle.item[swept_of_key(sweep, i)->triangle].face;
     if (lead == 0)
       face = own;
     lead = own == face ? lead + 1 : lead - 1;
@@ -222,19 +221,21 @@ static uint32_t majority_face(const struct pair_sweep *sweep) {
  * list's middle triangle. */
 static bool find_common_edge(const struct pair_sweep *sweep,
                              uint32_t point[2]) {
-  const struct swept_triangle *swept = sweep->swept.item;
   size_t n = sweep->swept.count;
-  const uint32_t *p = sweep->sheet->triangle.item[swept[n / 2].triangle].point;
+  const uint32_t *p =
+      sweep->sheet->triangle.item[swept_of_key(sweep, n / 2)->triangle].point;
   for (int k = 0; k < 3; k++) {
     size_t having = 0;
     point[0] = p[k];
     point[1] = p[geom_next_corner(k)];
     for (size_t i = 0; i < FACE_LIST_MIN && (having > 0 || i < FIRST_SAMPLES);
          i++)
-      having += has_mesh_edge(
-          sweep->sheet,
-          swept[i * SAMPLE_STEP % FACE_LIST_MIN * n / FACE_LIST_MIN].triangle,
-          point);
+      having +=
+          has_mesh_edge(sweep->sheet,
+                        swept_of_key(sweep, i * SAMPLE_STEP % FACE_LIST_MIN *
+                                                n / FACE_LIST_MIN)
+                            ->triangle,
+                        point);
     if (having > FACE_LIST_MIN / 2)
       return true;
   }
@@ -254,7 +255,7 @@ static bool list_others(struct pair_sweep *sweep,
                         const struct pair_group *group) {
   sweep->other.count = 0;
   for (size_t i = 0; i < sweep->swept.count; i++) {
-    struct swept_triangle *f = &sweep->swept.item[sweep->key.item[i].value];
+    struct swept_triangle *f = swept_of_key(sweep, i);
     f->in_group = is_in_group(sweep, group, f->triangle);
     if (!f->in_group && !ARRAY_PUSH(&sweep->other, sweep->key.item[i]))
       return false;
@@ -289,10 +290,10 @@ static bool sweep_triangle(struct pair_sweep *sweep, uint32_t f,
 
 /* Tests the pairs of the list, but not those of its group. */
 static bool sweep_list(struct pair_sweep *sweep) {
-  sort_swept(sweep);
+  size_t n = sweep->swept.count, others = 0;
+  sort_keys(sweep->key.item, sweep->key.item + n, n);
   if (!sweep_direction_choose(sweep))
     return false;
-  size_t n = sweep->swept.count, others = 0;
   struct pair_group group = choose_group(sweep);
   if (n >= FACE_LIST_MIN && !list_others(sweep, &group))
     return false;
@@ -379,7 +380,6 @@ bool pair_sweep_cells(struct pair_sweep *sweep, size_t begin, size_t end) {
 }
 
 void pair_sweep_fini(struct pair_sweep *sweep) {
-  ARRAY_FREE(&sweep->listed);
   ARRAY_FREE(&sweep->swept);
   ARRAY_FREE(&sweep->box);
   ARRAY_FREE(&sweep->met_now);

@@ -11,13 +11,6 @@
 
 struct swept_triangle; /* swept_triangle.h */
 
-/* An entry of a list.
- * right_copy  of bsp.h; 0 where the list is that of a cell */
-struct listed_triangle {
-  uint64_t right_copy;
-  uint32_t triangle;
-};
-
 /* The search for pairs in the cells of a grid, by one thread or by several,
  * each of which has its own. */
 struct pair_sweep {
@@ -30,11 +23,12 @@ struct pair_sweep {
   struct progress *progress; /* counts the work */
   uint64_t met; /* the number of pairs of one list whose ranges overlap, in
                    depth or along the list's direction */
-  struct occlusion_bound all;           /* of contact tolerances */
-  int x, y;                             /* the current cell */
-  ARRAY(struct listed_triangle) listed; /* those of the current list */
-  ARRAY(struct swept_triangle) swept;   /* the same, sorted by depth */
-  ARRAY(struct swept_box) box;          /* of these */
+  struct occlusion_bound all;         /* of contact tolerances */
+  int x, y;                           /* the current cell */
+  bool left, below;                   /* the cells before it in its row and in
+                                           its column are selected */
+  ARRAY(struct swept_triangle) swept; /* those of the current list */
+  ARRAY(struct swept_box) box;        /* of these */
   ARRAY(uint32_t) met_now; /* scratch: those that a triangle is tested with */
   ARRAY(struct sort_key) key;   /* twice as many: by depth, and scratch */
   ARRAY(struct sort_key) other; /* those that are not of the face, or about the

@@ -152,11 +152,14 @@ static void find_ranges(struct pair_sweep *sweep) {
     swept[i].coarse_plane = coarse_plane_of(&sweep->all, swept[i].corners.p);
     swept[i].has_coarse_plane = true;
   }
-  struct sweep_direction direction = sweep_direction_of(swept, n, n / 2);
+  const struct sort_key *key = sweep->key.item;
+  struct sweep_direction direction =
+      sweep_direction_of(swept, n, key[n / 2].value);
   for (size_t i = 0; i < n; i++) {
-    struct sweep_range range = sweep_range_of(&direction, &swept[i]);
-    sweep->along.item[i] = (struct sort_key){range.low, (uint32_t)i};
-    sweep->high.item[i] = range.high;
+    uint32_t f = key[i].value;
+    struct sweep_range range = sweep_range_of(&direction, &swept[f]);
+    sweep->along.item[i] = (struct sort_key){range.low, f};
+    sweep->high.item[f] = range.high;
   }
   sort_keys(sweep->along.item, sweep->along.item + n, n);
 }

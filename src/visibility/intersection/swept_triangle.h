@@ -10,14 +10,16 @@
 typedef int32_t swept_numbers __attribute__((vector_size(16)));
 typedef int64_t swept_pair __attribute__((vector_size(16)));
 
-/* What the tests use of a triangle, computed once per list. */
+/* What the tests use of a triangle, computed once per list, in its order; keys
+ * say which comes when. */
 struct swept_triangle {
   struct box2 box;
   int64_t high; /* depth of the nearest corner, or the high end of its range
                    along another direction */
   int x0, y0;   /* the cell of the box's lower left corner */
   uint32_t triangle;
-  uint32_t point[3];
+  swept_numbers point[3]; /* its points: from the first one on, from the second,
+                             and from the third */
   struct geom_triangle corners;
   uint64_t right_copy;  /* bsp.h */
   bool in_group;        /* it is not tested with others that are, too */
@@ -65,13 +67,17 @@ static inline bool swept_depths_overlap(const struct swept_triangle *f,
 
 /* The corners that two triangles share: bit 3 i + j stands for corner i of f,
  * which is corner j of g. */
-static inline unsigned shared_corners(const uint32_t f[3],
-                                      const uint32_t g[3]) {
-  return (unsigned)(f[0] == g[0]) | (unsigned)(f[0] == g[1]) << 1 |
-         (unsigned)(f[0] == g[2]) << 2 | (unsigned)(f[1] == g[0]) << 3 |
-         (unsigned)(f[1] == g[1]) << 4 | (unsigned)(f[1] == g[2]) << 5 |
-         (unsigned)(f[2] == g[0]) << 6 | (unsigned)(f[2] == g[1]) << 7 |
-         (unsigned)(f[2] == g[2]) << 8;
+static inline unsigned shared_corners(const struct swept_triangle *f,
+                                      const struct swept_triangle *g) {
+  const swept_numbers bits[3] = {{1 << 0, 1 << 4, 1 << 8},
+                                 {1 << 1, 1 << 5, 1 << 6},
+                                 {1 << 2, 1 << 3, 1 << 7}};
+  const swept_numbers own = f->point[0];
+  swept_pair shared = (swept_pair)(((own == g->point[0]) & bits[0]) |
+                                   ((own == g->point[1]) & bits[1]) |
+                                   ((own == g->point[2]) & bits[2]));
+  uint64_t all = (uint64_t)(shared[0] | shared[1]);
+  return (unsigned)(all | all >> 32);
 }
 
 /* A vector on the page. */
@@ -109,11 +115,11 @@ static inline bool are_disjoint_at_corner(const struct geom_point p[3], int i,
          ((next_next > 0) & (last_next > 0)) || (next_last & last_last) < 0;
 }
 
-/* Is the side that triangle f shares with a triangle of corners q an edge of
- * the mesh? */
+/* Is the side that triangle f shares with triangle g an edge of the mesh? */
 static inline bool is_mesh_edge(const struct sheet *sheet, uint32_t f,
-                                const uint32_t q[3]) {
+                                uint32_t g) {
   const uint32_t *p = sheet->triangle.item[f].point;
+  const uint32_t *q = sheet->triangle.item[g].point;
   int other = 0; /* the corner of f that is not shared */
   while (p[other] == q[0] || p[other] == q[1] || p[other] == q[2])
     other++;
@@ -130,8 +136,8 @@ static inline bool are_neighbours_at_side(const struct sheet *sheet,
     return true;
   return sheet->triangle.item[f->triangle].face ==
              sheet->triangle.item[g->triangle].face ||
-         (is_mesh_edge(sheet, f->triangle, g->point) &&
-          is_mesh_edge(sheet, g->triangle, f->point));
+         (is_mesh_edge(sheet, f->triangle, g->triangle) &&
+          is_mesh_edge(sheet, g->triangle, f->triangle));
 }
 
 /* Do two triangles share an edge of the mesh, a diagonal of one face, or a
@@ -139,8 +145,7 @@ static inline bool are_neighbours_at_side(const struct sheet *sheet,
 static inline bool are_neighbours(const struct sheet *sheet,
                                   const struct swept_triangle *f,
                                   const struct swept_triangle *g) {
-  unsigned shared = shared_corners(f->point, g->point),
-           others = shared & (shared - 1);
+  unsigned shared = shared_corners(f, g), others = shared & (shared - 1);
   if (shared == 0)
     return false;
   if (others == 0) {
