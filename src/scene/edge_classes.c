@@ -17,7 +17,6 @@
 #include "base/tolerance.h"
 #include "scene/angle.h"
 #include "scene/crease_marks.h"
-#include "scene/face_normal.h"
 
 /* Two normals bend by more than the crease angle where their cosine is below
  * this; an angle of 180 degrees or more is never passed. */
@@ -123,86 +122,74 @@ unsigned topology_class_mask(const struct topology *topology,
                                        topology_crease_cosine(crease_deg));
 }
 
-/* What the workers know that find the classes of all edges. */
-struct crease_work {
-  const struct scene *scene;
-  const struct topology *topology;
-  const struct face_direction *direction; /* one a face */
-  double crease_cosine;
-  int smooth_from;      /* smooth_from() */
-  uint8_t *class_masks; /* one an edge */
-};
-
 /* The cosine of the filter is off by less than this.  A coordinate is off by
  * 0.5 / FACE_DIRECTION_ONE < 2^-15.99, a vector by the root of 3 of that: two
  * of them, and their product. */
 static const double filter_error = 0x1p-14;
 
-/* The cosine at an edge of two faces by the filter, times the square of
- * FACE_DIRECTION_ONE. */
-static inline int cosine_of_filter(const struct crease_work *work,
-                                   const struct topology_edge *edge) {
-  struct face_direction a = work->direction[edge->first];
-  struct face_direction b = work->direction[edge->second];
-  int dot = a.x * b.x + a.y * b.y + a.z * b.z;
-  return edge->same_way ? -dot : dot;
-}
-
-/* What cosine_of_filter is of at least, at an edge that is smooth and no more;
- * INT_MAX where edges have other classes too, or none is certain to be. */
-static int smooth_from(const struct scene *scene, double crease_cosine) {
-  double from = ceil((crease_cosine + filter_error) *
+struct crease_filter crease_filter_of(const struct scene *scene,
+                                      const struct face_direction *direction,
+                                      double crease_deg) {
+  double cosine = topology_crease_cosine(crease_deg);
+  double from = ceil((cosine + filter_error) *
                      ((double)FACE_DIRECTION_ONE * FACE_DIRECTION_ONE)) +
                 1;
   bool plain = scene->face_group.count == 0 && scene->cut == NULL;
-  return !plain || from > INT_MAX - 1 ? INT_MAX
-         : from < -(double)INT_MAX    ? -INT_MAX
-                                      : (int)from;
+  return (struct crease_filter){.scene = scene,
+                                .direction = direction,
+                                .crease_cosine = cosine,
+                                .smooth_from =
+                                    !plain || from > INT_MAX - 1 ? INT_MAX
+                                    : from < -(double)INT_MAX    ? -INT_MAX
+                                                                 : (int)from};
 }
 
-static inline bool exceeds_crease_angle(const struct crease_work *work,
-                                        const struct topology_edge *edge) {
-  struct face_direction a = work->direction[edge->first];
-  struct face_direction b = work->direction[edge->second];
-  double cosine = cosine_of_filter(work, edge) *
+static bool exceeds_crease_angle(const struct crease_filter *filter,
+                                 const struct topology_edge *edge) {
+  struct face_direction a = filter->direction[edge->first];
+  struct face_direction b = filter->direction[edge->second];
+  double cosine = crease_filter_cosine(filter, edge) *
                   (1.0 / ((double)FACE_DIRECTION_ONE * FACE_DIRECTION_ONE));
-  if (cosine > work->crease_cosine + filter_error)
+  if (cosine > filter->crease_cosine + filter_error)
     return false;
   bool is_known =
       (a.x != 0 || a.y != 0 || a.z != 0) && (b.x != 0 || b.y != 0 || b.z != 0);
-  if (is_known && cosine < work->crease_cosine - filter_error)
+  if (is_known && cosine < filter->crease_cosine - filter_error)
     return true;
-  return is_crease(face_normal_of(work->scene, edge->first),
-                   face_normal_of(work->scene, edge->second), edge->same_way,
-                   work->crease_cosine);
+  return is_crease(face_normal_of(filter->scene, edge->first),
+                   face_normal_of(filter->scene, edge->second), edge->same_way,
+                   filter->crease_cosine);
 }
 
-/* Most edges are smooth, and most scenes have one group and no cut. */
-static inline bool is_plainly_smooth(const struct crease_work *work,
-                                     const struct topology_edge *edge) {
-  return edge->uses == 2 && cosine_of_filter(work, edge) >= work->smooth_from;
+unsigned crease_filter_class_mask(const struct crease_filter *filter,
+                                  const struct topology_edge *edge) {
+  unsigned mask = plain_class_mask(edge, filter->scene);
+  if (edge->uses == 2 && exceeds_crease_angle(filter, edge))
+    mask |= RECTO_EDGE_CREASE;
+  if (filter->scene->cut != NULL)
+    return class_mask_after_cut(edge, filter->scene, mask);
+  return mask ? mask : RECTO_EDGE_SMOOTH;
 }
+
+/* What the workers know that find the classes of all edges. */
+struct class_work {
+  struct crease_filter filter;
+  const struct topology_edge *edge;
+  uint8_t *class_masks; /* one an edge */
+};
 
 /* What the loop reads is copied, so that the compiler knows that writing bytes
  * does not change it. */
 static bool find_masks(void *user, struct parallel_range range) {
-  const struct crease_work work = *(const struct crease_work *)user;
-  const struct topology_edge *edge = work.topology->edge.item + range.begin;
+  const struct class_work work = *(const struct class_work *)user;
+  const struct topology_edge *edge = work.edge + range.begin;
   for (size_t e = range.begin; e < range.end; e++, edge++) {
     if (e + MEM_PREFETCH_AHEAD < range.end)
-      MEM_PREFETCH(&work.direction[edge[MEM_PREFETCH_AHEAD].second]);
-    if (is_plainly_smooth(&work, edge)) {
-      work.class_masks[e] = RECTO_EDGE_SMOOTH;
-      continue;
-    }
-    unsigned mask = plain_class_mask(edge, work.scene);
-    if (edge->uses == 2 && exceeds_crease_angle(&work, edge))
-      mask |= RECTO_EDGE_CREASE;
-    mask = work.scene->cut != NULL
-               ? class_mask_after_cut(edge, work.scene, mask)
-           : mask ? mask
-                  : RECTO_EDGE_SMOOTH;
-    work.class_masks[e] = (uint8_t)mask;
+      MEM_PREFETCH(&work.filter.direction[edge[MEM_PREFETCH_AHEAD].second]);
+    work.class_masks[e] =
+        crease_filter_is_smooth(&work.filter, edge)
+            ? RECTO_EDGE_SMOOTH
+            : (uint8_t)crease_filter_class_mask(&work.filter, edge);
   }
   return true;
 }
@@ -214,19 +201,14 @@ bool topology_class_masks(const struct topology *topology,
     memcpy(class_masks, topology->class_masks, topology->edge.count);
     return true;
   }
-  struct face_direction *own = NULL;
-  struct crease_work work = {
-      .scene = scene,
-      .topology = topology,
-      .direction = topology->direction,
-      .crease_cosine = topology_crease_cosine(crease_deg),
-      .smooth_from = smooth_from(scene, topology_crease_cosine(crease_deg)),
-      .class_masks = class_masks,
-  };
-  if (work.direction == NULL)
-    work.direction = own = face_directions_find(scene, NULL);
+  const struct face_direction *direction = topology->direction;
+  struct face_direction *own =
+      direction == NULL ? face_directions_find(scene, NULL) : NULL;
+  struct class_work work = {
+      crease_filter_of(scene, own != NULL ? own : direction, crease_deg),
+      topology->edge.item, class_masks};
   size_t edges = topology->edge.count;
-  bool ok = work.direction != NULL &&
+  bool ok = work.filter.direction != NULL &&
             parallel_ranges(parallel_workers(edges, PARALLEL_ITEMS), edges,
                             PARALLEL_ITEMS, find_masks, &work);
   mem_free(own);

@@ -2,6 +2,7 @@
 #ifndef SCENE_EDGE_CLASSES_H
 #define SCENE_EDGE_CLASSES_H
 
+#include "scene/face_normal.h"
 #include "scene/topology.h"
 
 /* Whether an edge lies in a plane by which the scene was cut. */
@@ -31,6 +32,42 @@ double topology_crease_cosine(double crease_deg);
 unsigned topology_class_mask_by_cosine(const struct topology *topology,
                                        const struct scene *scene, uint32_t edge,
                                        double crease_cosine);
+
+/* A filter for edges that bend by more than the crease angle. */
+struct crease_filter {
+  const struct scene *scene;
+  const struct face_direction *direction; /* one a face, borrowed */
+  double crease_cosine;
+  /* What crease_filter_cosine is of at least, at an edge of two faces that is
+   * smooth and no more; INT_MAX where edges have other classes too, or none is
+   * certain to be. */
+  int smooth_from;
+};
+
+struct crease_filter crease_filter_of(const struct scene *scene,
+                                      const struct face_direction *direction,
+                                      double crease_deg);
+
+/* The cosine at an edge of two faces, times the square of
+ * FACE_DIRECTION_ONE. */
+static inline int crease_filter_cosine(const struct crease_filter *filter,
+                                       const struct topology_edge *edge) {
+  struct face_direction a = filter->direction[edge->first];
+  struct face_direction b = filter->direction[edge->second];
+  int dot = a.x * b.x + a.y * b.y + a.z * b.z;
+  return edge->same_way ? -dot : dot;
+}
+
+/* Whether an edge is certainly smooth and no more, as most are. */
+static inline bool crease_filter_is_smooth(const struct crease_filter *filter,
+                                           const struct topology_edge *edge) {
+  return edge->uses == 2 &&
+         crease_filter_cosine(filter, edge) >= filter->smooth_from;
+}
+
+/* topology_class_mask of an edge that files say nothing of. */
+unsigned crease_filter_class_mask(const struct crease_filter *filter,
+                                  const struct topology_edge *edge);
 
 /* topology_class_mask for every edge at once.
  * class_masks  one an edge

@@ -4,6 +4,30 @@
 #include "scene/edge_classes.h"
 #include "view/layout_phases.h"
 
+/* Whether edges get their classes one by one, when they are chosen: nobody
+ * needs those of all, and nearly all are smooth. */
+static bool are_found_late(const struct layout *layout) {
+  const struct topology *topology = layout->topology;
+  const recto_options *options = layout->options;
+  return topology->class_masks == NULL && topology->crease_mark == NULL &&
+         options->mesh.crease_start_deg <= options->mesh.crease_deg &&
+         options->ink.contours != RECTO_CONTOURS_SMOOTH;
+}
+
+/* Prepares that. */
+static recto_status find_late(struct layout *layout) {
+  struct topology *topology = layout->topology;
+  if (topology->direction == NULL)
+    topology->direction = face_directions_find(layout->scene, NULL);
+  layout->class_masks =
+      mem_calloc(topology->edge.count, sizeof *layout->class_masks);
+  layout->filter = crease_filter_of(layout->scene, topology->direction,
+                                    layout->options->mesh.crease_deg);
+  return topology->direction != NULL && layout->class_masks != NULL
+             ? RECTO_OK
+             : error_memory(layout->error);
+}
+
 recto_status layout_classes(struct layout *layout) {
   struct topology *topology = layout->topology;
   const struct scene *scene = layout->scene;
@@ -11,6 +35,8 @@ recto_status layout_classes(struct layout *layout) {
   double start_deg = layout->options->mesh.crease_start_deg;
   if (!(layout->options->ink.edges & LAYOUT_FACE_CLASSES))
     return RECTO_OK;
+  if (are_found_late(layout))
+    return find_late(layout);
   uint8_t *masks = mem_alloc(topology->edge.count, sizeof *masks);
   layout->class_masks = masks;
   if (masks == NULL ||

@@ -1,8 +1,8 @@
-/* layout_edges.c - classifies the edges of faces and makes the edges of the
- * sheet.
+/* layout_edges.c - makes the edges of the sheet.
  *
  * Phases, all but the second in parallel
- *   choose  finds the class of each edge, and which are to be made.
+ *   choose  finds the class of each edge, and which are to be made
+ *           (layout_edge_choice.h).
  *   clip    clips those of them that leave the page, and adds the contours; few
  *           edges are either.  So it is known how many are made before each.
  *   make    makes the edges of the sheet.
@@ -11,30 +11,8 @@
  */
 #include "base/parallel.h"
 #include "base/sort.h"
-#include "scene/edge_classes.h"
+#include "view/layout_edge_choice.h"
 #include "view/layout_face_ranges.h"
-
-/* Whether silhouettes are edges of the mesh at a point; else they are found
- * after it was solved (visibility/smooth_contours.h).
- * coarse  of topology_coarse_parts; NULL: silhouettes are edges everywhere */
-static bool has_mesh_contours(const uint8_t *coarse, uint32_t point) {
-  return coarse == NULL || coarse[point];
-}
-
-/* The classes of an edge in this view: the given ones, with silhouette in place
- * of smooth where it is one.  An edge that one face has twice (a bridge to a
- * hole, or a spike) lies inside that face and is no silhouette; nor is one
- * within a cut face.
- * still  the classes that do not depend on the camera */
-static unsigned class_mask_of(const struct scene *scene,
-                              const struct topology_edge *edge, unsigned still,
-                              uint8_t sides) {
-  if (edge->uses != 2 || edge->first == edge->second ||
-      !layout_is_silhouette(sides) ||
-      (still == 0 && topology_is_in_cut(scene, edge)))
-    return still;
-  return (still & ~(unsigned)RECTO_EDGE_SMOOTH) | RECTO_EDGE_SILHOUETTE;
-}
 
 /* The sheet points of an edge of which an end is outside. */
 static recto_status clip_end_points(struct layout *layout, uint32_t edge,
@@ -56,9 +34,6 @@ static inline recto_status find_end_points(struct layout *layout, uint32_t edge,
              ? RECTO_OK
              : clip_end_points(layout, edge, ends);
 }
-
-/* Edges that a thread takes at once: whole words of that map. */
-enum { EDGES_IN_RANGE = 64 * PARALLEL_RANGE(POLL_ITEMS / 64) };
 
 static struct sheet_edge sheet_edge_of(struct layout_clipped ends,
                                        uint32_t source, unsigned edge_class,
@@ -89,117 +64,6 @@ static bool edge_layout_init(struct edge_layout *work, struct layout *layout) {
          work->special != NULL;
 }
 
-/* On which sides of an edge its faces lie, where it has two.  By their flags it
- * is seen along the first face's way. */
-static uint8_t sides_of_edge(const struct layout *layout, uint32_t edge) {
-  const struct topology_edge *e = &layout->topology->edge.item[edge];
-  const uint32_t face[2] = {e->first, e->second};
-  uint8_t sides = 0;
-  if (layout->sides != NULL)
-    return layout->sides[edge];
-  for (int k = 0; e->uses == 2 && k < 2; k++) {
-    uint8_t flags = layout->flags.item[face[k]];
-    if (flags != LAYOUT_NO_TRIANGLE)
-      layout_record_side(&sides, k == 0 || e->same_way,
-                         flags & SHEET_FLIPPED   ? -1
-                         : flags & SHEET_EDGE_ON ? 0
-                                                 : 1);
-  }
-  return sides;
-}
-
-static bool is_contour(const struct topology_edge *edge, uint8_t sides) {
-  return edge->uses != 2 || sides != LAYOUT_TWO_SIDED;
-}
-
-/* What is read of all edges. */
-struct edge_sides {
-  const struct layout *layout;
-  const struct topology_edge *edge;
-  const uint8_t *sides, *flags; /* as in struct layout */
-  uint32_t edges;
-};
-
-/* The same as sides_of_edge, where most edges have two faces, one on each side
- * of it. */
-static inline uint8_t look_up_sides(const struct edge_sides *of, uint32_t e) {
-  const struct topology_edge *edge = &of->edge[e];
-  if (of->sides != NULL)
-    return of->sides[e];
-  if (e + MEM_PREFETCH_AHEAD < of->edges &&
-      edge[MEM_PREFETCH_AHEAD].second != TOPOLOGY_NONE)
-    MEM_PREFETCH(&of->flags[edge[MEM_PREFETCH_AHEAD].second]);
-  return edge->uses == 2 && layout_flags_are_two_sided(of->flags[edge->first],
-                                                       of->flags[edge->second],
-                                                       edge->same_way)
-             ? LAYOUT_TWO_SIDED
-             : sides_of_edge(of->layout, e);
-}
-
-/* The requested class of an edge, of those that it has whatever the view. */
-static unsigned requested_class(const struct layout *layout, uint32_t e,
-                                uint8_t sides) {
-  const struct topology_edge *edge = &layout->topology->edge.item[e];
-  unsigned wanted = layout->options->ink.edges & LAYOUT_FACE_CLASSES;
-  if (!has_mesh_contours(layout->coarse, edge->point[0]))
-    wanted &= ~(unsigned)RECTO_EDGE_SILHOUETTE;
-  return topology_class_of_mask(
-      class_mask_of(layout->scene, edge, layout->class_masks[e], sides) &
-      wanted);
-}
-
-/* Whether no edge leaves the page: all faces were found to be on it. */
-static bool is_all_on_page(const struct layout *layout) {
-  return layout->face_range != NULL &&
-         layout->flags.count == scene_face_count(layout->scene);
-}
-
-static bool leaves_page(const struct layout *layout, uint32_t e) {
-  const uint32_t *point = layout->topology->edge.item[e].point;
-  return layout_sheet_point(layout, point[0]) == SHEET_NONE ||
-         layout_sheet_point(layout, point[1]) == SHEET_NONE;
-}
-
-/* Chooses the requested edges of a range, and contours.  Most have a face on
- * each side, and are nothing but smooth. */
-static bool choose_edges(void *user, struct parallel_range range) {
-  struct edge_layout *work = user;
-  const struct layout *layout = work->layout;
-  uint8_t *class_masks = layout->class_masks;
-  uint64_t *bits = layout->ids.bits, *special = work->special;
-  bool all_on_page = is_all_on_page(layout), all_edges = layout->all_edges;
-  const unsigned smooth = layout->options->ink.edges & RECTO_EDGE_SMOOTH;
-  bool skips_smooth = class_masks != NULL && !all_edges && smooth == 0;
-  const struct edge_sides of = {
-      .layout = layout,
-      .edge = layout->topology->edge.item,
-      .sides = layout->sides,
-      .flags = layout->flags.item,
-      .edges = (uint32_t)layout->topology->edge.count,
-  };
-  for (uint32_t e = (uint32_t)range.begin; e < range.end; e++) {
-    uint8_t sides = look_up_sides(&of, e);
-    bool contour = is_contour(&of.edge[e], sides), made = all_edges;
-    uint64_t bit = UINT64_C(1) << e % 64;
-    if (skips_smooth && !contour && class_masks[e] == RECTO_EDGE_SMOOTH) {
-      class_masks[e] = 0;
-      continue;
-    }
-    if (class_masks != NULL) {
-      unsigned edge_class = !contour && class_masks[e] == RECTO_EDGE_SMOOTH
-                                ? smooth
-                                : requested_class(layout, e, sides);
-      class_masks[e] = (uint8_t)edge_class;
-      made |= edge_class != 0;
-    }
-    if (made)
-      bits[e / 64] |= bit;
-    if (contour || (made && !all_on_page && leaves_page(layout, e)))
-      special[e / 64] |= bit;
-  }
-  return true;
-}
-
 /* Clips a special edge, adds it if it is a contour, and does not make it where
  * nothing is left of it. */
 static recto_status clip_edge(struct edge_layout *work, uint32_t edge) {
@@ -208,8 +72,7 @@ static recto_status clip_edge(struct edge_layout *work, uint32_t edge) {
   recto_status status = find_end_points(layout, edge, &ends);
   if (status == RECTO_OK && ends.point[0] == SHEET_NONE)
     layout->ids.bits[edge / 64] &= ~(UINT64_C(1) << edge % 64);
-  else if (status == RECTO_OK && is_contour(&layout->topology->edge.item[edge],
-                                            sides_of_edge(layout, edge)))
+  else if (status == RECTO_OK && layout_is_contour(layout, edge))
     status = layout_contour(layout, ends.point[0], ends.point[1]);
   return status;
 }
@@ -267,9 +130,9 @@ static bool make_edges_of_range(void *user, struct parallel_range range) {
 static recto_status make_edges(struct edge_layout *work) {
   struct layout *layout = work->layout;
   size_t edges = layout->topology->edge.count, count;
-  int workers = parallel_workers(edges, EDGES_IN_RANGE);
-  if (!parallel_ranges(workers, edges, EDGES_IN_RANGE, choose_edges, work))
+  if (!layout_choose_edges(layout, work->special))
     return error_memory(layout->error);
+  topology_drop_directions(layout->topology);
   recto_status status = clip_edges(work, &count);
   if (status != RECTO_OK || count == 0)
     return status;
@@ -277,8 +140,8 @@ static recto_status make_edges(struct edge_layout *work) {
       (layout->scene->group.count > 1 &&
        !ARRAY_RESERVE(&layout->sheet->edge_group,
                       count + layout->fold.count)) ||
-      !parallel_ranges(workers, edges, EDGES_IN_RANGE, make_edges_of_range,
-                       work))
+      !parallel_ranges(parallel_workers(edges, LAYOUT_EDGES_IN_RANGE), edges,
+                       LAYOUT_EDGES_IN_RANGE, make_edges_of_range, work))
     return error_memory(layout->error);
   layout->sheet->edge.count = count;
   if (layout->scene->group.count > 1)
@@ -303,7 +166,7 @@ static bool make_folds(struct layout *layout) {
     uint32_t group = scene_face_group(scene, fold->face);
     uint32_t corner = scene->corner.item[scene_face_start(scene, fold->face)];
     bool is_mesh =
-        has_mesh_contours(layout->coarse, layout_weld(layout, corner));
+        layout_has_mesh_contours(layout, layout_weld(layout, corner));
     struct sheet_edge edge =
         sheet_edge_of(fold->ends, SHEET_NONE, is_mesh ? wanted : 0, 0);
     if (!push_edge(layout, edge, group))

@@ -2,7 +2,8 @@
  * share.
  *
  * Phases, in this order
- *   classes    finds the classes of edges that do not depend on the camera.
+ *   classes    finds the classes of edges that do not depend on the camera, or
+ *              prepares that each gets its own when it is chosen.
  *   range      computes the depth range of what is inside the printable area,
  *              which is mapped to the sheet's range of z.
  *   points     makes a sheet point of every used scene point inside.
@@ -24,6 +25,7 @@
 #ifndef VIEW_LAYOUT_PHASES_H
 #define VIEW_LAYOUT_PHASES_H
 
+#include "scene/edge_classes.h"
 #include "view/clip.h"
 #include "view/sheet.h"
 #include "scene/triangulate.h"
@@ -193,8 +195,10 @@ struct layout {
                           faces say it (layout_face_ranges.h) */
   uint8_t *class_masks; /* likewise; once they are chosen, the class of each.
                            NULL where no class of them was requested */
-  bool is_clipped;      /* a point that is used is outside */
-  uint8_t *coarse;      /* of topology_coarse_parts; or NULL */
+  struct crease_filter filter; /* with directions: class_masks are 0 until edges
+                                  are chosen, by this */
+  bool is_clipped;             /* a point that is used is outside */
+  uint8_t *coarse;             /* of topology_coarse_parts; or NULL */
   struct layout_edge_ids ids;
   struct face_range *face_range; /* of layout_face_ranges.h; NULL: triangles are
                                     there before the edges */

@@ -11,6 +11,7 @@ librecto_core_la_SOURCES += \
   %D%/camera_axes.c %D%/camera_axes.h \
   %D%/layout.c %D%/layout.h \
   %D%/layout_classes.c \
+  %D%/layout_edge_choice.c %D%/layout_edge_choice.h \
   %D%/layout_edges.c \
   %D%/layout_face_ranges.c %D%/layout_face_ranges.h \
   %D%/layout_clipping.c %D%/layout_clipping.h \
