@@ -10,6 +10,8 @@
 
 #include "scene/angle.h"
 #include "scene/edge_classes.h"
+#include "scene/edge_range.h"
+#include "scene/repeated_part.h"
 #include "scene/topology.h"
 #include "tests/memory_faults.h"
 #include "tests/scenes/random.h"
@@ -208,6 +210,102 @@ static void polygons_have_the_edges_that_a_search_finds(void **state) {
   find(&topology, &scene);
   check(&scene, &topology);
   topology_fini(&topology);
+  scene_fini(&scene);
+}
+
+/* ---- Parts that are repeated --------------------------------------------- */
+
+enum { PART_POINTS = 8, PART_FACES = 12, PART_COPIES = 1500 };
+
+/* Adds a face with three corners, or up to five, of the points from one on. */
+static void add_part_face(struct scene *scene, struct random *random,
+                          uint32_t point, bool polygons) {
+  uint32_t corner[5], count = polygons ? 3 + random_below(random, 3) : 3;
+  for (uint32_t k = 0; k < count; k++)
+    corner[k] = point + random_below(random, PART_POINTS);
+  build_face(scene, corner, count);
+}
+
+/* Copies of parts at random, of which a few lie beside each other in the file;
+ * some faces between them have points of any, also of later ones. */
+static void fill_repeated(struct scene *scene, uint64_t seed, bool polygons) {
+  struct random random = {seed};
+  uint32_t points = PART_COPIES * (PART_POINTS + 1);
+  uint64_t kind = 0;
+  build_group(scene, "repeated");
+  for (uint32_t p = 0; p < points; p++)
+    build_point(scene, p, (double)p * p, (double)p * p * p);
+  for (uint32_t i = 0, point = 0; i < PART_COPIES; i++) {
+    struct random part = {kind + 1};
+    for (int f = 0; f < PART_FACES; f++)
+      add_part_face(scene, &part, point, polygons);
+    for (uint32_t k = random_below(&random, 20); k > 17; k--)
+      add_part_face(scene, &random, random_below(&random, points - PART_POINTS),
+                    polygons);
+    point += PART_POINTS + random_below(&random, 6) / 5;
+    kind += random_below(&random, 10) == 0;
+  }
+}
+
+/* Finds the edges, of all faces as one range. */
+static struct edge_range find_range(const struct scene *scene, bool with_hubs) {
+  struct edge_range range = {.scene = scene,
+                             .end_face = scene_face_count(scene)};
+  range.corner_edge = calloc(scene->corner.count, sizeof *range.corner_edge);
+  assert_true(edge_range_find(&range, with_hubs));
+  assert_false(range.overfull);
+  return range;
+}
+
+/* With hubs no edge is copied. */
+static void edges_do_not_depend_on_whether_they_are_copied(void **state) {
+  (void)state;
+  for (uint64_t seed = 1; seed <= 20; seed++) {
+    struct scene scene;
+    scene_init(&scene);
+    fill_repeated(&scene, seed, seed % 2 == 1);
+    struct edge_range one = find_range(&scene, false),
+                      other = find_range(&scene, true);
+    assert_int_equal(one.edge.count, other.edge.count);
+    assert_int_equal(one.shared, other.shared);
+    assert_memory_equal(one.edge.item, other.edge.item,
+                        one.edge.count * sizeof *one.edge.item);
+    assert_memory_equal(one.corner_edge, other.corner_edge,
+                        scene.corner.count * sizeof *one.corner_edge);
+    free(one.corner_edge);
+    free(other.corner_edge);
+    edge_range_fini(&one);
+    edge_range_fini(&other);
+    scene_fini(&scene);
+  }
+}
+
+/* Boxes after each other are parts of two each, as one has few corners, also
+ * where the search begins within one of them; boxes whose points have edges are
+ * none. */
+static void a_part_is_found_where_the_next_faces_repeat_it(void **state) {
+  (void)state;
+  enum { BOXES = 6, FACES = 6, POINTS = 8 };
+  struct scene scene;
+  struct repeated_part part;
+  uint32_t head[POINTS * BOXES], shift;
+  scene_init(&scene);
+  for (int i = 0; i < BOXES; i++)
+    build_box(&scene, vector_of(2 * i, 0, 0), vector_of(2 * i + 1, 1 + i, 1));
+  memset(head, 0xff, sizeof head);
+  for (uint32_t first = 0; first < 2; first++) {
+    assert_true(repeated_part_find(&part, &scene, head, first, FACES * BOXES));
+    assert_int_equal(part.face, FACES * first);
+    assert_int_equal(part.faces, 2 * FACES);
+    assert_int_equal(part.points, 2 * POINTS);
+    memset(head, 0, POINTS * sizeof *head);
+  }
+  assert_true(
+      repeated_part_is_at(&part, &scene, 3 * FACES, FACES * BOXES, &shift));
+  assert_int_equal(shift, 2 * POINTS);
+  assert_false(
+      repeated_part_is_at(&part, &scene, 3 * FACES + 1, FACES * BOXES, &shift));
+  assert_false(repeated_part_find(&part, &scene, head, 0, 4 * FACES));
   scene_fini(&scene);
 }
 
@@ -632,6 +730,8 @@ int main(void) {
       cmocka_unit_test(dense_points_have_the_edges_that_a_search_finds),
       cmocka_unit_test(polygons_have_the_edges_that_a_search_finds),
       cmocka_unit_test(sides_are_left_out_where_they_can_be),
+      cmocka_unit_test(edges_do_not_depend_on_whether_they_are_copied),
+      cmocka_unit_test(a_part_is_found_where_the_next_faces_repeat_it),
       cmocka_unit_test(a_box_has_twelve_edges_of_two_faces_each),
       cmocka_unit_test(no_faces_have_no_edges),
       cmocka_unit_test(a_fan_of_100000_triangles_is_drawn_in_bounded_time),

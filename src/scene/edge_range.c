@@ -2,6 +2,7 @@
  *
  * The sides are visited in file order.  Each is looked up among the edges of
  * its lower point, and added where it is not there.
+ * Faces that repeat earlier ones with other points get copies of their edges.
  * Where a point has too many for that, all is done in another way:
  *   count    the sides of all faces are counted at the lower of their points.
  *   name     where a point has many sides (a fan of a hundred thousand
@@ -15,6 +16,7 @@
 
 #include "base/memory.h"
 #include "base/poll.h"
+#include "scene/edge_copies.h"
 #include "scene/side_iterator.h"
 
 /* A point with more sides than this above it is a hub, where one has so many
@@ -245,13 +247,18 @@ static inline bool begin_sides(struct edge_range *range, struct side_loop *loop,
   return true;
 }
 
-/* Ends to number so many.  Where these had to pass by few edges on the average,
- * it does not matter that some had to pass by many. */
+/* Ends to number so many.  Where many sides had to pass by few edges on the
+ * average, it does not matter that some had to pass by many. */
 static inline void end_sides(struct edge_range *range,
                              const struct side_loop *loop, size_t sides) {
   range->edge.count = loop->edges;
   range->shared += loop->shared;
-  range->overfull |= loop->passed > MANY_PASSED * sides;
+  range->passed += loop->passed;
+  range->sides += sides;
+  if (range->sides < POLL_ITEMS)
+    return;
+  range->overfull |= range->passed > MANY_PASSED * range->sides;
+  range->passed = range->sides = 0;
 }
 
 /* Up to where corners are fetched ahead that are numbered in a block: 0 where
@@ -275,9 +282,14 @@ static size_t end_of_fetching(const struct scene *scene, uint32_t first,
  * to another, and there are no hubs. */
 static bool number_edges_of_triangles(struct edge_range *range) {
   struct side_loop loop;
+  struct edge_copies copies = {.stop = 0};
   enum { BLOCK = POLL_ITEMS / 3 }; /* as many sides as elsewhere */
   for (uint32_t f = range->face; f < range->end_face && !range->overfull;) {
-    uint32_t left = range->end_face - f;
+    if (!edge_copies_add(&copies, range, &f))
+      return false;
+    uint32_t left = copies.stop - f;
+    if (left == 0)
+      break;
     uint32_t end = f + (left < BLOCK ? left : BLOCK);
     size_t sides = 3 * (size_t)(end - f);
     if (!begin_sides(range, &loop, sides))
@@ -350,13 +362,18 @@ static bool number_sides_of_large_face(struct edge_range *range,
 /* The same as number_edges_of_triangles, of polygons. */
 static bool number_edges_of_polygons(struct edge_range *range) {
   const uint32_t *start = range->scene->face_start.item;
+  struct edge_copies copies = {.stop = 0};
   for (uint32_t f = range->face; f < range->end_face && !range->overfull;) {
     struct side_loop loop;
+    if (!edge_copies_add(&copies, range, &f))
+      return false;
+    if (f == copies.stop)
+      break;
     uint32_t first = start[f];
     if (!begin_sides(range, &loop, POLL_ITEMS))
       return false;
     size_t fetched = end_of_fetching(range->scene, first, POLL_ITEMS);
-    for (; f < range->end_face && start[f + 1] - first <= POLL_ITEMS; f++)
+    for (; f < copies.stop && start[f + 1] - first <= POLL_ITEMS; f++)
       number_sides_of_face(range, &loop, f, start[f], start[f + 1], fetched);
     end_sides(range, &loop, start[f] - first);
     if (start[f] == first && !number_sides_of_large_face(range, f++))

@@ -17,7 +17,10 @@ struct edge_range {
   uint32_t *head; /* one a point of the scene: the last of its edges, or
                      SCENE_NONE, or EDGE_RANGE_HUB */
   uint32_t *next; /* one an edge: the one before it at its lower point */
-  bool overfull;  /* a list was too long: no edge is looked up any more */
+  size_t passed,
+      sides;     /* edges that the last sides had to pass by, and how many
+                           of these there are, until they are enough to judge */
+  bool overfull; /* a list was too long: no edge is looked up any more */
 };
 
 /* At such a point sides are named, not looked up. */

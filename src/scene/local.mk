@@ -10,6 +10,7 @@ librecto_core_la_SOURCES += \
   %D%/diagnostics.c %D%/diagnostics.h \
   %D%/ear_clipping.c %D%/ear_clipping.h \
   %D%/edge_classes.c %D%/edge_classes.h \
+  %D%/edge_copies.c %D%/edge_copies.h \
   %D%/edge_range.c %D%/edge_range.h \
   %D%/exact.c %D%/exact.h \
   %D%/face.c \
@@ -42,6 +43,7 @@ librecto_core_la_SOURCES += \
   %D%/reader_ply.c \
   %D%/reader_stl.c \
   %D%/reflex_tree.c %D%/reflex_tree.h \
+  %D%/repeated_part.c %D%/repeated_part.h \
   %D%/scene.c %D%/scene.h \
   %D%/self_intersection.c %D%/self_intersection.h \
   %D%/side_iterator.h \

@@ -1,0 +1,26 @@
+/* edge_copies.h - the edges of faces that repeat a part of the scene. */
+#ifndef SCENE_EDGE_COPIES_H
+#define SCENE_EDGE_COPIES_H
+
+#include "scene/edge_range.h"
+#include "scene/repeated_part.h"
+
+/* What is known while the faces of a range are numbered; begins as zeros. */
+struct edge_copies {
+  struct repeated_part part; /* of 0 faces: none */
+  size_t edge, edges;        /* of the part, in the range */
+  size_t shared;             /* of these: as in the range */
+  uint32_t stop;             /* numbering stops before this face */
+  uint32_t wait, next_wait;  /* as many calls until a part is sought again */
+};
+
+/* To be called where faces are numbered up to one, and `stop` is not passed:
+ * copies edges where the next faces repeat a part just before them, and sets
+ * where numbering is to stop.  No edge but those of welded points or hubs
+ * depends on whether it was copied.
+ * face  the first face that is not numbered, before and after
+ * Returns false when memory ran out, or where the caller cancelled. */
+USE_RESULT bool edge_copies_add(struct edge_copies *copies,
+                                struct edge_range *range, uint32_t *face);
+
+#endif
