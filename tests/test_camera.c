@@ -968,6 +968,42 @@ static void boxes_do_not_depend_on_threads(void **state) {
   scene_fini(&scene);
 }
 
+/* Points one after another on a curve, as rounded ones that are at the bounds
+ * often, and a camera that looks along any direction. */
+static void what_is_seen_does_not_depend_on_parts(void **state) {
+  (void)state;
+  enum { POINTS = 20 * USED_BOX_POINTS + 7 };
+  for (uint64_t seed = 1; seed <= 60; seed++) {
+    struct random random = {seed};
+    struct scene scene;
+    struct used_box all, seen, expected, part[POINTS / USED_BOX_POINTS + 1];
+    struct camera camera = {.perspective = false};
+    double *direction[3] = {camera.right, camera.up, camera.back};
+    double turns = random_between(&random, 0, 40), grain = seed % 3 ? 0 : 0.25;
+    scene_init(&scene);
+    for (int i = 0; i < POINTS; i++) {
+      double xyz[3] = {cos(turns * i / POINTS), sin(turns * i / POINTS),
+                       (double)i / POINTS};
+      for (int k = 0; grain > 0 && k < 3; k++)
+        xyz[k] = grain * round(xyz[k] / grain);
+      build_point(&scene, xyz[0], xyz[1], xyz[2]);
+    }
+    for (int k = 0; k < 3; k++) {
+      camera.eye[k] = seed % 2 ? 0 : random_between(&random, -9, 9);
+      for (int i = 0; i < 3; i++)
+        direction[i][k] = grain > 0 ? random_int(&random, -1, 1)
+                                    : random_between(&random, -1, 1);
+    }
+    assert_true(used_box_find_parts(&all, part, &scene));
+    assert_true(used_box_find(&expected, &scene, NULL, NULL));
+    assert_memory_equal(&all, &expected, sizeof all);
+    assert_true(used_box_find_seen(&seen, part, &scene, &camera));
+    assert_true(used_box_find(&expected, &scene, NULL, &camera));
+    assert_memory_equal(&seen, &expected, sizeof seen);
+    scene_fini(&scene);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(named_views_are_exact),
@@ -1005,6 +1041,7 @@ int main(void) {
       cmocka_unit_test(the_matrix_is_the_camera),
       cmocka_unit_test(a_failed_allocation_is_reported),
       cmocka_unit_test(boxes_do_not_depend_on_threads),
+      cmocka_unit_test(what_is_seen_does_not_depend_on_parts),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

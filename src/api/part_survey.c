@@ -109,9 +109,9 @@ static recto_status aim_part(struct part_survey *survey, const uint8_t *used,
   if (rescale_is_wanted(scene, used))
     return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
                      "a scene of extreme size cannot be drawn in parts");
-  recto_status status = camera_aim_at_points(&survey->camera, scene,
-                                             (struct known_points){used, NULL},
-                                             survey->options, error);
+  recto_status status = camera_aim_at_points(
+      &survey->camera, scene, (struct known_points){.used = used},
+      survey->options, error);
   if (status != RECTO_OK)
     return status;
   if (!survey->camera.all_on_page)

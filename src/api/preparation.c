@@ -202,7 +202,8 @@ recto_status preparation_aim(struct camera *camera,
                              const uint8_t *used, const recto_options *options,
                              recto_error *error) {
   const struct known_points known = {
-      used, preparation->is_all_used ? &preparation->rescaled.box : NULL};
+      used, preparation->is_all_used ? &preparation->rescaled.box : NULL,
+      preparation->rescaled.part};
   recto_status status =
       camera_aim_at_points(camera, preparation->scene, known, options, error);
   return status == RECTO_OK ? check_cut_scale(preparation, camera, error)

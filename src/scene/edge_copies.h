@@ -2,7 +2,7 @@
 #ifndef SCENE_EDGE_COPIES_H
 #define SCENE_EDGE_COPIES_H
 
-#include "scene/edge_range.h"
+#include "scene/edge_lists.h"
 #include "scene/repeated_part.h"
 
 /* What is known while the faces of a range are numbered; begins as zeros. */

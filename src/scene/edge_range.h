@@ -2,29 +2,7 @@
 #ifndef SCENE_EDGE_RANGE_H
 #define SCENE_EDGE_RANGE_H
 
-#include "scene/scene.h"
-#include "scene/topology_edge.h"
-
-/* The ranges of one scene; each is made by a thread of its own. */
-struct edge_range {
-  const struct scene *scene;
-  const uint32_t *weld;    /* NULL: points as they are */
-  uint32_t face, end_face; /* from this to before that */
-  uint32_t *corner_edge; /* of the scene; those of these faces get edges; NULL:
-                            not wanted, of triangles as they are alone */
-  ARRAY(struct topology_edge) edge; /* in order of first use */
-  size_t shared;  /* how many of these more than one face has */
-  uint32_t *head; /* one a point of the scene: the last of its edges, or
-                     SCENE_NONE, or EDGE_RANGE_HUB */
-  uint32_t *next; /* one an edge: the one before it at its lower point */
-  size_t passed,
-      sides;     /* edges that the last sides had to pass by, and how many
-                           of these there are, until they are enough to judge */
-  bool overfull; /* a list was too long: no edge is looked up any more */
-};
-
-/* At such a point sides are named, not looked up. */
-#define EDGE_RANGE_HUB (SCENE_NONE - 1)
+#include "scene/edge_lists.h"
 
 /* Finds the edges.  Where lists are overfull, it is to be done again for all
  * faces at once, with hubs.

@@ -4,8 +4,8 @@
 
 #include "scene/scene.h"
 
-/* Consecutive faces, of one body or several, and the points between the lowest and the highest of their
- * corners. */
+/* Consecutive faces, of one body or several, and the points between the lowest
+ * and the highest of their corners. */
 struct repeated_part {
   uint32_t face, faces;
   uint32_t corner, corners;

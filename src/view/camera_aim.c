@@ -224,8 +224,9 @@ static recto_status set_eye(struct aim *aim) {
 /* The depths, and what an orthographic view needs of the same points. */
 static recto_status measure_depth(struct aim *aim) {
   struct used_box box;
-  const uint8_t *used = aim->box != NULL ? NULL : aim->used;
-  if (!used_box_find(&box, aim->scene, used, aim->camera))
+  if (aim->box != NULL
+          ? !used_box_find_seen(&box, aim->part, aim->scene, aim->camera)
+          : !used_box_find(&box, aim->scene, aim->used, aim->camera))
     return error_cancelled(aim->error);
   aim->d_low = box.low[2];
   aim->d_high = box.high[2];
@@ -345,7 +346,8 @@ recto_status camera_aim_at_points(struct camera *camera,
                     .options = options,
                     .error = error,
                     .used = known.used,
-                    .box = known.box};
+                    .box = known.box,
+                    .part = known.part};
   recto_status status = begin_aim(&aim);
   if (status == RECTO_OK)
     status = aim_and_fit(&aim);
@@ -355,7 +357,7 @@ recto_status camera_aim_at_points(struct camera *camera,
 
 recto_status camera_aim(struct camera *camera, const struct scene *scene,
                         const recto_options *options, recto_error *error) {
-  return camera_aim_at_points(camera, scene, (struct known_points){NULL, NULL},
+  return camera_aim_at_points(camera, scene, (struct known_points){NULL},
                               options, error);
 }
 

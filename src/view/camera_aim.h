@@ -34,9 +34,10 @@ USE_RESULT recto_status camera_aim(struct camera *camera,
 
 /* What is known of the points of a scene. */
 struct known_points {
-  const uint8_t *used;        /* one a point, as of used.h */
-  const struct used_box *box; /* all are used, and lie in this box; NULL: some
+  const uint8_t *used;         /* one a point, as of used.h */
+  const struct used_box *box;  /* all are used, and lie in this box; NULL: some
                                  may not be */
+  const struct used_box *part; /* then also: their parts (used_box.h) */
 };
 
 /* The same for a scene whose used points are known already.  Faces and

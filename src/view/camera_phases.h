@@ -12,20 +12,21 @@ struct aim {
   const struct scene *scene;
   const recto_options *options;
   recto_error *error;
-  const uint8_t *used;        /* one a point */
-  const struct used_box *box; /* of all points, which are all used; NULL: it is
+  const uint8_t *used;         /* one a point */
+  const struct used_box *box;  /* of all points, which are all used; NULL: it is
                                  to be found */
-  uint8_t *own_used;          /* the same, where it was found here */
-  double centre[3];           /* of the scene's bounding box */
-  double target[3];           /* the point looked at */
-  double eye[3];              /* of a perspective view, also of one made
+  const struct used_box *part; /* then also: of their parts */
+  uint8_t *own_used;           /* the same, where it was found here */
+  double centre[3];            /* of the scene's bounding box */
+  double target[3];            /* the point looked at */
+  double eye[3];               /* of a perspective view, also of one made
                            orthographic */
-  bool far;                   /* the eye is so far that the view was made
+  bool far;                    /* the eye is so far that the view was made
                            orthographic; then also: */
-  double centre_d;            /*   the depth of the scene's centre */
-  double target_d;            /*   the depth of the target */
-  double d_low, d_high;       /* depth range of the whole scene, not clipped */
-  struct extent extent;       /* of an orthographic view: likewise */
+  double centre_d;             /*   the depth of the scene's centre */
+  double target_d;             /*   the depth of the target */
+  double d_low, d_high;        /* depth range of the whole scene, not clipped */
+  struct extent extent;        /* of an orthographic view: likewise */
 };
 
 /* The margin inside which the drawing is to lie, in mm. */

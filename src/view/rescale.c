@@ -40,12 +40,14 @@ static double largest_used(const struct scene *scene, double enough) {
 
 /* The exponent of the power of two to divide by; 0 also where the caller
  * cancelled, which is found later.
- * box  gets that of all points */
-static int choose_exponent(const struct scene *scene, struct used_box *box) {
+ * box   gets that of all points
+ * part  room for those of their parts */
+static int choose_exponent(const struct scene *scene, struct used_box *box,
+                           struct used_box *part) {
   const double largest_kept = ldexp(1, LARGEST_EXPONENT),
                least = 1 / largest_kept;
   double largest = 0;
-  if (!used_box_find(box, scene, NULL, NULL))
+  if (!used_box_find_parts(box, part, scene))
     return 0;
   for (int k = 0; k < 3; k++)
     largest = max_number(largest, max_number(-box->low[k], box->high[k]));
@@ -133,7 +135,11 @@ static bool scale_lengths(recto_options *o, int exponent) {
 recto_status rescale(struct rescaled *rescaled, const struct scene *scene,
                      recto_error *error) {
   *rescaled = (struct rescaled){.scene = *scene};
-  rescaled->exponent = choose_exponent(scene, &rescaled->box);
+  rescaled->part = mem_alloc(scene->point.count / USED_BOX_POINTS + 1,
+                             sizeof *rescaled->part);
+  if (rescaled->part == NULL)
+    return error_memory(error);
+  rescaled->exponent = choose_exponent(scene, &rescaled->box, rescaled->part);
   if (rescaled->exponent == 0)
     return RECTO_OK;
   recto_status status = scale_points(rescaled, error);
@@ -156,6 +162,8 @@ void rescale_fini(struct rescaled *rescaled) {
     mem_free(rescaled->scene.precision.item);
   }
   rescaled->exponent = 0;
+  mem_free(rescaled->part);
+  rescaled->part = NULL;
 }
 
 void rescale_matrix(const struct rescaled *rescaled, double matrix[12]) {

@@ -8,10 +8,11 @@
 
 /* The user's scene, with all lengths multiplied by 2^-exponent. */
 struct rescaled {
-  struct scene scene;  /* all but its points and their precision is borrowed,
+  struct scene scene;    /* all but its points and their precision is borrowed,
                          not owned */
-  int exponent;        /* 0: the points are borrowed too; then also: */
-  struct used_box box; /* of all points of the user's scene */
+  int exponent;          /* 0: the points are borrowed too; then also: */
+  struct used_box box;   /* of all points of the user's scene, */
+  struct used_box *part; /* and of their parts, owned (used_box.h) */
 };
 
 /* Scales by a power of two, which changes no bit of the drawing.  It does so

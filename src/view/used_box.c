@@ -1,5 +1,8 @@
 /* used_box.c - finds the box range by range, which are joined in order, so that
- * of 0 and -0 it has the first one for any number of threads. */
+ * of 0 and -0 it has the first one for any number of threads.
+ *
+ * Parts  Where the boxes of parts of the points are known, what the camera sees
+ *        of most parts is within that of others, and need not be looked at. */
 #include "view/used_box.h"
 
 #include <math.h>
@@ -14,7 +17,9 @@ struct box_search {
   const struct scene *scene;
   const uint8_t *used;
   const struct camera *camera;
-  size_t items; /* points of a range */
+  struct used_box *part;        /* gets the boxes of parts; NULL */
+  const struct used_box *known; /* these; NULL: not known */
+  size_t items;                 /* points of a range, whole parts */
   struct used_box box[BOXES];
 };
 
@@ -34,6 +39,14 @@ static inline void grow_used_box(struct used_box *box, double x, double y,
   grow_along(box, 2, z);
 }
 
+static inline void join_boxes(struct used_box *box,
+                              const struct used_box *part) {
+  for (int k = 0; k < 3; k++) {
+    box->low[k] = min_number(box->low[k], part->low[k]);
+    box->high[k] = max_number(box->high[k], part->high[k]);
+  }
+}
+
 /* The box of a range's points as they are; what it needs is copied, so that it
  * stays in registers. */
 static struct used_box box_of_points(const struct box_search *search,
@@ -44,6 +57,20 @@ static struct used_box box_of_points(const struct box_search *search,
   for (size_t p = range.begin; p < range.end; p++)
     if (used == NULL || used[p])
       grow_used_box(&box, point[p].x, point[p].y, point[p].z);
+  return box;
+}
+
+/* The same of all points, and of each part. */
+static struct used_box box_of_parts(const struct box_search *search,
+                                    struct parallel_range range) {
+  struct used_box box = empty_box;
+  for (size_t p = range.begin; p < range.end; p += USED_BOX_POINTS) {
+    struct parallel_range own = {.begin = p, .end = p + USED_BOX_POINTS};
+    own.end = own.end < range.end ? own.end : range.end;
+    struct used_box part = box_of_points(search, own);
+    search->part[p / USED_BOX_POINTS] = part;
+    join_boxes(&box, &part);
+  }
   return box;
 }
 
@@ -63,29 +90,102 @@ static struct used_box box_of_seen_points(const struct box_search *search,
   return box;
 }
 
+/* The bounds of what a camera sees of a point, along one of its directions, for
+ * points of a box that is moved by the eye.  They are exact also as rounded:
+ * each operation of camera_view is monotonic in each operand. */
+static inline double low_along(const double direction[3],
+                               const struct used_box *box) {
+  double low[3];
+  for (int k = 0; k < 3; k++)
+    low[k] =
+        min_number(direction[k] * box->low[k], direction[k] * box->high[k]);
+  return low[0] + low[1] + low[2];
+}
+
+static inline double high_along(const double direction[3],
+                                const struct used_box *box) {
+  double high[3];
+  for (int k = 0; k < 3; k++)
+    high[k] =
+        max_number(direction[k] * box->low[k], direction[k] * box->high[k]);
+  return high[0] + high[1] + high[2];
+}
+
+/* Whether all that the camera sees of a part is within a box already. */
+static bool is_part_within(const struct camera *camera,
+                           const struct used_box *part,
+                           const struct used_box *box) {
+  struct used_box moved;
+  for (int k = 0; k < 3; k++) {
+    moved.low[k] = part->low[k] - camera->eye[k];
+    moved.high[k] = part->high[k] - camera->eye[k];
+  }
+  return low_along(camera->right, &moved) >= box->low[0] &&
+         high_along(camera->right, &moved) <= box->high[0] &&
+         low_along(camera->up, &moved) >= box->low[1] &&
+         high_along(camera->up, &moved) <= box->high[1] &&
+         -high_along(camera->back, &moved) >= box->low[2] &&
+         -low_along(camera->back, &moved) <= box->high[2];
+}
+
+/* The same as box_of_seen_points, of all points, where boxes of parts are
+ * known. */
+static struct used_box box_of_seen_parts(const struct box_search *search,
+                                         struct parallel_range range) {
+  struct used_box box = empty_box;
+  for (size_t p = range.begin; p < range.end; p += USED_BOX_POINTS) {
+    struct parallel_range own = {.begin = p, .end = p + USED_BOX_POINTS};
+    own.end = own.end < range.end ? own.end : range.end;
+    if (is_part_within(search->camera, &search->known[p / USED_BOX_POINTS],
+                       &box))
+      continue;
+    struct used_box part = box_of_seen_points(search, own);
+    join_boxes(&box, &part);
+  }
+  return box;
+}
+
 static bool find_box_of_range(void *user, struct parallel_range range) {
   struct box_search *search = user;
   search->box[range.begin / search->items] =
-      search->camera != NULL ? box_of_seen_points(search, range)
-                             : box_of_points(search, range);
+      search->part != NULL     ? box_of_parts(search, range)
+      : search->known != NULL  ? box_of_seen_parts(search, range)
+      : search->camera != NULL ? box_of_seen_points(search, range)
+                               : box_of_points(search, range);
+  return true;
+}
+
+static bool search_box(struct used_box *box, struct box_search *search) {
+  size_t points = search->scene->point.count;
+  search->items = points / BOXES + 1;
+  if (search->items < PARALLEL_ITEMS)
+    search->items = PARALLEL_ITEMS;
+  search->items =
+      parallel_range_count(search->items, USED_BOX_POINTS) * USED_BOX_POINTS;
+  *box = empty_box;
+  if (!parallel_ranges(parallel_workers(points, search->items), points,
+                       search->items, find_box_of_range, search))
+    return false;
+  for (size_t r = 0; r < parallel_range_count(points, search->items); r++)
+    join_boxes(box, &search->box[r]);
   return true;
 }
 
 bool used_box_find(struct used_box *box, const struct scene *scene,
                    const uint8_t *used, const struct camera *camera) {
-  size_t points = scene->point.count;
   struct box_search search = {.scene = scene, .used = used, .camera = camera};
-  search.items = points / BOXES + 1;
-  if (search.items < PARALLEL_ITEMS)
-    search.items = PARALLEL_ITEMS;
-  *box = empty_box;
-  if (!parallel_ranges(parallel_workers(points, search.items), points,
-                       search.items, find_box_of_range, &search))
-    return false;
-  for (size_t r = 0; r < parallel_range_count(points, search.items); r++)
-    for (int k = 0; k < 3; k++) {
-      box->low[k] = min_number(box->low[k], search.box[r].low[k]);
-      box->high[k] = max_number(box->high[k], search.box[r].high[k]);
-    }
-  return true;
+  return search_box(box, &search);
+}
+
+bool used_box_find_parts(struct used_box *box, struct used_box *part,
+                         const struct scene *scene) {
+  struct box_search search = {.scene = scene, .part = part};
+  return search_box(box, &search);
+}
+
+bool used_box_find_seen(struct used_box *box, const struct used_box *part,
+                        const struct scene *scene,
+                        const struct camera *camera) {
+  struct box_search search = {.scene = scene, .camera = camera, .known = part};
+  return search_box(box, &search);
 }

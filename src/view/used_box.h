@@ -18,4 +18,20 @@ struct used_box {
 USE_RESULT bool used_box_find(struct used_box *box, const struct scene *scene,
                               const uint8_t *used, const struct camera *camera);
 
+/* Points of a part. */
+enum { USED_BOX_POINTS = 64 };
+
+/* The same of all points as they are, and of each part of them in order.
+ * part  room for the boxes of all parts */
+USE_RESULT bool used_box_find_parts(struct used_box *box, struct used_box *part,
+                                    const struct scene *scene);
+
+/* The same of what a camera sees of all points, of which only those parts are
+ * looked at that may matter.
+ * part  their boxes */
+USE_RESULT bool used_box_find_seen(struct used_box *box,
+                                   const struct used_box *part,
+                                   const struct scene *scene,
+                                   const struct camera *camera);
+
 #endif

@@ -83,6 +83,22 @@ static double page_area_of(struct box2 box) {
   return ((double)box.x1 - box.x0 + 1) * ((double)box.y1 - box.y0 + 1);
 }
 
+/* Fetches the corners of a face that is sampled later, and the points of one
+ * that is sampled sooner: they are anywhere in memory. */
+static inline void prefetch_sample(const struct scene *scene, size_t face,
+                                   size_t stride) {
+  enum { AHEAD = 8, CORNERS_MAX = 8 };
+  size_t near = face + AHEAD * stride, far = near + AHEAD * stride,
+         n = scene_face_count(scene);
+  if (far >= n)
+    return;
+  MEM_PREFETCH(&scene->corner.item[scene_face_start(scene, (uint32_t)far)]);
+  uint32_t start = scene_face_start(scene, (uint32_t)near),
+           end = scene_face_start(scene, (uint32_t)near + 1);
+  for (uint32_t c = start; c < end && c < start + CORNERS_MAX; c++)
+    MEM_PREFETCH(&scene->point.item[scene->corner.item[c]]);
+}
+
 /* Estimates the mean number of faces over a point of the box of the page, as
  * occlusion_culling_complexity does. */
 static double estimate_complexity(const struct hiding *hiding) {
@@ -91,6 +107,7 @@ static double estimate_complexity(const struct hiding *hiding) {
   double sum = 0;
   for (size_t f = 0; f < n; f += stride) {
     double own;
+    prefetch_sample(hiding->scene, f, stride);
     struct box2 box = box_on_page(hiding, (uint32_t)f, &own);
     sum += fmin(page_area_of(box), BOX_PER_AREA * own) * (double)stride;
     page = box2_union(page, box);
