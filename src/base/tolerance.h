@@ -24,6 +24,7 @@
  *             ink/lines/short_spurs.c,
  *             ink/hatch/hatch_lines.c, ink/hatch/inset.c,
  *             visibility/contour/line_ends.c,
+ *             visibility/contour/nearest_contours.c,
  *             visibility/contour/outline_gaps.c,
  *             visibility/index/bsp_plane.h,
  *             visibility/intersection/edge_crossing.c
@@ -69,6 +70,7 @@
  *             width: a gap that ink fills.
  * Users       visibility/contour/doubled_contours.c,
  *             visibility/contour/fold_lines.c,
+ *             visibility/contour/nearest_contours.c,
  *             visibility/contour/outline_gaps.c,
  *             visibility/contour/thin_loops.c, visibility/smooth_contours.c
  * Ten times   gaps of a millimetre stay open. */
