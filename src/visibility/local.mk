@@ -45,6 +45,8 @@ librecto_core_la_SOURCES += \
   %D%/culling/potentially_visible.c %D%/culling/potentially_visible.h \
   %D%/culling/potentially_visible_restore.c \
   %D%/contour/arc_normals.c \
+  %D%/contour/border_ends.c %D%/contour/border_ends.h \
+  %D%/contour/border_sides.c %D%/contour/border_sides.h \
   %D%/contour/contour_creases.c %D%/contour/contour_creases.h \
   %D%/contour/contour_cusps.c %D%/contour/contour_cusps.h \
   %D%/culling/vertex_fans.c %D%/culling/vertex_fans.h \

@@ -11,6 +11,7 @@
 #include "base/sort.h"
 #include "base/tolerance.h"
 #include "view/clip.h"
+#include "visibility/contour/border_ends.h"
 #include "visibility/contour/contour_creases.h"
 #include "visibility/contour/contour_cusps.h"
 #include "visibility/contour/curve_pieces.h"
@@ -254,7 +255,7 @@ static bool close_gaps(struct contour_pieces *c, uint32_t first,
                                            .bulges = (uint32_t)c->bulge.count,
                                            .grid = &c->grid.grid,
                                            .query = &c->query};
-  return fold_bridges_add(&input, c->height.item) &&
+  return fold_bridges_add(&input, c->height.item) && border_ends_show(&input) &&
          outline_gaps_close(&input) && fold_lines_add(&input);
 }
 

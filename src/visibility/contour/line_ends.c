@@ -6,15 +6,8 @@
 #include "base/poll.h"
 #include "base/sort.h"
 #include "base/tolerance.h"
+#include "visibility/contour/border_sides.h"
 #include "visibility/contour/segment_grid.h"
-#include "visibility/contour/zero_segments.h"
-
-/* The visible interval of a border that ends nearest to a point. */
-struct border_reach {
-  double rest;       /* grid units from its end to the point; INFINITY: none */
-  uint32_t interval; /* of the map; SHEET_NONE: the border is visible there */
-  bool begins;       /* at the border's first point */
-};
 
 /* Where an edge crosses a contour. */
 struct line_crossing {
@@ -37,8 +30,6 @@ struct line_ends {
   uint8_t *degree;      /* one a point of contours: how many of their edges meet
                       there, at most 2 */
   ARRAY(struct line_crossing) crossing;
-  struct border_reach *reach;        /* one a point; NULL: not asked */
-  ARRAY(struct line_crossing) shown; /* where hidden borders are to end */
 };
 
 /* ---- Crossings ----------------------------------------------------------- */
@@ -70,50 +61,11 @@ static bool list_drawn_lines(struct line_ends *l) {
       return false;
   l->grid.contours = l->grid.segment.count;
   for (uint32_t e = 0; e < l->first; e++)
-    if ((l->map->edge_state[e] != MAP_HIDDEN ||
-         sheet->edge.item[e].edge_class == RECTO_EDGE_BORDER) &&
-        sheet_edge_is_drawn(sheet, e) &&
+    if (l->map->edge_state[e] != MAP_HIDDEN && sheet_edge_is_drawn(sheet, e) &&
         !segment_grid_add(&l->grid,
                           sheet_ends(sheet, sheet->edge.item[e].point), e))
       return false;
   return true;
-}
-
-/* Whether an edge is a border of more than two faces. */
-static bool has_more_faces(const struct sheet_edge *edge) {
-  return edge->edge_class == RECTO_EDGE_BORDER &&
-         edge->triangle[1] != SHEET_NONE;
-}
-
-static bool has_point(const struct sheet_triangle *t, uint32_t point) {
-  return t->point[0] == point || t->point[1] == point || t->point[2] == point;
-}
-
-/* Whether an edge is one of a face's. */
-static bool is_side_of_face(const struct sheet *sheet,
-                            const struct sheet_edge *edge, uint32_t face) {
-  const struct sheet_triangle *all = sheet->triangle.item;
-  for (int k = 0; k < 2; k++)
-    if (edge->triangle[k] != SHEET_NONE && all[edge->triangle[k]].face == face)
-      return true;
-  if (!has_more_faces(edge))
-    return false;
-  for (size_t t = first_triangle_of_face(sheet, face);
-       t < sheet->triangle.count && all[t].face == face; t++)
-    if (has_point(&all[t], edge->point[0]) &&
-        has_point(&all[t], edge->point[1]))
-      return true;
-  return false;
-}
-
-static double diameter(const struct sheet *sheet, uint32_t triangle) {
-  struct geom_triangle t = sheet_corners(sheet, triangle);
-  double most = 0;
-  for (int k = 0; k < 3; k++) {
-    struct geom_point p = t.p[k], q = t.p[geom_next_corner(k)];
-    most = fmax(most, hypot((double)q.x - p.x, (double)q.y - p.y));
-  }
-  return most;
 }
 
 /* Adds the crossing of a border with a contour of its surface that ends on it.
@@ -156,8 +108,9 @@ static bool add_line_crossing(struct line_ends *l,
     return true;
   struct line_crossing made = {
       .edge = line->owner,
-      .bound = diameter(sheet, triangle) / hypot((double)line->q.x - line->p.x,
-                                                 (double)line->q.y - line->p.y),
+      .bound =
+          diameter_of_triangle(sheet, triangle) /
+          hypot((double)line->q.x - line->p.x, (double)line->q.y - line->p.y),
       .own = is_side_of_face(sheet, edge, sheet->triangle.item[triangle].face)};
   made.at_end =
       made.own && (edge->triangle[1] == SHEET_NONE || has_more_faces(edge));
@@ -279,97 +232,6 @@ static bool cut_whole(struct map *map, const struct line_crossing *crossing,
   return ARRAY_PUSH(&map->interval, whole) && ARRAY_PUSH(&map->mixed, made);
 }
 
-/* ---- Hidden borders ------------------------------------------------------ */
-
-static void note_reach(struct line_ends *l, uint32_t point,
-                       struct border_reach made) {
-  if (made.rest < l->reach[point].rest)
-    l->reach[point] = made;
-}
-
-static double length_of_edge(const struct line_ends *l, uint32_t edge) {
-  struct geom_segment s = sheet_ends(l->sheet, l->sheet->edge.item[edge].point);
-  return hypot((double)s.q.x - s.p.x, (double)s.q.y - s.p.y);
-}
-
-/* Finds how near to each point visible borders reach. */
-static bool find_reach(struct line_ends *l) {
-  const struct map *map = l->map;
-  size_t next = 0, points = l->sheet->point.count;
-  l->reach = mem_alloc(points, sizeof *l->reach);
-  for (size_t i = 0; l->reach != NULL && i < points; i++)
-    l->reach[i] = (struct border_reach){INFINITY, SHEET_NONE, false};
-  for (uint32_t e = 0; l->reach != NULL && e < l->first; e++) {
-    const struct sheet_edge *edge = &l->sheet->edge.item[e];
-    struct border_reach from = {0, SHEET_NONE, true},
-                        to = {0, SHEET_NONE, false};
-    double length = length_of_edge(l, e);
-    if (map->edge_state[e] == MAP_MIXED) {
-      const struct map_mixed *own = &map->mixed.item[next++];
-      from.interval = own->interval;
-      to.interval = own->interval + own->count - 1;
-      from.rest =
-          length * ratio_to_double(map->interval.item[from.interval].t0);
-      to.rest =
-          length * (1 - ratio_to_double(map->interval.item[to.interval].t1));
-    }
-    if (map->edge_state[e] == MAP_HIDDEN ||
-        edge->edge_class != RECTO_EDGE_BORDER)
-      continue;
-    note_reach(l, edge->point[0], from);
-    note_reach(l, edge->point[1], to);
-  }
-  return l->reach != NULL;
-}
-
-/* The point of a border from which it is visible up to a crossing. */
-static uint32_t shown_from(const struct line_ends *l,
-                           const struct line_crossing *c) {
-  return l->sheet->edge.item[c->edge].point[c->leaves ? 0 : 1];
-}
-
-/* Finds the hidden borders on which contours end near to where a visible one
- * ends, before or within the next one: the mesh folds over the border there,
- * beyond its contour. */
-static bool find_shown(struct line_ends *l) {
-  for (size_t i = 0; i < l->crossing.count; i++) {
-    const struct line_crossing *c = &l->crossing.item[i];
-    double length = c->leaves ? c->t : 1 - c->t;
-    size_t count = l->shown.count;
-    if (l->map->edge_state[c->edge] != MAP_HIDDEN || !c->at_end ||
-        !(length > 0) || !(length < fmin(1, c->bound)) ||
-        (count > 0 && l->shown.item[count - 1].edge == c->edge))
-      continue;
-    if (l->reach == NULL && !find_reach(l))
-      return false;
-    if (l->reach[shown_from(l, c)].rest <
-            (c->bound - length) * length_of_edge(l, c->edge) &&
-        !ARRAY_PUSH(&l->shown, *c))
-      return false;
-  }
-  return true;
-}
-
-/* Makes what lies between the two visible. */
-static bool show_borders(struct line_ends *l) {
-  struct map *map = l->map;
-  for (size_t i = 0; i < l->shown.count; i++) {
-    const struct line_crossing *c = &l->shown.item[i];
-    const struct border_reach *reach = &l->reach[shown_from(l, c)];
-    struct map_interval part = {ratio_of(0, 1), ratio_of(1, 1)};
-    struct map_mixed made = {c->edge, (uint32_t)map->interval.count, 1};
-    *(c->leaves ? &part.t1 : &part.t0) = ratio_near(c->t);
-    map->edge_state[c->edge] = MAP_MIXED;
-    if (reach->interval != SHEET_NONE && reach->begins)
-      map->interval.item[reach->interval].t0 = ratio_of(0, 1);
-    else if (reach->interval != SHEET_NONE)
-      map->interval.item[reach->interval].t1 = ratio_of(1, 1);
-    if (!ARRAY_PUSH(&map->interval, part) || !ARRAY_PUSH(&map->mixed, made))
-      return false;
-  }
-  return true;
-}
-
 /* ---- The whole ----------------------------------------------------------- */
 
 static bool move_all(struct line_ends *l) {
@@ -377,8 +239,7 @@ static bool move_all(struct line_ends *l) {
   const struct line_crossing *all = l->crossing.item;
   size_t mixed = 0, known = map->mixed.count;
   if (!sort_stable(l->crossing.item, l->crossing.count, sizeof *all,
-                   compare_line_crossings, NULL) ||
-      !find_shown(l))
+                   compare_line_crossings, NULL))
     return false;
   for (size_t i = 0, j; i < l->crossing.count; i = j) {
     for (j = i + 1; j < l->crossing.count && all[j].edge == all[i].edge;)
@@ -393,7 +254,7 @@ static bool move_all(struct line_ends *l) {
       move_ends(&map->interval.item[own->interval], own->count, &all[i], j - i);
     }
   }
-  return show_borders(l) && map_sort_mixed(map);
+  return map_sort_mixed(map);
 }
 
 bool line_ends_move(struct map *map, const struct sheet *sheet,
@@ -405,8 +266,6 @@ bool line_ends_move(struct map *map, const struct sheet *sheet,
        (segment_grid_make(&l.grid) && find_crossings(&l) && move_all(&l)));
   segment_grid_fini(&l.grid);
   mem_free(l.degree);
-  mem_free(l.reach);
   ARRAY_FREE(&l.crossing);
-  ARRAY_FREE(&l.shown);
   return ok;
 }
