@@ -189,7 +189,8 @@ static void the_outline_of_folds_is_covered(void **state) {
 }
 
 /* Where the mesh folds over its border beside a contour's end, the border is
- * drawn up to that end: along several edges, and back along the contour, too. */
+ * drawn up to that end: along several edges, and back along the contour,
+ * too. */
 static void borders_reach_the_contours_that_end_on_them(void **state) {
   static const struct {
     uint32_t n;

@@ -23,6 +23,7 @@
  *             ink/lines/overlap.c, ink/lines/overlap_output.c,
  *             ink/lines/short_spurs.c,
  *             ink/hatch/hatch_lines.c, ink/hatch/inset.c,
+ *             visibility/contour/border_ends.c,
  *             visibility/contour/line_ends.c,
  *             visibility/contour/nearest_contours.c,
  *             visibility/contour/outline_gaps.c,
@@ -68,7 +69,8 @@
  * Unit        page grid units (2^-20 mm)
  * Derivation  an eighth of a millimetre, less than half of a common pen's
  *             width: a gap that ink fills.
- * Users       visibility/contour/doubled_contours.c,
+ * Users       visibility/contour/border_ends.c,
+ *             visibility/contour/doubled_contours.c,
  *             visibility/contour/fold_lines.c,
  *             visibility/contour/nearest_contours.c,
  *             visibility/contour/outline_gaps.c,

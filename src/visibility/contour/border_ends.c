@@ -6,6 +6,7 @@
 #include "base/poll.h"
 #include "base/sort.h"
 #include "base/tolerance.h"
+#include "geom/nearest.h"
 #include "visibility/contour/border_sides.h"
 #include "visibility/contour/segment_grid.h"
 
@@ -15,9 +16,19 @@ enum { SHOWN_BITS = 40 };
 /* A hidden border on which a contour ends. */
 struct contour_end {
   uint32_t edge;
-  double t;      /* of the edge */
-  double bound;  /* how much of the border may be shown, grid units */
-  bool forwards; /* the contour runs as the edge does */
+  double t;                /* of the edge */
+  double bound;            /* how much of the border may be shown, grid units */
+  bool forwards;           /* the contour runs as the edge does */
+  uint32_t contour, point; /* the contour's edge, and its end */
+};
+
+/* Where a visible border ends that hidden ones lead to. */
+struct visible_end {
+  uint32_t edge;
+  int k;                         /* the hidden ones meet it at its point k */
+  double t;                      /* it is visible from there on */
+  struct map_interval *interval; /* which begins, or ends, there; NULL: it is
+                                    visible as a whole */
 };
 
 /* The one or two borders at a point. */
@@ -36,19 +47,19 @@ struct border_ends {
   ARRAY(uint32_t) way;      /* the borders that are shown as a whole */
 };
 
-static const struct sheet_edge *edge_of(const struct border_ends *b,
-                                        uint32_t edge) {
+static const struct sheet_edge *border_edge(const struct border_ends *b,
+                                            uint32_t edge) {
   return &b->in->sheet->edge.item[edge];
 }
 
 static double length_of_edge(const struct border_ends *b, uint32_t edge) {
-  struct geom_segment s = sheet_ends(b->in->sheet, edge_of(b, edge)->point);
+  struct geom_segment s = sheet_ends(b->in->sheet, border_edge(b, edge)->point);
   return hypot((double)s.q.x - s.p.x, (double)s.q.y - s.p.y);
 }
 
 /* ---- Ends of contours ---------------------------------------------------- */
 
-static bool count_degrees(struct border_ends *b) {
+static bool count_visible_degrees(struct border_ends *b) {
   const struct sheet *sheet = b->in->sheet;
   b->degree = mem_calloc(sheet->point.count - b->in->first_point, 1);
   for (uint32_t e = b->in->first; b->degree != NULL && e < sheet->edge.count;
@@ -72,7 +83,7 @@ static bool list_ends_and_borders(struct border_ends *b) {
   const struct sheet *sheet = b->in->sheet;
   const uint8_t *state = b->in->map->edge_state;
   for (uint32_t e = b->in->first; e < sheet->edge.count; e++) {
-    const struct sheet_edge *edge = edge_of(b, e);
+    const struct sheet_edge *edge = border_edge(b, e);
     if (state[e] != MAP_HIDDEN && edge->triangle[0] != SHEET_NONE &&
         (is_end(b, edge->point[0]) || is_end(b, edge->point[1])) &&
         !segment_grid_add(&b->grid, sheet_ends(sheet, edge->point), e))
@@ -81,9 +92,10 @@ static bool list_ends_and_borders(struct border_ends *b) {
   b->grid.contours = b->grid.segment.count;
   for (uint32_t e = 0; b->grid.contours > 0 && e < b->in->first; e++)
     if (state[e] == MAP_HIDDEN &&
-        edge_of(b, e)->edge_class == RECTO_EDGE_BORDER &&
+        border_edge(b, e)->edge_class == RECTO_EDGE_BORDER &&
         sheet_edge_is_drawn(sheet, e) &&
-        !segment_grid_add(&b->grid, sheet_ends(sheet, edge_of(b, e)->point), e))
+        !segment_grid_add(&b->grid, sheet_ends(sheet, border_edge(b, e)->point),
+                          e))
       return false;
   return true;
 }
@@ -93,11 +105,11 @@ static bool add_ends_on(struct border_ends *b,
                         const struct page_segment *contour,
                         const struct page_segment *border) {
   const struct sheet *sheet = b->in->sheet;
-  const struct sheet_edge *of = edge_of(b, contour->owner);
+  const struct sheet_edge *of = border_edge(b, contour->owner);
   double x = (double)border->q.x - border->p.x;
   double y = (double)border->q.y - border->p.y, square = x * x + y * y;
   uint32_t face = sheet->triangle.item[of->triangle[0]].face;
-  if (!is_side_of_face(sheet, edge_of(b, border->owner), face))
+  if (!is_side_of_face(sheet, border_edge(b, border->owner), face))
     return true;
   for (int k = 0; k < 2; k++) {
     const struct geom_point at = k == 0 ? contour->p : contour->q;
@@ -108,8 +120,12 @@ static bool add_ends_on(struct border_ends *b,
         fabs(x * py - y * px) > TOLERANCE_COINCIDENT_UNITS * sqrt(square))
       continue;
     struct contour_end made = {
-        border->owner, t, diameter_of_triangle(sheet, of->triangle[0]),
-        x * ((double)at.x - from.x) + y * ((double)at.y - from.y) > 0};
+        border->owner,
+        t,
+        diameter_of_triangle(sheet, of->triangle[0]),
+        x * ((double)at.x - from.x) + y * ((double)at.y - from.y) > 0,
+        contour->owner,
+        of->point[k]};
     if (!ARRAY_PUSH(&b->end, made))
       return false;
   }
@@ -152,9 +168,9 @@ static bool pair_borders(struct border_ends *b) {
   for (size_t i = 0; b->pair != NULL && i < points; i++)
     b->pair[i] = (struct border_pair){{SHEET_NONE, SHEET_NONE}, false};
   for (uint32_t e = 0; b->pair != NULL && e < b->in->first; e++)
-    for (int k = 0; edge_of(b, e)->edge_class == RECTO_EDGE_BORDER && k < 2;
+    for (int k = 0; border_edge(b, e)->edge_class == RECTO_EDGE_BORDER && k < 2;
          k++) {
-      struct border_pair *pair = &b->pair[edge_of(b, e)->point[k]];
+      struct border_pair *pair = &b->pair[border_edge(b, e)->point[k]];
       if (pair->edge[0] == SHEET_NONE)
         pair->edge[0] = e;
       else if (pair->edge[1] == SHEET_NONE)
@@ -188,55 +204,98 @@ static struct map_interval *interval_near(const struct border_ends *b,
 
 /* Follows hidden borders from a contour's end towards point k of its border to
  * a visible one, and lists them.
- * reached  gets the interval that ends there, if it ends before the border
- *          does, and reached_k at which of its points; NULL
- * *ok      gets false when memory ran out
+ * *ok  gets false when memory ran out
  * Returns false where there is none near. */
 static bool follow_borders(struct border_ends *b, const struct contour_end *end,
-                           int k, struct map_interval **reached, int *reached_k,
-                           bool *ok) {
+                           int k, struct visible_end *reached, bool *ok) {
   uint32_t edge = end->edge;
   double way = (k == 0 ? end->t : 1 - end->t) * length_of_edge(b, edge);
   b->way.count = 0;
-  *reached = NULL;
   for (;;) {
-    uint32_t point = edge_of(b, edge)->point[k];
+    uint32_t point = border_edge(b, edge)->point[k];
     edge = next_border(b, edge, point);
     if (edge == SHEET_NONE || edge == end->edge || !(way < end->bound))
       return false;
-    int near = edge_of(b, edge)->point[0] == point ? 0 : 1;
+    k = border_edge(b, edge)->point[0] == point ? 0 : 1;
+    *reached = (struct visible_end){.edge = edge, .k = k, .t = k};
     if (b->in->map->edge_state[edge] == MAP_VISIBLE)
       return true;
     if (b->in->map->edge_state[edge] == MAP_MIXED) {
-      *reached = interval_near(b, edge, near);
-      *reached_k = near;
-      double rest = near == 0 ? ratio_to_double((*reached)->t0)
-                              : 1 - ratio_to_double((*reached)->t1);
-      return way + rest * length_of_edge(b, edge) < end->bound;
+      reached->interval = interval_near(b, edge, k);
+      reached->t = ratio_to_double(k == 0 ? reached->interval->t0
+                                          : reached->interval->t1);
+      return way + fabs(reached->t - k) * length_of_edge(b, edge) < end->bound;
     }
     way += length_of_edge(b, edge);
-    k = 1 - near;
+    k = 1 - k;
     *ok = ARRAY_PUSH(&b->way, edge);
     if (!*ok)
       return false;
   }
 }
 
+/* ---- Contours back along a border ---------------------------------------- */
+
+/* The distance of a contour from a place. */
+static double contour_distance(const struct border_ends *b, uint32_t contour,
+                               const double at[2]) {
+  struct geom_segment s =
+      sheet_ends(b->in->sheet, border_edge(b, contour)->point);
+  double x = (double)s.q.x - s.p.x, y = (double)s.q.y - s.p.y;
+  double px = at[0] - s.p.x, py = at[1] - s.p.y;
+  double t = geom_nearest_parameter(x, y, px, py);
+  return hypot(px - t * x, py - t * y);
+}
+
+/* The visible contour that goes on from another one at a point; SHEET_NONE. */
+static uint32_t next_contour(const struct border_ends *b, uint32_t contour,
+                             uint32_t point) {
+  for (uint32_t e = contour - 1; e != contour + 3; e += 2)
+    if (e >= b->in->first && e < b->in->sheet->edge.count &&
+        b->in->map->edge_state[e] != MAP_HIDDEN &&
+        (border_edge(b, e)->point[0] == point ||
+         border_edge(b, e)->point[1] == point))
+      return e;
+  return SHEET_NONE;
+}
+
+/* Whether the contour that ends on a border passes where that is visible: then
+ * nothing is missing between the two. */
+static bool passes(const struct border_ends *b, const struct contour_end *end,
+                   const struct visible_end *reached) {
+  struct geom_segment s =
+      sheet_ends(b->in->sheet, border_edge(b, reached->edge)->point);
+  const double at[2] = {s.p.x + reached->t * ((double)s.q.x - s.p.x),
+                        s.p.y + reached->t * ((double)s.q.y - s.p.y)};
+  uint32_t contour = end->contour, point = end->point;
+  for (double way = 0; contour != SHEET_NONE && way < end->bound;) {
+    if (contour_distance(b, contour, at) <= TOLERANCE_OUTLINE_UNITS)
+      return true;
+    way += length_of_edge(b, contour);
+    const uint32_t *ends = border_edge(b, contour)->point;
+    point = ends[ends[0] == point];
+    contour = next_contour(b, contour, point);
+  }
+  return false;
+}
+
+/* ---- What is shown ------------------------------------------------------- */
+
 /* Shows the border from a contour's end to its point k, and those listed.  What
- * is shown is rounded to lie beyond the contour's end, so that it is not cut off
- * there (line_ends.c). */
+ * is shown is rounded to lie beyond the contour's end, so that it is not cut
+ * off there (line_ends.c). */
 static bool show_way(struct border_ends *b, const struct contour_end *end,
-                     int k, struct map_interval *reached, int reached_k) {
+                     int k, const struct visible_end *reached) {
   struct map *map = b->in->map;
   struct map_interval part = {ratio_of(0, 1), ratio_of(1, 1)};
   struct map_mixed made = {end->edge, (uint32_t)map->interval.count, 1};
   double t = ldexp(end->t, SHOWN_BITS);
   *(k == 0 ? &part.t1 : &part.t0) = ratio_of(
       (int64_t)(k == 0 ? floor(t) : ceil(t)), INT64_C(1) << SHOWN_BITS);
-  if (reached != NULL && reached_k == 0)
-    reached->t0 = ratio_of(0, 1);
-  else if (reached != NULL)
-    reached->t1 = ratio_of(1, 1);
+  if (reached->interval != NULL && reached->k == 0)
+    reached->interval->t0 = ratio_of(0, 1);
+  else if (reached->interval != NULL)
+    reached->interval->t1 = ratio_of(1, 1);
   for (size_t i = 0; i < b->way.count; i++)
     map->edge_state[b->way.item[i]] = MAP_VISIBLE;
   map->edge_state[end->edge] = MAP_MIXED;
@@ -244,14 +303,14 @@ static bool show_way(struct border_ends *b, const struct contour_end *end,
 }
 
 static bool show_at_end(struct border_ends *b, const struct contour_end *end) {
-  struct map_interval *reached;
-  int reached_k = 0;
+  struct visible_end reached;
+  int ahead = end->forwards ? 1 : 0;
   bool ok = true;
-  for (int i = 0; ok && i < 2; i++) {
-    int k = end->forwards == (i == 0) ? 1 : 0;
-    if (follow_borders(b, end, k, &reached, &reached_k, &ok))
-      return show_way(b, end, k, reached, reached_k);
-  }
+  if (follow_borders(b, end, ahead, &reached, &ok))
+    return show_way(b, end, ahead, &reached);
+  if (ok && follow_borders(b, end, 1 - ahead, &reached, &ok) &&
+      !passes(b, end, &reached))
+    return show_way(b, end, 1 - ahead, &reached);
   return ok;
 }
 
@@ -272,7 +331,7 @@ static bool show_all(struct border_ends *b) {
 
 bool border_ends_show(const struct outline_gaps_input *input) {
   struct border_ends b = {.in = input};
-  bool ok = count_degrees(&b) && list_ends_and_borders(&b) &&
+  bool ok = count_visible_degrees(&b) && list_ends_and_borders(&b) &&
             (b.grid.contours == 0 ||
              (segment_grid_make(&b.grid) && find_ends(&b) && show_all(&b)));
   segment_grid_fini(&b.grid);
