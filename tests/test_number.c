@@ -371,6 +371,10 @@ static void plain_numbers_carry_where_they_are_rounded(void **state) {
       "0.125000000000000041",
       "0.125000000000000042",
       "0.000000000000000001",
+      "0.0019531250000000001",
+      "0.000015258789062500000001",
+      "1.8446744073709551615",
+      "0.00018446744073709551615",
       "0.0",
       "9999999.999999999",
   };
@@ -383,6 +387,19 @@ static void plain_numbers_carry_where_they_are_rounded(void **state) {
     block[length] = '\n';
     assert_ptr_equal(number_parse_plain(block, &value), block + length);
     assert_true(bits_of(value) == bits_of(strtod(block, NULL)));
+  }
+}
+
+static void plain_numbers_fit_in_64_bits(void **state) {
+  static const char *const text[] = {
+      "1.8446744073709551616", "0.00018446744073709551616",
+      "99.999999999999999999", "1234567.8901234567890", "12345678.9"};
+  (void)state;
+  for (size_t i = 0; i < sizeof text / sizeof *text; i++) {
+    char block[2 * NUMBER_PLAIN_ROOM] = "";
+    double value;
+    strcat(block, text[i]);
+    assert_null(number_parse_plain(block, &value));
   }
 }
 #endif

@@ -85,8 +85,19 @@ static inline int number_add_chunk(const char *text, uint64_t *sum) {
   return count;
 }
 
+/* The same; false where *sum would not fit. */
+static inline bool number_add_last_chunk(const char *text, uint64_t *sum,
+                                         int *count) {
+  uint64_t chunk;
+  *count = digits_count(text, &chunk);
+  return *count == 0 ||
+         (!__builtin_mul_overflow(*sum, number_power_of_ten[*count], sum) &&
+          !__builtin_add_overflow(*sum, digits_sum(chunk, *count), sum));
+}
+
 /* Parses [-]digits[.digits] where there are at most 7 digits before the point,
- * or at most 2 where more than 15 are behind it, and 19 in all.
+ * or at most 2 where more than 15 are behind it, and as many in all as fit in
+ * 64 bits, or 19.
  * text  has NUMBER_PLAIN_ROOM bytes at least
  * Returns where it stopped, or NULL where there is something else.
  * Exact: as number_parse_double. */
@@ -110,12 +121,13 @@ static inline const char *number_parse_plain(const char *text, double *value) {
     if (decimals == CHUNK)
       decimals += number_add_chunk(text + CHUNK, &sum);
     if (decimals == 2 * CHUNK) {
-      if (whole > 2)
+      int more;
+      if (whole > 2 || !number_add_last_chunk(text + 2 * CHUNK, &sum, &more))
         return NULL;
-      decimals += number_add_chunk(text + 2 * CHUNK, &sum);
-    }
-    if (whole + decimals > DIGITS_MAX)
+      decimals += more;
+    } else if (whole + decimals > DIGITS_MAX) {
       return NULL;
+    }
     text += decimals;
   }
   *value = number_with_sign(number_scale_down(sum, decimals), negative);

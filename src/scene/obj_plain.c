@@ -27,9 +27,8 @@ static inline bool has_short_statement(const struct obj_run *run,
 /* Reads a coordinate of a statement; NULL where it is no finite number, or
  * where those before it were too long. */
 static inline const char *read_coordinate(const struct obj_run *run,
-                                          const char *start, const char *at,
-                                          double *value) {
-  if (at - start > PLAIN_ROOM / 2)
+                                          const char *at, double *value) {
+  if (at - run->at > PLAIN_ROOM / 2)
     return NULL;
   const char *past = number_parse_plain(at, value);
   if (past != NULL && *past <= ' ')
@@ -41,15 +40,17 @@ static inline const char *read_coordinate(const struct obj_run *run,
 /* Reads "v x y z" to its end; NULL where it is something else. */
 static inline const char *read_plain_point(const struct obj_run *run,
                                            struct scene_point *point) {
-  const char *start = run->at;
-  const char *at = read_coordinate(run, start, start + 2, &point->x);
-  if (at == NULL || *at != ' ')
-    return NULL;
-  at = read_coordinate(run, start, at + 1, &point->y);
-  if (at == NULL || *at != ' ')
-    return NULL;
-  at = read_coordinate(run, start, at + 1, &point->z);
-  return at != NULL && *at == '\n' ? at + 1 : NULL;
+  const char *at = run->at + 1;
+  double value[3];
+  for (int k = 0; k < 3; k++) {
+    if (*at != ' ')
+      return NULL;
+    at = read_coordinate(run, at + 1, &value[k]);
+    if (at == NULL)
+      return NULL;
+  }
+  *point = (struct scene_point){value[0], value[1], value[2]};
+  return *at == '\n' ? at + 1 : NULL;
 }
 
 /* The number of the point that is sampled next, from `number` on. */
