@@ -659,6 +659,7 @@ int main(void) {
 #if DIGITS_CHUNKS
     cmocka_unit_test(plain_numbers_are_read_as_all_others),
     cmocka_unit_test(plain_numbers_carry_where_they_are_rounded),
+    cmocka_unit_test(plain_numbers_fit_in_64_bits),
     cmocka_unit_test(few_digits_are_read_to_their_end),
 #endif
     cmocka_unit_test(names_of_non_finite_numbers_are_read),
