@@ -120,9 +120,11 @@ static bool reserve_points(struct obj_parser *p, size_t count) {
 
 /* Reads " index" or " index/other/other" of up to seven digits, of a point
  * seen so far; NULL where it is something else, such as the index of a normal
- * where these are needed and there are none yet. */
+ * where these are needed and there are none yet, or where the statement, which
+ * begins at `start`, is too long. */
 static inline const char *read_plain_index(const struct obj_parser *p,
-                                           const char *at, uint32_t *point) {
+                                           const char *start, const char *at,
+                                           uint32_t *point) {
   uint64_t index;
   if (*at != ' ')
     return NULL;
@@ -134,7 +136,9 @@ static inline const char *read_plain_index(const struct obj_parser *p,
     return at;
   const char *normal;
   at = obj_pass_other_indices(at, &normal);
-  return normal != NULL && p->scene->needs_crease_marks && p->normal.count == 0
+  return at - start > PLAIN_ROOM / 2 ||
+                 (normal != NULL && p->scene->needs_crease_marks &&
+                  p->normal.count == 0)
              ? NULL
              : at;
 }
@@ -147,8 +151,8 @@ static inline const char *read_plain_face(const struct obj_parser *p,
                                           uint32_t *corner) {
   const char *at = start + 1;
   for (int k = 0; k < corners; k++) {
-    at = read_plain_index(p, at, &corner[k]);
-    if (at == NULL || at - start > PLAIN_ROOM / 2)
+    at = read_plain_index(p, start, at, &corner[k]);
+    if (at == NULL)
       return NULL;
   }
   return *at == '\n' ? at + 1 : NULL;
@@ -160,45 +164,59 @@ static inline bool is_surely_valid(const struct scene *scene,
                       : obj_is_surely_plain(scene, corner);
 }
 
-/* Reads the faces of a run.  Their points lie anywhere in memory: those of a
- * face are looked at when some more were read, and they have been fetched. */
+/* Faces whose corners are read before their points are looked at. */
+enum { FACES_OF_BLOCK = 64 };
+
+/* Reads the corners of up to FACES_OF_BLOCK faces, and fetches their points;
+ * returns how many are plain.
+ * begin  gets where each of them begins */
+static inline size_t read_block_of_faces(const struct obj_parser *p,
+                                         struct obj_run *run, size_t corners,
+                                         uint32_t *corner,
+                                         const char *begin[FACES_OF_BLOCK]) {
+  const struct scene_point *point = p->scene->point.item;
+  size_t left = run->most - run->count, read = 0;
+  left = left < FACES_OF_BLOCK ? left : FACES_OF_BLOCK;
+  for (; read < left && has_short_statement(run, 'f'); read++) {
+    const char *past = read_plain_face(p, run->at, (int)corners, corner);
+    if (past == NULL)
+      break;
+    for (size_t k = 0; k < corners; k++)
+      MEM_PREFETCH(&point[corner[k]]);
+    begin[read] = run->at;
+    run->at = past;
+    corner += corners;
+  }
+  return read;
+}
+
+/* Reads the faces of a run.  Their points lie anywhere in memory: they are
+ * looked at block by block, once they have been fetched. */
 static inline void read_corners_of_faces(const struct obj_parser *p,
                                          struct obj_run *run,
                                          const size_t corners) {
   struct scene *scene = p->scene;
-  size_t before = scene->corner.count + corners * run->before, read = 0;
+  size_t before = scene->corner.count + corners * run->before, read;
   uint32_t *corner = scene->corner.item + before;
   size_t face = scene->face_count + run->before;
   uint32_t *start =
       scene->face_start.count > 0 ? scene->face_start.item + face + 1 : NULL;
   uint32_t *group =
       scene->face_group.count > 0 ? scene->face_group.item + face : NULL;
-  const char *begin[MEM_PREFETCH_AHEAD]; /* of faces, by number */
-  bool goes_on = true;
+  const char *begin[FACES_OF_BLOCK];
+  size_t valid;
   do {
-    begin[read % MEM_PREFETCH_AHEAD] = run->at;
-    const char *past =
-        goes_on && read < run->most && has_short_statement(run, 'f')
-            ? read_plain_face(p, run->at, (int)corners, &corner[corners * read])
-            : NULL;
-    goes_on = past != NULL;
-    for (size_t k = 0; goes_on && k < corners; k++)
-      MEM_PREFETCH(&scene->point.item[corner[corners * read + k]]);
-    read += goes_on;
-    run->at = goes_on ? past : run->at;
-    if (goes_on && read - run->count < MEM_PREFETCH_AHEAD)
-      continue;
-    if (run->count == read ||
-        !is_surely_valid(scene, &corner[corners * run->count], corners))
-      break;
-    if (start != NULL)
-      start[run->count] = (uint32_t)(before + corners * (run->count + 1));
-    if (group != NULL)
-      group[run->count] = scene->current_group;
-    run->count++;
-  } while (true);
-  if (run->count < read)
-    run->at = begin[run->count % MEM_PREFETCH_AHEAD];
+    read = read_block_of_faces(p, run, corners, corner, begin);
+    for (valid = 0; valid < read && is_surely_valid(scene, corner, corners);
+         valid++, corner += corners, run->count++) {
+      if (start != NULL)
+        start[run->count] = (uint32_t)(before + corners * (run->count + 1));
+      if (group != NULL)
+        group[run->count] = scene->current_group;
+    }
+  } while (valid == FACES_OF_BLOCK);
+  if (valid < read)
+    run->at = begin[valid];
 }
 
 static bool wants_normals(const struct obj_parser *p) {
