@@ -35,6 +35,11 @@ struct parallel_range {
   int worker; /* which does them, from 0, the caller, to before `workers` */
 };
 
+/* Bytes at the end of what a worker writes that lies beside what another one
+ * writes: so that no line of the cache, or pair of lines, has some of both, for
+ * which each would wait at every write of the other. */
+enum { PARALLEL_APART = 128 };
+
 /* Returns false where the work is to end: memory ran out.  Polls in all workers
  * are false once it is. */
 typedef bool parallel_task(void *user, struct parallel_range range);

@@ -6,6 +6,7 @@
 #include <stdatomic.h>
 
 #include "base/memory.h"
+#include "base/parallel.h"
 #include "ink/lines/segment_graph.h"
 
 /* A walk from an open end to the other one, or to where the walk from there has
@@ -30,6 +31,7 @@ struct open_path {
 
 struct open_ends {
   ARRAY(uint32_t) end;
+  char apart[PARALLEL_APART];
 };
 
 struct open_paths {

@@ -61,6 +61,7 @@ struct pair_search {
   const struct changed_cells *here;
   const struct node_rows *rows;
   ARRAY(struct sort_key) pair; /* see output_overlaps */
+  char apart[PARALLEL_APART];
 };
 
 static bool record_pairs(void *user, uint32_t segment, uint32_t node) {

@@ -3,6 +3,7 @@
 #ifndef VISIBILITY_FRAGMENTS_FACE_UNION_H
 #define VISIBILITY_FRAGMENTS_FACE_UNION_H
 
+#include "base/parallel.h"
 #include "geom/region.h"
 #include "visibility/fragments/fragments.h"
 #include "visibility/fragments/planar_subdivision.h"
@@ -42,6 +43,7 @@ struct face_union {
   struct arena scratch;
   struct progress progress;
   struct fragments_counts counts;
+  char apart[PARALLEL_APART];
 };
 
 /* sides  of all faces without an outline and all triangles near them; read by

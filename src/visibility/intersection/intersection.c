@@ -30,6 +30,7 @@ struct intersection_search {
     uint64_t pairs;    /* candidates that no filter rejected */
     uint64_t straddle; /* of these, each reaches the other's plane */
   } counts;
+  char apart[PARALLEL_APART];
 };
 
 /* Triangle f, prepared; consecutive pairs often have f in common. */

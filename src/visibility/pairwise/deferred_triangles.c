@@ -130,6 +130,7 @@ struct triangle_solver {
   struct progress progress;
   struct fragments part;
   uint8_t mark; /* of what this range found to be hidden */
+  char apart[PARALLEL_APART];
 };
 
 static bool is_hidden(const struct triangle_solver *solver, uint32_t triangle) {

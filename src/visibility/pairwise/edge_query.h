@@ -15,6 +15,7 @@
 #ifndef VISIBILITY_PAIRWISE_EDGE_QUERY_H
 #define VISIBILITY_PAIRWISE_EDGE_QUERY_H
 
+#include "base/parallel.h"
 #include "visibility/culling/occlusion_culling.h"
 #include "visibility/predicate/edge_intervals.h"
 #include "visibility/pairwise/tile_candidates.h"
@@ -46,6 +47,7 @@ struct edge_query {
   bool tried_recent;             /* it met a list with a BVH */
   bool several_cells; /* the edge crosses several cells, so that a triangle may
                          be found more than once */
+  char apart[PARALLEL_APART];
 };
 
 /* Returns false when memory ran out; end with edge_query_fini either way. */

@@ -112,11 +112,10 @@ MEM_PREFETCH_INLINE void prefetch_edge(const struct tiles_work *work, size_t i,
   MEM_PREFETCH(&sheet->point.item[point[1]]);
 }
 
-static bool solve_batch(void *user, struct parallel_range range) {
-  const struct edge_batches *batches = user;
+static bool solve_edges_of_batch(const struct edge_batches *batches,
+                                 struct parallel_range range, struct map *map) {
   const struct tiles_work *work = batches->work;
   struct edge_query *query = &batches->query[range.worker];
-  struct map *map = &batches->map[range.begin / BATCH_SIZE];
   struct progress progress = progress_of(work->request, "edges");
   query->recent_count = 0; /* the counts are to be those of any thread */
   for (size_t i = range.begin; i < range.end; i++) {
@@ -130,6 +129,16 @@ static bool solve_batch(void *user, struct parallel_range range) {
     close_last_edge(map, work);
   }
   return true;
+}
+
+/* In a map of its own until the end, as other threads write the maps beside
+ * it. */
+static bool solve_batch(void *user, struct parallel_range range) {
+  const struct edge_batches *batches = user;
+  struct map *stored = &batches->map[range.begin / BATCH_SIZE], map = *stored;
+  bool ok = solve_edges_of_batch(batches, range, &map);
+  *stored = map;
+  return ok;
 }
 
 /* Appends the intervals of a batch to the map; batches come in the order of
