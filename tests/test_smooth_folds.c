@@ -224,16 +224,14 @@ static void folds_without_a_zero_set_are_drawn(void **state) {
   recto_scene_destroy(scene);
 }
 
-/* Spot's hind legs, seen from below, are such folds. */
-static void arcs_of_legs_are_drawn(void **state) {
-  (void)state;
-  recto_scene *scene = read_spot();
-  if (scene == NULL)
-    skip();
+/* Fails where the middle of a long line of the mesh is far from ink. */
+static void check_mesh_lines(const recto_scene *scene, double azimuth_deg,
+                             double elevation_deg, double long_mm,
+                             double most_mm) {
   recto_options options;
   smooth_view(&options, 0);
-  options.camera.azimuth_deg = 0;
-  options.camera.elevation_deg = -75;
+  options.camera.azimuth_deg = azimuth_deg;
+  options.camera.elevation_deg = elevation_deg;
   options.ink.contours = RECTO_CONTOURS_MESH;
   recto_drawing *mesh = smooth_draw(scene, &options);
   options.ink.contours = RECTO_CONTOURS_SMOOTH;
@@ -243,11 +241,103 @@ static void arcs_of_legs_are_drawn(void **state) {
     assert_true(recto_drawing_stroke(mesh, s, &stroke));
     const double *middle = stroke.points + stroke.count / 2 * 2;
     double mm = smooth_distance_to_ink(drawing, RECTO_EDGES_ALL, middle);
-    if (length_of(&stroke) > 15 && !(mm < 1.5))
-      fail_msg("a line of %g mm is %g mm from ink", length_of(&stroke), mm);
+    if (length_of(&stroke) > long_mm && !(mm < most_mm))
+      fail_msg("%g/%g degrees: a line of %g mm is %g mm from ink", azimuth_deg,
+               elevation_deg, length_of(&stroke), mm);
   }
   recto_drawing_destroy(mesh);
   recto_drawing_destroy(drawing);
+}
+
+/* Spot's hind legs, seen from below, are such folds. */
+static void arcs_of_legs_are_drawn(void **state) {
+  (void)state;
+  recto_scene *scene = read_spot();
+  if (scene == NULL)
+    skip();
+  check_mesh_lines(scene, 0, -75, 15, 1.5);
+  recto_scene_destroy(scene);
+}
+
+/* How many corners of the button's rim are on a silhouette of the mesh, and far
+ * from ink. */
+static int missing_of_rim(const recto_scene *scene, int sides,
+                          double elevation_deg) {
+  int missing = 0;
+  recto_options options;
+  smooth_view(&options, 0);
+  options.camera.azimuth_deg = 2;
+  options.camera.elevation_deg = elevation_deg;
+  struct smooth_axes axes = smooth_axes_of(&options);
+  options.ink.contours = RECTO_CONTOURS_MESH;
+  recto_drawing *mesh = smooth_draw(scene, &options);
+  options.ink.contours = RECTO_CONTOURS_SMOOTH;
+  recto_drawing *drawing = smooth_draw(scene, &options);
+  for (int i = 0; i < sides; i++) {
+    double p[3];
+    button(2 * M_PI * i / sides, 2 * M_PI * BUTTON_EDGE / BUTTON_ROWS, p);
+    const double at[2] = {
+        SMOOTH_PAGE_MM / 2 + SMOOTH_SCALE_MM * smooth_dot(p, axes.right),
+        SMOOTH_PAGE_MM / 2 + SMOOTH_SCALE_MM * smooth_dot(p, axes.up)};
+    missing += smooth_distance_to_ink(mesh, RECTO_EDGE_SILHOUETTE, at) < 0.1 &&
+               smooth_distance_to_ink(drawing, RECTO_EDGES_ALL, at) > 1;
+  }
+  recto_drawing_destroy(mesh);
+  recto_drawing_destroy(drawing);
+  return missing;
+}
+
+/* Seen past its axis, the button's side has a zero set in front, and on either
+ * side folds of a few triangles lead on from its ends, which may be hooks. */
+static void short_folds_that_continue_a_contour_are_drawn(void **state) {
+  (void)state;
+  for (int sides = 24; sides <= 64; sides += 8) {
+    recto_scene *scene = smooth_scene(button, true, sides, BUTTON_ROWS);
+    /* 6 to 16 of them while a fold had to be of ten outlines. */
+    assert_int_equal(missing_of_rim(scene, sides, 10), 0);
+    recto_scene_destroy(scene);
+  }
+}
+
+/* A round tube along a torus knot, a third of the knot's own size. */
+static void knot_axis(double u, double p[3]) {
+  double across = (30 + 13 * cos(3 * u)) / 30;
+  p[0] = across * cos(2 * u);
+  p[1] = 13 * sin(3 * u) / 30;
+  p[2] = -across * sin(2 * u);
+}
+
+static void torus_knot(double u, double v, double p[3]) {
+  double at[3], next[3], along[3], out[3], side[3], length = 0, across = 0;
+  const double step = 0x1p-12;
+  knot_axis(u - step, at);
+  knot_axis(u + step, next);
+  for (int k = 0; k < 3; k++)
+    length += (next[k] - at[k]) * (next[k] - at[k]);
+  for (int k = 0; k < 3; k++)
+    along[k] = (next[k] - at[k]) / sqrt(length);
+  knot_axis(u, at);
+  const double from[3] = {at[0] - cos(2 * u), at[1], at[2] + sin(2 * u)};
+  for (int k = 0; k < 3; k++)
+    side[k] = from[(k + 1) % 3] * along[(k + 2) % 3] -
+              from[(k + 2) % 3] * along[(k + 1) % 3];
+  across = sqrt(smooth_dot(side, side));
+  for (int k = 0; k < 3; k++)
+    side[k] /= across;
+  for (int k = 0; k < 3; k++) {
+    out[k] = along[(k + 1) % 3] * side[(k + 2) % 3] -
+             along[(k + 2) % 3] * side[(k + 1) % 3];
+    p[k] = at[k] + 5.2 / 30 * (cos(v) * out[k] + sin(v) * side[k]);
+  }
+}
+
+/* Where the tube turns towards the viewer two contours end in cusps that face
+ * each other along a bend, with folds between them. */
+static void folds_between_two_contours_are_drawn(void **state) {
+  (void)state;
+  recto_scene *scene = smooth_scene(torus_knot, false, 300, 16);
+  for (int azimuth = 7; azimuth < 360; azimuth += 120)
+    check_mesh_lines(scene, azimuth, 48, 8, 2);
   recto_scene_destroy(scene);
 }
 
@@ -259,6 +349,8 @@ int main(void) {
       cmocka_unit_test(lines_lead_on_to_where_loops_are_left_out),
       cmocka_unit_test(folds_without_a_zero_set_are_drawn),
       cmocka_unit_test(arcs_of_legs_are_drawn),
+      cmocka_unit_test(short_folds_that_continue_a_contour_are_drawn),
+      cmocka_unit_test(folds_between_two_contours_are_drawn),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

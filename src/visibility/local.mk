@@ -63,6 +63,7 @@ librecto_core_la_SOURCES += \
   %D%/contour/fit_fragments.c %D%/contour/fit_fragments.h \
   %D%/contour/fit_outline.c %D%/contour/fit_outline.h \
   %D%/contour/fold_bridges.c %D%/contour/fold_bridges.h \
+  %D%/contour/fold_joints.c %D%/contour/fold_joints.h \
   %D%/contour/fold_lines.c %D%/contour/fold_lines.h \
   %D%/contour/fold_samples.c %D%/contour/fold_samples.h \
   %D%/contour/intersection_cuts.c %D%/contour/intersection_cuts.h \

@@ -8,26 +8,23 @@
 #include "base/poll.h"
 #include "base/tolerance.h"
 #include "geom/nearest.h"
-#include "visibility/contour/fold_samples.h"
+#include "visibility/contour/fold_joints.h"
 #include "visibility/contour/occluders.h"
 #include "visibility/contour/outline_chains.h"
-#include "visibility/contour/segment_grid.h"
 
 /* Lines beside an outline turn from it by no more than 60 degrees. */
 #define BESIDE_COSINE 0.5
 
-/* How far from a sample the end of a contour may be that a line continues, and
- * how far a line is led on to one, in heights. */
-#define JOINT_HEIGHTS 1
-#define LEAD_HEIGHTS 3
+/* The heights of a line that is not of many outlines, at least, if a contour
+ * continues it at one end, and at both. */
+static const double joined_heights[] = {INFINITY, 6, 3};
 
 /* How far beside an outline nothing must hide it, grid units. */
 #define BESIDE 8
 
 struct fold_lines {
   const struct outline_gaps_input *in;
-  struct segment_grid grid; /* visible lines */
-  uint8_t *ends;            /* one a point of contours: as in outline_gaps.c */
+  struct fold_joints joints;
   struct outline_chains chains;
   uint8_t *is_passed;         /* one an outline */
   struct fold_samples sample; /* of a chain */
@@ -35,31 +32,6 @@ struct fold_lines {
 };
 
 /* ---- What is drawn ------------------------------------------------------- */
-
-static bool list_lines_drawn(struct fold_lines *f) {
-  const struct sheet *sheet = f->in->sheet;
-  for (uint32_t e = 0; e < sheet->edge.count; e++) {
-    const uint32_t *point = sheet->edge.item[e].point;
-    if (!poll_at(e))
-      return false;
-    if (f->in->map->edge_state[e] == MAP_HIDDEN ||
-        !sheet_edge_is_drawn(sheet, e))
-      continue;
-    if (!segment_grid_add(&f->grid, sheet_ends(sheet, point), e))
-      return false;
-    for (int k = 0; e >= f->in->first && k < 2; k++) {
-      uint8_t *ends = &f->ends[point[k] - f->in->first_point];
-      *ends = (uint8_t)(*ends + (*ends < 2));
-    }
-  }
-  f->grid.contours = f->grid.segment.count;
-  return f->grid.contours == 0 || segment_grid_make(&f->grid);
-}
-
-/* Whether a contour only ends at a point. */
-static bool is_loose(const struct fold_lines *f, uint32_t point) {
-  return f->ends[point - f->in->first_point] < 2;
-}
 
 /* Notes whether a line runs beside a sample: not where a contour only ends.
  * Creases are none, as ink may leave them out. */
@@ -78,32 +50,24 @@ static void try_line(const struct fold_lines *f, const struct page_segment *s,
     return;
   if ((edge->edge_class & (RECTO_EDGE_CREASE | RECTO_EDGE_GROUP)) != 0)
     at->is_on_crease = at->is_on_crease || away <= TOLERANCE_OUTLINE_UNITS;
-  else if (!is_contour || (t > 0 && t < 1) || !is_loose(f, edge->point[t > 0]))
+  else if (!is_contour || (t > 0 && t < 1) ||
+           !fold_joints_is_loose(&f->joints, edge->point[t > 0]))
     at->is_beside = true;
-}
-
-/* The cells within a distance of a place. */
-static struct cell_range cells_about(const struct fold_lines *f, double x,
-                                     double y, double by) {
-  struct box2 box = {(int32_t)fmax(floor(x - by), -SHEET_XY_MAX),
-                     (int32_t)fmax(floor(y - by), -SHEET_XY_MAX),
-                     (int32_t)fmin(ceil(x + by), SHEET_XY_MAX),
-                     (int32_t)fmin(ceil(y + by), SHEET_XY_MAX)};
-  return triangle_grid_cells(&f->grid.cell, box);
 }
 
 static void look_beside_fold(const struct fold_lines *f,
                              struct fold_sample *at) {
-  const struct triangle_grid *cell = &f->grid.cell;
-  if (f->grid.contours == 0)
+  const struct triangle_grid *cell = &f->joints.grid.cell;
+  if (f->joints.grid.contours == 0)
     return;
-  struct cell_range range = cells_about(f, at->x, at->y, at->height);
+  struct cell_range range =
+      fold_joints_cells(&f->joints, at->x, at->y, at->height);
   for (int y = range.y0; y <= range.y1; y++)
     for (int x = range.x0; x <= range.x1; x++) {
       size_t i = triangle_grid_index(cell, x, y);
       for (uint32_t k = cell->lists.start[i];
            k < cell->lists.start[i + 1] && !at->is_beside; k++)
-        try_line(f, &f->grid.segment.item[cell->lists.item[k]], at);
+        try_line(f, &f->joints.grid.segment.item[cell->lists.item[k]], at);
     }
 }
 
@@ -121,62 +85,6 @@ static bool is_visible(const struct fold_lines *f, const struct fold_sample *s,
 
 /* ---- Lines --------------------------------------------------------------- */
 
-/* Finds the end of a contour that a line continues at a sample, if `k` is 1, or
- * that continues it, if it is 0; SHEET_NONE: none.
- * distance  from the sample, at most; gets that of the end */
-static uint32_t find_joint(const struct fold_lines *f,
-                           const struct fold_sample *s, int k,
-                           double *distance) {
-  const struct triangle_grid *cell = &f->grid.cell;
-  uint32_t best = SHEET_NONE;
-  if (f->grid.contours == 0)
-    return SHEET_NONE;
-  struct cell_range range = cells_about(f, s->x, s->y, *distance);
-  for (int y = range.y0; y <= range.y1; y++)
-    for (int x = range.x0; x <= range.x1; x++) {
-      size_t at = triangle_grid_index(cell, x, y);
-      for (uint32_t i = cell->lists.start[at]; i < cell->lists.start[at + 1];
-           i++) {
-        const struct page_segment *g =
-            &f->grid.segment.item[cell->lists.item[i]];
-        uint32_t point = f->in->sheet->edge.item[g->owner].point[k];
-        struct geom_point end = k == 0 ? g->p : g->q;
-        double dx = (double)g->q.x - g->p.x, dy = (double)g->q.y - g->p.y;
-        double away = hypot(end.x - s->x, end.y - s->y);
-        if (g->owner < f->in->first || away >= *distance ||
-            !is_loose(f, point) ||
-            dx * s->along[0] + dy * s->along[1] < BESIDE_COSINE * hypot(dx, dy))
-          continue;
-        *distance = away;
-        best = point;
-      }
-    }
-  return best;
-}
-
-/* Leads an end of a run on along its chain to the sample that is nearest to the
- * end of a contour there, whatever is beside it.
- * k       0: the run's beginning; 1: its end
- * height  the mean height of its triangles
- * joint   gets the end of the contour; SHEET_NONE: none, nothing changes */
-static void lead_on(const struct fold_lines *f, size_t *at, int k,
-                    double height, uint32_t *joint) {
-  const struct fold_sample *sample = f->sample.item;
-  double least = JOINT_HEIGHTS * height, passed = 0;
-  *joint = SHEET_NONE;
-  for (size_t i = *at; passed <= LEAD_HEIGHTS * height;
-       i += k == 0 ? SIZE_MAX : 1) {
-    passed += sample[i].step;
-    uint32_t found = find_joint(f, &sample[i], 1 - k, &least);
-    if (found != SHEET_NONE) {
-      *joint = found;
-      *at = i;
-    }
-    if (i == (k == 0 ? 0 : f->sample.count - 1))
-      break;
-  }
-}
-
 /* The sheet's point of a place, or of the end of a contour. */
 static bool fold_place_point(struct fold_lines *f, const struct fold_place *at,
                              uint32_t joint, uint32_t *point) {
@@ -185,7 +93,7 @@ static bool fold_place_point(struct fold_lines *f, const struct fold_place *at,
                          (int64_t)at->z};
   *point = joint;
   if (joint != SHEET_NONE) {
-    f->ends[joint - f->in->first_point] = 2;
+    f->joints.ends[joint - f->in->first_point] = 2;
     return true;
   }
   *point = (uint32_t)sheet->point.count;
@@ -230,18 +138,25 @@ static bool add_place_edges(struct fold_lines *f, bool is_ring,
   return !is_ring || add_place_edge(f, &f->place.item[0], point, first);
 }
 
-/* Adds the line of a run of the chain, if it is long. */
+/* Adds the line of a run of the chain, if it is long, or if contours continue
+ * it. */
 static bool add_line(struct fold_lines *f, size_t from, size_t to,
                      bool is_ring) {
   uint32_t joint[2] = {SHEET_NONE, SHEET_NONE};
   double height;
   struct fold_run run = {f->sample.item + from, to - from, is_ring};
-  if (!fold_run_is_long(run, &height))
+  bool is_long = fold_run_is_long(run, &height);
+  if (!is_long && (is_ring || !fold_run_is_line(run, joined_heights[2])))
     return true;
   if (!is_ring) {
     size_t last = to - 1;
-    lead_on(f, &from, 0, height, &joint[0]);
-    lead_on(f, &last, 1, height, &joint[1]);
+    fold_joints_lead_on(&f->joints, f->sample.item, f->sample.count, &from, 0,
+                        height, &joint[0]);
+    fold_joints_lead_on(&f->joints, f->sample.item, f->sample.count, &last, 1,
+                        height, &joint[1]);
+    int joints = (joint[0] != SHEET_NONE) + (joint[1] != SHEET_NONE);
+    if (!is_long && !fold_run_is_line(run, joined_heights[joints]))
+      return true;
     run = (struct fold_run){f->sample.item + from, last + 1 - from, false};
   }
   return fold_run_smooth(run, height, &f->place) &&
@@ -256,8 +171,9 @@ static bool add_visible_lines(struct fold_lines *f, size_t from, size_t to) {
   const struct fold_sample *sample = f->sample.item;
   double height;
   bool ok = true;
-  if (!fold_run_is_long((struct fold_run){sample + from, to - from, false},
-                        &height))
+  struct fold_run whole = {sample + from, to - from, false};
+  if (!fold_run_is_long(whole, &height) &&
+      !fold_run_is_line(whole, joined_heights[2]))
     return true;
   for (size_t i = from; ok && i < to;) {
     if (!is_visible(f, &sample[i], &ok)) {
@@ -312,8 +228,9 @@ static bool sample_chain(struct fold_lines *f, uint32_t start, bool *is_ring) {
       return false;
   }
   *is_ring = false;
-  if (!fold_run_is_long(
-          (struct fold_run){f->sample.item, f->sample.count, false}, &height)) {
+  struct fold_run chain = {f->sample.item, f->sample.count, false};
+  if (!fold_run_is_long(chain, &height) &&
+      !fold_joints_may_join(&f->joints, chain, joined_heights[2])) {
     f->sample.count = 0;
     return true;
   }
@@ -354,14 +271,12 @@ bool fold_lines_add(const struct outline_gaps_input *input) {
   size_t outlines = input->set->outline.count;
   if (outlines == 0)
     return true;
-  struct fold_lines f = {.in = input};
-  f.ends = mem_calloc(input->sheet->point.count - input->first_point, 1);
+  struct fold_lines f = {.in = input, .joints = {.in = input}};
   f.is_passed = mem_calloc(outlines, 1);
-  bool ok = f.ends != NULL && f.is_passed != NULL && list_lines_drawn(&f) &&
+  bool ok = f.is_passed != NULL && fold_joints_list(&f.joints) &&
             outline_chains_link(&f.chains, input->set) && add_all_lines(&f);
-  segment_grid_fini(&f.grid);
+  fold_joints_fini(&f.joints);
   outline_chains_fini(&f.chains);
-  mem_free(f.ends);
   mem_free(f.is_passed);
   ARRAY_FREE(&f.sample);
   ARRAY_FREE(&f.place);

@@ -8,7 +8,8 @@
 /* Adds visible edges of the class silhouette along chains of the mesh's
  * outlines that nothing hides, and beside which, nearer than a height of their
  * triangles, no visible contour and no other line but creases is drawn, if they
- * are several such heights long.
+ * are several such heights long and of many outlines, or a contour that ends
+ * there continues them.
  * A surface that folds over in a strip narrower than a triangle has no vertex
  * whose mean normal is turned away, and so no contour.  The line is smoothed:
  * it leads from place to place of the mean of a chain's zigzag, and from and to

@@ -13,7 +13,7 @@ enum { SAMPLES_A_HEIGHT = 4, SAMPLES_MAX = 64 };
 /* The length of a run, at least, as a multiple of the mean height of its
  * triangles, and the outlines that it is of. */
 #define LONG_HEIGHTS 6
-enum { MANY_OUTLINES = 10 };
+enum { MANY_OUTLINES = 10, FEW_OUTLINES = 2 };
 
 /* The share of a run that may be on creases. */
 #define CREASE_SHARE 0.5
@@ -73,19 +73,39 @@ bool fold_samples_add(struct fold_samples *samples, const struct sheet *sheet,
   return true;
 }
 
-bool fold_run_is_long(struct fold_run run, double *height) {
-  double length = 0, sum = 0, on_creases = 0;
-  int outlines = 0;
+/* What is known of a run as a whole. */
+struct run_measure {
+  double length, height; /* its own; the mean of its triangles' */
+  int outlines;
+  bool on_creases; /* more than a share of it is */
+};
+
+static struct run_measure measure_run(struct fold_run run) {
+  double sum = 0, on_creases = 0;
+  struct run_measure made = {0, 0, 0, false};
   for (size_t i = 0; i < run.count; i++) {
     const struct fold_sample *s = &run.sample[i];
-    length += s->step;
+    made.length += s->step;
     sum += s->step * s->height;
     on_creases += s->is_on_crease ? s->step : 0;
-    outlines += i == 0 || s->outline != run.sample[i - 1].outline;
+    made.outlines += i == 0 || s->outline != run.sample[i - 1].outline;
   }
-  *height = length > 0 ? sum / length : 0;
-  return outlines >= MANY_OUTLINES && on_creases <= CREASE_SHARE * length &&
-         length >= LONG_HEIGHTS * *height;
+  made.height = made.length > 0 ? sum / made.length : 0;
+  made.on_creases = on_creases > CREASE_SHARE * made.length;
+  return made;
+}
+
+bool fold_run_is_long(struct fold_run run, double *height) {
+  struct run_measure of = measure_run(run);
+  *height = of.height;
+  return of.outlines >= MANY_OUTLINES && !of.on_creases &&
+         of.length >= LONG_HEIGHTS * of.height;
+}
+
+bool fold_run_is_line(struct fold_run run, double heights) {
+  struct run_measure of = measure_run(run);
+  return of.outlines >= FEW_OUTLINES && !of.on_creases &&
+         of.length >= heights * of.height;
 }
 
 /* The mean of the samples about one, as far to either side as there are such of
