@@ -80,6 +80,9 @@ unit_tests += %D%/test_smooth_tubes
 unit_tests += %D%/test_smooth_folds
 %C%_test_smooth_folds_SOURCES = %D%/test_smooth_folds.c \
   %D%/smooth_surfaces.c %D%/smooth_surfaces.h
+unit_tests += %D%/test_smooth_walls
+%C%_test_smooth_walls_SOURCES = %D%/test_smooth_walls.c \
+  %D%/smooth_surfaces.c %D%/smooth_surfaces.h
 unit_tests += %D%/test_smooth_borders
 %C%_test_smooth_borders_SOURCES = %D%/test_smooth_borders.c \
   %D%/smooth_surfaces.c %D%/smooth_surfaces.h

@@ -8,8 +8,9 @@
 /* A part of a curve between two places. */
 struct contour_piece {
   struct contour_cut from, to;
-  uint32_t samples, visible; /* points of it that were tested, and those seen */
-  uint32_t occluders;        /* the sum of those that hide them */
+  uint32_t samples;       /* points of it that were tested */
+  double weight, visible; /* of all of them, and of those seen */
+  uint32_t occluders;     /* the sum of those that hide them */
   bool is_visible;
   int side; /* of the surface on which the line of sight passes: 1: the outer
                one, as normals have it; -1: the other one */

@@ -11,6 +11,10 @@
 #define OFFSET_ASIDE 0.1
 #define OFFSET_NEARER 1.0
 
+/* A segment whose length is less than this share of its piece's longest counts
+ * for less than that, in proportion. */
+#define WHOLE_SHARE 0.125
+
 /* The samples of a piece, at most, and segments whose heights give the offset,
  * to either side of one. */
 enum { SAMPLES_MAX = 31, HEIGHT_REACH = 10 };
@@ -45,6 +49,13 @@ static double height_about(const struct divided_curves *d,
   return height[count / 2];
 }
 
+/* The length of a step's segment on the page. */
+static double length_of_step(const struct divided_curves *d, uint32_t step) {
+  struct geom_point p = contour_curves_node(d->curves, step)->page;
+  struct geom_point q = contour_curves_node(d->curves, step + 1)->page;
+  return hypot((double)q.x - p.x, (double)q.y - p.y);
+}
+
 /* Where the visibility of a curve is sampled.
  * side  1: the surface bends away from the line of sight, so that its outer
  *       side is seen; -1: it bends into it, which hides the point unless it is
@@ -64,7 +75,8 @@ static struct contour_sample place_sample(const struct divided_curves *d,
     off[k] = on[k] - height * OFFSET_NEARER * view[k];
   }
   return (struct contour_sample){divided_curves_project(d, off),
-                                 divided_curves_project(d, on), s->face};
+                                 divided_curves_project(d, on), s->face,
+                                 length_of_step(d, step)};
 }
 
 /* ---- Pieces -------------------------------------------------------------- */
@@ -132,19 +144,33 @@ bool divided_curves_find(struct divided_curves *d) {
 
 /* ---- What hides them ----------------------------------------------------- */
 
+/* The length from which on a segment of a piece counts as a whole one. */
+static double whole_length(const struct contour_piece *piece,
+                           const struct contour_sample *sample) {
+  double longest = 0;
+  for (uint32_t i = 0; i < piece->samples; i++)
+    longest = fmax(longest, sample[i].length);
+  return WHOLE_SHARE * longest;
+}
+
 /* Tests the samples of a piece.  What is near along the surface must not hide
- * the point off it; another surface must not hide the point on it. */
+ * the point off it; another surface must not hide the point on it.  Where a
+ * contour comes to a crease it has segments that are as good as none, which do
+ * not decide about a long one. */
 static bool test_samples(struct occluders *occluders,
                          struct contour_piece *piece,
                          const struct contour_sample *sample) {
+  double whole = whole_length(piece, sample);
   for (uint32_t i = 0; i < piece->samples; i++) {
+    double weight = sample[i].length < whole ? sample[i].length / whole : 1;
     int count = occluders_count(occluders->sheet, occluders->grid,
                                 occluders->query, sample[i].off);
     if (count == 0)
       count = occluders_count_apart(occluders, sample[i].on, sample[i].face);
     if (count < 0)
       return false;
-    piece->visible += count == 0;
+    piece->weight += weight;
+    piece->visible += count == 0 ? weight : 0;
     piece->occluders += (uint32_t)count;
   }
   return true;
@@ -154,6 +180,7 @@ static bool test_samples(struct occluders *occluders,
 static void join_end_pieces(struct contour_piece *first,
                             struct contour_piece *last) {
   first->visible = last->visible += first->visible;
+  first->weight = last->weight += first->weight;
   first->samples = last->samples += first->samples;
   first->occluders = last->occluders += first->occluders;
 }
@@ -175,6 +202,6 @@ bool divided_curves_count(struct divided_curves *d,
   }
   for (size_t i = 0; i < d->piece.count; i++)
     d->piece.item[i].is_visible =
-        2 * d->piece.item[i].visible > d->piece.item[i].samples;
+        2 * d->piece.item[i].visible > d->piece.item[i].weight;
   return true;
 }

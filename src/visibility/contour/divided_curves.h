@@ -21,6 +21,7 @@ struct contour_sample {
   struct geom_point off; /* off the surface */
   struct geom_point on;  /* beside it */
   uint32_t face;         /* there */
+  double length;         /* of the segment that it is on, grid units */
 };
 
 struct divided_curves {
@@ -47,7 +48,7 @@ divided_curves_project(const struct divided_curves *divided,
 USE_RESULT bool divided_curves_find(struct divided_curves *divided);
 
 /* Counts what hides the samples, and decides whether pieces are visible: where
- * most of their samples are.
+ * most of their samples are, by weight.
  * occluders  with a grid of the sheet's triangles about the samples at least
  * Returns false when memory ran out or the caller cancelled. */
 USE_RESULT bool divided_curves_count(struct divided_curves *divided,

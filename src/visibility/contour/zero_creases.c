@@ -1,10 +1,15 @@
 /* zero_creases.c - the contour along creases, and the borders of a surface. */
 #include "visibility/contour/zero_finder.h"
 
+#include <math.h>
 #include <string.h>
 
 /* A share of a triangle's height that is nearly nothing. */
 #define CREASE_SHARE 0x1p-10
+
+/* The height over a crease, at most, as a multiple of the triangles' least: a
+ * long face that ends at its short side is no coarser than it is wide. */
+#define CREASE_HEIGHTS 2
 
 /* ---- Creases ------------------------------------------------------------- */
 
@@ -37,6 +42,41 @@ static bool is_front(const struct facing *f, uint32_t face) {
   return vector_dot(n, v) < 0;
 }
 
+/* The height of a face over its longest side.
+ * normal  twice its area in length */
+static double least_height(const struct facing *f, uint32_t face,
+                           const double normal[3]) {
+  double longest = 0;
+  for (uint32_t c = scene_face_start(f->scene, face);
+       c < scene_face_start(f->scene, face + 1); c++) {
+    double at[3], side[3];
+    facing_position(f, facing_point(f, c), at);
+    facing_position(f, facing_point(f, scene_next_corner(f->scene, face, c)),
+                    side);
+    for (int k = 0; k < 3; k++)
+      side[k] -= at[k];
+    longest = fmax(longest, vector_dot(side, side));
+  }
+  return longest > 0 ? sqrt(vector_dot(normal, normal) / longest) : 0;
+}
+
+/* Sets how uneven the mesh is about a segment along a crease.
+ * along          the crease
+ * first, second  the normals of its faces, twice their areas in length */
+static void measure_crease(const struct facing *f,
+                           const struct topology_edge *e, const double along[3],
+                           const double first[3], const double second[3],
+                           struct contour_segment *s) {
+  double least = fmin(vector_dot(first, first), vector_dot(second, second));
+  s->width = fmin(least_height(f, e->first, first),
+                  least_height(f, e->second, second));
+  s->height =
+      fmin(sqrt(least / vector_dot(along, along)), CREASE_HEIGHTS * s->width);
+  /* Where the faces themselves fold over, the mesh about it is not uneven. */
+  if ((is_front(f, e->first) == is_front(f, e->second)) == e->same_way)
+    s->width *= CREASE_SHARE;
+}
+
 /* The segment along a crease from one node to another. */
 static bool add_along_crease(struct zero_finder *z, uint32_t edge,
                              const uint32_t node[2]) {
@@ -48,11 +88,13 @@ static bool add_along_crease(struct zero_finder *z, uint32_t edge,
   uint32_t c = facing_corner_of_edge(f, e->second, edge);
   newell_normal_of_face(f->scene, e->first, first);
   newell_normal_of_face(f->scene, e->second, second);
-  double least = fmin(vector_dot(first, first), vector_dot(second, second));
-  (void)vector_normalise(first);
-  (void)vector_normalise(second);
   facing_position(f, e->point[0], at);
   facing_position(f, e->point[1], along);
+  for (int k = 0; k < 3; k++)
+    along[k] -= at[k];
+  measure_crease(f, e, along, first, second, &s);
+  (void)vector_normalise(first);
+  (void)vector_normalise(second);
   /* Convex where the other face lies behind this one. */
   facing_position(
       f,
@@ -63,14 +105,9 @@ static bool add_along_crease(struct zero_finder *z, uint32_t edge,
   for (int k = 0; k < 3; k++) {
     s.normal[k] = first[k] + (e->same_way ? -second[k] : second[k]);
     beyond[k] -= at[k];
-    along[k] -= at[k];
   }
   (void)vector_normalise(s.normal);
   s.radial = -vector_dot(beyond, first);
-  /* Where the faces themselves fold over, the mesh about it is not uneven. */
-  s.width = s.height = sqrt(least / vector_dot(along, along));
-  if ((is_front(f, e->first) == is_front(f, e->second)) == e->same_way)
-    s.width *= CREASE_SHARE;
   return zero_finder_add_segment(z, s);
 }
 

@@ -30,7 +30,8 @@ struct contour_segment {
                           g along the view; negative where the surface's normal
                           curves into the line of sight */
   bool along_crease;
-  double height; /* the triangle's least, scene units */
+  double height; /* the triangle's least, scene units; of a crease, over that
+                    or twice the least */
   double width;  /* how uneven the mesh is about it: by its height; nearly 0 at
                     a crease at which the faces themselves fold over */
 };
