@@ -537,6 +537,59 @@ static void a_crease_close_to_its_angle_is_decided_in_double(void **state) {
   }
 }
 
+/* How many of the sides of a prism of twelve are creases beyond an angle.
+ * scale   its radius
+ * at      the coordinates of its middle
+ * single  they are rounded to single precision, as is stated */
+static int count_prism_creases(double scale, double at, bool single,
+                               double crease_deg) {
+  enum { SIDES = 12 };
+  struct scene scene;
+  struct topology topology;
+  uint8_t class_masks[3 * SIDES];
+  uint32_t p[2 * SIDES];
+  int creases = 0;
+  scene_init(&scene);
+  build_group(&scene, "prism");
+  for (int i = 0; i < 2 * SIDES; i++) {
+    double angle = (0.3 + i % SIDES) * acos(-1) / 6;
+    double x = at + scale * cos(angle), y = at + scale * sin(angle);
+    double z = at + (i < SIDES ? scale : -scale);
+    p[i] = single ? build_point(&scene, (float)x, (float)y, (float)z)
+                  : build_point(&scene, x, y, z);
+  }
+  for (int i = 0; i < SIDES; i++)
+    build_quad(&scene, p[i], p[SIDES + i], p[SIDES + (i + 1) % SIDES],
+               p[(i + 1) % SIDES]);
+  if (single)
+    assert_int_equal(
+        scene_state_precision(&scene, 0, precision_of_bits(24), NULL),
+        RECTO_OK);
+  find(&topology, &scene);
+  assert_int_equal(topology.edge.count, 3 * SIDES);
+  assert_true(topology_class_masks(&topology, &scene, crease_deg, class_masks));
+  for (uint32_t e = 0; e < 3 * SIDES; e++) {
+    assert_int_equal(class_masks[e],
+                     topology_class_mask(&topology, &scene, e, crease_deg));
+    creases += class_masks[e] == RECTO_EDGE_CREASE;
+  }
+  topology_fini(&topology);
+  scene_fini(&scene);
+  return creases;
+}
+
+/* Its sides meet at the crease angle but for what rounding did: of each pair
+ * one more and one less. */
+static void a_prism_of_twelve_has_no_creases_by_rounding(void **state) {
+  (void)state;
+  for (double scale = 0.125; scale < 1000; scale *= 3)
+    for (double at = 0; at < 20 * scale; at += 7 * scale) {
+      assert_int_equal(count_prism_creases(scale, at, true, 30), 0);
+      assert_int_equal(count_prism_creases(scale, at, true, 29.99), 12);
+      assert_int_equal(count_prism_creases(scale, at, false, 29.99999), 12);
+    }
+}
+
 static void creases_do_not_depend_on_the_unit(void **state) {
   (void)state;
   for (int exponent = -1000; exponent <= 1000; exponent += 50) {
@@ -742,6 +795,7 @@ int main(void) {
       cmocka_unit_test(edges_that_only_the_weld_makes_whole_are_counted_once),
       cmocka_unit_test(a_crease_is_beyond_the_angle_and_not_at_it),
       cmocka_unit_test(a_crease_close_to_its_angle_is_decided_in_double),
+      cmocka_unit_test(a_prism_of_twelve_has_no_creases_by_rounding),
       cmocka_unit_test(creases_do_not_depend_on_the_unit),
       cmocka_unit_test(creases_need_one_that_is_strong),
       cmocka_unit_test(a_face_folded_back_is_a_crease),

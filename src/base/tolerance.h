@@ -110,6 +110,27 @@
  * Ten times   joints within 5e-8 rad of the crease angle count as within. */
 #define TOLERANCE_CREASE_COSINE (8 * 0x1p-53)
 
+/* A face turns by rounding by no more than so many errors of its largest
+ * coordinate over its least height.
+ * Unit        1
+ * Derivation  where one corner moves by the root of three of an error one way
+ *             and others the other way, it turns by 3.5 of them over its
+ *             height: rounded up.
+ * Users       scene/crease_rounding.c
+ * Ten times   in single precision creases of 30.01 degrees are none where faces
+ *             are a hundredth of the model wide. */
+#define TOLERANCE_CREASE_ERRORS 4
+
+/* What rounding of coordinates changes of the cosine between two faces counts
+ * as no more than this.
+ * Unit        1 (a cosine)
+ * Derivation  a tenth of a degree about 30: faces that rounding turns by more
+ *             have no angle to speak of.
+ * Users       scene/crease_rounding.c, scene/edge_classes.c
+ * Ten times   faces a millionth of the model wide have no creases up to 31
+ *             degrees. */
+#define TOLERANCE_CREASE_ROUNDING 0x1p-10
+
 /* The up direction and the view direction are one if the sine between them is
  * not above this.
  * Unit        1 (a sine)

@@ -17,6 +17,7 @@
 #include "base/tolerance.h"
 #include "scene/angle.h"
 #include "scene/crease_marks.h"
+#include "scene/crease_rounding.h"
 
 /* Two normals bend by more than the crease angle where their cosine is below
  * this; an angle of 180 degrees or more is never passed. */
@@ -26,11 +27,18 @@ double topology_crease_cosine(double crease_deg) {
   return angle_of_degrees(crease_deg).cosine - TOLERANCE_CREASE_COSINE;
 }
 
-static bool is_crease(struct face_normal a, struct face_normal b, bool same_way,
-                      double crease_cosine) {
+/* An angle that exceeds the crease angle by what rounding explains is none: at
+ * the sides of a prism of twelve it would be beyond it or not by chance. */
+static bool is_crease(const struct scene *scene,
+                      const struct topology_edge *edge, double crease_cosine) {
+  struct face_normal a = face_normal_of(scene, edge->first);
+  struct face_normal b = face_normal_of(scene, edge->second);
   double dot = a.x * b.x + a.y * b.y + a.z * b.z;
   double lengths = sqrt(a.square * b.square);
-  return (same_way ? -dot : dot) < crease_cosine * lengths && lengths > 0;
+  double below = crease_cosine * lengths - (edge->same_way ? -dot : dot);
+  return below > 0 && lengths > 0 &&
+         (below > TOLERANCE_CREASE_ROUNDING * lengths ||
+          below > crease_rounding(scene, edge, crease_cosine) * lengths);
 }
 
 /* What needs no normals: BORDER alone, or GROUP or nothing. */
@@ -105,9 +113,7 @@ unsigned topology_class_mask_by_cosine(const struct topology *topology,
                                        double crease_cosine) {
   const struct topology_edge *e = &topology->edge.item[edge];
   unsigned class_mask = plain_class_mask(e, scene);
-  if (e->uses == 2 &&
-      is_crease(face_normal_of(scene, e->first),
-                face_normal_of(scene, e->second), e->same_way, crease_cosine))
+  if (e->uses == 2 && is_crease(scene, e, crease_cosine))
     class_mask |= RECTO_EDGE_CREASE;
   class_mask = crease_mark_apply(topology, edge, class_mask);
   if (scene->cut != NULL)
@@ -154,11 +160,10 @@ static bool exceeds_crease_angle(const struct crease_filter *filter,
     return false;
   bool is_known =
       (a.x != 0 || a.y != 0 || a.z != 0) && (b.x != 0 || b.y != 0 || b.z != 0);
-  if (is_known && cosine < filter->crease_cosine - filter_error)
+  if (is_known &&
+      cosine < filter->crease_cosine - filter_error - TOLERANCE_CREASE_ROUNDING)
     return true;
-  return is_crease(face_normal_of(filter->scene, edge->first),
-                   face_normal_of(filter->scene, edge->second), edge->same_way,
-                   filter->crease_cosine);
+  return is_crease(filter->scene, edge, filter->crease_cosine);
 }
 
 unsigned crease_filter_class_mask(const struct crease_filter *filter,

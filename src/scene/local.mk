@@ -7,6 +7,7 @@ librecto_core_la_SOURCES += \
   %D%/corner_edges.c \
   %D%/corner_normals.c %D%/corner_normals.h \
   %D%/crease_marks.c %D%/crease_marks.h \
+  %D%/crease_rounding.c %D%/crease_rounding.h \
   %D%/diagnostics.c %D%/diagnostics.h \
   %D%/ear_clipping.c %D%/ear_clipping.h \
   %D%/edge_classes.c %D%/edge_classes.h \
