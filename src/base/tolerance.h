@@ -19,15 +19,12 @@
  *             0.71 across any line; of two pieces of one line, each end lies
  *             within 2 * 0.71 = 1.41 of the other piece: rounded up.
  * Users       ink/lines/free_ends.c, ink/lines/isolated.c, ink/lines/nodes.c,
- *             ink/lines/overlap_collinear.c,
- *             ink/lines/overlap.c, ink/lines/overlap_output.c,
- *             ink/lines/short_spurs.c,
+ *             ink/lines/overlap_collinear.c, ink/lines/overlap.c,
+ *             ink/lines/overlap_output.c, ink/lines/short_spurs.c,
  *             ink/hatch/hatch_lines.c, ink/hatch/inset.c,
- *             visibility/contour/border_ends.c,
- *             visibility/contour/line_ends.c,
+ *             visibility/contour/border_ends.c, visibility/contour/line_ends.c,
  *             visibility/contour/nearest_contours.c,
- *             visibility/contour/outline_gaps.c,
- *             visibility/index/bsp_plane.h,
+ *             visibility/contour/outline_gaps.c, visibility/index/bsp_plane.h,
  *             visibility/intersection/edge_crossing.c
  * Ten times   lines 20 nm apart, such as two models side by side, become one:
  *             still far below what a pen can show. */
