@@ -1,8 +1,8 @@
 /* slits.c - follows pairs of borders along each other.
  *
  * Phases
- *   shared  whether there is a point at which two faces have borders; in a soup
- *           of separate triangles there is none.
+ *   shared  where borders are many, whether there is a point at which two faces
+ *           have some; in a soup of separate triangles there is none.
  *   ends    of all borders, sorted by their points.
  *   follow  two borders from each point where the one lies on the other: the
  *           one that ends first is continued, and its end noted on the other,
@@ -20,7 +20,8 @@
 #include "scene/exact.h"
 #include "scene/thin_faces.h"
 
-enum { ENDS_MAX = 16 };
+/* Of fewer borders than one for so many points the ends are sorted at once. */
+enum { ENDS_MAX = 16, FEW_BORDERS = 16 };
 
 struct slit_search {
   const struct scene *scene;
@@ -244,7 +245,8 @@ bool slits_find(const struct scene *scene, const struct topology *topology,
                                .topology = topology,
                                .unstated = unstated,
                                .found = found};
-  if (topology->borders == 0 || !has_shared_point(&search))
+  bool many = topology->borders > scene->point.count / FEW_BORDERS;
+  if (topology->borders == 0 || (many && !has_shared_point(&search)))
     return !search.out_of_memory;
   search.closed =
       mem_calloc(topology->edge.count / 64 + 1, sizeof *search.closed);
