@@ -23,14 +23,31 @@ enum { BSP_LIST_MIN = 256 };
  * of the first few has it. */
 enum { FACE_LIST_MIN = 64, FIRST_SAMPLES = 12, SAMPLE_STEP = 37 };
 
-/* Makes what is used of a triangle; returns the depth of its farthest corner.
+/* Makes the box of a triangle that has its corners, and finds the cell of its
+ * lower left corner: nothing is outside of the grid. */
+static inline void make_box(const struct pair_sweep *sweep,
+                            struct swept_triangle *s, struct swept_box *box) {
+  const struct geom_point *p = s->corners.p;
+  point_lanes a = point_lanes_of(&p[0]), b = point_lanes_of(&p[1]),
+              c = point_lanes_of(&p[2]),
+              low = point_lanes_min(point_lanes_min(a, b), c),
+              high = point_lanes_max(point_lanes_max(a, b), c),
+              cell = (low - sweep->first) >> sweep->grid->shift;
+  s->box = (struct box2){low[0], low[1], high[0], high[1]};
+  s->x0 = cell[0];
+  s->y0 = cell[1];
+  *box = swept_box_of(low, high, (cell < sweep->cell) & sweep->selected);
+}
+
+/* Makes what is used of a triangle, and its box; returns the depth of its
+ * farthest corner.
  * right_copy  of bsp.h; 0 where the list is that of a cell */
 static inline int64_t make_swept_triangle(const struct pair_sweep *sweep,
                                           uint32_t triangle,
                                           uint64_t right_copy,
-                                          struct swept_triangle *s) {
+                                          struct swept_triangle *s,
+                                          struct swept_box *box) {
   const struct sheet *sheet = sweep->sheet;
-  const struct triangle_grid *grid = sweep->grid;
   const uint32_t *own = sheet->triangle.item[triangle].point;
   const int32_t p = (int32_t)own[0], q = (int32_t)own[1], r = (int32_t)own[2];
   int64_t low;
@@ -38,11 +55,11 @@ static inline int64_t make_swept_triangle(const struct pair_sweep *sweep,
   s->point[1] = (swept_numbers){q, r, p};
   s->point[2] = (swept_numbers){r, p, q};
   s->corners = sheet_corners(sheet, triangle);
-  s->box =
-      box2_of_corners(&s->corners.p[0], &s->corners.p[1], &s->corners.p[2]);
+  make_box(sweep, s, box);
   geom_depth_range(s->corners.p, &low, &s->high);
-  s->x0 = triangle_grid_cell(s->box.x0, grid->x0, grid->shift, grid->columns);
-  s->y0 = triangle_grid_cell(s->box.y0, grid->y0, grid->shift, grid->rows);
+  for (int k = 0; k < 3; k++)
+    s->side[k] =
+        vector_between(s->corners.p[k], s->corners.p[geom_next_corner(k)]);
   s->triangle = triangle;
   s->right_copy = right_copy;
   s->in_group = false;
@@ -148,9 +165,11 @@ static inline bool visit_pair(const struct pair_sweep *sweep,
 /* Starts a list, with room for n triangles. */
 static bool start_list(struct pair_sweep *sweep, size_t n) {
   sweep->swept.count = 0;
-  sweep->left = sweep->x > 0 && is_pair_selected(sweep, sweep->x - 1, sweep->y);
-  sweep->below =
-      sweep->y > 0 && is_pair_selected(sweep, sweep->x, sweep->y - 1);
+  bool left = sweep->x > 0 && is_pair_selected(sweep, sweep->x - 1, sweep->y),
+       below = sweep->y > 0 && is_pair_selected(sweep, sweep->x, sweep->y - 1);
+  sweep->first = (point_lanes){sweep->grid->x0, sweep->grid->y0};
+  sweep->cell = (point_lanes){sweep->x, sweep->y};
+  sweep->selected = (point_lanes){-left, -below};
   return ARRAY_RESERVE(&sweep->swept, n) && ARRAY_RESERVE(&sweep->box, n) &&
          ARRAY_RESERVE(&sweep->key, 2 * n) && ARRAY_RESERVE(&sweep->met_now, n);
 }
@@ -159,10 +178,8 @@ static bool start_list(struct pair_sweep *sweep, size_t n) {
 static inline void add_to_list(struct pair_sweep *sweep, uint32_t triangle,
                                uint64_t right_copy) {
   size_t i = sweep->swept.count++;
-  struct swept_triangle *s = &sweep->swept.item[i];
-  int64_t low = make_swept_triangle(sweep, triangle, right_copy, s);
-  sweep->box.item[i] =
-      swept_box_of(s, sweep->x, sweep->y, sweep->left, sweep->below);
+  int64_t low = make_swept_triangle(sweep, triangle, right_copy,
+                                    &sweep->swept.item[i], &sweep->box.item[i]);
   sweep->key.item[i] = (struct sort_key){(uint64_t)low, (uint32_t)i};
 }
 

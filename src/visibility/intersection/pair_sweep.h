@@ -7,6 +7,7 @@
 #include "visibility/index/bsp.h"
 #include "visibility/index/triangle_grid.h"
 #include "visibility/predicate/coarse_plane.h"
+#include "visibility/predicate/point_lanes.h"
 #include "visibility/progress.h"
 
 struct swept_triangle; /* swept_triangle.h */
@@ -23,10 +24,12 @@ struct pair_sweep {
   struct progress *progress; /* counts the work */
   uint64_t met; /* the number of pairs of one list whose ranges overlap, in
                    depth or along the list's direction */
-  struct occlusion_bound all;         /* of contact tolerances */
-  int x, y;                           /* the current cell */
-  bool left, below;                   /* the cells before it in its row and in
-                                           its column are selected */
+  struct occlusion_bound all; /* of contact tolerances */
+  int x, y;                   /* the current cell */
+  point_lanes first;          /* the grid's lower left corner */
+  point_lanes cell;           /* x, y */
+  point_lanes selected; /* -1 in lanes 0 and 1 where the cell before it in its
+                           row, in its column is selected; else 0 */
   ARRAY(struct swept_triangle) swept; /* those of the current list */
   ARRAY(struct swept_box) box;        /* of these */
   ARRAY(uint32_t) met_now; /* scratch: those that a triangle is tested with */

@@ -6,9 +6,20 @@
 #include "visibility/predicate/box2.h"
 #include "visibility/predicate/coarse_plane.h"
 #include "visibility/predicate/plane_filter.h"
+#include "visibility/predicate/point_lanes.h"
 
 typedef int32_t swept_numbers __attribute__((vector_size(16)));
 typedef int64_t swept_pair __attribute__((vector_size(16)));
+
+/* A vector on the page. */
+struct page_vector {
+  int64_t x, y;
+};
+
+static inline struct page_vector vector_between(struct geom_point a,
+                                                struct geom_point b) {
+  return (struct page_vector){(int64_t)b.x - a.x, (int64_t)b.y - a.y};
+}
 
 /* What the tests use of a triangle, computed once per list, in its order; keys
  * say which comes when. */
@@ -21,9 +32,10 @@ struct swept_triangle {
   swept_numbers point[3]; /* its points: from the first one on, from the second,
                              and from the third */
   struct geom_triangle corners;
-  uint64_t right_copy;  /* bsp.h */
-  bool in_group;        /* it is not tested with others that are, too */
-  bool has_inner_sides; /* some side is no edge of the mesh */
+  struct page_vector side[3]; /* from each corner to the next one */
+  uint64_t right_copy;        /* bsp.h */
+  bool in_group;              /* it is not tested with others that are, too */
+  bool has_inner_sides;       /* some side is no edge of the mesh */
   bool has_coarse_plane, has_plane; /* they have been computed */
   struct coarse_plane coarse_plane;
   struct plane_filter plane;
@@ -36,15 +48,15 @@ struct swept_box {
   swept_numbers begin[2], end[2];
 };
 
-/* left, below  is the cell before in the row, in the column, selected? */
-static inline struct swept_box swept_box_of(const struct swept_triangle *s,
-                                            int x, int y, bool left,
-                                            bool below) {
-  int in_left = left && s->x0 < x, in_below = below && s->y0 < y;
+/* low, high  the ends of the box; the complements of ends have their order
+ *            reversed
+ * before     -1 in lanes 0 and 1 where it is listed in such a cell; else 0 */
+static inline struct swept_box swept_box_of(point_lanes low, point_lanes high,
+                                            point_lanes before) {
+  swept_pair from = (swept_pair)low, to = (swept_pair)high;
   return (struct swept_box){
-      {{s->box.x0, s->box.y0, -s->box.x1, -s->box.y1}, {in_left, in_below}},
-      {{s->box.x1, s->box.y1, -s->box.x0, -s->box.y0},
-       {1 - in_left, 1 - in_below}}};
+      {(swept_numbers)(swept_pair){from[0], ~to[0]}, -before},
+      {(swept_numbers)(swept_pair){to[0], ~from[0]}, 1 + before}};
 }
 
 /* Do two boxes meet, and are they not tested in a cell before? */
@@ -80,36 +92,26 @@ static inline unsigned shared_corners(const struct swept_triangle *f,
   return (unsigned)(all | all >> 32);
 }
 
-/* A vector on the page. */
-struct page_vector {
-  int64_t x, y;
-};
-
-static inline struct page_vector vector_between(struct geom_point a,
-                                                struct geom_point b) {
-  return (struct page_vector){(int64_t)b.x - a.x, (int64_t)b.y - a.y};
-}
-
 /* The cross product of two vectors, in 63 bits. */
 static inline int64_t cross_product(struct page_vector a,
                                     struct page_vector b) {
   return a.x * b.y - a.y * b.x;
 }
 
-/* Do two counter-clockwise triangles that share a corner, i of p and j of q,
+/* Do two counter-clockwise triangles that share a corner, i of f and j of g,
  * have no other point of the page in common?  On a dense mesh nearly all such
  * pairs have none.  So it is where a side that ends in that corner separates
  * them: all of the other triangle is strictly to the right of the side that
  * begins there, or to the left of the one that ends there. */
-static inline bool are_disjoint_at_corner(const struct geom_point p[3], int i,
-                                          const struct geom_point q[3], int j) {
-  struct page_vector f_next = vector_between(p[i], p[geom_next_corner(i)]),
-                     f_last = vector_between(p[i], p[i == 0 ? 2 : i - 1]),
-                     g_next = vector_between(q[j], q[geom_next_corner(j)]),
-                     g_last = vector_between(q[j], q[j == 0 ? 2 : j - 1]);
+static inline bool are_disjoint_at_corner(const struct swept_triangle *f, int i,
+                                          const struct swept_triangle *g,
+                                          int j) {
+  const struct page_vector f_next = f->side[i], g_next = g->side[j];
+  const struct page_vector f_last = f->side[i == 0 ? 2 : i - 1],
+                           g_last = g->side[j == 0 ? 2 : j - 1];
   int64_t next_next = cross_product(f_next, g_next),
-          next_last = cross_product(f_next, g_last),
-          last_next = cross_product(f_last, g_next),
+          next_last = -cross_product(f_next, g_last),
+          last_next = -cross_product(f_last, g_next),
           last_last = cross_product(f_last, g_last);
   return (next_next & next_last) < 0 || ((last_next > 0) & (last_last > 0)) ||
          ((next_next > 0) & (last_next > 0)) || (next_last & last_last) < 0;
@@ -150,8 +152,7 @@ static inline bool are_neighbours(const struct sheet *sheet,
     return false;
   if (others == 0) {
     int first = __builtin_ctz(shared);
-    return are_disjoint_at_corner(f->corners.p, first / 3, g->corners.p,
-                                  first % 3);
+    return are_disjoint_at_corner(f, first / 3, g, first % 3);
   }
   return (others & (others - 1)) != 0 || are_neighbours_at_side(sheet, f, g);
 }
