@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
+#include "base/poll.h"
 #include "base/sort.h"
 #include "geom/line_key.h"
 
@@ -14,6 +15,9 @@
  * entries, and as many cells, for n sides: memory is linear in the sides, and
  * small inputs get smaller cells. */
 enum { ENTRIES_PER_SIDE = 4, ENTRIES_PER_SIDE_MAX = 16, SMALL_SIZE = 1 << 20 };
+
+/* Adding up the starts of all parts is left to one thread. */
+enum { PARTS_MAX = 8 };
 
 enum { SORTED_BY_INSERTION = 24 }; /* entries of a cell, at most */
 
@@ -28,7 +32,9 @@ struct gathered_sides {
   size_t count;
   uint32_t *line;             /* the keys of their lines, three a triangle */
   struct side_extent *extent; /* one a worker */
-  bool is_shared;             /* several threads count and store */
+  size_t items;               /* triangles of a part, each of which has */
+  uint32_t *start[PARTS_MAX]; /* ends of its own in the lists; the first: those
+                                 of the index */
 };
 
 /* What is measured of sides: their bounding box, and the sum of the widths and
@@ -137,53 +143,56 @@ static bool measure_sides(struct gathered_sides *sides, int workers) {
 
 /* ---- The lists ----------------------------------------------------------- */
 
-/* Counts an entry of a cell or, once there is room, stores it. */
-static inline void put_side_entry(const struct gathered_sides *sides,
-                                  uint32_t *end, uint64_t entry) {
-  uint64_t *stored = sides->index->entry;
-  if (stored == NULL && sides->is_shared)
-    (void)__atomic_add_fetch(end, 1, __ATOMIC_RELAXED);
-  else if (stored == NULL)
-    ++*end;
-  else
-    stored[sides->is_shared ? __atomic_sub_fetch(end, 1, __ATOMIC_RELAXED)
-                            : --*end] = entry;
-}
-
-static void put_side(const struct gathered_sides *sides,
+/* Counts an entry of the cells that a side meets or, once there is room, stores
+ * it.
+ * start  of this part */
+static void put_side(const struct gathered_sides *sides, uint32_t *start,
                      const struct geom_point end[2], uint64_t entry) {
   const struct triangle_grid *shape = &sides->index->shape;
+  uint64_t *stored = sides->index->entry;
   struct cell_range r =
       triangle_grid_cells(shape, box2_of_segment(end[0], end[1]));
   for (int y = r.y0; y <= r.y1; y++) {
     int x0, x1;
     triangle_grid_row(shape, end[0], end[1], r, y, &x0, &x1);
-    for (int x = x0; x <= x1; x++)
-      put_side_entry(
-          sides, &sides->index->start[triangle_grid_index(shape, x, y)], entry);
+    for (int x = x0; x <= x1; x++) {
+      uint32_t *last = &start[triangle_grid_index(shape, x, y)];
+      if (stored == NULL)
+        ++*last;
+      else
+        stored[--*last] = entry;
+    }
   }
 }
 
 static bool put_range(void *user, struct parallel_range range) {
   const struct gathered_sides *sides = user;
+  uint32_t *start = sides->start[range.begin / sides->items];
   for (size_t i = range.begin; i < range.end; i++) {
     uint32_t t = sides->triangle[i];
     struct geom_point end[2];
+    if (!poll_at(i))
+      return false;
     prefetch_later(sides, i, range.end);
     for (uint32_t k = 0; k < 3 && !sheet_is_edge_on(sides->sheet, t); k++)
       if (is_edge(sides->sheet, t, (int)k, end))
-        put_side(sides, end,
+        put_side(sides, start, end,
                  (uint64_t)sides->line[3 * i + k] << 32 | (3 * t + k));
   }
   return true;
 }
 
-/* Lets each list begin where it ends; returns false where memory ran out, or
- * where there are 2^32 entries. */
-static bool allocate_lists(struct line_index *index, size_t cells) {
+/* Lets each part of a list begin where it ends; returns false where memory ran
+ * out, or where there are 2^32 entries. */
+static bool allocate_lists(const struct gathered_sides *sides, size_t parts,
+                           size_t cells) {
+  struct line_index *index = sides->index;
   size_t sum = 0;
   for (size_t i = 0; i < cells; i++)
-    index->start[i] = (uint32_t)(sum += index->start[i]);
+    for (size_t p = 0; p < parts; p++) {
+      sum += sides->start[p][i];
+      sides->start[p][i] = (uint32_t)sum;
+    }
   if (sum > UINT32_MAX)
     return false;
   index->start[cells] = (uint32_t)sum;
@@ -224,19 +233,28 @@ static bool sort_cells_of_range(void *user, struct parallel_range range) {
   return true;
 }
 
+/* Counts and stores by parts, each of one thread: if they shared the ends of
+ * the lists, each of them would wait for memory at every entry, one after the
+ * other. */
 static bool make_lists(struct gathered_sides *sides, int workers) {
   struct line_index *index = sides->index;
-  size_t cells = triangle_grid_cell_count(&index->shape);
-  index->start = mem_calloc(cells + 1, sizeof *index->start);
-  sides->is_shared = workers > 1;
-  return index->start != NULL &&
-         parallel_ranges(workers, sides->count, PARALLEL_ITEMS, put_range,
-                         sides) &&
-         allocate_lists(index, cells) &&
-         parallel_ranges(workers, sides->count, PARALLEL_ITEMS, put_range,
-                         sides) &&
-         parallel_ranges(parallel_workers(cells, PARALLEL_ITEMS), cells,
-                         PARALLEL_ITEMS, sort_cells_of_range, index);
+  size_t cells = triangle_grid_cell_count(&index->shape), made = 0,
+         parts = workers < PARTS_MAX ? (size_t)workers : PARTS_MAX;
+  sides->items = sides->count / parts + 1;
+  for (bool ok = true; ok && made < parts; made += ok) {
+    sides->start[made] = mem_calloc(cells + 1, sizeof *index->start);
+    ok = sides->start[made] != NULL;
+  }
+  index->start = sides->start[0];
+  bool ok =
+      made == parts &&
+      parallel_ranges(workers, sides->count, sides->items, put_range, sides) &&
+      allocate_lists(sides, parts, cells) &&
+      parallel_ranges(workers, sides->count, sides->items, put_range, sides);
+  for (size_t p = 1; p < parts; p++)
+    mem_free(sides->start[p]);
+  return ok && parallel_ranges(parallel_workers(cells, PARALLEL_ITEMS), cells,
+                               PARALLEL_ITEMS, sort_cells_of_range, index);
 }
 
 bool line_index_init(struct line_index *index, const struct sheet *sheet,
