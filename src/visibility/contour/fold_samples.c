@@ -13,7 +13,7 @@ enum { SAMPLES_A_HEIGHT = 4, SAMPLES_MAX = 64 };
 /* The length of a run, at least, as a multiple of the mean height of its
  * triangles, and the outlines that it is of. */
 #define LONG_HEIGHTS 6
-enum { MANY_OUTLINES = 10, FEW_OUTLINES = 2 };
+enum { MANY_OUTLINES = 10, FEW_OUTLINES = 3 };
 
 /* The share of a run that may be on creases. */
 #define CREASE_SHARE 0.5
