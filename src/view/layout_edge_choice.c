@@ -163,12 +163,20 @@ static inline void choose_class(const struct edge_choice *c, uint32_t e,
     c->special[e / 64] |= bit;
 }
 
-/* Chooses the requested edges of a range, and contours. */
+/* Chooses the requested edges of a range, and contours.  Most are smooth. */
 static bool choose_edges(void *user, struct parallel_range range) {
   const struct edge_choice c = *(const struct edge_choice *)user;
+  uint64_t *bits = c.layout->ids.bits;
+  bool made = c.all_edges || c.smooth != 0;
   for (uint32_t e = (uint32_t)range.begin; e < range.end; e++) {
-    bool between = is_between_sides(&c, e);
-    choose_class(&c, e, between, between && is_plainly_smooth(&c, e));
+    bool between = is_between_sides(&c, e),
+         smooth = between && is_plainly_smooth(&c, e);
+    if (smooth && c.all_on_page) {
+      c.class_masks[e] = (uint8_t)c.smooth;
+      bits[e / 64] |= (uint64_t)made << e % 64;
+    } else {
+      choose_class(&c, e, between, smooth);
+    }
   }
   return true;
 }
