@@ -236,6 +236,33 @@ static void files_may_end_anywhere(void **state) {
   free(text.bytes);
 }
 
+/* Room for the rest of a large file is made at once, and what is too much of it
+ * given back. */
+static void large_files_have_the_room_that_they_need(void **state) {
+  enum { LARGE = 17 << 20 };
+  (void)state;
+  if (is_under_valgrind())
+    skip();
+  struct text text = {malloc(LARGE + LONGEST), 0};
+  struct random random = {7};
+  struct reading reading;
+  assert_non_null(text.bytes);
+  for (int i = 0; i < POINTS; i++)
+    put_point(&text, &random);
+  while (text.count < LARGE)
+    put(&text, "f 10000 10010 10023\n");
+  reading_init(&reading);
+  assert_int_equal(reading_bytes(&reading, &reader_obj, text.bytes, text.count),
+                   RECTO_OK);
+  const struct scene *scene = &reading.scene;
+  assert_int_equal(scene->point.count, POINTS);
+  assert_int_equal(scene->point.capacity, scene->point.count);
+  assert_int_equal(scene->corner.capacity, scene->corner.count);
+  assert_null(reading_fault(scene));
+  reading_fini(&reading);
+  free(text.bytes);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(plain_files_are_read_alike),
@@ -244,6 +271,7 @@ int main(void) {
                                       temporary_set_up, temporary_tear_down),
       cmocka_unit_test_setup_teardown(points_may_follow_runs_of_faces,
                                       temporary_set_up, temporary_tear_down),
-      cmocka_unit_test(files_may_end_anywhere)};
+      cmocka_unit_test(files_may_end_anywhere),
+      cmocka_unit_test(large_files_have_the_room_that_they_need)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
