@@ -215,6 +215,22 @@ static void borders_reach_the_contours_that_end_on_them(void **state) {
   }
 }
 
+/* Their contours turn back shortly before they end on a border, so that the
+ * last segment says nothing of the side on which the border goes on. */
+static void borders_are_not_cut_off_by_hooks(void **state) {
+  static const double view[][2] = {
+      {79, -10}, {79, 19}, {103, -10}, {103, 19}, {295, 48}};
+  (void)state;
+  recto_scene *scene = open_scene(waves, OPEN, 48, 48);
+  for (size_t v = 0; v < sizeof view / sizeof *view; v++) {
+    double mm = bare_length(scene, view[v][0], view[v][1]);
+    /* 1.37 to 2.92 where that segment is asked. */
+    if (!(mm < 0.3))
+      fail_msg("%g/%g degrees: %g mm are bare", view[v][0], view[v][1], mm);
+  }
+  recto_scene_destroy(scene);
+}
+
 /* The distance from a stroke's end to other silhouettes and borders, mm. */
 static double distance_to_others(const recto_drawing *drawing, size_t stroke,
                                  const double at[2]) {
@@ -286,6 +302,7 @@ int main(void) {
       cmocka_unit_test(waves_of_warped_faces_have_their_whole_outline),
       cmocka_unit_test(the_outline_of_folds_is_covered),
       cmocka_unit_test(borders_reach_the_contours_that_end_on_them),
+      cmocka_unit_test(borders_are_not_cut_off_by_hooks),
       cmocka_unit_test(the_rim_of_the_teapot_reaches_its_contour),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

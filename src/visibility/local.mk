@@ -54,6 +54,7 @@ librecto_core_la_SOURCES += \
   %D%/contour/contour_curves.c %D%/contour/contour_curves.h \
   %D%/contour/curved_triangle.c %D%/contour/curved_triangle.h \
   %D%/contour/corner_moves.c %D%/contour/corner_moves.h \
+  %D%/contour/curve_ends.c %D%/contour/curve_ends.h \
   %D%/contour/curve_pieces.c %D%/contour/curve_pieces.h \
   %D%/contour/divided_curves.c %D%/contour/divided_curves.h \
   %D%/contour/doubled_contours.c %D%/contour/doubled_contours.h \

@@ -8,6 +8,7 @@
 #include "base/tolerance.h"
 #include "geom/nearest.h"
 #include "visibility/contour/border_sides.h"
+#include "visibility/contour/curve_ends.h"
 #include "visibility/contour/segment_grid.h"
 
 /* The fractional bits of where a border is shown. */
@@ -113,7 +114,9 @@ static bool add_ends_on(struct border_ends *b,
     return true;
   for (int k = 0; k < 2; k++) {
     const struct geom_point at = k == 0 ? contour->p : contour->q;
-    const struct geom_point from = k == 0 ? contour->q : contour->p;
+    double wide = diameter_of_triangle(sheet, of->triangle[0]);
+    const struct geom_point from = curve_before_end(
+        sheet, b->in->first, contour->owner, k, HOOK_SHARE * wide);
     double px = (double)at.x - border->p.x, py = (double)at.y - border->p.y;
     double t = (px * x + py * y) / square;
     if (!is_end(b, of->point[k]) || !(t > 0 && t < 1) ||
@@ -247,18 +250,6 @@ static double contour_distance(const struct border_ends *b, uint32_t contour,
   return hypot(px - t * x, py - t * y);
 }
 
-/* The visible contour that goes on from another one at a point; SHEET_NONE. */
-static uint32_t next_contour(const struct border_ends *b, uint32_t contour,
-                             uint32_t point) {
-  for (uint32_t e = contour - 1; e != contour + 3; e += 2)
-    if (e >= b->in->first && e < b->in->sheet->edge.count &&
-        b->in->map->edge_state[e] != MAP_HIDDEN &&
-        (border_edge(b, e)->point[0] == point ||
-         border_edge(b, e)->point[1] == point))
-      return e;
-  return SHEET_NONE;
-}
-
 /* Whether the contour that ends on a border passes where that is visible: then
  * nothing is missing between the two. */
 static bool passes(const struct border_ends *b, const struct contour_end *end,
@@ -274,7 +265,7 @@ static bool passes(const struct border_ends *b, const struct contour_end *end,
     way += length_of_edge(b, contour);
     const uint32_t *ends = border_edge(b, contour)->point;
     point = ends[ends[0] == point];
-    contour = next_contour(b, contour, point);
+    contour = curve_next_edge(b->in->sheet, b->in->first, contour, point);
   }
   return false;
 }

@@ -5,6 +5,7 @@
 
 #include "base/poll.h"
 #include "base/sort.h"
+#include "visibility/contour/curve_ends.h"
 
 /* What continues a contour turns from it by no more than 60 degrees. */
 #define JOINT_COSINE 0.5
@@ -108,28 +109,12 @@ struct cell_range fold_joints_cells(const struct fold_joints *j, double x,
 static bool has_direction(const struct fold_joints *j, uint32_t edge, int k,
                           double distance, const struct fold_sample *s) {
   const struct sheet *sheet = j->in->sheet;
-  const uint32_t *point = sheet->edge.item[edge].point;
-  struct geom_point end = sheet->point.item[point[k]];
-  double x = 0, y = 0;
-  for (;;) {
-    struct geom_point to = sheet->point.item[point[1 - k]];
-    x = (double)to.x - end.x;
-    y = (double)to.y - end.y;
-    if (hypot(x, y) >= distance)
-      break;
-    /* The edges of a curve follow each other, either way. */
-    if (edge + 1 < sheet->edge.count &&
-        sheet->edge.item[edge + 1].point[k] == point[1 - k])
-      edge++;
-    else if (edge > j->in->first &&
-             sheet->edge.item[edge - 1].point[k] == point[1 - k])
-      edge--;
-    else
-      break;
-    point = sheet->edge.item[edge].point;
-  }
+  struct geom_point end = sheet->point.item[sheet->edge.item[edge].point[k]];
+  struct geom_point before =
+      curve_before_end(sheet, j->in->first, edge, k, distance);
+  double x = (double)end.x - before.x, y = (double)end.y - before.y;
   double along = x * s->along[0] + y * s->along[1];
-  return (k == 0 ? along : -along) >= JOINT_COSINE * hypot(x, y);
+  return (k == 1 ? along : -along) >= JOINT_COSINE * hypot(x, y);
 }
 
 /* Finds the end of a contour that a line continues at a sample, if `k` is 1, or

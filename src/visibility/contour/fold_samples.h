@@ -49,8 +49,8 @@ USE_RESULT bool fold_samples_add(struct fold_samples *samples,
  * height  gets that height */
 bool fold_run_is_long(struct fold_run run, double *height);
 
-/* Whether a run is so many of these heights long, and of three outlines at least,
- * no more than half of it creases. */
+/* Whether a run is so many of these heights long, and of three outlines at
+ * least, no more than half of it creases. */
 bool fold_run_is_line(struct fold_run run, double heights);
 
 /* Finds the places of a smooth line along a run: means of the samples about

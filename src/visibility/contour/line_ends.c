@@ -7,6 +7,7 @@
 #include "base/sort.h"
 #include "base/tolerance.h"
 #include "visibility/contour/border_sides.h"
+#include "visibility/contour/curve_ends.h"
 #include "visibility/contour/segment_grid.h"
 
 /* Where an edge crosses a contour. */
@@ -77,14 +78,16 @@ static bool add_end_on_border(struct line_ends *l,
                               const struct page_segment *line,
                               struct line_crossing made) {
   double x = (double)line->q.x - line->p.x, y = (double)line->q.y - line->p.y;
-  const uint32_t *point = l->sheet->edge.item[contour->owner].point;
+  const struct sheet_edge *of = &l->sheet->edge.item[contour->owner];
+  double hook = HOOK_SHARE * diameter_of_triangle(l->sheet, of->triangle[0]);
   bool ok = true;
   for (int k = 0; k < 2 && ok; k++) {
     const struct geom_point end = k == 0 ? contour->p : contour->q;
-    const struct geom_point from = k == 0 ? contour->q : contour->p;
+    const struct geom_point from =
+        curve_before_end(l->sheet, l->first, contour->owner, k, hook);
     double px = (double)end.x - line->p.x, py = (double)end.y - line->p.y;
     double ahead = x * ((double)end.x - from.x) + y * ((double)end.y - from.y);
-    if (l->degree[point[k] - l->first_point] > 1 || ahead == 0 ||
+    if (l->degree[of->point[k] - l->first_point] > 1 || ahead == 0 ||
         fabs(x * py - y * px) > TOLERANCE_COINCIDENT_UNITS * hypot(x, y))
       continue;
     /* How the contour's depth changes over the border's length. */
