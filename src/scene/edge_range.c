@@ -284,10 +284,10 @@ static bool number_edges_of_triangles(struct edge_range *range) {
   struct side_loop loop;
   struct edge_copies copies = {.stop = 0};
   enum { BLOCK = POLL_ITEMS / 3 }; /* as many sides as elsewhere */
-  for (uint32_t f = range->face; f < range->end_face && !range->overfull;) {
-    if (!edge_copies_add(&copies, range, &f))
+  for (uint32_t at = range->face; at < range->end_face && !range->overfull;) {
+    if (!edge_copies_add(&copies, range, &at))
       return false;
-    uint32_t left = copies.stop - f;
+    uint32_t f = at, left = copies.stop - f;
     if (left == 0)
       break;
     uint32_t end = f + (left < BLOCK ? left : BLOCK);
@@ -314,6 +314,7 @@ static bool number_edges_of_triangles(struct edge_range *range) {
       }
     }
     end_sides(range, &loop, sides);
+    at = end;
   }
   return true;
 }
@@ -363,13 +364,13 @@ static bool number_sides_of_large_face(struct edge_range *range,
 static bool number_edges_of_polygons(struct edge_range *range) {
   const uint32_t *start = range->scene->face_start.item;
   struct edge_copies copies = {.stop = 0};
-  for (uint32_t f = range->face; f < range->end_face && !range->overfull;) {
+  for (uint32_t at = range->face; at < range->end_face && !range->overfull;) {
     struct side_loop loop;
-    if (!edge_copies_add(&copies, range, &f))
+    if (!edge_copies_add(&copies, range, &at))
       return false;
-    if (f == copies.stop)
+    if (at == copies.stop)
       break;
-    uint32_t first = start[f];
+    uint32_t f = at, first = start[f];
     if (!begin_sides(range, &loop, POLL_ITEMS))
       return false;
     size_t fetched = end_of_fetching(range->scene, first, POLL_ITEMS);
@@ -378,6 +379,7 @@ static bool number_edges_of_polygons(struct edge_range *range) {
     end_sides(range, &loop, start[f] - first);
     if (start[f] == first && !number_sides_of_large_face(range, f++))
       return false;
+    at = f;
   }
   return true;
 }
