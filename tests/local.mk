@@ -152,7 +152,7 @@ check_PROGRAMS += %D%/paper_tool
 %C%_paper_tool_SOURCES = %D%/paper_tool.c %D%/drawing_fixture.c %D%/drawing_fixture.h
 dist_check_SCRIPTS += %D%/test_cli_page.sh %D%/test_paper.sh %D%/test_same_picture.sh %D%/test_seams.sh \
   %D%/test_cli_parts.sh %D%/test_part_engines.sh %D%/test_slurm.sh \
-  %D%/test_cli_speckles.sh %D%/test_tone.sh %D%/test_verify_rounding.sh %D%/test_viewers.sh
+  %D%/test_cli_contour_work.sh %D%/test_cli_speckles.sh %D%/test_tone.sh %D%/test_verify_rounding.sh %D%/test_viewers.sh
 
 # Layer 0.
 unit_tests += %D%/test_input

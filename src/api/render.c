@@ -233,6 +233,7 @@ static recto_status add_smooth_contours(struct render *render,
   report_count(render->report, "contours", "segments", counts.segments);
   report_count(render->report, "contours", "curves", counts.curves);
   report_count(render->report, "contours", "pieces", counts.pieces);
+  report_count(render->report, "contours", "compared", counts.compared);
   return status;
 }
 

@@ -254,7 +254,8 @@ static bool close_gaps(struct contour_pieces *c, uint32_t first,
                                            .bulge = c->bulge.item,
                                            .bulges = (uint32_t)c->bulge.count,
                                            .grid = &c->grid.grid,
-                                           .query = &c->query};
+                                            .query = &c->query,
+                                            .compared = &c->curves->compared};
   return fold_bridges_add(&input, c->height.item) && border_ends_show(&input) &&
          outline_gaps_close(&input) && fold_lines_add(&input);
 }
@@ -356,7 +357,8 @@ recto_status smooth_contours_add(struct sheet *sheet, struct map *map,
   if (!options.intersections)
     forget_intersections(sheet);
   *counts = (struct smooth_contours_counts){
-      set.segment.count, curves.curve.count, pieces.divided.piece.count};
+      set.segment.count, curves.curve.count, pieces.divided.piece.count,
+      curves.compared};
   fini_pieces(&pieces);
   contour_curves_fini(&curves);
   zero_set_fini(&set);

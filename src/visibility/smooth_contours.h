@@ -8,6 +8,7 @@
 /* What is known of the contours, for --stats. */
 struct smooth_contours_counts {
   uint64_t segments, curves, pieces;
+  uint64_t compared; /* what is near with what: the work of some searches */
 };
 
 struct smooth_contours_options {

@@ -40,6 +40,7 @@ struct contour_curves {
   ARRAY(struct contour_step) step;
   ARRAY(struct contour_curve) curve;
   struct contour_cuts cut; /* ascending once contour_cuts_sort ran */
+  uint64_t compared; /* what is near with what: the work of some searches */
 };
 
 /* Joins the segments to curves, end to end.  Where other than two segments

@@ -134,6 +134,15 @@ static inline bool is_out_of_reach(const struct page_segment *s,
          box.y0 > at->y + reach || box.y1 < at->y - reach;
 }
 
+/* Whether the line along (x, y) is farther from a place, which is at (px, py)
+ * from where it begins, than what covers it is. */
+static inline bool is_line_out_of_reach(double x, double y, double px,
+                                        double py, double reach) {
+  double area = x * py - y * px;
+  /* Distances are computed to far less than a unit. */
+  return area * area > (reach + 1) * (reach + 1) * (x * x + y * y);
+}
+
 /* Whether a contour's segment covers a place. */
 static bool covers(const struct doubled_contours *d,
                    const struct page_segment *s,
@@ -143,6 +152,7 @@ static bool covers(const struct doubled_contours *d,
   double length = sqrt(x * x + y * y);
   if ((x * at->dx + y * at->dy < PARALLEL_COSINE * length &&
        contour_length(d, at->edge) > d->beyond) ||
+      is_line_out_of_reach(x, y, px, py, at->reach) ||
       do_share_point(d, at->edge, s->owner))
     return false;
   double t = geom_nearest_parameter(x, y, px, py);

@@ -275,6 +275,7 @@ bool fold_lines_add(const struct outline_gaps_input *input) {
   f.is_passed = mem_calloc(outlines, 1);
   bool ok = f.is_passed != NULL && fold_joints_list(&f.joints) &&
             outline_chains_link(&f.chains, input->set) && add_all_lines(&f);
+  *input->compared += f.chains.compared;
   fold_joints_fini(&f.joints);
   outline_chains_fini(&f.chains);
   mem_free(f.is_passed);

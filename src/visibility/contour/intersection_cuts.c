@@ -38,6 +38,10 @@ struct intersection_cuts {
   ARRAY(struct intersection_end) end; /* that no other intersection continues */
   struct segment_grid grid;           /* of the curves' images on the mesh */
   ARRAY(struct nearest_place) near;   /* of the current end: one a curve */
+  uint32_t *place; /* one a curve: where it is in `near`, if it is there */
+  uint32_t
+      *seen_by; /* one a segment: the last end, from 1 on, that it was looked
+                        at for, as it lies in several cells */
 };
 
 /* ---- Ends ---------------------------------------------------------------- */
@@ -132,7 +136,10 @@ static bool add_curves(struct intersection_cuts *c) {
             i))
       return false;
   c->grid.contours = c->grid.segment.count;
-  return c->grid.contours == 0 || segment_grid_make(&c->grid);
+  c->place = mem_calloc(c->curves->curve.count, sizeof *c->place);
+  c->seen_by = mem_calloc(c->grid.contours, sizeof *c->seen_by);
+  return c->place != NULL && c->seen_by != NULL &&
+         (c->grid.contours == 0 || segment_grid_make(&c->grid));
 }
 
 static double distance_in_view(struct view_point a, struct view_point b) {
@@ -174,12 +181,13 @@ static uint32_t curve_of_step(const struct intersection_cuts *c,
 /* Keeps a place if it is the nearest one of its curve. */
 static bool keep_nearest(struct intersection_cuts *c,
                          struct nearest_place place) {
-  for (size_t i = 0; i < c->near.count; i++)
-    if (c->near.item[i].curve == place.curve) {
-      if (place.away < c->near.item[i].away)
-        c->near.item[i] = place;
-      return true;
-    }
+  uint32_t i = c->place[place.curve];
+  if (i < c->near.count && c->near.item[i].curve == place.curve) {
+    if (place.away < c->near.item[i].away)
+      c->near.item[i] = place;
+    return true;
+  }
+  c->place[place.curve] = (uint32_t)c->near.count;
   return ARRAY_PUSH(&c->near, place);
 }
 
@@ -187,6 +195,7 @@ static bool keep_nearest(struct intersection_cuts *c,
  * space than `reach`. */
 static bool look_at(struct intersection_cuts *c, const struct page_segment *s,
                     const struct intersection_end *end, double reach) {
+  c->curves->compared++;
   double dx = (double)s->q.x - s->p.x, dy = (double)s->q.y - s->p.y;
   double px = (double)end->at.x - s->p.x, py = (double)end->at.y - s->p.y;
   double t = geom_nearest_parameter(dx, dy, px, py);
@@ -217,6 +226,14 @@ static struct box2 box_about(const struct intersection_cuts *c,
                        (int32_t)clamp(y + units, -most, most)};
 }
 
+static bool is_first_look(struct intersection_cuts *c, uint32_t segment,
+                          const struct intersection_end *end) {
+  uint32_t number = (uint32_t)(end - c->end.item) + 1;
+  bool is_first = c->seen_by[segment] != number;
+  c->seen_by[segment] = number;
+  return is_first;
+}
+
 /* Cuts the curves that are near an end. */
 static bool cut_curves_near(struct intersection_cuts *c,
                             const struct intersection_end *end) {
@@ -229,7 +246,8 @@ static bool cut_curves_near(struct intersection_cuts *c,
     for (int x = range.x0; x <= range.x1; x++) {
       size_t at = triangle_grid_index(cell, x, y);
       for (uint32_t i = start[at]; i < start[at + 1]; i++)
-        if (!look_at(c, &c->grid.segment.item[cell->lists.item[i]], end, reach))
+        if (is_first_look(c, cell->lists.item[i], end) &&
+            !look_at(c, &c->grid.segment.item[cell->lists.item[i]], end, reach))
           return false;
     }
   for (size_t i = 0; i < c->near.count; i++)
@@ -250,6 +268,8 @@ bool intersection_cuts_add(struct contour_curves *curves,
     ok = poll_at(i) && cut_curves_near(&c, &c.end.item[i]);
   ARRAY_FREE(&c.end);
   ARRAY_FREE(&c.near);
+  mem_free(c.place);
+  mem_free(c.seen_by);
   segment_grid_fini(&c.grid);
   return ok;
 }

@@ -247,6 +247,7 @@ bool outline_gaps_close(const struct outline_gaps_input *input) {
       .cover = {input->sheet, input->grid, input->query, SHEET_NONE}};
   bool ok = nearest_contours_init(&g.nearest) &&
             find_open_parts(&g, input->set) && add_part_edges(&g, input->map);
+  *input->compared += g.nearest.compared;
   nearest_contours_fini(&g.nearest);
   ARRAY_FREE(&g.part);
   return ok;

@@ -20,6 +20,7 @@ struct outline_gaps_input {
   const struct triangle_grid *grid; /* of the sheet's triangles, in the boxes
                                        of the outlines at least */
   struct triangle_grid_query *query;
+  uint64_t *compared; /* what is near with what: gets the work done, too */
 };
 
 /* Adds visible edges of the class silhouette along those parts of the mesh's
