@@ -215,6 +215,27 @@ static void borders_reach_the_contours_that_end_on_them(void **state) {
   }
 }
 
+/* A square that is bent about both diagonals. */
+static void saddle(double u, double v, double p[3]) {
+  p[0] = u / M_PI - 1;
+  p[2] = 1 - v / M_PI;
+  p[1] = 0.4 * sin(3 * p[0] * p[2] + p[0]);
+}
+
+/* Triangles of two warped quads may fold over at the edge between these where
+ * the quads as a whole do not. */
+static void folds_between_warped_quads_are_outlines(void **state) {
+  (void)state;
+  recto_scene *scene = open_scene(saddle, OPEN, 56, 56);
+  /* 5.2 and 1.7 where only edges between quads that are seen from different
+   * sides, and diagonals, are outlines. */
+  assert_true(bare_length(scene, 31, 22) < 0.3);
+  recto_scene_destroy(scene);
+  scene = open_scene(folds, OPEN, 32, 32);
+  assert_true(bare_length(scene, 199, 48) < 0.3);
+  recto_scene_destroy(scene);
+}
+
 /* Their contours turn back shortly before they end on a border, so that the
  * last segment says nothing of the side on which the border goes on. */
 static void borders_are_not_cut_off_by_hooks(void **state) {
@@ -303,6 +324,7 @@ int main(void) {
       cmocka_unit_test(the_outline_of_folds_is_covered),
       cmocka_unit_test(borders_reach_the_contours_that_end_on_them),
       cmocka_unit_test(borders_are_not_cut_off_by_hooks),
+      cmocka_unit_test(folds_between_warped_quads_are_outlines),
       cmocka_unit_test(the_rim_of_the_teapot_reaches_its_contour),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -67,6 +67,7 @@ librecto_core_la_SOURCES += \
   %D%/contour/fold_joints.c %D%/contour/fold_joints.h \
   %D%/contour/fold_lines.c %D%/contour/fold_lines.h \
   %D%/contour/fold_samples.c %D%/contour/fold_samples.h \
+  %D%/contour/folded_faces.c %D%/contour/folded_faces.h \
   %D%/contour/intersection_cuts.c %D%/contour/intersection_cuts.h \
   %D%/contour/line_ends.c %D%/contour/line_ends.h \
   %D%/contour/loop_changes.c %D%/contour/loop_changes.h \

@@ -21,6 +21,7 @@
 #include "visibility/contour/fit_outline.h"
 #include "visibility/contour/fold_bridges.h"
 #include "visibility/contour/fold_lines.h"
+#include "visibility/contour/folded_faces.h"
 #include "visibility/contour/intersection_cuts.h"
 #include "visibility/contour/line_ends.h"
 #include "visibility/contour/outline_gaps.h"
@@ -222,13 +223,10 @@ static bool list_folded_diagonals(struct contour_pieces *c) {
   const struct sheet *sheet = c->sheet;
   for (uint32_t e = 0; e < sheet->edge.count; e++) {
     const struct sheet_edge *edge = &sheet->edge.item[e];
-    if (edge->source != SHEET_NONE || edge->edge_class != 0 ||
-        edge->triangle[0] == SHEET_NONE || edge->triangle[1] == SHEET_NONE)
+    if (!folded_faces_is_diagonal(sheet, edge))
       continue;
     uint32_t face = sheet->triangle.item[edge->triangle[0]].face;
     struct contour_outline made = {sheet_ends(sheet, edge->point), face};
-    if (face != sheet->triangle.item[edge->triangle[1]].face)
-      continue;
     if (!has_triangle_left(sheet, edge->triangle[0], made.image)) {
       struct geom_point p = made.image.p;
       made.image.p = made.image.q;

@@ -192,20 +192,35 @@ bool zero_finder_add_border(struct zero_finder *z, uint32_t edge) {
          ARRAY_PUSH(&z->set->border, image);
 }
 
+/* How a face faces the viewer at one of its edges: a warped one may do so
+ * otherwise elsewhere. */
+static unsigned sign_at_edge(const struct zero_finder *z, uint32_t face,
+                             uint32_t edge) {
+  struct geom_segment image;
+  unsigned sign = 0;
+  if (folded_faces_has(&z->folded, face) &&
+      find_image(z, z->facing->topology->edge.item[edge].point, &image))
+    sign = folded_faces_sign(&z->folded, face, image);
+  return sign != 0 ? sign : z->facing->face_sign[face];
+}
+
 bool zero_finder_add_outline(struct zero_finder *z, uint32_t edge) {
   const struct facing *f = z->facing;
   const struct topology_edge *e = &f->topology->edge.item[edge];
-  if (e->uses != 2 || f->coarse[e->point[0]] ||
-      (f->face_sign[e->first] == f->face_sign[e->second]) != e->same_way)
+  if (e->uses != 2 || f->coarse[e->point[0]])
     return true;
-  struct contour_outline made = {
-      .face = f->face_sign[e->first] == FACING_FRONT ? e->first : e->second};
+  unsigned first = sign_at_edge(z, e->first, edge);
+  unsigned second = sign_at_edge(z, e->second, edge);
+  if ((first == second) != e->same_way)
+    return true;
+  struct contour_outline made = {.face = first == FACING_FRONT ? e->first
+                                                               : e->second};
   uint32_t c = facing_corner_of_edge(f, made.face, edge);
   if (c == SHEET_NONE)
     return true;
   uint32_t d = scene_next_corner(f->scene, made.face, c);
   /* Faces that are seen from their backs run the other way round. */
-  bool is_back = f->face_sign[made.face] == FACING_BACK;
+  bool is_back = (first == FACING_FRONT ? first : second) == FACING_BACK;
   const uint32_t point[2] = {facing_point(f, is_back ? d : c),
                              facing_point(f, is_back ? c : d)};
   return !find_image(z, point, &made.image) ||

@@ -4,11 +4,13 @@
 
 #include "view/clip.h"
 #include "scene/triangulate.h"
+#include "visibility/contour/folded_faces.h"
 #include "visibility/contour/zero_segments.h"
 
 struct zero_finder {
   struct zero_set *set;
   const struct facing *facing;
+  struct folded_faces folded;
   struct projection projection;
   bool mesh_is_inside; /* no face is clipped by the page's margins */
   uint32_t

@@ -125,12 +125,16 @@ static bool cross_face(struct zero_finder *z, uint32_t face) {
 /* ---- The whole ----------------------------------------------------------- */
 
 /* Whether an edge is neither a feature nor one at which faces fold over. */
-static inline bool is_within_surface(const struct facing *f, uint32_t e) {
+static inline bool is_within_surface(const struct zero_finder *z, uint32_t e) {
+  const struct facing *f = z->facing;
   const struct topology_edge *edge = &f->topology->edge.item[e];
   return (f->class_masks[e] & (RECTO_EDGE_CREASE | RECTO_EDGE_BORDER)) == 0 &&
          edge->uses == 2 && !edge->same_way &&
          f->face_sign[edge->first] == f->face_sign[edge->second] &&
          edge->first != edge->second &&
+         (z->folded.is_folded == NULL ||
+          !(z->folded.is_folded[edge->first] ||
+            z->folded.is_folded[edge->second])) &&
          !(f->any_coarse && f->coarse[edge->point[0]]);
 }
 
@@ -155,7 +159,7 @@ static bool cross_all(struct zero_finder *z) {
     if (!poll_at(i) || !cross_face(z, f->mixed.item[i]))
       return false;
   for (uint32_t e = 0; e < edges; e++)
-    if (!poll_at(e) || (!is_within_surface(f, e) && !cross_edge(z, e)))
+    if (!poll_at(e) || (!is_within_surface(z, e) && !cross_edge(z, e)))
       return false;
   return true;
 }
@@ -164,9 +168,11 @@ recto_status zero_set_find(struct zero_set *set, const struct sheet *sheet,
                            const struct facing *facing, recto_error *error) {
   struct zero_finder z = {.set = set,
                           .facing = facing,
+                          .folded = {.sheet = sheet},
                           .projection = projection_of(facing->camera),
                           .mesh_is_inside = sheet->clipped_page == 0};
-  bool ok = cross_all(&z);
+  bool ok = folded_faces_mark(&z.folded) && cross_all(&z);
+  folded_faces_fini(&z.folded);
   mem_free(z.edge_node);
   mem_free(z.point_node);
   ARRAY_FREE(&z.diagonal_node);
