@@ -6,6 +6,7 @@
 #include "judge/camera.h"
 #include "judge/clipped_triangle.h"
 #include "judge/triangulation.h"
+#include "scene/crease_rounding.h"
 
 /* ---- Facings ------------------------------------------------------------- */
 
@@ -152,7 +153,9 @@ unsigned judge_class_mask_of_pair(const struct judge_facings *facings,
   cosine = against ? cosine : -cosine;
   double degree = acos(-1) / 180, weak = facings->options->crease_deg;
   double strong = fmax(weak, facings->options->crease_start_deg);
-  if (cosine < cos(strong * degree) - TOLERANCE_JUDGE_ANGLE)
+  double bound = cos(strong * degree) - TOLERANCE_JUDGE_ANGLE;
+  if (cosine < bound &&
+      cosine < bound - crease_rounding(facings->scene, s->face, t->face, bound))
     class_mask |= RECTO_EDGE_CREASE;
   if (class_mask == 0 && cosine > cos(weak * degree) + TOLERANCE_JUDGE_ANGLE &&
       judge_is_sure(one, two))

@@ -33,10 +33,9 @@ static double turn_of_face(const struct scene *scene, uint32_t face) {
   return height > 0 ? TOLERANCE_CREASE_ERRORS * error / height : 0;
 }
 
-double crease_rounding(const struct scene *scene,
-                       const struct topology_edge *edge, double cosine) {
-  double turn =
-      turn_of_face(scene, edge->first) + turn_of_face(scene, edge->second);
+double crease_rounding(const struct scene *scene, uint32_t first,
+                       uint32_t second, double cosine) {
+  double turn = turn_of_face(scene, first) + turn_of_face(scene, second);
   double sine = sqrt(fmax(0, 1 - cosine * cosine));
   /* cosine - cos(angle + turn), of a small turn */
   return fmin(turn * (sine + turn * cosine / 2), TOLERANCE_CREASE_ROUNDING);

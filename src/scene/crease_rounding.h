@@ -3,13 +3,13 @@
 #ifndef SCENE_CREASE_ROUNDING_H
 #define SCENE_CREASE_ROUNDING_H
 
-#include "scene/topology.h"
+#include "scene/scene.h"
 
-/* By how much rounding may have changed the cosine between the two faces of an
- * edge from that of the crease angle: each turns by
- * TOLERANCE_CREASE_ERRORS at most, and the whole is TOLERANCE_CREASE_ROUNDING
- * at most.  Points whose precision is not stated count as exact. */
-double crease_rounding(const struct scene *scene,
-                       const struct topology_edge *edge, double cosine);
+/* By how much rounding may have changed the cosine between two faces from that
+ * of the crease angle: each turns by TOLERANCE_CREASE_ERRORS at most, and the
+ * whole is TOLERANCE_CREASE_ROUNDING at most.  Points whose precision is not
+ * stated count as exact. */
+double crease_rounding(const struct scene *scene, uint32_t first,
+                       uint32_t second, double cosine);
 
 #endif

@@ -38,7 +38,9 @@ static bool is_crease(const struct scene *scene,
   double below = crease_cosine * lengths - (edge->same_way ? -dot : dot);
   return below > 0 && lengths > 0 &&
          (below > TOLERANCE_CREASE_ROUNDING * lengths ||
-          below > crease_rounding(scene, edge, crease_cosine) * lengths);
+          below >
+              crease_rounding(scene, edge->first, edge->second, crease_cosine) *
+                  lengths);
 }
 
 /* What needs no normals: BORDER alone, or GROUP or nothing. */
