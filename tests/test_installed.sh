@@ -14,7 +14,7 @@ recto="$PWD/moved tree/bin/recto"
 
 no_importer() {
   cd elsewhere && run 2 ../model.off -o no.svg && ! test -e no.svg &&
-    says "format 'off': cannot start the importer /.*: No such file"
+    says "format 'off': cannot start the importer /.*: No such file.*obj, ply and stl alone"
 }
 prefix=$(sed -n 's/^prefix = //p' "$builddir/Makefile")
 if test -x "$prefix/libexec/recto/recto-import"; then

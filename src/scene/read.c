@@ -103,8 +103,10 @@ const struct reader *read_find(const char *path, const char *format) {
 
 static recto_status refuse_format(const char *path, const char *format,
                                   recto_error *error) {
-  const char *others =
-      reader_of_the_rest != NULL ? "" : " (built without Assimp)";
+  const char *others = reader_of_the_rest != NULL
+                           ? ""
+                           : " (built without Assimp: " READ_OWN_FORMATS
+                             " alone)";
   if (format != NULL && *format)
     return error_set(error, RECTO_ERROR_UNSUPPORTED, path, 0,
                      "no reader for the format '%s'%s", format, others);

@@ -28,6 +28,9 @@ extern const struct reader reader_stl;
 extern const struct reader reader_3mf;
 extern const struct reader reader_import; /* all other formats */
 
+/* What is read without Assimp. */
+#define READ_OWN_FORMATS "obj, ply and stl"
+
 /* The reader of a file, by its format or its extension; NULL: there is none. */
 const struct reader *read_find(const char *path, const char *format);
 

@@ -87,7 +87,7 @@ static recto_status fail_to_start(const struct import_child *import, int code) {
                      strerror(code == EINVAL ? EMFILE : code));
   return error_set(import->error, RECTO_ERROR_UNSUPPORTED, import->path, 0,
                    "no reader for the format '%s': cannot start the importer "
-                   "%s: %s",
+                   "%s: %s (without it: " READ_OWN_FORMATS " alone)",
                    import->format, import->program, strerror(code));
 }
 
