@@ -121,12 +121,12 @@
 /* What rounding of coordinates changes of the cosine between two faces counts
  * as no more than this.
  * Unit        1 (a cosine)
- * Derivation  a tenth of a degree about 30: faces that rounding turns by more
- *             have no angle to speak of.
+ * Derivation  a fortieth of a degree about 30: of scans, whose faces are so
+ *             small that rounding turns them by more, creases stay as they are.
  * Users       scene/crease_rounding.c, scene/edge_classes.c
- * Ten times   faces a millionth of the model wide have no creases up to 31
- *             degrees. */
-#define TOLERANCE_CREASE_ROUNDING 0x1p-10
+ * Ten times   creases of 30.2 degrees between the small faces of a scan are
+ *             none, which divides lines of noise so that more are drawn. */
+#define TOLERANCE_CREASE_ROUNDING 0x1p-12
 
 /* The up direction and the view direction are one if the sine between them is
  * not above this.

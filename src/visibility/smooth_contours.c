@@ -252,8 +252,8 @@ static bool close_gaps(struct contour_pieces *c, uint32_t first,
                                            .bulge = c->bulge.item,
                                            .bulges = (uint32_t)c->bulge.count,
                                            .grid = &c->grid.grid,
-                                            .query = &c->query,
-                                            .compared = &c->curves->compared};
+                                           .query = &c->query,
+                                           .compared = &c->curves->compared};
   return fold_bridges_add(&input, c->height.item) && border_ends_show(&input) &&
          outline_gaps_close(&input) && fold_lines_add(&input);
 }
