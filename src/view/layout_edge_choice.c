@@ -167,8 +167,11 @@ static inline void choose_class(const struct edge_choice *c, uint32_t e,
 static bool choose_edges(void *user, struct parallel_range range) {
   const struct edge_choice c = *(const struct edge_choice *)user;
   uint64_t *bits = c.layout->ids.bits;
-  bool made = c.all_edges || c.smooth != 0;
+  bool made = c.all_edges || c.smooth != 0,
+       by_faces = c.sides == NULL && c.filter.direction != NULL;
   for (uint32_t e = (uint32_t)range.begin; e < range.end; e++) {
+    if (by_faces)
+      prefetch_second_face(&c, e);
     bool between = is_between_sides(&c, e),
          smooth = between && is_plainly_smooth(&c, e);
     if (smooth && c.all_on_page) {
