@@ -33,6 +33,20 @@ struct fold_lines {
 
 /* ---- What is drawn ------------------------------------------------------- */
 
+/* Whether a line is surely farther from a sample than its triangle is high. */
+static inline bool is_line_beyond(const struct page_segment *s,
+                                  const struct fold_sample *at) {
+  struct box2 box = box2_of_segment(s->p, s->q);
+  /* Distances are computed to far less than a unit. */
+  double reach = at->height + 1;
+  if (box.x0 > at->x + reach || box.x1 < at->x - reach ||
+      box.y0 > at->y + reach || box.y1 < at->y - reach)
+    return true;
+  double x = (double)s->q.x - s->p.x, y = (double)s->q.y - s->p.y;
+  double area = x * (at->y - s->p.y) - y * (at->x - s->p.x);
+  return area * area > reach * reach * (x * x + y * y);
+}
+
 /* Notes whether a line runs beside a sample: not where a contour only ends.
  * Creases are none, as ink may leave them out. */
 static void try_line(const struct fold_lines *f, const struct page_segment *s,
@@ -66,8 +80,12 @@ static void look_beside_fold(const struct fold_lines *f,
     for (int x = range.x0; x <= range.x1; x++) {
       size_t i = triangle_grid_index(cell, x, y);
       for (uint32_t k = cell->lists.start[i];
-           k < cell->lists.start[i + 1] && !at->is_beside; k++)
-        try_line(f, &f->joints.grid.segment.item[cell->lists.item[k]], at);
+           k < cell->lists.start[i + 1] && !at->is_beside; k++) {
+        const struct page_segment *s =
+            &f->joints.grid.segment.item[cell->lists.item[k]];
+        if (!is_line_beyond(s, at))
+          try_line(f, s, at);
+      }
     }
 }
 
