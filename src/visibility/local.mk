@@ -78,6 +78,7 @@ librecto_core_la_SOURCES += \
   %D%/contour/page_crossings.c %D%/contour/page_crossings.h \
   %D%/contour/near_faces.c %D%/contour/near_faces.h \
   %D%/contour/nearest_contours.c %D%/contour/nearest_contours.h \
+  %D%/contour/open_ends.c %D%/contour/open_ends.h \
   %D%/contour/part_size.c %D%/contour/part_size.h \
   %D%/contour/segment_grid.c %D%/contour/segment_grid.h \
   %D%/contour/slot_normals.c \

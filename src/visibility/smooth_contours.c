@@ -24,6 +24,7 @@
 #include "visibility/contour/folded_faces.h"
 #include "visibility/contour/intersection_cuts.h"
 #include "visibility/contour/line_ends.h"
+#include "visibility/contour/open_ends.h"
 #include "visibility/contour/outline_gaps.h"
 #include "visibility/contour/page_crossings.h"
 #include "visibility/contour/thin_loops.h"
@@ -267,7 +268,8 @@ static bool add_pieces(struct contour_pieces *c) {
     return true;
   bool ok = contour_curves_join(c->curves, c->set, c->options.crease_deg) &&
             (c->options.exact ||
-             thin_loops_remove(c->curves, c->set, c->sheet, c->topology)) &&
+             (thin_loops_remove(c->curves, c->set, c->sheet, c->topology) &&
+              open_ends_straighten(c->curves, c->set, &c->sheet->camera))) &&
             contour_cusps_cut(c->curves) && page_crossings_cut(c->curves) &&
             intersection_cuts_add(c->curves, c->sheet, c->map) &&
             contour_cuts_sort(&c->curves->cut) &&

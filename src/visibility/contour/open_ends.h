@@ -1,0 +1,17 @@
+/* open_ends.h - takes off what open contours overshoot at their ends. */
+#ifndef VISIBILITY_CONTOUR_OPEN_ENDS_H
+#define VISIBILITY_CONTOUR_OPEN_ENDS_H
+
+#include "visibility/contour/contour_curves.h"
+
+/* Where an open curve's image turns back at its last segment, which is shorter
+ * than its triangle is high and runs along no crease, that and the one before
+ * it become one straight segment, as part of the last one; and so do its first
+ * two.  At a border the surface is seen edge-on, and the curve zigzags about
+ * the line of sight there.
+ * Returns false when memory ran out or the caller cancelled. */
+USE_RESULT bool open_ends_straighten(struct contour_curves *curves,
+                                      struct zero_set *set,
+                                      const struct camera *camera);
+
+#endif
