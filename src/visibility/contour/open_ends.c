@@ -65,7 +65,7 @@ static bool straighten_first(struct contour_curves *curves,
 }
 
 bool open_ends_straighten(struct contour_curves *curves, struct zero_set *set,
-                           const struct camera *camera) {
+                          const struct camera *camera) {
   for (size_t i = 0; i < curves->curve.count; i++) {
     struct contour_curve *curve = &curves->curve.item[i];
     uint32_t last = curve->step + curve->count - 1;

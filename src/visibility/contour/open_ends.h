@@ -11,7 +11,7 @@
  * the line of sight there.
  * Returns false when memory ran out or the caller cancelled. */
 USE_RESULT bool open_ends_straighten(struct contour_curves *curves,
-                                      struct zero_set *set,
-                                      const struct camera *camera);
+                                     struct zero_set *set,
+                                     const struct camera *camera);
 
 #endif
