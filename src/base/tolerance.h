@@ -121,12 +121,12 @@
 /* What rounding of coordinates changes of the cosine between two faces counts
  * as no more than this.
  * Unit        1 (a cosine)
- * Derivation  a fortieth of a degree about 30: of scans, whose faces are so
+ * Derivation  a twentieth of a degree about 30: of scans, whose faces are so
  *             small that rounding turns them by more, creases stay as they are.
  * Users       scene/crease_rounding.c, scene/edge_classes.c
- * Ten times   creases of 30.2 degrees between the small faces of a scan are
+ * Ten times   creases of 30.5 degrees between the small faces of a scan are
  *             none, which divides lines of noise so that more are drawn. */
-#define TOLERANCE_CREASE_ROUNDING 0x1p-12
+#define TOLERANCE_CREASE_ROUNDING 0x1p-11
 
 /* The up direction and the view direction are one if the sine between them is
  * not above this.
