@@ -81,6 +81,14 @@ static int count_ends(const struct contour_sheet *s, uint32_t point) {
   return count;
 }
 
+/* How far a point is to the right of a line, and how far contours may be that do
+ * not bulge. */
+static double offset_to_right(struct geom_point at, struct geom_point p,
+                              const double along[2]) {
+  return along[1] * ((double)at.x - p.x) - along[0] * ((double)at.y - p.y);
+}
+#define HALF_A_MM 0x1p19
+
 static void compare_edge(const struct contour_sheet *s, size_t e,
                          struct geom_point p, const double along[2],
                          struct all_compared *all) {
@@ -95,7 +103,9 @@ static void compare_edge(const struct contour_sheet *s, size_t e,
         all->on_line ||
         ((edge->edge_class & (RECTO_EDGE_CREASE | RECTO_EDGE_GROUP)) == 0 &&
          away <= TOLERANCE_COINCIDENT_UNITS);
-  else if (x * along[0] + y * along[1] < -0.5 * hypot(x, y))
+  else if (x * along[0] + y * along[1] < -0.5 * hypot(x, y) ||
+           fmin(offset_to_right(of.p, p, along),
+                offset_to_right(of.q, p, along)) > HALF_A_MM)
     return;
   else if ((t == 0 || t == 1) && count_ends(s, edge->point[t > 0]) < 2)
     all->loose = fmin(all->loose, away);

@@ -13,6 +13,10 @@
 /* Half of the side of the first square, and the entries that it may have if it
  * is larger than a cell. */
 #define FIRST_REACH (16 * TOLERANCE_OUTLINE_UNITS)
+
+/* How far to the right of a line a contour of its surface may be, besides what
+ * it bulges: the mesh is uneven. */
+#define BEYOND (4 * TOLERANCE_OUTLINE_UNITS)
 enum { FIRST_ENTRIES_MAX = 64 };
 
 /* Contours that turn from an outline by more than 120 degrees are those of
@@ -132,6 +136,20 @@ place_on_segment(const struct page_segment *s, struct geom_point p) {
   return at;
 }
 
+/* Whether all of a contour lies to the right of a line, where the line's surface
+ * is not, by more than the contour may bulge: it is another surface's. */
+static bool is_beyond(const struct nearest_contours *n,
+                      const struct page_segment *s, struct geom_point p,
+                      const double along[2]) {
+  uint32_t i = s->owner - n->first;
+  double most = BEYOND + (i < n->bulges ? (double)n->bulge[i] : 0);
+  double from =
+      along[1] * ((double)s->p.x - p.x) - along[0] * ((double)s->p.y - p.y);
+  double to =
+      along[1] * ((double)s->q.x - p.x) - along[0] * ((double)s->q.y - p.y);
+  return from > most && to > most;
+}
+
 /* Tries a contour, unless the surface lies on its other side. */
 static void try_near_contour(const struct nearest_contours *n,
                              const struct page_segment *s, struct geom_point p,
@@ -139,7 +157,8 @@ static void try_near_contour(const struct nearest_contours *n,
                              struct nearest_contour *best) {
   struct segment_place of = place_on_segment(s, p);
   double x = of.x, y = of.y, px = of.px, py = of.py, t = of.t;
-  if (x * along[0] + y * along[1] < TURNED_COSINE * sqrt(x * x + y * y))
+  if (x * along[0] + y * along[1] < TURNED_COSINE * sqrt(x * x + y * y) ||
+      is_beyond(n, s, p, along))
     return;
   const uint32_t *ends = n->sheet->edge.item[s->owner].point;
   if (is_loose_end(n, ends[0]))

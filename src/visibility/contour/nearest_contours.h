@@ -12,6 +12,8 @@ struct nearest_contours {
   const struct map *map;     /* the same */
   uint32_t first;            /* of the sheet's edges: of contours */
   uint32_t first_point;      /* of the sheet's points: the same */
+  const float *bulge; /* how far the first so many contours bulge, grid units */
+  uint32_t bulges;
   struct segment_grid contour;
   struct segment_grid line; /* other visible lines, but creases, as ink may
                                leave them out */
@@ -38,7 +40,8 @@ struct nearest_contour {
 };
 
 /* Finds them, of contours that do not turn from a direction by more than 120
- * degrees: those are of another surface.  The lesser of both distances is right
+ * degrees, nor lie to its right by more than they bulge and half a millimetre:
+ * those are of another surface.  The lesser of both distances is right
  * if it is at most the radius, and the other one is then right or too large.
  * Of several as near it is the one of the last contour.
  * along  the direction, of unit length */

@@ -243,7 +243,9 @@ bool outline_gaps_close(const struct outline_gaps_input *input) {
       .nearest = {.sheet = input->sheet,
                   .map = input->map,
                   .first = input->first,
-                  .first_point = input->first_point},
+                  .first_point = input->first_point,
+                  .bulge = input->bulge,
+                  .bulges = input->bulges},
       .cover = {input->sheet, input->grid, input->query, SHEET_NONE}};
   bool ok = nearest_contours_init(&g.nearest) &&
             find_open_parts(&g, input->set) && add_part_edges(&g, input->map);
