@@ -81,8 +81,8 @@ static int count_ends(const struct contour_sheet *s, uint32_t point) {
   return count;
 }
 
-/* How far a point is to the right of a line, and how far contours may be that do
- * not bulge. */
+/* How far a point is to the right of a line, and how far contours may be that
+ * do not bulge. */
 static double offset_to_right(struct geom_point at, struct geom_point p,
                               const double along[2]) {
   return along[1] * ((double)at.x - p.x) - along[0] * ((double)at.y - p.y);

@@ -136,11 +136,12 @@ place_on_segment(const struct page_segment *s, struct geom_point p) {
   return at;
 }
 
-/* Whether all of a contour lies to the right of a line, where the line's surface
- * is not, by more than the contour may bulge: it is another surface's. */
-static bool is_beyond(const struct nearest_contours *n,
-                      const struct page_segment *s, struct geom_point p,
-                      const double along[2]) {
+/* Whether all of a contour lies to the right of a line, where the line's
+ * surface is not, by more than the contour may bulge: it is another
+ * surface's. */
+static bool is_on_other_side(const struct nearest_contours *n,
+                             const struct page_segment *s, struct geom_point p,
+                             const double along[2]) {
   uint32_t i = s->owner - n->first;
   double most = BEYOND + (i < n->bulges ? (double)n->bulge[i] : 0);
   double from =
@@ -158,7 +159,7 @@ static void try_near_contour(const struct nearest_contours *n,
   struct segment_place of = place_on_segment(s, p);
   double x = of.x, y = of.y, px = of.px, py = of.py, t = of.t;
   if (x * along[0] + y * along[1] < TURNED_COSINE * sqrt(x * x + y * y) ||
-      is_beyond(n, s, p, along))
+      is_on_other_side(n, s, p, along))
     return;
   const uint32_t *ends = n->sheet->edge.item[s->owner].point;
   if (is_loose_end(n, ends[0]))
