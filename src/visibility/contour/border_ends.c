@@ -258,14 +258,17 @@ static bool passes(const struct border_ends *b, const struct contour_end *end,
       sheet_ends(b->in->sheet, border_edge(b, reached->edge)->point);
   const double at[2] = {s.p.x + reached->t * ((double)s.q.x - s.p.x),
                         s.p.y + reached->t * ((double)s.q.y - s.p.y)};
-  uint32_t contour = end->contour, point = end->point;
+  uint32_t contour = end->contour, point = end->point, before = SHEET_NONE;
   for (double way = 0; contour != SHEET_NONE && way < end->bound;) {
     if (contour_distance(b, contour, at) <= TOLERANCE_OUTLINE_UNITS)
       return true;
     way += length_of_edge(b, contour);
     const uint32_t *ends = border_edge(b, contour)->point;
     point = ends[ends[0] == point];
-    contour = curve_next_edge(b->in->sheet, b->in->first, contour, point);
+    uint32_t next =
+        curve_next_edge(b->in->sheet, b->in->first, before, contour, point);
+    before = contour;
+    contour = next;
   }
   return false;
 }
