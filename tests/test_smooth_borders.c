@@ -238,7 +238,7 @@ static void folds_between_warped_quads_are_outlines(void **state) {
 
 /* Their contours turn back shortly before they end on a border, so that the
  * last segment says nothing of the side on which the border goes on. */
-static void borders_are_not_cut_off_by_hooks(void **state) {
+static void borders_go_on_where_contours_turn_back(void **state) {
   static const double view[][2] = {
       {79, -10}, {79, 19}, {103, -10}, {103, 19}, {295, 48}};
   (void)state;
@@ -364,7 +364,7 @@ int main(void) {
       cmocka_unit_test(waves_of_warped_faces_have_their_whole_outline),
       cmocka_unit_test(the_outline_of_folds_is_covered),
       cmocka_unit_test(borders_reach_the_contours_that_end_on_them),
-      cmocka_unit_test(borders_are_not_cut_off_by_hooks),
+      cmocka_unit_test(borders_go_on_where_contours_turn_back),
       cmocka_unit_test(folds_between_warped_quads_are_outlines),
       cmocka_unit_test(the_contour_of_a_band_reaches_its_border),
       cmocka_unit_test(the_rim_of_the_teapot_reaches_its_contour),

@@ -288,7 +288,7 @@ static int missing_of_rim(const recto_scene *scene, int sides,
 }
 
 /* Seen past its axis, the button's side has a zero set in front, and on either
- * side folds of a few triangles lead on from its ends, which may be hooks. */
+ * side folds of a few triangles lead on from its ends, which may turn back. */
 static void short_folds_that_continue_a_contour_are_drawn(void **state) {
   (void)state;
   for (int sides = 24; sides <= 64; sides += 8) {

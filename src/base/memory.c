@@ -123,6 +123,15 @@ bool array_grow(void **item, size_t *capacity, size_t count, size_t extra,
   return true;
 }
 
+void array_trim(void **item, size_t *capacity, size_t count, size_t size) {
+  void *trimmed =
+      count > 0 && count < *capacity ? mem_resize(*item, count, size) : NULL;
+  if (trimmed == NULL)
+    return;
+  *item = trimmed;
+  *capacity = count;
+}
+
 /* ---- Arena --------------------------------------------------------------- */
 
 struct arena_block {

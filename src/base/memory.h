@@ -69,6 +69,11 @@ struct byte_array {
   size_t count, capacity;
 };
 
+/* Gives back room for more items than there are; keeps it where that fails. */
+#define ARRAY_TRIM(array)                                                      \
+  array_trim((void **)&(array)->item, &(array)->capacity, (array)->count,      \
+             sizeof *(array)->item)
+
 #define ARRAY_FREE(array)                                                      \
   do {                                                                         \
     mem_free((array)->item);                                                   \
@@ -83,6 +88,7 @@ struct byte_array {
 
 USE_RESULT bool array_grow(void **item, size_t *capacity, size_t count,
                            size_t extra, size_t size);
+void array_trim(void **item, size_t *capacity, size_t count, size_t size);
 
 /* ---- Arena: many small blocks, freed at once ----------------------------- */
 struct arena {

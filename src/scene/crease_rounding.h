@@ -6,9 +6,10 @@
 #include "scene/scene.h"
 
 /* By how much rounding may have changed the cosine between two faces from that
- * of the crease angle: each turns by TOLERANCE_CREASE_ERRORS at most, and the
- * whole is TOLERANCE_CREASE_ROUNDING at most.  Points whose precision is not
- * stated count as exact. */
+ * of the crease angle: each turns by TOLERANCE_CREASE_ERRORS of the errors of
+ * its coordinates over its least height, at most, and the whole is
+ * TOLERANCE_CREASE_ROUNDING at most.  Points whose precision is not stated
+ * count as exact. */
 double crease_rounding(const struct scene *scene, uint32_t first,
                        uint32_t second, double cosine);
 

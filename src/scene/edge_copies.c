@@ -125,7 +125,7 @@ static void find_part(struct edge_copies *copies,
     return;
   }
   copies->wait = copies->next_wait;
-  if (copies->next_wait < WAIT_MAX)
+  if (copies->next_wait < WAIT_MAX / 2)
     copies->next_wait = 2 * copies->next_wait + 1;
 }
 

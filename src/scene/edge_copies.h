@@ -16,8 +16,8 @@ struct edge_copies {
 
 /* To be called where faces are numbered up to one, and `stop` is not passed:
  * copies edges where the next faces repeat a part just before them, and sets
- * where numbering is to stop.  No edge but those of welded points or hubs
- * depends on whether it was copied.
+ * where numbering is to stop.  Points are those of the scene as they are, and
+ * none has a table of its sides; no edge depends on whether it was copied.
  * face  the first face that is not numbered, before and after
  * Returns false when memory ran out, or where the caller cancelled. */
 USE_RESULT bool edge_copies_add(struct edge_copies *copies,

@@ -1,9 +1,9 @@
 /* edge_range.c - finds the edges of a range of the scene's faces.
  *
  * The sides are visited in file order.  Each is looked up among the edges of
- * its lower point, and added where it is not there.
- * Faces that repeat earlier ones with other points get copies of their edges.
- * Where a point has too many for that, all is done in another way:
+ * its lower point, and added where it is not there.  Faces that repeat earlier
+ * ones with other points get copies of their edges.
+ * Where a point has too many edges to look among, all is done in another way:
  *   count    the sides of all faces are counted at the lower of their points.
  *   name     where a point has many sides (a fan of a hundred thousand
  *            triangles), these are distinguished by a table by upper point:

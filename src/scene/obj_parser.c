@@ -153,25 +153,17 @@ recto_status obj_finish_points(struct obj_parser *p) {
                                precision_estimate(&p->sample), p->error);
 }
 
-/* The colour of a group that was there before is not taken back, so nothing
- * that may fail comes after this. */
-/* Gives back the room that was made for more points and corners than there are
+/* Gives back the room that was made for more points and faces than there are
  * (obj_run.c): much of it may be in large pages that are used in part. */
 static void give_room_back(struct scene *scene) {
-  struct scene_point *point = mem_resize(scene->point.item, scene->point.count,
-                                         sizeof *scene->point.item);
-  uint32_t *corner = mem_resize(scene->corner.item, scene->corner.count,
-                                sizeof *scene->corner.item);
-  if (point != NULL) {
-    scene->point.item = point;
-    scene->point.capacity = scene->point.count;
-  }
-  if (corner != NULL) {
-    scene->corner.item = corner;
-    scene->corner.capacity = scene->corner.count;
-  }
+  ARRAY_TRIM(&scene->point);
+  ARRAY_TRIM(&scene->corner);
+  ARRAY_TRIM(&scene->face_start);
+  ARRAY_TRIM(&scene->face_group);
 }
 
+/* The colour of a group that was there before is not taken back, so nothing
+ * that may fail comes after this. */
 recto_status obj_finish(struct obj_parser *p) {
   if (p->has_room_for != NULL)
     give_room_back(p->scene);

@@ -275,9 +275,8 @@ static recto_status read_ahead(struct obj_parser *p,
 static void reserve_ahead(struct obj_parser *p, const struct obj_run_kind *kind,
                           size_t bytes) {
   size_t left = bytes_left(p), count = left / (bytes / PLAIN_RUN);
-  p->has_room_for = kind;
-  if (left > AHEAD_BYTES && count < SCENE_LIMIT / 4)
-    (void)kind->reserve(p, count);
+  if (left > AHEAD_BYTES && count < SCENE_LIMIT / 4 && kind->reserve(p, count))
+    p->has_room_for = kind;
 }
 
 /* Reads up to PLAIN_RUN statements. */

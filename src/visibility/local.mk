@@ -58,6 +58,7 @@ librecto_core_la_SOURCES += \
   %D%/contour/curve_pieces.c %D%/contour/curve_pieces.h \
   %D%/contour/divided_curves.c %D%/contour/divided_curves.h \
   %D%/contour/doubled_contours.c %D%/contour/doubled_contours.h \
+  %D%/contour/end_zigzags.c %D%/contour/end_zigzags.h \
   %D%/contour/drawn_outlines.c %D%/contour/drawn_outlines.h \
   %D%/contour/facing.c %D%/contour/facing.h \
   %D%/contour/facing_apices.c \
@@ -78,7 +79,6 @@ librecto_core_la_SOURCES += \
   %D%/contour/page_crossings.c %D%/contour/page_crossings.h \
   %D%/contour/near_faces.c %D%/contour/near_faces.h \
   %D%/contour/nearest_contours.c %D%/contour/nearest_contours.h \
-  %D%/contour/open_ends.c %D%/contour/open_ends.h \
   %D%/contour/part_size.c %D%/contour/part_size.h \
   %D%/contour/segment_grid.c %D%/contour/segment_grid.h \
   %D%/contour/slot_normals.c \

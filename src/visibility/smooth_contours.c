@@ -17,6 +17,7 @@
 #include "visibility/contour/curve_pieces.h"
 #include "visibility/contour/divided_curves.h"
 #include "visibility/contour/doubled_contours.h"
+#include "visibility/contour/end_zigzags.h"
 #include "visibility/contour/fit_fragments.h"
 #include "visibility/contour/fit_outline.h"
 #include "visibility/contour/fold_bridges.h"
@@ -24,7 +25,6 @@
 #include "visibility/contour/folded_faces.h"
 #include "visibility/contour/intersection_cuts.h"
 #include "visibility/contour/line_ends.h"
-#include "visibility/contour/open_ends.h"
 #include "visibility/contour/outline_gaps.h"
 #include "visibility/contour/page_crossings.h"
 #include "visibility/contour/thin_loops.h"
@@ -269,7 +269,7 @@ static bool add_pieces(struct contour_pieces *c) {
   bool ok = contour_curves_join(c->curves, c->set, c->options.crease_deg) &&
             (c->options.exact ||
              (thin_loops_remove(c->curves, c->set, c->sheet, c->topology) &&
-              open_ends_straighten(c->curves, c->set, &c->sheet->camera))) &&
+              end_zigzags_straighten(c->curves, c->set, &c->sheet->camera))) &&
             contour_cusps_cut(c->curves) && page_crossings_cut(c->curves) &&
             intersection_cuts_add(c->curves, c->sheet, c->map) &&
             contour_cuts_sort(&c->curves->cut) &&

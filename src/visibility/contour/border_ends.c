@@ -13,6 +13,7 @@
 
 /* The fractional bits of where a border is shown. */
 enum { SHOWN_BITS = 40 };
+static const double SHOWN_LEAST = 0x1p-40;
 
 /* A hidden border on which a contour ends. */
 struct contour_end {
@@ -114,18 +115,18 @@ static bool add_ends_on(struct border_ends *b,
     return true;
   for (int k = 0; k < 2; k++) {
     const struct geom_point at = k == 0 ? contour->p : contour->q;
-    double wide = diameter_of_triangle(sheet, of->triangle[0]);
-    const struct geom_point from = curve_before_end(
-        sheet, b->in->first, contour->owner, k, HOOK_SHARE * wide);
     double px = (double)at.x - border->p.x, py = (double)at.y - border->p.y;
     double t = (px * x + py * y) / square;
-    if (!is_end(b, of->point[k]) || !(t > 0 && t < 1) ||
+    if (!is_end(b, of->point[k]) || !(fmin(t, 1 - t) >= SHOWN_LEAST) ||
         fabs(x * py - y * px) > TOLERANCE_COINCIDENT_UNITS * sqrt(square))
       continue;
+    double wide = diameter_of_triangle(sheet, of->triangle[0]);
+    const struct geom_point from = curve_before_end(
+        sheet, b->in->first, contour->owner, k, END_SHARE * wide);
     struct contour_end made = {
         border->owner,
         t,
-        diameter_of_triangle(sheet, of->triangle[0]),
+        wide,
         x * ((double)at.x - from.x) + y * ((double)at.y - from.y) > 0,
         contour->owner,
         of->point[k]};

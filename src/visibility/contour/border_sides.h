@@ -6,7 +6,7 @@
 
 /* The direction of a contour where it ends on a border is found over this share
  * of its triangle's diameter. */
-#define HOOK_SHARE 0.25
+#define END_SHARE 0.25
 
 /* Whether an edge is a border of more than two faces. */
 bool has_more_faces(const struct sheet_edge *edge);

@@ -13,7 +13,7 @@ uint32_t curve_next_edge(const struct sheet *sheet, uint32_t first,
                          uint32_t before, uint32_t edge, uint32_t point);
 
 /* The first point back along a curve that is at least so far on the page from
- * where it ends: its last segments may be a hook, of another direction.
+ * where it ends: its last segments may turn back.
  * edge  of the sheet: the curve's last one, and k its point there */
 struct geom_point curve_before_end(const struct sheet *sheet, uint32_t first,
                                    uint32_t edge, int k, double distance);

@@ -12,7 +12,7 @@
 
 /* How far from a sample the end of a contour may be that a line continues, how
  * far a line is led on to one, and over how much of the contour its direction
- * is found, as its last segments may be a hook; in heights. */
+ * is found, as its last segments may turn back; in heights. */
 #define JOINT_HEIGHTS 1.5
 #define LEAD_HEIGHTS 3
 #define DIRECTION_HEIGHTS 0.5

@@ -79,16 +79,18 @@ static bool add_end_on_border(struct line_ends *l,
                               struct line_crossing made) {
   double x = (double)line->q.x - line->p.x, y = (double)line->q.y - line->p.y;
   const struct sheet_edge *of = &l->sheet->edge.item[contour->owner];
-  double hook = HOOK_SHARE * diameter_of_triangle(l->sheet, of->triangle[0]);
+  double over = END_SHARE * diameter_of_triangle(l->sheet, of->triangle[0]);
   bool ok = true;
   for (int k = 0; k < 2 && ok; k++) {
     const struct geom_point end = k == 0 ? contour->p : contour->q;
-    const struct geom_point from =
-        curve_before_end(l->sheet, l->first, contour->owner, k, hook);
     double px = (double)end.x - line->p.x, py = (double)end.y - line->p.y;
-    double ahead = x * ((double)end.x - from.x) + y * ((double)end.y - from.y);
-    if (l->degree[of->point[k] - l->first_point] > 1 || ahead == 0 ||
+    if (l->degree[of->point[k] - l->first_point] > 1 ||
         fabs(x * py - y * px) > TOLERANCE_COINCIDENT_UNITS * hypot(x, y))
+      continue;
+    const struct geom_point from =
+        curve_before_end(l->sheet, l->first, contour->owner, k, over);
+    double ahead = x * ((double)end.x - from.x) + y * ((double)end.y - from.y);
+    if (ahead == 0)
       continue;
     /* How the contour's depth changes over the border's length. */
     double rise = (double)(end.z - from.z) * ((x * x + y * y) / ahead);

@@ -169,16 +169,6 @@ static bool is_long(const struct page_loop *loop, double heights) {
 
 /* ---- The stack ----------------------------------------------------------- */
 
-/* Adds a segment between two nodes that is a part of another one. */
-static bool add_segment_part(struct zero_set *set, uint32_t of, uint32_t from,
-                             uint32_t to, uint32_t *segment) {
-  struct contour_segment part = set->segment.item[of];
-  part.node[0] = from;
-  part.node[1] = to;
-  *segment = (uint32_t)set->segment.count;
-  return ARRAY_PUSH(&set->segment, part);
-}
-
 /* Adds the node at a place of a segment of the stack. */
 static bool add_node_on(struct thin_loops *l, size_t i, double t,
                         uint32_t *node) {
@@ -207,9 +197,9 @@ static bool take_off(struct thin_loops *l, size_t from, double s, double t) {
   uint32_t node, rest, end = step[last + 1].node;
   if (!add_node_on(l, first_is_nearer ? from : last, first_is_nearer ? s : t,
                    &node) ||
-      !add_segment_part(l->set, step[from].segment, step[from].node, node,
-                        &step[from].segment) ||
-      !add_segment_part(l->set, step[last].segment, node, end, &rest))
+      !zero_set_add_part(l->set, step[from].segment, step[from].node, node,
+                         &step[from].segment) ||
+      !zero_set_add_part(l->set, step[last].segment, node, end, &rest))
     return false;
   step[from + 1] = (struct contour_step){node, rest};
   step[from + 2] = (struct contour_step){end, SHEET_NONE};
@@ -310,8 +300,8 @@ static bool straighten(struct thin_loops *l, size_t from) {
   step[1] = end;
   l->set->node.item[step->node].is_cut = true;
   l->set->node.item[end.node].is_cut = true;
-  if (!add_segment_part(l->set, step->segment, step->node, end.node,
-                        &step->segment))
+  if (!zero_set_add_part(l->set, step->segment, step->node, end.node,
+                         &step->segment))
     return false;
   struct contour_segment *made = &l->set->segment.item[step->segment];
   if (height >= VISIBLE_WIDTH) {

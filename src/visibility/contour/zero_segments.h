@@ -31,7 +31,7 @@ struct contour_segment {
                           curves into the line of sight */
   bool along_crease;
   double height; /* the triangle's least, scene units; of a crease, over that
-                    or twice the least */
+                    or twice the least, whichever is less */
   double width;  /* how uneven the mesh is about it: by its height; nearly 0 at
                     a crease at which the faces themselves fold over */
 };
@@ -50,6 +50,18 @@ struct zero_set {
                                         ends, and of coarse parts' contours */
   ARRAY(struct contour_outline) outline; /* of smooth parts */
 };
+
+/* Adds a segment between two nodes that is a part of another one. */
+USE_RESULT static inline bool zero_set_add_part(struct zero_set *set,
+                                                uint32_t of, uint32_t from,
+                                                uint32_t to,
+                                                uint32_t *segment) {
+  struct contour_segment part = set->segment.item[of];
+  part.node[0] = from;
+  part.node[1] = to;
+  *segment = (uint32_t)set->segment.count;
+  return ARRAY_PUSH(&set->segment, part);
+}
 
 /* The first of a face's triangles; SHEET_NONE: it has none. */
 static inline uint32_t first_triangle_of_face(const struct sheet *sheet,

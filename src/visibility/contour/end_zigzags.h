@@ -1,6 +1,6 @@
-/* open_ends.h - takes off what open contours overshoot at their ends. */
-#ifndef VISIBILITY_CONTOUR_OPEN_ENDS_H
-#define VISIBILITY_CONTOUR_OPEN_ENDS_H
+/* end_zigzags.h - takes off what open contours overshoot at their ends. */
+#ifndef VISIBILITY_CONTOUR_END_ZIGZAGS_H
+#define VISIBILITY_CONTOUR_END_ZIGZAGS_H
 
 #include "visibility/contour/contour_curves.h"
 
@@ -10,8 +10,8 @@
  * two.  At a border the surface is seen edge-on, and the curve zigzags about
  * the line of sight there.
  * Returns false when memory ran out or the caller cancelled. */
-USE_RESULT bool open_ends_straighten(struct contour_curves *curves,
-                                     struct zero_set *set,
-                                     const struct camera *camera);
+USE_RESULT bool end_zigzags_straighten(struct contour_curves *curves,
+                                       struct zero_set *set,
+                                       const struct camera *camera);
 
 #endif

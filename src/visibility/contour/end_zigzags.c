@@ -1,5 +1,5 @@
-/* open_ends.c - makes one segment of the last two of a curve. */
-#include "visibility/contour/open_ends.h"
+/* end_zigzags.c - makes one segment of the last two of a curve. */
+#include "visibility/contour/end_zigzags.h"
 
 #include <math.h>
 
@@ -29,22 +29,12 @@ static bool is_short(const struct contour_curves *curves,
              contour_height(camera, p, s);
 }
 
-/* Makes a segment between two nodes that is a part of another one. */
-static bool add_joined_segment(struct zero_set *set, uint32_t of, uint32_t from,
-                               uint32_t to, uint32_t *segment) {
-  struct contour_segment part = set->segment.item[of];
-  part.node[0] = from;
-  part.node[1] = to;
-  *segment = (uint32_t)set->segment.count;
-  return ARRAY_PUSH(&set->segment, part);
-}
-
 static bool straighten_last(struct contour_curves *curves, struct zero_set *set,
                             struct contour_curve *curve) {
   struct contour_step *step = curves->step.item + curve->step + curve->count;
   step[-1].node = step->node;
-  if (!add_joined_segment(set, step[-1].segment, step[-2].node, step->node,
-                          &step[-2].segment))
+  if (!zero_set_add_part(set, step[-1].segment, step[-2].node, step->node,
+                         &step[-2].segment))
     return false;
   step[-1].segment = SHEET_NONE;
   curve->count--;
@@ -56,16 +46,16 @@ static bool straighten_first(struct contour_curves *curves,
                              struct contour_curve *curve) {
   struct contour_step *step = curves->step.item + curve->step;
   step[1].node = step[0].node;
-  if (!add_joined_segment(set, step[0].segment, step[0].node, step[2].node,
-                          &step[1].segment))
+  if (!zero_set_add_part(set, step[0].segment, step[0].node, step[2].node,
+                         &step[1].segment))
     return false;
   curve->step++;
   curve->count--;
   return true;
 }
 
-bool open_ends_straighten(struct contour_curves *curves, struct zero_set *set,
-                          const struct camera *camera) {
+bool end_zigzags_straighten(struct contour_curves *curves, struct zero_set *set,
+                            const struct camera *camera) {
   for (size_t i = 0; i < curves->curve.count; i++) {
     struct contour_curve *curve = &curves->curve.item[i];
     uint32_t last = curve->step + curve->count - 1;
