@@ -122,6 +122,19 @@ recto_scene *smooth_scene(smooth_surface *at, bool poles, int n, int m) {
   return scene;
 }
 
+recto_scene *smooth_quads(const double *point, size_t points,
+                          const uint32_t *corner, size_t corners) {
+  const recto_mesh mesh = {.points = point,
+                           .point_count = points,
+                           .corners = corner,
+                           .corner_count = corners,
+                           .face_size = 4};
+  recto_scene *scene;
+  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+  assert_int_equal(recto_scene_add_mesh(scene, &mesh, NULL), RECTO_OK);
+  return scene;
+}
+
 void smooth_view(recto_options *options, int view) {
   recto_options_init(options);
   options->camera.azimuth_deg = 17 + 37.3 * view;

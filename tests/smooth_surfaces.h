@@ -36,6 +36,10 @@ void smooth_add(recto_scene *scene, smooth_surface *at, bool poles, int n,
 /* A scene of such a mesh. */
 recto_scene *smooth_scene(smooth_surface *at, bool poles, int n, int m);
 
+/* A scene of quadrilaterals; three coordinates a point. */
+recto_scene *smooth_quads(const double *point, size_t points,
+                          const uint32_t *corner, size_t corners);
+
 /* A view of every direction but those along the axes and almost so. */
 void smooth_view(recto_options *options, int view);
 

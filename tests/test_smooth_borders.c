@@ -67,13 +67,7 @@ static recto_scene *open_scene(smooth_surface *at, enum mesh_kind kind,
       for (int k = 0; k < 4 && twice; k++, corners++)
         corner[corners] = corner[corners - 4];
     }
-  const recto_mesh mesh = {.points = point,
-                           .point_count = points,
-                           .corners = corner,
-                           .corner_count = corners,
-                           .face_size = 4};
-  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
-  assert_int_equal(recto_scene_add_mesh(scene, &mesh, NULL), RECTO_OK);
+  scene = smooth_quads(point, points, corner, corners);
   free(point);
   free(corner);
   return scene;
@@ -258,7 +252,6 @@ static recto_scene *open_moebius_band(void) {
   double point[AROUND * ROW][3];
   uint32_t corner[AROUND * ACROSS * 4];
   size_t corners = 0;
-  recto_scene *scene;
   for (uint32_t i = 0; i < AROUND; i++)
     for (uint32_t j = 0; j < ROW; j++) {
       double u = 2 * M_PI * i / AROUND, s = 0.8 * j / ACROSS - 0.4;
@@ -273,14 +266,7 @@ static recto_scene *open_moebius_band(void) {
             (i + next) % AROUND * ROW + (over ? ACROSS - at : at);
       }
     }
-  const recto_mesh mesh = {.points = point[0],
-                           .point_count = AROUND * ROW,
-                           .corners = corner,
-                           .corner_count = corners,
-                           .face_size = 4};
-  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
-  assert_int_equal(recto_scene_add_mesh(scene, &mesh, NULL), RECTO_OK);
-  return scene;
+  return smooth_quads(point[0], AROUND * ROW, corner, corners);
 }
 
 /* A contour that ends on the border turns back there over less than its

@@ -19,7 +19,6 @@ static recto_scene *waves(void) {
   static double point[(SIDES + 1) * (SIDES + 1)][3];
   static uint32_t corner[SIDES * SIDES * 4];
   size_t corners = 0;
-  recto_scene *scene;
   for (uint32_t i = 0; i <= SIDES; i++)
     for (uint32_t j = 0; j <= SIDES; j++) {
       double *p = point[i * (SIDES + 1) + j];
@@ -31,14 +30,7 @@ static recto_scene *waves(void) {
       for (int k = 0; i < SIDES && j < SIDES && k < 4; k++)
         corner[corners++] = quad[k];
     }
-  const recto_mesh mesh = {.points = point[0],
-                           .point_count = (SIDES + 1) * (SIDES + 1),
-                           .corners = corner,
-                           .corner_count = corners,
-                           .face_size = 4};
-  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
-  assert_int_equal(recto_scene_add_mesh(scene, &mesh, NULL), RECTO_OK);
-  return scene;
+  return smooth_quads(point[0], (SIDES + 1) * (SIDES + 1), corner, corners);
 }
 
 static double length_of(const recto_stroke *stroke) {

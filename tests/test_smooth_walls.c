@@ -33,7 +33,6 @@ static recto_scene *turned(const struct profile_point *profile,
   static double point[AROUND * PROFILE_MAX][3];
   static uint32_t corner[AROUND * PROFILE_MAX * 4];
   size_t corners = 0;
-  recto_scene *scene;
   assert_true(points <= PROFILE_MAX);
   for (uint32_t i = 0; i < AROUND; i++)
     for (uint32_t j = 0; j < points; j++) {
@@ -46,14 +45,7 @@ static recto_scene *turned(const struct profile_point *profile,
       for (int k = 0; k < 4 && j + 1 < points; k++)
         corner[corners++] = quad[k];
     }
-  const recto_mesh mesh = {.points = point[0],
-                           .point_count = (size_t)AROUND * points,
-                           .corners = corner,
-                           .corner_count = corners,
-                           .face_size = 4};
-  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
-  assert_int_equal(recto_scene_add_mesh(scene, &mesh, NULL), RECTO_OK);
-  return scene;
+  return smooth_quads(point[0], (size_t)AROUND * points, corner, corners);
 }
 
 /* A mug whose wall has long faces. */
@@ -116,7 +108,6 @@ static recto_scene *elbow(void) {
       {M_PI + 1.75, 0.8}, {M_PI + 1.75, 1.2}, {M_PI + 2, 1.2}, {M_PI + 2, 0.6}};
   struct elbow_section section[ELBOW_SECTIONS];
   size_t sections = 0, corners = 0;
-  recto_scene *scene;
   for (int i = 0; i < 4; i++)
     section[sections++] = begin[i];
   for (int i = 0; i <= BENDS; i++)
@@ -141,14 +132,7 @@ static recto_scene *elbow(void) {
       for (int k = 0; k < 4; k++)
         corner[corners++] = quad[k];
     }
-  const recto_mesh mesh = {.points = point[0],
-                           .point_count = ELBOW_SECTIONS * ELBOW_AROUND,
-                           .corners = corner,
-                           .corner_count = corners,
-                           .face_size = 4};
-  assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
-  assert_int_equal(recto_scene_add_mesh(scene, &mesh, NULL), RECTO_OK);
-  return scene;
+  return smooth_quads(point[0], ELBOW_SECTIONS * ELBOW_AROUND, corner, corners);
 }
 
 /* ---- Its lines ----------------------------------------------------------- */
