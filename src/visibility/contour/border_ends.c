@@ -3,7 +3,6 @@
 
 #include <math.h>
 
-#include "base/poll.h"
 #include "base/sort.h"
 #include "base/tolerance.h"
 #include "geom/nearest.h"
@@ -103,9 +102,9 @@ static bool list_ends_and_borders(struct border_ends *b) {
 }
 
 /* Adds the ends of a contour that are on a border of its face. */
-static bool add_ends_on(struct border_ends *b,
-                        const struct page_segment *contour,
+static bool add_ends_on(void *user, const struct page_segment *contour,
                         const struct page_segment *border) {
+  struct border_ends *b = user;
   const struct sheet *sheet = b->in->sheet;
   const struct sheet_edge *of = border_edge(b, contour->owner);
   double x = (double)border->q.x - border->p.x;
@@ -132,24 +131,6 @@ static bool add_ends_on(struct border_ends *b,
         of->point[k]};
     if (!ARRAY_PUSH(&b->end, made))
       return false;
-  }
-  return true;
-}
-
-static bool find_ends(struct border_ends *b) {
-  const uint32_t *item = b->grid.cell.lists.item,
-                 *start = b->grid.cell.lists.start;
-  const struct page_segment *all = b->grid.segment.item;
-  size_t cells = triangle_grid_cell_count(&b->grid.cell);
-  for (size_t cell = 0; cell < cells; cell++) {
-    if (!poll_at(cell))
-      return false;
-    /* Lists descend: the contours are at the end. */
-    for (uint32_t i = start[cell + 1];
-         i-- > start[cell] && item[i] < b->grid.contours;)
-      for (uint32_t j = start[cell]; item[j] >= b->grid.contours; j++)
-        if (!add_ends_on(b, &all[item[i]], &all[item[j]]))
-          return false;
   }
   return true;
 }
@@ -328,7 +309,8 @@ bool border_ends_show(const struct outline_gaps_input *input) {
   struct border_ends b = {.in = input};
   bool ok = count_visible_degrees(&b) && list_ends_and_borders(&b) &&
             (b.grid.contours == 0 ||
-             (segment_grid_make(&b.grid) && find_ends(&b) && show_all(&b)));
+             (segment_grid_make(&b.grid) &&
+              segment_grid_meet(&b.grid, add_ends_on, &b) && show_all(&b)));
   segment_grid_fini(&b.grid);
   mem_free(b.degree);
   mem_free(b.pair);

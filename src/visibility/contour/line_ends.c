@@ -3,7 +3,6 @@
 
 #include <math.h>
 
-#include "base/poll.h"
 #include "base/sort.h"
 #include "base/tolerance.h"
 #include "visibility/contour/border_sides.h"
@@ -102,9 +101,9 @@ static bool add_end_on_border(struct line_ends *l,
   return ok;
 }
 
-static bool add_line_crossing(struct line_ends *l,
-                              const struct page_segment *contour,
+static bool add_line_crossing(void *user, const struct page_segment *contour,
                               const struct page_segment *line) {
+  struct line_ends *l = user;
   const struct sheet *sheet = l->sheet;
   const struct sheet_edge *edge = &sheet->edge.item[line->owner];
   uint32_t triangle = sheet->edge.item[contour->owner].triangle[0];
@@ -128,24 +127,6 @@ static bool add_line_crossing(struct line_ends *l,
   return (!made.own &&
           page_segment_depth(contour, s) <= page_segment_depth(line, t)) ||
          ARRAY_PUSH(&l->crossing, made);
-}
-
-static bool find_crossings(struct line_ends *l) {
-  const uint32_t *item = l->grid.cell.lists.item,
-                 *start = l->grid.cell.lists.start;
-  const struct page_segment *all = l->grid.segment.item;
-  size_t cells = triangle_grid_cell_count(&l->grid.cell);
-  for (size_t cell = 0; cell < cells; cell++) {
-    if (!poll_at(cell))
-      return false;
-    /* Lists descend: the contours are at the end. */
-    for (uint32_t i = start[cell + 1];
-         i-- > start[cell] && item[i] < l->grid.contours;)
-      for (uint32_t j = start[cell]; item[j] >= l->grid.contours; j++)
-        if (!add_line_crossing(l, &all[item[i]], &all[item[j]]))
-          return false;
-  }
-  return true;
 }
 
 /* ---- Intervals ----------------------------------------------------------- */
@@ -268,7 +249,8 @@ bool line_ends_move(struct map *map, const struct sheet *sheet,
   bool ok =
       count_ends(&l) && list_drawn_lines(&l) &&
       (l.grid.contours == 0 || l.grid.contours == l.grid.segment.count ||
-       (segment_grid_make(&l.grid) && find_crossings(&l) && move_all(&l)));
+       (segment_grid_make(&l.grid) &&
+        segment_grid_meet(&l.grid, add_line_crossing, &l) && move_all(&l)));
   segment_grid_fini(&l.grid);
   mem_free(l.degree);
   ARRAY_FREE(&l.crossing);

@@ -1,6 +1,8 @@
 /* segment_grid.c - lists segments of the page by the cells that they meet. */
 #include "visibility/contour/segment_grid.h"
 
+#include "base/poll.h"
+
 bool segment_grid_add(struct segment_grid *grid, struct geom_segment segment,
                       uint32_t owner) {
   struct page_segment made = {segment.p, segment.q, owner};
@@ -52,6 +54,24 @@ bool segment_grid_make(struct segment_grid *grid) {
 void segment_grid_fini(struct segment_grid *grid) {
   ARRAY_FREE(&grid->segment);
   number_lists_fini(&grid->cell.lists);
+}
+
+bool segment_grid_meet(const struct segment_grid *grid, meet_segments *meet,
+                       void *user) {
+  const uint32_t *item = grid->cell.lists.item, *start = grid->cell.lists.start;
+  const struct page_segment *all = grid->segment.item;
+  size_t cells = triangle_grid_cell_count(&grid->cell);
+  for (size_t cell = 0; cell < cells; cell++) {
+    if (!poll_at(cell))
+      return false;
+    /* Lists descend: the contours are at the end. */
+    for (uint32_t i = start[cell + 1];
+         i-- > start[cell] && item[i] < grid->contours;)
+      for (uint32_t j = start[cell]; item[j] >= grid->contours; j++)
+        if (!meet(user, &all[item[i]], &all[item[j]]))
+          return false;
+  }
+  return true;
 }
 
 static bool is_joined(const struct page_segment *a,

@@ -27,6 +27,15 @@ USE_RESULT bool segment_grid_add(struct segment_grid *grid,
 USE_RESULT bool segment_grid_make(struct segment_grid *grid);
 void segment_grid_fini(struct segment_grid *grid);
 
+typedef bool meet_segments(void *user, const struct page_segment *contour,
+                           const struct page_segment *other);
+
+/* Calls `meet` for each contour and each other segment in each cell that both
+ * may meet: for the same two more than once where they have several.  Returns
+ * false when the caller cancelled, or `meet` returned it. */
+USE_RESULT bool segment_grid_meet(const struct segment_grid *grid,
+                                  meet_segments *meet, void *user);
+
 /* Whether two segments cross, and at which parameters of each; exactly, but for
  * where.  A point on a line counts as left of it, and segments that share an
  * end do not cross. */
