@@ -41,6 +41,24 @@ static double length_of(const recto_stroke *stroke) {
   return sum;
 }
 
+/* Fails where the middle of a long stroke of one drawing is far from the ink of
+ * another one of the same view. */
+static void check_near_ink(const recto_drawing *expected,
+                           const recto_drawing *drawing,
+                           const recto_options *options, double long_mm,
+                           double most_mm) {
+  for (size_t s = 0; s < recto_drawing_stroke_count(expected); s++) {
+    recto_stroke stroke;
+    assert_true(recto_drawing_stroke(expected, s, &stroke));
+    const double *middle = stroke.points + stroke.count / 2 * 2;
+    double mm = smooth_distance_to_ink(drawing, RECTO_EDGES_ALL, middle);
+    if (length_of(&stroke) > long_mm && !(mm < most_mm))
+      fail_msg("%g/%g degrees: a line of %g mm is %g mm from ink",
+               options->camera.azimuth_deg, options->camera.elevation_deg,
+               length_of(&stroke), mm);
+  }
+}
+
 /* Fails where a stroke of an exact drawing is long, and its middle is far from
  * ink by default. */
 static void check_long_strokes(const recto_scene *scene, double azimuth_deg,
@@ -52,15 +70,7 @@ static void check_long_strokes(const recto_scene *scene, double azimuth_deg,
   recto_drawing *exact = smooth_draw(scene, &options);
   options.ink.exact = false;
   recto_drawing *drawing = smooth_draw(scene, &options);
-  for (size_t s = 0; s < recto_drawing_stroke_count(exact); s++) {
-    recto_stroke stroke;
-    assert_true(recto_drawing_stroke(exact, s, &stroke));
-    const double *middle = stroke.points + stroke.count / 2 * 2;
-    double mm = smooth_distance_to_ink(drawing, RECTO_EDGES_ALL, middle);
-    if (length_of(&stroke) > long_mm && !(mm < 0.2))
-      fail_msg("%g/%g degrees: a line of %g mm is %g mm from ink", azimuth_deg,
-               elevation_deg, length_of(&stroke), mm);
-  }
+  check_near_ink(exact, drawing, &options, long_mm, 0.2);
   recto_drawing_destroy(exact);
   recto_drawing_destroy(drawing);
 }
@@ -228,15 +238,7 @@ static void check_mesh_lines(const recto_scene *scene, double azimuth_deg,
   recto_drawing *mesh = smooth_draw(scene, &options);
   options.ink.contours = RECTO_CONTOURS_SMOOTH;
   recto_drawing *drawing = smooth_draw(scene, &options);
-  for (size_t s = 0; s < recto_drawing_stroke_count(mesh); s++) {
-    recto_stroke stroke;
-    assert_true(recto_drawing_stroke(mesh, s, &stroke));
-    const double *middle = stroke.points + stroke.count / 2 * 2;
-    double mm = smooth_distance_to_ink(drawing, RECTO_EDGES_ALL, middle);
-    if (length_of(&stroke) > long_mm && !(mm < most_mm))
-      fail_msg("%g/%g degrees: a line of %g mm is %g mm from ink", azimuth_deg,
-               elevation_deg, length_of(&stroke), mm);
-  }
+  check_near_ink(mesh, drawing, &options, long_mm, most_mm);
   recto_drawing_destroy(mesh);
   recto_drawing_destroy(drawing);
 }
