@@ -2,6 +2,7 @@
 #ifndef BACKENDS_SVG_ELEMENTS_H
 #define BACKENDS_SVG_ELEMENTS_H
 
+#include "backends/svg_text.h"
 #include "backends/writer.h"
 
 /* A point rounded to the last decimal that is written, y down. */
@@ -16,7 +17,7 @@ struct svg {
   double scale;                   /* 10 to the power of the precision */
   ARRAY(struct svg_point) point;  /* of the current stroke or loop */
   struct drawing_polyline chords; /* of the current stroke's curve */
-  char **group_id;                /* by groups: of each, or NULL */
+  struct svg_ids ids;             /* of groups; empty: not by groups */
 };
 
 const char *svg_class_name(const struct drawing_stroke *stroke);

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/hash.h"
-#include "base/memory.h"
 #include "base/sort.h"
 #include "base/utf8.h"
 
@@ -70,9 +69,20 @@ static bool is_of_name(uint32_t code) {
   return false;
 }
 
-/* Copies a name with underlines in place of what no id holds. */
-static void copy_name(char *to, const char *name) {
+static inline bool is_letter_or_digit(unsigned char c) {
+  return (unsigned char)((c | 0x20) - 'a') < 26 ||
+         (unsigned char)(c - '0') < 10;
+}
+
+/* Copies a name with underlines in place of what no id holds; returns how many
+ * bytes it has then. */
+static size_t copy_name(char *to, const char *name) {
+  char *start = to;
   while (*name != '\0') {
+    if (is_letter_or_digit((unsigned char)*name)) {
+      *to++ = *name++;
+      continue;
+    }
     uint32_t code = 0;
     size_t length = utf8_measure(name, &code);
     bool kept = length > 0 && is_of_name(code);
@@ -84,6 +94,7 @@ static void copy_name(char *to, const char *name) {
     name += length > 0 ? length : 1;
   }
   *to = '\0';
+  return (size_t)(to - start);
 }
 
 static int compare_group_ids(const void *first, const void *second,
@@ -96,24 +107,17 @@ static int compare_group_ids(const void *first, const void *second,
 /* What makes equal ids different takes so many bytes. */
 enum { SUFFIX_SIZE = 64 };
 
-/* Sets order to the groups with names, by their ids; returns how many. */
-static size_t sort_by_ids(char **id, size_t count, uint32_t *order, bool *ok) {
-  size_t named = 0;
-  for (uint32_t i = 0; i < count; i++)
-    if (id[i] != NULL)
-      order[named++] = i;
-  *ok = sort_stable(order, named, sizeof *order, compare_group_ids, id);
-  return named;
+/* Sorts the groups of a list by their ids. */
+static bool sort_by_ids(char **id, uint32_t *order, size_t count) {
+  return sort_stable(order, count, sizeof *order, compare_group_ids, id);
 }
 
 /* Appends a point and the hash of its name to each of equal ids, unless it is
  * the name itself. */
-static bool append_hashes(char *const *name, char **id, size_t count,
-                          uint32_t *order) {
-  bool ok;
-  size_t named = sort_by_ids(id, count, order, &ok);
-  for (size_t i = 0, end; ok && i < named; i = end) {
-    for (end = i + 1; end < named && strcmp(id[order[end]], id[order[i]]) == 0;)
+static void append_hashes(char *const *name, char **id, const uint32_t *order,
+                          size_t count) {
+  for (size_t i = 0, end; i < count; i = end) {
+    for (end = i + 1; end < count && strcmp(id[order[end]], id[order[i]]) == 0;)
       end++;
     for (size_t k = i; end - i > 1 && k < end; k++) {
       char *at = id[order[k]];
@@ -123,14 +127,11 @@ static bool append_hashes(char *const *name, char **id, size_t count,
                        (uint32_t)hash_text(whole, strlen(whole)));
     }
   }
-  return ok;
 }
 
 /* Appends a point and a number to all but the first of equal ids. */
-static bool append_numbers(char **id, size_t count, uint32_t *order) {
-  bool ok;
-  size_t named = sort_by_ids(id, count, order, &ok), equal = 1;
-  for (size_t i = 1, first = 0; ok && i < named; i++) {
+static void append_numbers(char **id, const uint32_t *order, size_t count) {
+  for (size_t i = 1, first = 0, equal = 1; i < count; i++) {
     char *at = id[order[i]];
     if (strcmp(at, id[order[first]]) != 0) {
       first = i;
@@ -139,38 +140,78 @@ static bool append_numbers(char **id, size_t count, uint32_t *order) {
       (void)snprintf(at + strlen(at), SUFFIX_SIZE / 2, ".%zu", ++equal);
     }
   }
-  return ok;
 }
 
-/* Makes equal ids differ.  Numbers, which depend on the order of the groups,
- * are left for equal names and for equal hashes. */
-static bool tell_apart(char *const *name, char **id, size_t count) {
+/* Makes the ids of listed groups differ.  Numbers, which depend on the order of
+ * the groups, are left for equal names and for equal hashes. */
+static bool tell_apart(struct svg_ids *ids, char *const *name, uint32_t *order,
+                       size_t count) {
+  for (size_t i = 0; i < count; i++) {
+    const char *clean = ids->id[order[i]];
+    size_t size = strlen(clean) + 1;
+    char *longer = arena_alloc(&ids->text, size + SUFFIX_SIZE, 1);
+    if (longer == NULL)
+      return false;
+    memcpy(longer, clean, size);
+    ids->id[order[i]] = longer;
+  }
+  if (!sort_by_ids(ids->id, order, count))
+    return false;
+  append_hashes(name, ids->id, order, count);
+  if (!sort_by_ids(ids->id, order, count))
+    return false;
+  append_numbers(ids->id, order, count);
+  return true;
+}
+
+/* Lists the groups whose ids may be alike, as their hashes are: most often
+ * none.
+ * hash   sorted
+ * order  gets them, ascending */
+static bool list_alike(const struct sort_key *hash, size_t count,
+                       uint32_t *order, size_t *alike) {
+  *alike = 0;
+  for (size_t i = 0; i < count; i++)
+    if ((i > 0 && hash[i].key == hash[i - 1].key) ||
+        (i + 1 < count && hash[i].key == hash[i + 1].key))
+      order[(*alike)++] = hash[i].value;
+  return sort_ids(order, *alike);
+}
+
+/* Writes the clean names of groups, and lists their hashes. */
+static bool clean_names(struct svg_ids *ids, char *const *name, size_t count,
+                        struct sort_key *hash, size_t *named) {
+  *named = 0;
+  for (size_t i = 0; i < count; i++) {
+    if (name[i] == NULL || *name[i] == '\0')
+      continue;
+    char *id = arena_alloc(&ids->text, strlen(name[i]) + 1, 1);
+    if (id == NULL)
+      return false;
+    uint64_t key = hash_text(id, copy_name(id, name[i]));
+    hash[(*named)++] = (struct sort_key){(uint32_t)key, (uint32_t)i};
+    ids->id[i] = id;
+  }
+  return true;
+}
+
+bool svg_ids_init(struct svg_ids *ids, char *const *name, size_t count) {
+  *ids = (struct svg_ids){.id = mem_calloc(count, sizeof *ids->id)};
+  struct sort_key *hash = mem_alloc(count, sizeof *hash);
   uint32_t *order = mem_alloc(count, sizeof *order);
-  bool ok = order != NULL && append_hashes(name, id, count, order) &&
-            append_numbers(id, count, order);
+  size_t named, alike;
+  bool ok = ids->id != NULL && hash != NULL && order != NULL &&
+            clean_names(ids, name, count, hash, &named) &&
+            sort_keys_alone(hash, named) &&
+            list_alike(hash, named, order, &alike) &&
+            tell_apart(ids, name, order, alike);
+  mem_free(hash);
   mem_free(order);
   return ok;
 }
 
-char **svg_ids_make(char *const *name, size_t count) {
-  char **id = mem_calloc(count, sizeof *id);
-  bool ok = id != NULL;
-  for (size_t i = 0; ok && i < count; i++) {
-    if (name[i] == NULL || *name[i] == '\0')
-      continue;
-    id[i] = mem_alloc(strlen(name[i]) + SUFFIX_SIZE, 1);
-    ok = id[i] != NULL;
-    if (ok)
-      copy_name(id[i], name[i]);
-  }
-  if (ok && tell_apart(name, id, count))
-    return id;
-  svg_ids_free(id, count);
-  return NULL;
-}
-
-void svg_ids_free(char **id, size_t count) {
-  for (size_t i = 0; id != NULL && i < count; i++)
-    mem_free(id[i]);
-  mem_free(id);
+void svg_ids_fini(struct svg_ids *ids) {
+  mem_free(ids->id);
+  arena_fini(&ids->text);
+  *ids = (struct svg_ids){.id = NULL};
 }

@@ -118,8 +118,8 @@ static void write_layer_id(const struct svg *svg, uint32_t layer,
 static void open_group(const struct svg *svg, struct svg_nesting *open,
                        uint32_t group) {
   const struct drawing *drawing = svg->drawing;
-  bool named = svg->group_id != NULL && group < drawing->group_name.count &&
-               svg->group_id[group] != NULL;
+  bool named = svg->ids.id != NULL && group < drawing->group_name.count &&
+               svg->ids.id[group] != NULL;
   if (!named)
     group = DRAWING_NONE;
   if (open->group == group)
@@ -129,7 +129,7 @@ static void open_group(const struct svg *svg, struct svg_nesting *open,
   if (!named)
     return;
   stream_text(svg->out, "<g");
-  write_layer_id(svg, open->layer, svg->group_id[group]);
+  write_layer_id(svg, open->layer, svg->ids.id[group]);
   stream_text(svg->out, " data-group=\"");
   svg_write_text(svg->out, drawing->group_name.item[group]);
   stream_text(svg->out, "\">\n");
@@ -267,10 +267,9 @@ static recto_status write_svg(const struct drawing *drawing,
       .drawing = drawing, .options = options, .out = stream, .scale = 1};
   for (int i = 0; i < options->precision; i++)
     svg.scale *= 10;
-  if (drawing->by_groups)
-    svg.group_id =
-        svg_ids_make(drawing->group_name.item, drawing->group_name.count);
-  bool ok = !drawing->by_groups || svg.group_id != NULL;
+  bool ok =
+      !drawing->by_groups || svg_ids_init(&svg.ids, drawing->group_name.item,
+                                          drawing->group_name.count);
   struct svg_batch batch = {0};
   write_head(&svg);
   for (uint32_t i = 0; i < drawing->layer.count && ok; i++)
@@ -279,7 +278,7 @@ static recto_status write_svg(const struct drawing *drawing,
   svg_batch_fini(&batch);
   ARRAY_FREE(&svg.point);
   ARRAY_FREE(&svg.chords.point);
-  svg_ids_free(svg.group_id, drawing->group_name.count);
+  svg_ids_fini(&svg.ids);
   return ok ? RECTO_OK : error_memory(error);
 }
 

@@ -1,4 +1,5 @@
 /* test_svg.c - the guarantees of the SVG writer. */
+#include <inttypes.h>
 #include <locale.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -9,6 +10,7 @@
 #include <cmocka.h>
 
 #include "backends/writer.h"
+#include "base/hash.h"
 #include "tests/memory_faults.h"
 
 /* ---- A small drawing, and what becomes of it ----------------------------- */
@@ -362,6 +364,30 @@ static void names_are_escaped(void **state) {
                           "\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80\"");
 }
 
+/* With a hash of the name unless it is the name, and with a number where names
+ * are equal; names that are alike no other one are as they are. */
+static void ids_of_names_that_are_alike_differ(void **state) {
+  static const char *const name[] = {"a b", "c", "a_b", "a.b", "a b", "d e"};
+  struct fixture *f = *state;
+  char id[2][64];
+  f->drawing.ids = f->drawing.by_groups = true;
+  for (uint32_t i = 0; i < 6; i++) {
+    add_group(f, name[i]);
+    add_stroke(f, (double[]){0, 100, 5, 100}, 2, false)->group = i;
+  }
+  for (int i = 0; i < 2; i++)
+    snprintf(id[i], sizeof id[i], "\"layer1-a_b.%08" PRIx32,
+             (uint32_t)hash_text(name[3 * i], 3));
+  write_it(f);
+  assert_has(f->svg, "\"layer1-c\" data-group=\"c\"");
+  assert_has(f->svg, "\"layer1-a_b\" data-group=\"a_b\"");
+  assert_has(f->svg, "\"layer1-d_e\" data-group=\"d e\"");
+  for (int i = 0; i < 2; i++)
+    assert_has(f->svg, strcat(id[i], "\""));
+  strcpy(id[0] + strlen(id[0]) - 1, ".2\"");
+  assert_has(f->svg, id[0]);
+}
+
 /* Latin-1, a lone lead byte, an overlong slash, a surrogate, a control, and
  * a sequence cut short by the end. */
 static void invalid_utf_8_is_replaced(void **state) {
@@ -481,6 +507,7 @@ int main(void) {
       T(seams_are_strokes_below_all_fills),
       T(ids_are_written_only_on_request),
       T(ids_that_are_not_there_are_left_out),
+      T(ids_of_names_that_are_alike_differ),
       T(names_are_escaped),
       T(invalid_utf_8_is_replaced),
       T(running_out_of_memory_is_reported),
