@@ -1,8 +1,9 @@
 /* used_box.c - finds the box range by range, which are joined in order, so that
- * of 0 and -0 it has the first one for any number of threads.
+ * of 0 and -0 it has the same one for any number of threads.
  *
  * Parts  Where the boxes of parts of the points are known, what the camera sees
- *        of most parts is within that of others, and need not be looked at. */
+ *        of most parts is within that of those that reach farthest, and need
+ *        not be looked at. */
 #include "view/used_box.h"
 
 #include <math.h>
@@ -19,6 +20,7 @@ struct box_search {
   const struct camera *camera;
   struct used_box *part;        /* gets the boxes of parts; NULL */
   const struct used_box *known; /* these; NULL: not known */
+  struct used_box seen;         /* then: of what is seen of some of them */
   size_t items;                 /* points of a range, whole parts */
   struct used_box box[BOXES];
 };
@@ -111,34 +113,67 @@ static inline double high_along(const double direction[3],
   return high[0] + high[1] + high[2];
 }
 
-/* Whether all that the camera sees of a part is within a box already. */
-static bool is_part_within(const struct camera *camera,
-                           const struct used_box *part,
-                           const struct used_box *box) {
+/* A box around all that the camera sees of a part. */
+static inline struct used_box box_around_part(const struct camera *camera,
+                                              const struct used_box *part) {
   struct used_box moved;
   for (int k = 0; k < 3; k++) {
     moved.low[k] = part->low[k] - camera->eye[k];
     moved.high[k] = part->high[k] - camera->eye[k];
   }
-  return low_along(camera->right, &moved) >= box->low[0] &&
-         high_along(camera->right, &moved) <= box->high[0] &&
-         low_along(camera->up, &moved) >= box->low[1] &&
-         high_along(camera->up, &moved) <= box->high[1] &&
-         -high_along(camera->back, &moved) >= box->low[2] &&
-         -low_along(camera->back, &moved) <= box->high[2];
+  return (struct used_box){
+      {low_along(camera->right, &moved), low_along(camera->up, &moved),
+       -high_along(camera->back, &moved)},
+      {high_along(camera->right, &moved), high_along(camera->up, &moved),
+       -low_along(camera->back, &moved)}};
+}
+
+static inline bool is_part_box_within(const struct used_box *part,
+                                      const struct used_box *box) {
+  bool within = true;
+  for (int k = 0; k < 3; k++)
+    within &= part->low[k] >= box->low[k] && part->high[k] <= box->high[k];
+  return within;
 }
 
 /* The same as box_of_seen_points, of all points, where boxes of parts are
  * known. */
 static struct used_box box_of_seen_parts(const struct box_search *search,
                                          struct parallel_range range) {
-  struct used_box box = empty_box;
+  struct used_box box = search->seen;
   for (size_t p = range.begin; p < range.end; p += USED_BOX_POINTS) {
     struct parallel_range own = {.begin = p, .end = p + USED_BOX_POINTS};
     own.end = own.end < range.end ? own.end : range.end;
-    if (is_part_within(search->camera, &search->known[p / USED_BOX_POINTS],
-                       &box))
+    struct used_box around =
+        box_around_part(search->camera, &search->known[p / USED_BOX_POINTS]);
+    if (is_part_box_within(&around, &box))
       continue;
+    struct used_box part = box_of_seen_points(search, own);
+    join_boxes(&box, &part);
+  }
+  return box;
+}
+
+/* The box of what is seen of the parts that reach farthest: most others are
+ * within it. */
+static struct used_box box_of_farthest_parts(const struct box_search *search) {
+  size_t points = search->scene->point.count, low[3] = {0}, high[3] = {0};
+  struct used_box farthest = empty_box, box = empty_box;
+  for (size_t i = 0; i * USED_BOX_POINTS < points; i++) {
+    struct used_box part = box_around_part(search->camera, &search->known[i]);
+    if (is_part_box_within(&part, &farthest))
+      continue;
+    for (int k = 0; k < 3; k++) {
+      low[k] = part.low[k] < farthest.low[k] ? i : low[k];
+      high[k] = part.high[k] > farthest.high[k] ? i : high[k];
+    }
+    join_boxes(&farthest, &part);
+  }
+  for (int k = 0; k < 6; k++) {
+    size_t first = (k < 3 ? low[k] : high[k - 3]) * USED_BOX_POINTS;
+    struct parallel_range own = {.begin = first,
+                                 .end = first + USED_BOX_POINTS};
+    own.end = own.end < points ? own.end : points;
     struct used_box part = box_of_seen_points(search, own);
     join_boxes(&box, &part);
   }
@@ -187,5 +222,6 @@ bool used_box_find_seen(struct used_box *box, const struct used_box *part,
                         const struct scene *scene,
                         const struct camera *camera) {
   struct box_search search = {.scene = scene, .camera = camera, .known = part};
+  search.seen = box_of_farthest_parts(&search);
   return search_box(box, &search);
 }
