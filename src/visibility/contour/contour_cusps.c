@@ -23,7 +23,9 @@
 
 /* Segments that follow each other, none of which runs along a crease. */
 struct smooth_chain {
-  uint32_t step, count;
+  const struct contour_curve *curve;
+  uint32_t first, count; /* its first segment, as one of the curve's: where that
+                            is closed the chain may go on over its end */
   bool closed;
 };
 
@@ -35,6 +37,11 @@ struct contour_cusps {
                             own is 0: bit 0; 1: bit 1 */
   ARRAY(uint8_t) label;  /* the same; 1: concave */
 };
+
+/* The step of a curve's segment, counted from its first one on. */
+static uint32_t step_at(const struct contour_curve *curve, uint32_t i) {
+  return curve->step + i % curve->count;
+}
 
 /* ---- Labels -------------------------------------------------------------- */
 
@@ -58,7 +65,8 @@ static bool find_weights(struct contour_cusps *c,
   if (!ARRAY_RESERVE(&c->weight, chain->count))
     return false;
   for (uint32_t i = 0; i < chain->count; i++)
-    c->weight.item[c->weight.count++] = weight_of(c->curves, chain->step + i);
+    c->weight.item[c->weight.count++] =
+        weight_of(c->curves, step_at(chain->curve, chain->first + i));
   return true;
 }
 
@@ -120,39 +128,52 @@ static bool cut_chain(struct contour_cusps *c,
     return false;
   const uint8_t *label = c->label.item;
   for (uint32_t i = 0; i < chain->count; i++) {
+    uint32_t step = step_at(chain->curve, chain->first + i);
     bool change = i > 0 ? label[i - 1] != label[i]
                         : chain->closed && label[chain->count - 1] != label[0];
-    if ((change || contour_curves_node(c->curves, chain->step + i)->is_cut) &&
-        !add_cut(c, chain->step + i))
+    if ((change || contour_curves_node(c->curves, step)->is_cut) &&
+        !add_cut(c, step))
       return false;
   }
   return true;
 }
 
-static bool is_along_crease(const struct contour_curves *curves,
-                            uint32_t step) {
-  return contour_curves_segment(curves, step)->along_crease;
+/* Whether a curve's segment, counted from its first one on, runs along a
+ * crease. */
+static bool is_along_crease(const struct contour_cusps *c,
+                            const struct contour_curve *curve, uint32_t i) {
+  return contour_curves_segment(c->curves, step_at(curve, i))->along_crease;
+}
+
+/* Where a curve is begun: a closed one at its first segment along a crease, so
+ * that no chain has its ends where the curve's first step happens to be. */
+static uint32_t first_segment(const struct contour_cusps *c,
+                              const struct contour_curve *curve) {
+  uint32_t first = 0;
+  while (curve->closed && first < curve->count &&
+         !is_along_crease(c, curve, first))
+    first++;
+  return first < curve->count ? first : 0;
 }
 
 /* Cuts a curve about each segment along a crease, and the chains between. */
 static bool cut_curve(struct contour_cusps *c,
                       const struct contour_curve *curve) {
-  uint32_t end = curve->step + curve->count;
-  for (uint32_t from = curve->step, to = from; from < end; from = to) {
-    while (to < end && !is_along_crease(c->curves, to))
+  uint32_t first = first_segment(c, curve), end = first + curve->count;
+  for (uint32_t from = first, to = from; from < end; from = to) {
+    while (to < end && !is_along_crease(c, curve, to))
       to++;
-    struct smooth_chain chain = {from, to - from,
+    struct smooth_chain chain = {curve, from, to - from,
                                  curve->closed && to - from == curve->count};
     if (chain.count > 0 && !cut_chain(c, &chain))
       return false;
-    for (; to < end && is_along_crease(c->curves, to); to++)
-      if (!add_cut(c, to))
+    for (; to < end && is_along_crease(c, curve, to); to++)
+      if (!add_cut(c, step_at(curve, to)))
         return false;
-    if (to < end && !add_cut(c, to))
+    if (to < end && !add_cut(c, step_at(curve, to)))
       return false;
   }
-  return !curve->closed || !is_along_crease(c->curves, end - 1) ||
-         add_cut(c, curve->step);
+  return true;
 }
 
 bool contour_cusps_cut(struct contour_curves *curves) {
