@@ -91,7 +91,8 @@ static bool follow_open_paths(struct chain *c) {
     ends += path.count;
     c->paths->path.item[c->paths->path.count++] = path;
   }
-  if (!ARRAY_RESERVE(&c->end, ends))
+  /* Loops have an end a segment, and paths one more. */
+  if (!ARRAY_RESERVE(&c->end, c->graph->segment.count + count))
     return false;
   c->end.count = ends;
   bool ok = parallel_ranges(parallel_workers(count, PATHS_IN_RANGE), count,

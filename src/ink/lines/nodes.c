@@ -278,12 +278,14 @@ recto_status segment_graph_unite(struct segment_graph *graph,
     if (!renumber_segments(&u))
       goto done;
   }
-  ok = segment_graph_sort_segments(graph);
+  ok = true;
 done:
   mem_free(u.at);
   mem_free(u.order);
   mem_free(u.root);
   mem_free(u.renumber);
   mem_free(u.bucket);
-  return ok ? RECTO_OK : error_memory(error);
+  /* Sorting takes as much memory as the segments, and none of this. */
+  return ok && segment_graph_sort_segments(graph) ? RECTO_OK
+                                                  : error_memory(error);
 }

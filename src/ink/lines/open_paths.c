@@ -221,10 +221,12 @@ bool open_paths_follow(struct open_paths *paths, uint32_t *mate,
   paths->workers = parallel_workers(paths->walk.count, WALKS_IN_RANGE);
   paths->worker = mem_calloc((size_t)paths->workers, sizeof *paths->worker);
   struct walking walking = {paths, mate, used, paths->workers > 1};
-  return paths->worker != NULL &&
-         parallel_ranges(paths->workers, paths->walk.count, WALKS_IN_RANGE,
-                         walk_range, &walking) &&
-         unite_walks(paths, mate);
+  bool ok = paths->worker != NULL &&
+            parallel_ranges(paths->workers, paths->walk.count, WALKS_IN_RANGE,
+                            walk_range, &walking);
+  for (int i = 0; ok && i < paths->workers; i++)
+    ARRAY_TRIM(&paths->worker[i].end);
+  return ok && unite_walks(paths, mate);
 }
 
 void open_paths_store(const struct open_paths *paths,
