@@ -2,6 +2,7 @@
  * block, are those of the model when it was read before; and they hold less of
  * it. */
 #define _GNU_SOURCE /* wait4 */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -263,28 +264,49 @@ static void a_part_holds_less_than_a_third(void **state) {
   }
 }
 
-/* A smooth surface of 2 (side - 1)^2 triangles, few edges of which are
- * drawn. */
-static void write_smooth_model(const char *path, int side) {
+/* A torus of 2 side^2 triangles, few edges of which are silhouettes. */
+static void write_torus(const char *path, int side) {
+  const double step = 8 * atan(1) / side;
   FILE *file = fopen(path, "w");
   assert_non_null(file);
   for (int i = 0; i < side * side; i++) {
-    double x = (double)(i % side) / side, y = (double)(i / side) / side;
-    fprintf(file, "v %.6f %.6f %.6f\n", x, y, x * (1 - x) * (1 + y * (1 - y)));
+    double around = step * (i / side), across = step * (i % side),
+           radius = 2 + cos(across);
+    fprintf(file, "v %.6f %.6f %.6f\n", radius * cos(around),
+            radius * sin(around), sin(across));
   }
-  for (int i = 0; i < side * (side - 1); i++)
-    if (i % side + 1 < side)
-      fprintf(file, "f %d %d %d\nf %d %d %d\n", i + 1, i + 2, i + side + 2,
-              i + 1, i + side + 2, i + side + 1);
+  for (int i = 0; i < side * side; i++) {
+    int row = i - i % side, next = (row + side) % (side * side);
+    int a = i + 1, b = row + (i + 1) % side + 1, c = next + i % side + 1,
+        d = next + (i + 1) % side + 1;
+    fprintf(file, "f %d %d %d\nf %d %d %d\n", a, c, d, a, d, b);
+  }
   assert_int_equal(fclose(file), 0);
 }
 
-static bool draw_with_one_thread(const void *model) {
+/* A drawing with one thread. */
+struct drawn {
+  const char *model;
+  unsigned edges; /* 0: the default ones */
+  bool from_eye;
+};
+
+static bool draw_with_one_thread(const void *user) {
+  const struct drawn *drawn = user;
   recto_options options;
   recto_drawing *drawing;
-  recto_scene *scene = read_model(model, false);
+  recto_scene *scene = read_model(drawn->model, false);
   recto_options_init(&options);
   options.solver.threads = 1;
+  if (drawn->edges != 0)
+    options.ink.edges = drawn->edges;
+  if (drawn->from_eye) {
+    options.camera.kind = RECTO_CAMERA_EYE;
+    options.camera.fov_deg = 30;
+    options.camera.eye[0] = 6;
+    options.camera.eye[1] = 4;
+    options.camera.eye[2] = 5;
+  }
   assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
                    RECTO_OK);
   recto_drawing_destroy(drawing);
@@ -292,21 +314,33 @@ static bool draw_with_one_thread(const void *model) {
   return true;
 }
 
-/* What a large model takes that a small one does not, for each triangle. */
+/* What a large model takes that a small one does not, for each of so many
+ * triangles. */
+static double bytes_of_triangle(struct drawn small, struct drawn large,
+                                double triangles) {
+  double more = (double)memory_peak_of(draw_with_one_thread, &large) -
+                (double)memory_peak_of(draw_with_one_thread, &small);
+  print_message("edges %x%s: %.1f bytes a triangle\n", large.edges,
+                large.from_eye ? " from an eye" : "", more / triangles);
+  return more / triangles;
+}
+
 static void a_triangle_takes_few_bytes(void **state) {
-  enum { SIDE = 700, LEAST = 20, BYTES = 90 };
+  enum { SIDE = 700, LEAST = 20, LINES = 75, ALL = 120 };
+  const double triangles = 2.0 * SIDE * SIDE;
   char small[400], large[400];
   if (is_under_valgrind() || SANITIZER_OF_ADDRESSES || SANITIZER_OF_THREADS)
     skip();
   snprintf(small, sizeof small, "%s", temporary_path(state, "model.obj"));
   snprintf(large, sizeof large, "%s", temporary_path(state, "all.obj"));
-  write_smooth_model(small, LEAST);
-  write_smooth_model(large, SIDE);
-  size_t more = memory_peak_of(draw_with_one_thread, large) -
-                memory_peak_of(draw_with_one_thread, small);
-  double each = (double)more / (2.0 * (SIDE - 1) * (SIDE - 1));
-  print_message("%.1f bytes a triangle\n", each);
-  assert_true(each < BYTES);
+  write_torus(small, LEAST);
+  write_torus(large, SIDE);
+  for (int eye = 0; eye < 2; eye++) {
+    struct drawn few = {small, 0, eye}, many = {large, 0, eye};
+    assert_true(bytes_of_triangle(few, many, triangles) < LINES);
+    few.edges = many.edges = RECTO_EDGES_ALL;
+    assert_true(bytes_of_triangle(few, many, triangles) < ALL);
+  }
 }
 
 int main(void) {

@@ -103,16 +103,39 @@ static recto_status keep_used(struct preparation *preparation,
   return RECTO_OK;
 }
 
+/* Whether all of the scene is likely to lie before the view's own near plane:
+ * where the eye is given, by the box of all points. */
+static bool is_before_eye(const struct rescaled *rescaled,
+                          const recto_options *options) {
+  if (options->camera.kind != RECTO_CAMERA_EYE)
+    return true;
+  if (rescaled->exponent != 0)
+    return false;
+  const double *low = rescaled->box.low, *high = rescaled->box.high;
+  double square = 0, nearest = 0; /* of the distance looked at, times that */
+  for (int k = 0; k < 3; k++) {
+    double centre = low[k] / 2 + high[k] / 2,
+           target =
+               options->camera.has_target ? options->camera.target[k] : centre,
+           eye = options->camera.eye[k], along = target - eye;
+    square += along * along;
+    nearest +=
+        along * (centre - eye) - fabs(along) * (high[k] / 2 - low[k] / 2);
+  }
+  return nearest > square * TOLERANCE_NEAR_SHARE;
+}
+
 /* Whether something but fills and smooth contours may ask for the sides of
  * faces: marks of edges, cuts, and clipping, of which there is none where the
- * drawing fills the page. */
-static bool may_use_sides(const struct scene *scene,
+ * drawing fills the page.  Where that is wrong, they are found when they are
+ * asked for, which takes longer. */
+static bool may_use_sides(const struct rescaled *rescaled,
                           const recto_options *options) {
+  const struct scene *scene = &rescaled->scene;
   return scene->point_normal.count > 0 || scene->smoothing.range.count > 0 ||
          options->mesh.cut_count > 0 || options->camera.has_section ||
-         options->camera.kind != RECTO_CAMERA_DIRECTION ||
          options->camera.fit != RECTO_FIT_PAGE ||
-         options->camera.near_distance > 0;
+         options->camera.near_distance > 0 || !is_before_eye(rescaled, options);
 }
 
 recto_status preparation_init(struct preparation *preparation,
@@ -138,8 +161,8 @@ recto_status preparation_init(struct preparation *preparation,
   const struct weld_request request = {
       .length = scaled.mesh.weld,
       .unstated = precision_of_bits(options->mesh.coordinate_bits),
-      .leaves_out_corners =
-          use == PREPARATION_FOR_LINES && !may_use_sides(scene, options)};
+      .leaves_out_corners = use == PREPARATION_FOR_LINES &&
+                            !may_use_sides(&preparation->rescaled, options)};
   status = weld_near(&preparation->welded, &preparation->topology,
                      &preparation->rescaled.scene, &request, error);
   preparation->scene = &preparation->welded.scene;

@@ -181,7 +181,7 @@
  *             at n a grid unit of depth at distance d is d^2 / (2^40 n) long:
  *             2^-26 of d at the target, and a thousandth of d sixty thousand
  *             times as far away.
- * Users       view/camera_aim.c
+ * Users       view/camera_aim.c, api/preparation.c
  * Ten times   the near plane cuts more of a wall that the eye touches; depths
  *             beyond it are ten times finer. */
 #define TOLERANCE_NEAR_SHARE 0x1p-14
