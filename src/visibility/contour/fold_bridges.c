@@ -150,8 +150,8 @@ static bool make_grid(struct fold_bridges *b) {
 
 /* What runs beside a place of a gap. */
 struct bridge_sides {
-  bool fold;    /* a visible fold */
-  bool contour; /* a visible contour, not only an end of it */
+  double fold;    /* how far a visible fold is, grid units; INFINITY: none */
+  double contour; /* how far a visible contour is, not only an end of it */
 };
 
 /* Looks at a segment; returns false when memory ran out. */
@@ -162,20 +162,23 @@ static bool look_beside(const struct fold_bridges *b,
   double x = (double)s->q.x - s->p.x, y = (double)s->q.y - s->p.y;
   double px = at[0] - s->p.x, py = at[1] - s->p.y;
   double t = geom_nearest_parameter(x, y, px, py);
-  if (hypot(px - t * x, py - t * y) > height ||
+  double away = hypot(px - t * x, py - t * y);
+  if (away > height ||
       x * along[0] + y * along[1] < BESIDE_COSINE * hypot(x, y))
     return true;
   if (s->owner < b->edges) {
-    sides->contour = sides->contour || (t > 0 && t < 1);
+    if (t > 0 && t < 1)
+      sides->contour = fmin(sides->contour, away);
     return true;
   }
-  if (sides->fold)
+  if (away >= sides->fold)
     return true;
   struct geom_point p = {(int32_t)lrint(s->p.x + t * x),
                          (int32_t)lrint(s->p.y + t * y),
                          s->p.z + (int64_t)(t * (double)(s->q.z - s->p.z))};
   int count = occluders_count(b->in->sheet, b->in->grid, b->in->query, p);
-  sides->fold = count == 0;
+  if (count == 0)
+    sides->fold = away;
   return count >= 0;
 }
 
@@ -200,8 +203,8 @@ static bool look_all_beside(const struct fold_bridges *b, const double at[2],
   return true;
 }
 
-/* Whether the mesh folds over all along a gap, and no contour is drawn there;
- * *ok is false when memory ran out. */
+/* Whether the mesh folds over all along a gap, nearer to it than to any contour
+ * that is drawn there; *ok is false when memory ran out. */
 static bool is_along_folds(struct fold_bridges *b,
                            const struct bridge_end *from,
                            const struct bridge_end *to, double height,
@@ -209,13 +212,16 @@ static bool is_along_folds(struct fold_bridges *b,
   double x = to->x - from->x, y = to->y - from->y, length = hypot(x, y);
   const double along[2] = {x / length, y / length};
   int samples = (int)ceil(SAMPLES_A_HEIGHT * length / height);
+  struct bridge_sides all = {0, INFINITY};
   *ok = make_grid(b);
   for (int i = 0; *ok && i < samples; i++) {
     double t = (i + 0.5) / samples;
     const double at[2] = {from->x + t * x, from->y + t * y};
-    struct bridge_sides sides = {false, false};
+    struct bridge_sides sides = {INFINITY, INFINITY};
     *ok = look_all_beside(b, at, along, height, &sides);
-    if (!sides.fold || sides.contour)
+    all.fold = fmax(all.fold, sides.fold);
+    all.contour = fmin(all.contour, sides.contour);
+    if (all.fold == INFINITY || 2 * all.fold >= all.contour)
       return false;
   }
   return *ok;

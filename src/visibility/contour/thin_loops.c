@@ -24,15 +24,17 @@ enum { FOLD_SEGMENTS_MAX = 32 };
 
 /* A loop is thin if its mean width is less than this share of the mean height
  * of the triangles on its way.  Loops that meshes of known surfaces add have
- * 0.15 at most, those of the surfaces 0.23 at least. */
+ * 0.15 at most, those of the surfaces 0.23 at least; on an uneven mesh one that
+ * is as large as a triangle is a fold from the former on. */
 #define THIN_SHARE 0.2
+#define NOISE_SHARE 0.15
 
 /* A thin loop that goes so far to and fro, as a multiple of that height, over
  * so many segments is a fold of the surface: noise makes short ones.  Where a
  * loop is a part of a curve its ends alone are lost, which are spurs.  One over
  * so many segments whose area is about a triangle's, in squares of that height,
- * and whose sides ink does not join is a fold, too: what noise makes is either
- * short or narrow. */
+ * and whose sides ink does not join, or which is wider than noise makes loops,
+ * is a fold, too: what noise makes is either short or narrow. */
 #define LONG_CURVE_HEIGHTS 8
 #define LONG_LOOP_HEIGHTS 16
 #define FOLD_AREA 0.5
@@ -164,7 +166,8 @@ static bool is_long(const struct page_loop *loop, double heights) {
          loop->area >= RECTO_FINEST_MM * SHEET_UNITS_PER_MM * loop->length &&
          (loop->length >= 2 * heights * loop->height ||
           (loop->area >= 2 * FOLD_AREA * loop->height * loop->height &&
-           loop->area >= VISIBLE_WIDTH * loop->length));
+           (loop->area >= VISIBLE_WIDTH * loop->length ||
+            loop->area >= NOISE_SHARE * loop->length * loop->height)));
 }
 
 /* ---- The stack ----------------------------------------------------------- */
