@@ -227,7 +227,8 @@ static void add_part_face(struct scene *scene, struct random *random,
 }
 
 /* Copies of parts at random, of which a few lie beside each other in the file;
- * some faces between them have points of any, also of later ones. */
+ * some faces between them have points of any, also of later ones, and some
+ * copies have points of the ones before. */
 static void fill_repeated(struct scene *scene, uint64_t seed, bool polygons) {
   struct random random = {seed};
   uint32_t points = PART_COPIES * (PART_POINTS + 1);
@@ -243,6 +244,8 @@ static void fill_repeated(struct scene *scene, uint64_t seed, bool polygons) {
       add_part_face(scene, &random, random_below(&random, points - PART_POINTS),
                     polygons);
     point += PART_POINTS + random_below(&random, 6) / 5;
+    if (point > 3 * PART_POINTS && random_below(&random, 30) == 0)
+      point -= random_below(&random, 3 * PART_POINTS);
     kind += random_below(&random, 10) == 0;
   }
 }
@@ -292,6 +295,7 @@ static void edges_do_not_depend_on_whether_they_are_copied(void **state) {
     free(other.corner_edge);
     edge_range_fini(&one);
     edge_range_fini(&other);
+    check_without_sides(&scene);
     scene_fini(&scene);
   }
   assert_true(found >= 5); /* at once; in others later */
@@ -323,6 +327,30 @@ static void a_part_is_found_where_the_next_faces_repeat_it(void **state) {
   assert_false(
       repeated_part_is_at(&part, &scene, 3 * FACES + 1, FACES * BOXES, &shift));
   assert_false(repeated_part_find(&part, &scene, head, 0, 4 * FACES));
+  scene_fini(&scene);
+}
+
+/* The edges of sides of repeated polygons are left out, until they are asked
+ * for. */
+static void sides_of_repeated_parts_are_left_out(void **state) {
+  (void)state;
+  enum { BOXES = 20, SIDES = 24 };
+  struct scene scene;
+  struct topology topology;
+  recto_error error;
+  scene_init(&scene);
+  for (int i = 0; i < BOXES; i++)
+    build_box(&scene, vector_of(2 * i, 0, 0), vector_of(2 * i + 1, 1, 1));
+  assert_int_equal(topology_init_edges(&topology, &scene, &error), RECTO_OK);
+  size_t left_out = 0;
+  for (size_t i = 0; i < topology.corner_copy.count; i++)
+    left_out += topology.corner_copy.item[i].count;
+  assert_true(left_out >= (BOXES - 4) * SIDES);
+  assert_true(topology_find_corners(&topology, &scene));
+  assert_int_equal(topology.corner_copy.count, 0);
+  check(&scene, &topology);
+  topology_fini(&topology);
+  check_without_sides(&scene);
   scene_fini(&scene);
 }
 
@@ -802,6 +830,7 @@ int main(void) {
       cmocka_unit_test(sides_are_left_out_where_they_can_be),
       cmocka_unit_test(edges_do_not_depend_on_whether_they_are_copied),
       cmocka_unit_test(a_part_is_found_where_the_next_faces_repeat_it),
+      cmocka_unit_test(sides_of_repeated_parts_are_left_out),
       cmocka_unit_test(a_box_has_twelve_edges_of_two_faces_each),
       cmocka_unit_test(no_faces_have_no_edges),
       cmocka_unit_test(a_fan_of_100000_triangles_is_drawn_in_bounded_time),

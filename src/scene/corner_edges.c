@@ -4,6 +4,8 @@
 
 #include "base/memory.h"
 #include "base/parallel.h"
+#include "base/poll.h"
+#include "scene/edge_copies.h"
 #include "scene/topology.h"
 
 /* The edges, listed by their lower points. */
@@ -44,11 +46,19 @@ static bool find_edges_of_triangles(void *user, struct parallel_range faces) {
   return true;
 }
 
+/* Stores what is put off of repeated parts. */
+static bool make_copies(struct topology *topology) {
+  for (size_t i = 0; i < topology->corner_copy.count && poll_at(i); i++)
+    corner_copy_make(topology->corner_edge, &topology->corner_copy.item[i]);
+  ARRAY_FREE(&topology->corner_copy);
+  return poll_now();
+}
+
 bool topology_find_corners(struct topology *topology,
                            const struct scene *scene) {
   uint32_t faces = scene_face_count(scene);
   if (topology->corner_edge != NULL)
-    return true;
+    return topology->corner_copy.count == 0 || make_copies(topology);
   struct edge_lists lists = {
       scene, topology, mem_alloc(scene->point.count, sizeof *lists.head),
       mem_alloc(topology->edge.count, sizeof *lists.next)};

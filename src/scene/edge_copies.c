@@ -40,6 +40,11 @@ static void copy_numbers(uint32_t *to, const uint32_t *from, size_t count,
     to[i] = from[i] == SCENE_NONE ? SCENE_NONE : from[i] + shift;
 }
 
+void corner_copy_make(uint32_t *corner_edge, const struct corner_copy *copy) {
+  copy_numbers(corner_edge + copy->to, corner_edge + copy->from, copy->count,
+               copy->shift);
+}
+
 /* What is added to an edge by adding so much to each of its numbers: nothing
  * overflows from one into another, as what they become is in range. */
 static number_lanes shift_of_edge(uint32_t point, uint32_t first,
@@ -67,44 +72,79 @@ static void copy_edges(struct topology_edge *to,
   }
 }
 
-/* Copies all that is known of the part's edges to faces that repeat it; there
- * is room for them. */
-static void copy_to(const struct edge_copies *copies, struct edge_range *range,
+/* Copies the edges of the part to faces that repeat it, and lets their sides
+ * refer to these; there is room for them.  Their lists are not made. */
+static bool copy_to(const struct edge_copies *copies, struct edge_range *range,
                     uint32_t face, uint32_t shift) {
   const struct repeated_part *part = &copies->part;
-  size_t at = range->edge.count, edges = copies->edges;
-  uint32_t edge_shift = (uint32_t)(at - copies->edge);
-  copy_edges(range->edge.item + at, range->edge.item + copies->edge, edges,
-             shift, face - part->face);
-  copy_numbers(range->next + at, range->next + copies->edge, edges, edge_shift);
-  copy_numbers(range->head + (uint32_t)(part->point + shift),
-               range->head + part->point, part->points, edge_shift);
-  if (range->corner_edge != NULL)
-    copy_numbers(range->corner_edge + scene_face_start(range->scene, face),
-                 range->corner_edge + part->corner, part->corners, edge_shift);
-  range->edge.count += edges;
+  size_t at = range->edge.count;
+  struct corner_copy corners = {.from = part->corner,
+                                .to = scene_face_start(range->scene, face),
+                                .count = part->corners,
+                                .shift = (uint32_t)(at - copies->edge)};
+  copy_edges(range->edge.item + at, range->edge.item + copies->edge,
+             copies->edges, shift, face - part->face);
+  range->edge.count += copies->edges;
   range->shared += copies->shared;
+  if (range->corner_edge == NULL)
+    return true;
+  if (range->puts_corners_off)
+    return ARRAY_PUSH(&range->corner_copy, corners);
+  corner_copy_make(range->corner_edge, &corners);
+  return true;
+}
+
+/* Makes the lists of the edges of copies. */
+static void list_copies(struct edge_copies *copies, struct edge_range *range) {
+  const struct repeated_part *part = &copies->part;
+  size_t edges = copies->edges,
+         at = range->edge.count - copies->shift.count * edges;
+  for (size_t i = 0; i < copies->shift.count; i++, at += edges) {
+    uint32_t edge_shift = (uint32_t)(at - copies->edge);
+    copy_numbers(range->next + at, range->next + copies->edge, edges,
+                 edge_shift);
+    copy_numbers(range->head + (uint32_t)(part->point + copies->shift.item[i]),
+                 range->head + part->point, part->points, edge_shift);
+  }
+  copies->shift.count = 0;
+}
+
+/* Whether there are no edges yet at the points of a copy, with these and no
+ * lists of the copies before. */
+static bool has_free_points(struct edge_copies *copies,
+                            struct edge_range *range, uint32_t shift) {
+  const struct repeated_part *part = &copies->part;
+  size_t count = copies->shift.count;
+  uint32_t last = count > 0 ? copies->shift.item[count - 1] : 0;
+  if (shift < last || shift - last < part->points)
+    list_copies(copies, range);
+  return have_no_edges(range->head + (uint32_t)(part->point + shift),
+                       part->points);
 }
 
 /* Copies the edges of the part, which was just numbered, as often as the next
- * faces repeat it.  False when memory ran out, or the caller cancelled. */
-static bool copy_part(const struct edge_copies *copies,
-                      struct edge_range *range, uint32_t *face) {
+ * faces repeat it.  Where no faces follow, nobody asks for their lists.  False
+ * when memory ran out, or the caller cancelled. */
+static bool copy_part(struct edge_copies *copies, struct edge_range *range,
+                      uint32_t *face) {
   const struct repeated_part *part = &copies->part;
   uint32_t shift, sides = 0;
   for (; repeated_part_is_at(part, range->scene, *face, range->end_face,
                              &shift) &&
-         have_no_edges(range->head + (uint32_t)(part->point + shift),
-                       part->points);
+         has_free_points(copies, range, shift);
        *face += part->faces) {
-    if (!ARRAY_RESERVE(&range->edge, copies->edges))
+    if (!ARRAY_RESERVE(&range->edge, copies->edges) ||
+        !ARRAY_PUSH(&copies->shift, shift) ||
+        !copy_to(copies, range, *face, shift))
       return false;
-    copy_to(copies, range, *face, shift);
     sides += part->corners;
     if (sides >= POLL_ITEMS && !poll_now())
       return false;
     sides = sides >= POLL_ITEMS ? 0 : sides;
   }
+  if (*face < range->end_face || !edge_range_is_whole(range))
+    list_copies(copies, range);
+  copies->shift.count = 0;
   return true;
 }
 
@@ -151,4 +191,8 @@ bool edge_copies_add(struct edge_copies *copies, struct edge_range *range,
                  : *face < part->face ? part->face
                                       : part->face + part->faces;
   return true;
+}
+
+void edge_copies_fini(struct edge_copies *copies) {
+  ARRAY_FREE(&copies->shift);
 }

@@ -5,13 +5,19 @@
 #include "scene/edge_lists.h"
 #include "scene/repeated_part.h"
 
-/* What is known while the faces of a range are numbered; begins as zeros. */
+/* Stores the edges of sides that are copies. */
+void corner_copy_make(uint32_t *corner_edge, const struct corner_copy *copy);
+
+/* What is known while the faces of a range are numbered; begins as zeros, and
+ * ends with edge_copies_fini. */
 struct edge_copies {
   struct repeated_part part; /* of 0 faces: none */
   size_t edge, edges;        /* of the part, in the range */
   size_t shared;             /* of these: as in the range */
   uint32_t stop;             /* numbering stops before this face */
   uint32_t wait, next_wait;  /* as many calls until a part is sought again */
+  ARRAY(uint32_t) shift;     /* of the last copies, which have no lists yet:
+                                what is added to their points */
 };
 
 /* To be called where faces are numbered up to one, and `stop` is not passed:
@@ -22,5 +28,7 @@ struct edge_copies {
  * Returns false when memory ran out, or where the caller cancelled. */
 USE_RESULT bool edge_copies_add(struct edge_copies *copies,
                                 struct edge_range *range, uint32_t *face);
+
+void edge_copies_fini(struct edge_copies *copies);
 
 #endif

@@ -21,7 +21,14 @@ struct edge_range {
   size_t passed;  /* edges that the last sides had to pass by, */
   size_t sides; /* of which there are so many; until these are enough to tell */
   bool overfull; /* a list was too long: no edge is looked up any more */
+  bool puts_corners_off; /* of copies, corner_edge is not stored yet but */
+  ARRAY(struct corner_copy) corner_copy; /* listed here */
 };
+
+/* Whether a range has all faces of the scene. */
+static inline bool edge_range_is_whole(const struct edge_range *range) {
+  return range->face == 0 && range->end_face == scene_face_count(range->scene);
+}
 
 /* At such a point sides are named, not looked up. */
 #define EDGE_RANGE_HUB (SCENE_NONE - 1)

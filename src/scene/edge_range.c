@@ -280,14 +280,14 @@ static size_t end_of_fetching(const struct scene *scene, uint32_t first,
 
 /* The same as number_edges, where all faces are triangles, no point is welded
  * to another, and there are no hubs. */
-static bool number_edges_of_triangles(struct edge_range *range) {
+static bool number_edges_of_triangles(struct edge_range *range,
+                                      struct edge_copies *copies) {
   struct side_loop loop;
-  struct edge_copies copies = {.stop = 0};
   enum { BLOCK = POLL_ITEMS / 3 }; /* as many sides as elsewhere */
   for (uint32_t at = range->face; at < range->end_face && !range->overfull;) {
-    if (!edge_copies_add(&copies, range, &at))
+    if (!edge_copies_add(copies, range, &at))
       return false;
-    uint32_t f = at, left = copies.stop - f;
+    uint32_t f = at, left = copies->stop - f;
     if (left == 0)
       break;
     uint32_t end = f + (left < BLOCK ? left : BLOCK);
@@ -361,20 +361,20 @@ static bool number_sides_of_large_face(struct edge_range *range,
 }
 
 /* The same as number_edges_of_triangles, of polygons. */
-static bool number_edges_of_polygons(struct edge_range *range) {
+static bool number_edges_of_polygons(struct edge_range *range,
+                                     struct edge_copies *copies) {
   const uint32_t *start = range->scene->face_start.item;
-  struct edge_copies copies = {.stop = 0};
   for (uint32_t at = range->face; at < range->end_face && !range->overfull;) {
     struct side_loop loop;
-    if (!edge_copies_add(&copies, range, &at))
+    if (!edge_copies_add(copies, range, &at))
       return false;
-    if (at == copies.stop)
+    if (at == copies->stop)
       break;
     uint32_t f = at, first = start[f];
     if (!begin_sides(range, &loop, POLL_ITEMS))
       return false;
     size_t fetched = end_of_fetching(range->scene, first, POLL_ITEMS);
-    for (; f < copies.stop && start[f + 1] - first <= POLL_ITEMS; f++)
+    for (; f < copies->stop && start[f + 1] - first <= POLL_ITEMS; f++)
       number_sides_of_face(range, &loop, f, start[f], start[f + 1], fetched);
     end_sides(range, &loop, start[f] - first);
     if (start[f] == first && !number_sides_of_large_face(range, f++))
@@ -403,8 +403,12 @@ bool edge_range_find(struct edge_range *range, bool with_hubs) {
     memset(range->head, 0xff, points * sizeof *range->head);
   if (with_hubs || range->weld != NULL)
     return number_edges(range);
-  return scene->face_start.count == 0 ? number_edges_of_triangles(range)
-                                      : number_edges_of_polygons(range);
+  struct edge_copies copies = {.stop = 0};
+  bool ok = scene->face_start.count == 0
+                ? number_edges_of_triangles(range, &copies)
+                : number_edges_of_polygons(range, &copies);
+  edge_copies_fini(&copies);
+  return ok;
 }
 
 void edge_range_drop_lists(struct edge_range *range) {
@@ -415,5 +419,6 @@ void edge_range_drop_lists(struct edge_range *range) {
 
 void edge_range_fini(struct edge_range *range) {
   ARRAY_FREE(&range->edge);
+  ARRAY_FREE(&range->corner_copy);
   edge_range_drop_lists(range);
 }

@@ -168,6 +168,23 @@ static bool join_ranges(struct edge_join *join, int workers) {
   return ok;
 }
 
+/* Takes over from the ranges what is not in the topology yet. */
+static void finish_ranges(struct edge_join *join, bool *overfull) {
+  struct topology *topology = join->topology;
+  struct edge_range *first = &join->range[0];
+  topology->borders = topology->edge.count - first->shared;
+  if (join->ranges > 1)
+    topology->borders = topology->edge.count;
+  memcpy(&topology->corner_copy, &first->corner_copy,
+         sizeof topology->corner_copy);
+  memset(&first->corner_copy, 0, sizeof first->corner_copy);
+  *overfull = false;
+  for (size_t r = 0; r < join->ranges; r++) {
+    *overfull |= join->range[r].overfull;
+    edge_range_fini(&join->range[r]);
+  }
+}
+
 /* Divides the faces into ranges, and finds the edges of each; the borders are
  * no more than it says.
  * overfull  gets whether one of them has too many at a point */
@@ -183,17 +200,12 @@ static bool find_in_ranges(struct topology *topology, const struct scene *scene,
         .corner_edge = topology->corner_edge,
         .face = (uint32_t)((uint64_t)faces * r / ranges),
         .end_face = (uint32_t)((uint64_t)faces * (r + 1) / ranges),
+        .puts_corners_off = topology->puts_corners_off && ranges == 1,
     };
   join.ranges = ranges;
   bool ok = parallel_ranges(workers, ranges, 1, find_edges, &join) &&
             join_ranges(&join, workers);
-  topology->borders = ranges > 1 ? topology->edge.count
-                                 : topology->edge.count - join.range[0].shared;
-  *overfull = false;
-  for (size_t r = 0; r < ranges; r++) {
-    *overfull |= join.range[r].overfull;
-    edge_range_fini(&join.range[r]);
-  }
+  finish_ranges(&join, overfull);
   return ok;
 }
 
@@ -269,6 +281,7 @@ static bool build_edges(struct topology *topology, const struct scene *scene) {
   int workers = parallel_workers(scene_face_count(scene), PARALLEL_ITEMS);
   bool overfull;
   ARRAY_FREE(&topology->edge);
+  ARRAY_FREE(&topology->corner_copy);
   return (find_in_ranges(topology, scene, workers, false, &overfull) ||
           (overfull && reserve_corners(topology, scene) &&
            find_in_ranges(topology, scene, 1, true, &overfull))) &&
@@ -324,6 +337,7 @@ static recto_status init_edges(struct topology *topology,
                                recto_error *error) {
   bool leaves_out = !corners && scene->face_start.count == 0;
   memset(topology, 0, sizeof *topology);
+  topology->puts_corners_off = !corners;
   if ((leaves_out || reserve_corners(topology, scene)) &&
       build_edges(topology, scene))
     return RECTO_OK;
@@ -365,6 +379,7 @@ recto_status topology_init_edges(struct topology *topology,
 void topology_drop_corners(struct topology *topology) {
   mem_free(topology->corner_edge);
   topology->corner_edge = NULL;
+  ARRAY_FREE(&topology->corner_copy);
 }
 
 void topology_drop_directions(struct topology *topology) {
@@ -374,6 +389,7 @@ void topology_drop_directions(struct topology *topology) {
 
 void topology_fini(struct topology *topology) {
   ARRAY_FREE(&topology->edge);
+  ARRAY_FREE(&topology->corner_copy);
   mem_free(topology->corner_edge);
   mem_free(topology->weld);
   mem_free(topology->border);

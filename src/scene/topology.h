@@ -15,9 +15,11 @@ struct topology {
   uint32_t *corner_edge; /* for corner c of a face, the edge from it to the
                             face's next corner; one per scene corner; NULL:
                             left out, or given up */
-  uint64_t *border;      /* a bit an edge: one face alone has it */
-  size_t borders;        /* how many there are */
-  uint8_t *class_masks;  /* of all edges at the angle crease_deg, as of
+  ARRAY(struct corner_copy) corner_copy; /* where it is not stored yet, until
+                                            topology_find_corners */
+  uint64_t *border;     /* a bit an edge: one face alone has it */
+  size_t borders;       /* how many there are */
+  uint8_t *class_masks; /* of all edges at the angle crease_deg, as of
                             topology_class_masks; NULL: not kept */
   double crease_deg;
   uint8_t *coarse;      /* of all points, as of topology_coarse_parts with
@@ -29,6 +31,7 @@ struct topology {
                                        of edges, which need them; or NULL */
   uint8_t *used; /* one a point: whether a face or a polyline uses it, owned;
                     NULL: not kept */
+  bool puts_corners_off; /* as of topology_init_edges */
   /* What may be freed once it was laid out, as it is not used later: */
   bool drop_corners; /* corner_edge */
   bool drop_edges;   /* edge */
@@ -45,15 +48,17 @@ USE_RESULT recto_status topology_init(struct topology *topology,
 USE_RESULT recto_status topology_init_welded(struct topology *topology,
                                              const struct scene *scene,
                                              recto_error *error);
-/* The same as topology_init without corner_edge, where all faces are triangles
- * and no points are welded; else with it. */
+/* The same as topology_init where nobody may ask for corner_edge: if no points
+ * are welded it is left out, of triangles all of it and of polygons that of
+ * repeated parts. */
 USE_RESULT recto_status topology_init_edges(struct topology *topology,
                                             const struct scene *scene,
                                             recto_error *error);
 void topology_fini(struct topology *topology);
 
-/* Finds corner_edge where it was left out, which takes about as long as finding
- * the edges.  False when memory ran out, or the caller cancelled. */
+/* Finds corner_edge where it was left out: of triangles, which takes about as
+ * long as finding the edges, or of repeated parts.  False when memory ran out,
+ * or the caller cancelled. */
 USE_RESULT bool topology_find_corners(struct topology *topology,
                                       const struct scene *scene);
 

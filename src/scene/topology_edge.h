@@ -19,6 +19,12 @@ struct topology_edge {
 
 enum { TOPOLOGY_NONE = 0x7fffffff, TOPOLOGY_FACE_BITS = (1 << 30) - 1 };
 
+/* Sides that have the edges of as many others, higher by one number. */
+struct corner_copy {
+  uint32_t from, to; /* the first corners of both */
+  uint32_t count, shift;
+};
+
 /* An edge of one face, whose way is kept until a second one comes.
  * forward  it runs from its lower point to its upper one */
 static inline struct topology_edge

@@ -65,7 +65,12 @@ static recto_status make_late_triangles(struct layout *layout) {
 
 /* Runs the phases. */
 static recto_status run_phases(struct layout *layout) {
-  recto_status status = layout_classes(layout);
+  recto_status status = RECTO_OK;
+  if (layout->scene->face_start.count > 0 &&
+      !topology_find_corners(layout->topology, layout->scene))
+    status = error_memory(layout->error);
+  if (status == RECTO_OK)
+    status = layout_classes(layout);
   if (status == RECTO_OK)
     status = layout_points(layout);
   if (status == RECTO_OK)
