@@ -2,8 +2,8 @@
  * triangulated and projected.
  *
  * Phases
- *   1 estimate from a sample how many faces lie over each other on the page;
- *     stop where they are few
+ *   1 estimate from a sample how many faces lie over each other on the page
+ *     (culling/face_samples.h); stop where they are few
  *   2 divide the faces into runs, and list the large ones; stop where many are
  *     about as large as the largest, as triangles at random are
  *   3 lay out the large faces alone, and raise the bounds of an occlusion
@@ -24,14 +24,12 @@
 #include "view/scene_part.h"
 #include "visibility/culling/contact_bounds.h"
 #include "visibility/culling/face_runs.h"
+#include "visibility/culling/face_samples.h"
 #include "visibility/culling/occlusion_culling.h"
 #include "visibility/culling/space_box.h"
 #include "visibility/culling/vertex_fans.h"
 
 enum {
-  SAMPLES_MAX = 1 << 12, /* faces that estimate the complexity */
-  COMPLEXITY_MIN = 4,    /* a closed convex body has about 3 */
-  BOX_PER_AREA = 4, /* a typical triangle's box has this multiple of its area */
   LARGE_SHARE = 1 << 10, /* of the scene's square size: the least large face */
   LARGE_MAX = 1 << 12,   /* as many large faces are laid out */
   CELLS_FOR = 1 << 15,   /* the cells are those of so many triangles */
@@ -53,67 +51,6 @@ struct hiding {
   struct box2 page; /* that of the buffer */
   struct occlusion_margins margins;
 };
-
-/* ---- 1. A sample --------------------------------------------------------- */
-
-/* The corners of a face, projected to the page at the unit of the grid. */
-static struct box2 box_on_page(const struct hiding *hiding, uint32_t face,
-                               double *area) {
-  const struct scene *scene = hiding->scene;
-  struct box2 box = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
-  struct geom_point first, last;
-  uint32_t start = scene_face_start(scene, face),
-           end = scene_face_start(scene, face + 1);
-  double sum = 0;
-  for (uint32_t c = start; c < end; c++) {
-    const struct scene_point *at = &scene->point.item[scene->corner.item[c]];
-    struct geom_point p =
-        project_point(&hiding->projection, camera_view(hiding->camera, at));
-    box = box2_union(box, box2_of_segment(p, p));
-    if (c > start + 1)
-      sum += (double)geom_orient2d(first, last, p);
-    first = c == start ? p : first;
-    last = p;
-  }
-  *area = 0.5 * fabs(sum);
-  return box;
-}
-
-static double page_area_of(struct box2 box) {
-  return ((double)box.x1 - box.x0 + 1) * ((double)box.y1 - box.y0 + 1);
-}
-
-/* Fetches the corners of a face that is sampled later, and the points of one
- * that is sampled sooner: they are anywhere in memory. */
-static inline void prefetch_sample(const struct scene *scene, size_t face,
-                                   size_t stride) {
-  enum { AHEAD = 8, CORNERS_MAX = 8 };
-  size_t near = face + AHEAD * stride, far = near + AHEAD * stride,
-         n = scene_face_count(scene);
-  if (far >= n)
-    return;
-  MEM_PREFETCH(&scene->corner.item[scene_face_start(scene, (uint32_t)far)]);
-  uint32_t start = scene_face_start(scene, (uint32_t)near),
-           end = scene_face_start(scene, (uint32_t)near + 1);
-  for (uint32_t c = start; c < end && c < start + CORNERS_MAX; c++)
-    MEM_PREFETCH(&scene->point.item[scene->corner.item[c]]);
-}
-
-/* Estimates the mean number of faces over a point of the box of the page, as
- * occlusion_culling_complexity does. */
-static double estimate_complexity(const struct hiding *hiding) {
-  size_t n = scene_face_count(hiding->scene), stride = n / SAMPLES_MAX + 1;
-  struct box2 page = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
-  double sum = 0;
-  for (size_t f = 0; f < n; f += stride) {
-    double own;
-    prefetch_sample(hiding->scene, f, stride);
-    struct box2 box = box_on_page(hiding, (uint32_t)f, &own);
-    sum += fmin(page_area_of(box), BOX_PER_AREA * own) * (double)stride;
-    page = box2_union(page, box);
-  }
-  return n > 0 ? sum / page_area_of(page) : 0;
-}
 
 /* ---- 2. Large faces ------------------------------------------------------ */
 
@@ -433,7 +370,7 @@ recto_status hidden_faces_init(struct hidden_faces *hidden,
                           .fragments = fragments,
                           .projection = projection_of(camera)};
   *hidden = (struct hidden_faces){.left_out = NULL};
-  if (estimate_complexity(&hiding) < COMPLEXITY_MIN)
+  if (!face_samples_are_deep(scene, camera, &hiding.projection))
     return RECTO_OK;
   recto_status status = find_hidden(&hiding, hidden, error);
   face_runs_fini(&hiding.runs);

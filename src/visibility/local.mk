@@ -38,6 +38,7 @@ librecto_core_la_SOURCES += \
   %D%/intersection/sweep_direction.c %D%/intersection/sweep_direction.h \
   %D%/intersection/swept_triangle.h \
   %D%/culling/face_runs.c %D%/culling/face_runs.h \
+  %D%/culling/face_samples.c %D%/culling/face_samples.h \
   %D%/culling/occlusion_buffer.c %D%/culling/occlusion_buffer.h \
   %D%/culling/culling_bands.c %D%/culling/culling_bands.h \
   %D%/culling/occlusion_culling.c %D%/culling/occlusion_culling.h \
