@@ -10,14 +10,15 @@
  * Invariants  Edges stand in the order in which the file first uses them.
  * Memory      beside the result, 4 bytes a point and 4 an edge: sorting all
  *             sides took 8 a side more, and most of its time to touch them.
- *             Each range but the first takes 4 bytes a point more, and its
- *             edges again.
+ *             Each range but the first takes 4 bytes a point more, its edges
+ *             again, and 4 bytes for each that an earlier one has, too.
  */
 #include "scene/topology.h"
 
 #include <string.h>
 
-#include "base/parallel.h"
+#include "base/number_filter.h"
+#include "base/sort.h"
 #include "scene/edge_range.h"
 #include "scene/side_iterator.h"
 #include "scene/weld_equal.h"
@@ -27,17 +28,24 @@
 /* Ranges are looked up in all those before them: more would cost more. */
 enum { RANGES_MAX = 8 };
 
+/* The edges of a range that earlier ones have too. */
+struct shared_edges {
+  uint32_t *edge; /* ascending; the second face of each, which is not needed
+                     any more, was replaced by its number among all */
+  size_t count;
+  uint32_t first; /* the number among all of the first edge that no earlier
+                     range has; the others of the range follow */
+};
+
 struct edge_join {
   struct topology *topology;
   size_t ranges;
   struct edge_range range[RANGES_MAX];
+  struct shared_edges shared[RANGES_MAX];
   bool with_hubs;
-  size_t at; /* the range that is joined to those before it */
-  uint32_t *number[RANGES_MAX]; /* one an edge of a range: its number among all;
-                                   of the first range NULL: the same */
-  uint32_t *first; /* the number of the first edge that no earlier range has, of
-                      every PARALLEL_ITEMS of the range; before that, how many
-                      of these there are */
+  size_t at;        /* the range that is joined to those before it */
+  uint32_t *number; /* one an edge of it: its number among all; only where sides
+                       refer to edges */
 };
 
 static bool find_edges(void *user, struct parallel_range at) {
@@ -46,28 +54,39 @@ static bool find_edges(void *user, struct parallel_range at) {
   return edge_range_find(range, join->with_hubs) && !range->overfull;
 }
 
+/* How many of the shared edges of a range are before this one. */
+static size_t shared_before(const struct shared_edges *shared, size_t edge) {
+  size_t k;
+  LOWER_BOUND(k, 0, shared->count, shared->edge[k] < edge);
+  return k;
+}
+
 /* The number of an edge in the earlier ranges; SCENE_NONE: they do not have
  * it. */
 static uint32_t find_earlier_edge(const struct edge_join *join,
                                   const struct topology_edge *edge) {
   for (size_t r = 0; r < join->at; r++) {
+    const struct shared_edges *shared = &join->shared[r];
     uint32_t found = edge_range_look_up(&join->range[r], edge->point);
-    if (found != SCENE_NONE)
-      return r == 0 ? found : join->number[r][found];
+    if (found != SCENE_NONE) /* no range before this one has it */
+      return shared->first + found - (uint32_t)shared_before(shared, found);
   }
   return SCENE_NONE;
 }
 
-static bool look_up_edges(void *user, struct parallel_range edges) {
-  struct edge_join *join = user;
-  const struct topology_edge *edge = join->range[join->at].edge.item;
-  uint32_t own = 0, *number = join->number[join->at];
+static size_t shared_of_range(const void *user, struct parallel_range edges,
+                              uint32_t *kept) {
+  const struct edge_join *join = user;
+  struct topology_edge *edge = join->range[join->at].edge.item;
+  size_t count = 0;
   for (size_t e = edges.begin; e < edges.end; e++) {
-    number[e] = find_earlier_edge(join, &edge[e]);
-    own += number[e] == SCENE_NONE;
+    uint32_t found = find_earlier_edge(join, &edge[e]);
+    if (found == SCENE_NONE)
+      continue;
+    edge[e].second = found & TOPOLOGY_NONE;
+    kept[count++] = (uint32_t)e;
   }
-  join->first[edges.begin / PARALLEL_ITEMS] = own;
-  return true;
+  return count;
 }
 
 /* Whether the first face of an edge runs along it from its lower point to its
@@ -82,26 +101,41 @@ static bool first_goes_up(const struct edge_range *range,
   return it.from < it.to;
 }
 
-/* Numbers the edges of a range, and adds them to those of the topology, or
- * their uses. */
-static bool add_joined_edges(void *user, struct parallel_range edges) {
-  struct edge_join *join = user;
+/* Adds edges that no earlier range has, from this one of the range to before
+ * another, to those of the topology, as numbers from `to` on. */
+static void add_own_edges(const struct edge_join *join, size_t from, size_t end,
+                          uint32_t to) {
+  const struct topology_edge *edge = join->range[join->at].edge.item;
+  if (from < end)
+    memcpy(&join->topology->edge.item[to], &edge[from],
+           (end - from) * sizeof *edge);
+  for (size_t e = from; join->number != NULL && e < end; e++)
+    join->number[e] = to++;
+}
+
+/* Adds the uses of an edge to those that it has in the topology. */
+static void add_uses(const struct edge_join *join, size_t e) {
   const struct edge_range *range = &join->range[join->at];
-  uint32_t *number = join->number[join->at];
-  uint32_t own = join->first[edges.begin / PARALLEL_ITEMS];
+  const struct topology_edge *edge = &range->edge.item[e];
+  struct topology_edge *to = &join->topology->edge.item[edge->second];
+  (void)topology_use_edge(to, edge->first, first_goes_up(range, edge));
+  if (edge->uses > 1)
+    to->uses = 3;
+  if (join->number != NULL)
+    join->number[e] = edge->second;
+}
+
+static bool add_joined_edges(void *user, struct parallel_range edges) {
+  const struct edge_join *join = user;
+  const struct shared_edges *shared = &join->shared[join->at];
+  size_t k = shared_before(shared, edges.begin);
   for (size_t e = edges.begin; e < edges.end; e++) {
-    const struct topology_edge *edge = &range->edge.item[e];
-    bool is_own = number[e] == SCENE_NONE;
-    if (is_own)
-      number[e] = own++;
-    struct topology_edge *to = &join->topology->edge.item[number[e]];
-    if (is_own) {
-      *to = *edge;
-    } else {
-      (void)topology_use_edge(to, edge->first, first_goes_up(range, edge));
-      if (edge->uses > 1)
-        to->uses = 3;
-    }
+    bool any = k < shared->count && shared->edge[k] < edges.end;
+    size_t stop = any ? shared->edge[k] : edges.end;
+    add_own_edges(join, e, stop, shared->first + (uint32_t)(e - k));
+    if (any)
+      add_uses(join, shared->edge[k++]);
+    e = stop;
   }
   return true;
 }
@@ -110,40 +144,47 @@ static bool add_joined_edges(void *user, struct parallel_range edges) {
 static bool renumber_sides(void *user, struct parallel_range corners) {
   struct edge_join *join = user;
   const struct edge_range *range = &join->range[join->at];
-  const uint32_t *number = join->number[join->at];
   uint32_t *edge =
       range->corner_edge + scene_face_start(range->scene, range->face);
   for (size_t c = corners.begin; c < corners.end; c++)
-    edge[c] = number[edge[c]];
+    edge[c] = join->number[edge[c]];
   return true;
+}
+
+/* Adds the edges of a range, whose shared ones are known, to the topology. */
+static bool add_edges_of_range(struct edge_join *join, int workers) {
+  const struct edge_range *range = &join->range[join->at];
+  bool sides = range->corner_edge != NULL;
+  size_t edges = range->edge.count, corners = edge_range_corners(range);
+  if (sides) {
+    join->number = mem_alloc(edges, sizeof *join->number);
+    if (join->number == NULL)
+      return false;
+  }
+  return parallel_ranges(workers, edges, PARALLEL_ITEMS, add_joined_edges,
+                         join) &&
+         (!sides || parallel_ranges(workers, corners, PARALLEL_ITEMS,
+                                    renumber_sides, join));
 }
 
 /* Joins a range to the earlier ones. */
 static bool join_range(struct edge_join *join, size_t at, int workers) {
-  struct edge_range *range = &join->range[at];
   struct topology *topology = join->topology;
-  size_t edges = range->edge.count, corners = edge_range_corners(range);
-  size_t parts = parallel_range_count(edges, PARALLEL_ITEMS);
+  struct shared_edges *shared = &join->shared[at];
   join->at = at;
-  join->number[at] = mem_alloc(edges, sizeof *join->number[at]);
-  join->first = mem_alloc(parts, sizeof *join->first);
-  bool ok =
-      join->number[at] != NULL && join->first != NULL &&
-      parallel_ranges(workers, edges, PARALLEL_ITEMS, look_up_edges, join);
+  shared->edge = number_filter(join->range[at].edge.count, shared_of_range,
+                               join, &shared->count);
+  bool ok = shared->edge != NULL;
   /* Nothing is looked up after the last range was. */
   for (size_t r = 0; at + 1 == join->ranges && r < at; r++)
     edge_range_drop_lists(&join->range[r]);
-  for (size_t i = 0; ok && i < parts; i++) {
-    uint32_t own = join->first[i];
-    join->first[i] = (uint32_t)topology->edge.count;
-    topology->edge.count += own;
+  if (ok) {
+    shared->first = (uint32_t)topology->edge.count;
+    topology->edge.count += join->range[at].edge.count - shared->count;
+    ok = add_edges_of_range(join, workers);
   }
-  ok =
-      ok &&
-      parallel_ranges(workers, edges, PARALLEL_ITEMS, add_joined_edges, join) &&
-      (range->corner_edge == NULL ||
-       parallel_ranges(workers, corners, PARALLEL_ITEMS, renumber_sides, join));
-  mem_free(join->first);
+  mem_free(join->number);
+  join->number = NULL;
   return ok;
 }
 
@@ -163,7 +204,7 @@ static bool join_ranges(struct edge_join *join, int workers) {
   for (size_t r = 1; ok && r < join->ranges; r++)
     ok = join_range(join, r, workers);
   for (size_t r = 1; r < join->ranges; r++)
-    mem_free(join->number[r]);
+    mem_free(join->shared[r].edge);
   join->range[0].edge.item = NULL;
   return ok;
 }
