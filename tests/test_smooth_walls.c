@@ -260,12 +260,31 @@ static void the_inside_of_a_klein_bottle_is_hidden(void **state) {
   recto_scene_destroy(scene);
 }
 
+/* The contour within the chamfer of the mug's rim bends into the line of sight,
+ * and the rim is thinner than the chamfer is wide. */
+static void contours_within_a_thin_rim_are_hidden(void **state) {
+  (void)state;
+  recto_scene *scene = turned(mug, MUG_POINTS);
+  double most = 0;
+  for (int azimuth = 0; azimuth < 360; azimuth += 5) {
+    recto_options options;
+    recto_options_init(&options);
+    options.camera.azimuth_deg = azimuth;
+    options.camera.elevation_deg = 10;
+    most = fmax(most, false_length(scene, &options));
+  }
+  if (!(most < 1))
+    fail_msg("%g mm", most);
+  recto_scene_destroy(scene);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_inside_of_a_cup_is_hidden),
       cmocka_unit_test(the_inside_of_an_elbow_is_hidden),
       cmocka_unit_test(the_outline_of_a_wall_is_not_led_to_a_handle),
       cmocka_unit_test(the_inside_of_a_klein_bottle_is_hidden),
+      cmocka_unit_test(contours_within_a_thin_rim_are_hidden),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -15,6 +15,14 @@
  * for less than that, in proportion. */
 #define WHOLE_SHARE 0.125
 
+/* The share of a piece's samples that are visible if it is: most; of one where
+ * the surface bends into the line of sight nearly all, as none is if the point
+ * is within a solid and all are if faces are turned inwards, but where a solid
+ * is thinner than the offset some are on the other side of it.  Exact drawings
+ * have what most samples say. */
+#define VISIBLE_SHARE 0.5
+#define INNER_VISIBLE_SHARE 0.75
+
 /* The samples of a piece, at most, and segments whose heights give the offset,
  * to either side of one. */
 enum { SAMPLES_MAX = 31, HEIGHT_REACH = 10 };
@@ -200,8 +208,11 @@ bool divided_curves_count(struct divided_curves *d,
       join_end_pieces(&d->piece.item[of->first],
                       &d->piece.item[of->first + of->count - 1]);
   }
-  for (size_t i = 0; i < d->piece.count; i++)
-    d->piece.item[i].is_visible =
-        2 * d->piece.item[i].visible > d->piece.item[i].weight;
+  for (size_t i = 0; i < d->piece.count; i++) {
+    struct contour_piece *piece = &d->piece.item[i];
+    double share =
+        piece->side < 0 && !d->exact ? INNER_VISIBLE_SHARE : VISIBLE_SHARE;
+    piece->is_visible = piece->visible > share * piece->weight;
+  }
   return true;
 }

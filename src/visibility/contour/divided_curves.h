@@ -28,6 +28,7 @@ struct divided_curves {
   const struct sheet *sheet;           /* borrowed, not owned */
   const struct contour_curves *curves; /* borrowed, not owned */
   struct projection projection;
+  bool exact; /* nothing is to be left out for a cleaner drawing */
   ARRAY(struct contour_piece) piece;   /* of one curve after the other */
   ARRAY(struct divided_curve) curve;   /* one a curve */
   ARRAY(struct contour_sample) sample; /* of one piece after the other */
@@ -48,7 +49,8 @@ divided_curves_project(const struct divided_curves *divided,
 USE_RESULT bool divided_curves_find(struct divided_curves *divided);
 
 /* Counts what hides the samples, and decides whether pieces are visible: where
- * most of their samples are, by weight.
+ * most of their samples are, by weight, on the inner side nearly all unless
+ * drawings are exact.
  * occluders  with a grid of the sheet's triangles about the samples at least
  * Returns false when memory ran out or the caller cancelled. */
 USE_RESULT bool divided_curves_count(struct divided_curves *divided,
