@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/parallel.h"
 #include "geom/vector.h"
 #include "visibility/predicate/surrounder.h"
 
@@ -12,6 +13,7 @@ enum {
   CELLS_PER_TRIANGLE = 8,
   CELLS_MIN = 1 << 12,
   CELLS_MAX = 1 << 22,
+  CELLS_IN_RANGE = PARALLEL_RANGE(1 << 18),
   ALL_SIDES = 7,       /* of a triangle, as bits */
   LARGE_CELLS = 8,     /* in either direction, of a large triangle */
   VISITS = 64,         /* to a block to raise its cells, on average, at most */
@@ -34,6 +36,13 @@ void occlusion_buffer_shape(struct occlusion_buffer *buffer, struct box2 page,
            triangle_grid_cell_count(cells) > capacity);
 }
 
+/* Sets the bounds of a range of cells, which the system clears for it first. */
+static bool begin_bounds(void *user, struct parallel_range range) {
+  int32_t *bound = user;
+  memset(bound + range.begin, 0xff, (range.end - range.begin) * sizeof *bound);
+  return true;
+}
+
 bool occlusion_buffer_init(struct occlusion_buffer *buffer) {
   const struct triangle_grid *cells = &buffer->cells;
   size_t n = triangle_grid_cell_count(cells);
@@ -44,9 +53,9 @@ bool occlusion_buffer_init(struct occlusion_buffer *buffer) {
   buffer->farthest = mem_alloc(blocks, sizeof *buffer->farthest);
   if (buffer->bound == NULL || buffer->farthest == NULL)
     return false;
-  memset(buffer->bound, 0xff, n * sizeof *buffer->bound);
   memset(buffer->farthest, 0xff, blocks * sizeof *buffer->farthest);
-  return true;
+  return parallel_ranges(parallel_workers(n, CELLS_IN_RANGE), n, CELLS_IN_RANGE,
+                         begin_bounds, buffer->bound);
 }
 
 struct occlusion_band
