@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 
+#include "base/parallel.h"
 #include "base/sort.h"
 #include "base/tolerance.h"
 
@@ -366,43 +367,84 @@ static bool add_slanted_segments(const struct sheet *sheet,
   return true;
 }
 
+/* What a range of candidates gives. */
+struct resolved_range {
+  struct intersection_segments segments;
+  uint64_t count; /* of crossings */
+  char apart[PARALLEL_APART];
+};
+
+struct resolving {
+  const struct sheet *sheet;
+  const struct incidences *incidences;
+  const struct edge_crossing *crossing; /* sorted */
+  struct resolved_range *range;
+};
+
+enum { CANDIDATES_IN_RANGE = PARALLEL_RANGE(256) };
+
+static bool resolve_range(void *user, struct parallel_range candidates) {
+  const struct resolving *r = user;
+  const struct edge_crossing *crossing = r->crossing;
+  struct resolved_range *own =
+      &r->range[candidates.begin / CANDIDATES_IN_RANGE];
+  struct edge_fan scratch[3] = {0};
+  bool ok = true;
+  for (size_t i = candidates.begin; ok && i < candidates.end; i++) {
+    struct intersection_segment segment;
+    bool cross;
+    if (i > 0 && compare_crossings(&crossing[i - 1], &crossing[i], NULL) == 0)
+      continue;
+    ok = decide_crossing(r->sheet, r->incidences, &crossing[i], scratch,
+                         &own->segments, &segment, &cross);
+    if (!ok || !cross)
+      continue;
+    own->count++;
+    ok = ARRAY_PUSH(&own->segments.list, segment);
+  }
+  for (int k = 0; k < 3; k++)
+    ARRAY_FREE(&scratch[k].list);
+  return ok;
+}
+
+/* Decides all candidates; their segments are added in their order. */
+static bool resolve_all(struct resolving *resolving, size_t n,
+                        struct intersection_segments *segments,
+                        uint64_t *count) {
+  size_t ranges = parallel_range_count(n, CANDIDATES_IN_RANGE);
+  resolving->range = mem_calloc(ranges, sizeof *resolving->range);
+  bool ok = resolving->range != NULL &&
+            parallel_ranges(parallel_workers(n, CANDIDATES_IN_RANGE), n,
+                            CANDIDATES_IN_RANGE, resolve_range, resolving);
+  for (size_t r = 0; resolving->range != NULL && r < ranges; r++) {
+    struct intersection_segments *own = &resolving->range[r].segments;
+    *count += resolving->range[r].count;
+    for (size_t i = 0; ok && i < own->list.count; i++)
+      ok = ARRAY_PUSH(&segments->list, own->list.item[i]);
+    ARRAY_FREE(&own->list);
+  }
+  mem_free(resolving->range);
+  return ok;
+}
+
 bool edge_crossings_resolve(struct edge_crossings *crossings,
                             const struct sheet *sheet,
                             struct intersection_segments *segments,
                             uint64_t *count) {
   size_t n = crossings->list.count;
   struct edge_crossing *crossing = crossings->list.item;
-  struct edge_fan scratch[3] = {0};
   struct incidences incidences = {0};
-  bool ok = false;
+  struct resolving resolving = {sheet, &incidences, crossing, NULL};
   if (n == 0 && crossings->slanted.count == 0)
     return true;
-  if (!sort_stable(crossing, n, sizeof *crossing, compare_crossings, NULL) ||
-      !find_incidences(&incidences, sheet, crossings))
-    goto end;
-  for (size_t i = 0; i < crossings->slanted.count; i++)
-    if (!add_slanted_segments(sheet, &incidences,
+  bool ok =
+      sort_stable(crossing, n, sizeof *crossing, compare_crossings, NULL) &&
+      find_incidences(&incidences, sheet, crossings);
+  for (size_t i = 0; ok && i < crossings->slanted.count; i++)
+    ok = add_slanted_segments(sheet, &incidences,
                               crossings->slanted.item[i].side[0],
-                              crossings->slanted.item[i].side[1].i, segments))
-      goto end;
-  for (size_t i = 0; i < n; i++) {
-    struct intersection_segment segment;
-    bool cross;
-    if (i > 0 && compare_crossings(&crossing[i - 1], &crossing[i], NULL) == 0)
-      continue;
-    if (!decide_crossing(sheet, &incidences, &crossing[i], scratch, segments,
-                         &segment, &cross))
-      goto end;
-    if (!cross)
-      continue;
-    ++*count;
-    if (!ARRAY_PUSH(&segments->list, segment))
-      goto end;
-  }
-  ok = true;
-end:
-  for (int k = 0; k < 3; k++)
-    ARRAY_FREE(&scratch[k].list);
+                              crossings->slanted.item[i].side[1].i, segments);
+  ok = ok && resolve_all(&resolving, n, segments, count);
   incidences_fini(&incidences);
   return ok;
 }
