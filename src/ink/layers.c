@@ -282,6 +282,8 @@ static int compare_strokes(const void *first, const void *second, void *user) {
     return order;
   if (a->hidden != b->hidden)
     return a->hidden ? -1 : 1;
+  if (a->edge_class == b->edge_class)
+    return 0; /* as most are, and so wide as each other */
   double a_mm = drawing_width_mm(drawing, a),
          b_mm = drawing_width_mm(drawing, b);
   if (a_mm != b_mm)
