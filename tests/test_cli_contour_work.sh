@@ -16,6 +16,20 @@ make_fan() {
   }' >"fan$1.obj"
 }
 
+# make_wide_fan N - triangles about a point, each over the next four, all of
+# them nearly in one plane.
+make_wide_fan() {
+  awk -v n="$1" 'BEGIN {
+    turn = 2 * atan2(0, -1)
+    print "v 0 0 0"
+    for (i = 0; i < n; i++)
+      for (k = 0; k < 2; k++)
+        print "v", cos(turn * (i + 5 * k) / n), sin(turn * (i + 5 * k) / n), \
+          ((i + k) % 2 - 0.5) * 1.5 / n
+    for (i = 0; i < n; i++) print "f 1", 2 * i + 2, 2 * i + 3
+  }' >"wide$1.obj"
+}
+
 # make_needles N - long prisms of eight sides, upright at random places; some
 # of them intersect.
 make_needles() {
@@ -50,6 +64,9 @@ claim "of a fan of gentle waves little is compared" \
   compares_at_most fan1000 200000 --up z --elevation 5
 claim "of four times as many hardly more than four times as much" \
   compares_at_most fan4000 900000 --up z --elevation 5
+make_wide_fan 120
+claim "of contours within a pen of each other the nearest are compared" \
+  compares_at_most wide120 25000000 --up z --elevation 0
 make_needles 300
 claim "of needles that intersect each one is compared once with an end" \
   compares_at_most needles300 500000 --up z --elevation 20

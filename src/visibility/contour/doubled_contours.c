@@ -49,6 +49,7 @@ struct doubled_contours {
   double *along; /* one a contour's edge: the length of the contours before it,
                     and of all of them */
   struct segment_grid grid;
+  uint64_t compared;    /* places with contours: the work done */
   uint8_t *is_covered;  /* one a contour edge: some of its cells are */
   uint8_t *is_hidden;   /* the same: some of its cells are hidden */
   uint8_t *is_covering; /* the same: it covers cells that are hidden */
@@ -110,7 +111,9 @@ static bool list_visible_contours(struct doubled_contours *d) {
       return false;
   }
   d->grid.contours = d->grid.segment.count;
-  return d->grid.contours == 0 || segment_grid_make(&d->grid);
+  d->grid.cell.shift = ilogb(d->beyond);
+  return d->grid.contours == 0 ||
+         (segment_grid_sort(&d->grid) && segment_grid_make(&d->grid));
 }
 
 /* ---- 1 Mark -------------------------------------------------------------- */
@@ -123,16 +126,6 @@ struct doubled_place {
   double along;
   double reach; /* what covers it is no farther away */
 };
-
-/* Whether a segment's box is farther from a place than what covers it is. */
-static inline bool is_out_of_reach(const struct page_segment *s,
-                                   const struct doubled_place *at) {
-  struct box2 box = box2_of_segment(s->p, s->q);
-  /* Distances are computed to far less than a unit. */
-  double reach = at->reach + 1;
-  return box.x0 > at->x + reach || box.x1 < at->x - reach ||
-         box.y0 > at->y + reach || box.y1 < at->y - reach;
-}
 
 /* Whether the line along (x, y) is farther from a place, which is at (px, py)
  * from where it begins, than what covers it is. */
@@ -166,8 +159,9 @@ static bool covers(const struct doubled_contours *d,
          page_segment_depth(s, t) > at->z;
 }
 
-/* The nearest contour that covers a place; SHEET_NONE. */
-static uint32_t find_covering_contour(const struct doubled_contours *d,
+/* The nearest contour that covers a place; SHEET_NONE.  Lists go from near to
+ * far, so what covers nothing is met only before what does. */
+static uint32_t find_covering_contour(struct doubled_contours *d,
                                       const struct doubled_place *at) {
   const struct triangle_grid *cell = &d->grid.cell;
   double reach = at->reach;
@@ -185,10 +179,14 @@ static uint32_t find_covering_contour(const struct doubled_contours *d,
            k++) {
         const struct page_segment *s =
             &d->grid.segment.item[cell->lists.item[k]];
-        int64_t z = s->p.z > s->q.z ? s->p.z : s->q.z;
-        if (is_out_of_reach(s, at) || s->owner == at->edge ||
-            s->owner == best || !covers(d, s, at) ||
-            (best != SHEET_NONE && z <= nearest))
+        int64_t z = page_segment_nearest(s);
+        if ((double)z <= at->z || (best != SHEET_NONE && z <= nearest))
+          break;
+        if (page_segment_is_off(s, at->x, at->y, at->reach) ||
+            s->owner == at->edge)
+          continue;
+        d->compared++;
+        if (!covers(d, s, at))
           continue;
         best = s->owner;
         nearest = z;
@@ -226,9 +224,14 @@ static bool add_cells(struct doubled_contours *d,
 }
 
 static bool mark_cells(struct doubled_contours *d) {
-  for (size_t i = 0; i < d->grid.contours; i++)
-    if (!poll_at(i) || !add_cells(d, &d->grid.segment.item[i]))
+  for (uint32_t e = d->first; e < d->end; e++) {
+    struct geom_segment s = sheet_ends(d->sheet, d->sheet->edge.item[e].point);
+    const struct page_segment image = {s.p, s.q, e};
+    bool is_drawn =
+        d->map->edge_state[e] != MAP_HIDDEN && contour_length(d, e) > 0;
+    if (!poll_at(e) || (is_drawn && !add_cells(d, &image)))
       return false;
+  }
   return true;
 }
 
@@ -423,7 +426,8 @@ static bool hide_runs(struct doubled_contours *d) {
 }
 
 bool doubled_contours_hide(struct sheet *sheet, struct map *map, uint32_t first,
-                           const float *height, double beyond) {
+                           const float *height, double beyond,
+                           uint64_t *compared) {
   struct doubled_contours d = {.sheet = sheet,
                                .map = map,
                                .first = first,
@@ -436,6 +440,7 @@ bool doubled_contours_hide(struct sheet *sheet, struct map *map, uint32_t first,
   any = (ok && choose_runs(&d, false)) || any;
   if (any)
     ok = count_degrees(&d) && hide_runs(&d);
+  *compared += d.compared;
   segment_grid_fini(&d.grid);
   mem_free(d.along);
   mem_free(d.is_covered);

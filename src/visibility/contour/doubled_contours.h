@@ -15,10 +15,11 @@
  *          surface on the left, and follow each other along the curves
  * height   one a contour's edge: that of its triangle, grid units
  * beyond   grid units
+ * compared  gets how many contours were compared with places, too
  * Cost     near linear in the contours
  * Returns false when memory ran out or the caller cancelled. */
 USE_RESULT bool doubled_contours_hide(struct sheet *sheet, struct map *map,
                                       uint32_t first, const float *height,
-                                      double beyond);
+                                      double beyond, uint64_t *compared);
 
 #endif

@@ -68,6 +68,15 @@ static bool list_drawn_lines(struct line_ends *l) {
   return true;
 }
 
+/* The diameter of the contour's triangle as a multiple of the line's length. */
+static double bound_on_line(const struct line_ends *l,
+                            const struct page_segment *contour,
+                            const struct page_segment *line) {
+  uint32_t triangle = l->sheet->edge.item[contour->owner].triangle[0];
+  return diameter_of_triangle(l->sheet, triangle) /
+         hypot((double)line->q.x - line->p.x, (double)line->q.y - line->p.y);
+}
+
 /* Adds the crossing of a border with a contour of its surface that ends on it.
  * Their images are tangent there, since the surface is seen edge-on: ahead of
  * the contour the border is visible, and back along it where it is the nearer
@@ -78,7 +87,6 @@ static bool add_end_on_border(struct line_ends *l,
                               struct line_crossing made) {
   double x = (double)line->q.x - line->p.x, y = (double)line->q.y - line->p.y;
   const struct sheet_edge *of = &l->sheet->edge.item[contour->owner];
-  double over = END_SHARE * diameter_of_triangle(l->sheet, of->triangle[0]);
   bool ok = true;
   for (int k = 0; k < 2 && ok; k++) {
     const struct geom_point end = k == 0 ? contour->p : contour->q;
@@ -86,6 +94,7 @@ static bool add_end_on_border(struct line_ends *l,
     if (l->degree[of->point[k] - l->first_point] > 1 ||
         fabs(x * py - y * px) > TOLERANCE_COINCIDENT_UNITS * hypot(x, y))
       continue;
+    double over = END_SHARE * diameter_of_triangle(l->sheet, of->triangle[0]);
     const struct geom_point from =
         curve_before_end(l->sheet, l->first, contour->owner, k, over);
     double ahead = x * ((double)end.x - from.x) + y * ((double)end.y - from.y);
@@ -95,6 +104,7 @@ static bool add_end_on_border(struct line_ends *l,
     double rise = (double)(end.z - from.z) * ((x * x + y * y) / ahead);
     made.t = (px * x + py * y) / (x * x + y * y);
     made.leaves = ahead < 0;
+    made.bound = bound_on_line(l, contour, line);
     if (((double)(line->q.z - line->p.z) > rise) == (ahead > 0))
       ok = ARRAY_PUSH(&l->crossing, made);
   }
@@ -112,9 +122,6 @@ static bool add_line_crossing(void *user, const struct page_segment *contour,
     return true;
   struct line_crossing made = {
       .edge = line->owner,
-      .bound =
-          diameter_of_triangle(sheet, triangle) /
-          hypot((double)line->q.x - line->p.x, (double)line->q.y - line->p.y),
       .own = is_side_of_face(sheet, edge, sheet->triangle.item[triangle].face)};
   made.at_end =
       made.own && (edge->triangle[1] == SHEET_NONE || has_more_faces(edge));
@@ -124,6 +131,7 @@ static bool add_line_crossing(void *user, const struct page_segment *contour,
     return true;
   made.t = t;
   made.leaves = geom_orient2d(contour->p, contour->q, line->p) >= 0;
+  made.bound = bound_on_line(l, contour, line);
   return (!made.own &&
           page_segment_depth(contour, s) <= page_segment_depth(line, t)) ||
          ARRAY_PUSH(&l->crossing, made);

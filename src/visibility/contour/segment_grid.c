@@ -2,12 +2,24 @@
 #include "visibility/contour/segment_grid.h"
 
 #include "base/poll.h"
+#include "base/sort.h"
 
 bool segment_grid_add(struct segment_grid *grid, struct geom_segment segment,
                       uint32_t owner) {
   struct page_segment made = {segment.p, segment.q, owner};
   return (made.p.x == made.q.x && made.p.y == made.q.y) ||
          ARRAY_PUSH(&grid->segment, made);
+}
+
+static int compare_nearest(const void *a, const void *b, void *user) {
+  (void)user;
+  int64_t p = page_segment_nearest(a), q = page_segment_nearest(b);
+  return (p > q) - (p < q);
+}
+
+bool segment_grid_sort(struct segment_grid *grid) {
+  return sort_stable(grid->segment.item, grid->segment.count,
+                     sizeof *grid->segment.item, compare_nearest, NULL);
 }
 
 /* Puts a segment into the lists of the cells that it meets. */

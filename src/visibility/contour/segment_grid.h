@@ -22,8 +22,14 @@ struct segment_grid {
 USE_RESULT bool segment_grid_add(struct segment_grid *grid,
                                  struct geom_segment segment, uint32_t owner);
 
+/* Sorts the segments, of contours alone, from far to near by their nearest
+ * ends, so that lists of cells go from near to far.  Returns false when memory
+ * ran out. */
+USE_RESULT bool segment_grid_sort(struct segment_grid *grid);
+
 /* Makes cells in the box of the contours, about as many as segments, and lists
- * the segments.  Returns false when memory ran out. */
+ * the segments.  Where cell.shift is given, sides of cells are longer than
+ * 2^cell.shift grid units.  Returns false when memory ran out. */
 USE_RESULT bool segment_grid_make(struct segment_grid *grid);
 void segment_grid_fini(struct segment_grid *grid);
 
@@ -42,9 +48,24 @@ USE_RESULT bool segment_grid_meet(const struct segment_grid *grid,
 bool page_segments_cross(const struct page_segment *a,
                          const struct page_segment *b, double *s, double *t);
 
+/* The depth of its nearer end. */
+static inline int64_t page_segment_nearest(const struct page_segment *s) {
+  return s->p.z > s->q.z ? s->p.z : s->q.z;
+}
+
 static inline double page_segment_depth(const struct page_segment *s,
                                         double t) {
   return (double)s->p.z + t * (double)(s->q.z - s->p.z);
+}
+
+/* Whether a segment's box is farther from a place than within reach. */
+static inline bool page_segment_is_off(const struct page_segment *s, double x,
+                                       double y, double reach) {
+  struct box2 box = box2_of_segment(s->p, s->q);
+  /* Distances are computed to far less than a unit. */
+  reach += 1;
+  return box.x0 > x + reach || box.x1 < x - reach || box.y0 > y + reach ||
+         box.y1 < y - reach;
 }
 
 #endif
