@@ -316,6 +316,18 @@ static void short_folds_that_continue_a_contour_are_drawn(void **state) {
   }
 }
 
+/* Seen from higher up the folds beside a contour's end are shorter, but more
+ * than five heights long. */
+static void folds_of_five_heights_that_continue_one_are_drawn(void **state) {
+  (void)state;
+  for (int sides = 24; sides <= 32; sides += 8) {
+    recto_scene *scene = smooth_scene(button, true, sides, BUTTON_ROWS);
+    /* 5 and 6 of them while a fold had to be of six heights. */
+    assert_int_equal(missing_of_rim(scene, sides, 13), 0);
+    recto_scene_destroy(scene);
+  }
+}
+
 /* A round tube along a torus knot, a third of the knot's own size. */
 static void knot_axis(double u, double p[3]) {
   double across = (30 + 13 * cos(3 * u)) / 30;
@@ -417,6 +429,7 @@ int main(void) {
       cmocka_unit_test(folds_without_a_zero_set_are_drawn),
       cmocka_unit_test(arcs_of_legs_are_drawn),
       cmocka_unit_test(short_folds_that_continue_a_contour_are_drawn),
+      cmocka_unit_test(folds_of_five_heights_that_continue_one_are_drawn),
       cmocka_unit_test(folds_between_two_contours_are_drawn),
       cmocka_unit_test(gaps_beside_a_contour_are_closed),
   };

@@ -16,8 +16,10 @@
 #define BESIDE_COSINE 0.5
 
 /* The heights of a line that is not of many outlines, at least, if a contour
- * continues it at one end, and at both. */
+ * continues it at one end, and at both; and at one end that is within a height
+ * of it. */
 static const double joined_heights[] = {INFINITY, 6, 3};
+#define NEAR_JOINED_HEIGHTS 5
 
 /* How far beside an outline nothing must hide it, grid units. */
 #define BESIDE 8
@@ -156,6 +158,20 @@ static bool add_place_edges(struct fold_lines *f, bool is_ring,
   return !is_ring || add_place_edge(f, &f->place.item[0], point, first);
 }
 
+/* How long a run from sample `from` to `last` has to be that contours continue,
+ * in heights. */
+static double least_heights(const struct fold_lines *f, const uint32_t joint[2],
+                            size_t from, size_t last, double height) {
+  int joints = (joint[0] != SHEET_NONE) + (joint[1] != SHEET_NONE);
+  if (joints != 1)
+    return joined_heights[joints];
+  int k = joint[1] != SHEET_NONE;
+  const struct fold_sample *s = &f->sample.item[k == 0 ? from : last];
+  struct geom_point end = f->in->sheet->point.item[joint[k]];
+  return hypot(end.x - s->x, end.y - s->y) <= height ? NEAR_JOINED_HEIGHTS
+                                                     : joined_heights[1];
+}
+
 /* Adds the line of a run of the chain, if it is long, or if contours continue
  * it. */
 static bool add_line(struct fold_lines *f, size_t from, size_t to,
@@ -172,8 +188,8 @@ static bool add_line(struct fold_lines *f, size_t from, size_t to,
                         height, &joint[0]);
     fold_joints_lead_on(&f->joints, f->sample.item, f->sample.count, &last, 1,
                         height, &joint[1]);
-    int joints = (joint[0] != SHEET_NONE) + (joint[1] != SHEET_NONE);
-    if (!is_long && !fold_run_is_line(run, joined_heights[joints]))
+    if (!is_long &&
+        !fold_run_is_line(run, least_heights(f, joint, from, last, height)))
       return true;
     run = (struct fold_run){f->sample.item + from, last + 1 - from, false};
   }
