@@ -23,6 +23,14 @@
 /* The samples of a gap for each height of its triangles. */
 enum { SAMPLES_A_HEIGHT = 4 };
 
+/* What the points of contours are.  Where one passes behind another line, or
+ * through a face, it is hidden from there on, and no gap begins. */
+enum node_kind {
+  NODE_NONE, /* something crosses the curve there */
+  NODE_OF_CURVE,
+  NODE_CUT /* the same, and a thin loop was left out there */
+};
+
 struct bridge_end {
   uint32_t point, edge;
   double x, y;
@@ -33,7 +41,7 @@ struct fold_bridges {
   const struct outline_gaps_input *in;
   const float *heights;
   uint8_t *degree; /* one a point of contours: visible ones there, at most 2 */
-  uint8_t *is_cut; /* the same: a thin loop was left out there */
+  uint8_t *node;   /* the same: an enum node_kind */
   ARRAY(struct bridge_end) start;
   ARRAY(struct bridge_end) stop;
   struct segment_grid grid; /* visible contours, and the mesh's outlines with
@@ -52,7 +60,8 @@ static bool is_visible_contour(const struct fold_bridges *b, uint32_t edge) {
 static bool is_open(const struct fold_bridges *b, uint32_t point,
                     bool at_cuts) {
   uint32_t at = point - b->in->first_point;
-  return b->degree[at] == 1 || (at_cuts && b->is_cut[at]);
+  return (b->degree[at] == 1 && b->node[at] != NODE_NONE) ||
+         (at_cuts && b->node[at] == NODE_CUT);
 }
 
 static bool list_end(struct fold_bridges *b, uint32_t edge, int k) {
@@ -74,20 +83,21 @@ static int compare_bridge_ends(const void *a, const void *b, void *user) {
   return (p->x > q->x) - (p->x < q->x);
 }
 
-static void mark_cuts(struct fold_bridges *b) {
+static void mark_nodes(struct fold_bridges *b) {
   const struct zero_set *set = b->in->set;
   for (size_t i = 0; i < set->node.count; i++)
-    if (set->node.item[i].is_cut && set->node.item[i].sheet_point != SHEET_NONE)
-      b->is_cut[set->node.item[i].sheet_point - b->in->first_point] = 1;
+    if (set->node.item[i].sheet_point != SHEET_NONE)
+      b->node[set->node.item[i].sheet_point - b->in->first_point] =
+          set->node.item[i].is_cut ? NODE_CUT : NODE_OF_CURVE;
 }
 
 static bool list_bridge_ends(struct fold_bridges *b) {
   const struct sheet *sheet = b->in->sheet;
   b->degree = mem_calloc(sheet->point.count - b->in->first_point, 1);
-  b->is_cut = mem_calloc(sheet->point.count - b->in->first_point, 1);
-  if (b->degree == NULL || b->is_cut == NULL)
+  b->node = mem_calloc(sheet->point.count - b->in->first_point, 1);
+  if (b->degree == NULL || b->node == NULL)
     return false;
-  mark_cuts(b);
+  mark_nodes(b);
   for (uint32_t e = b->in->first; e < sheet->edge.count; e++)
     for (int k = 0; is_visible_contour(b, e) && k < 2; k++) {
       uint8_t *degree =
@@ -241,8 +251,8 @@ static bool add_bridge(const struct fold_bridges *b,
   edge.point[1] = to->point;
   b->degree[from->point - b->in->first_point] = 2;
   b->degree[to->point - b->in->first_point] = 2;
-  b->is_cut[from->point - b->in->first_point] = 0;
-  b->is_cut[to->point - b->in->first_point] = 0;
+  b->node[from->point - b->in->first_point] = NODE_OF_CURVE;
+  b->node[to->point - b->in->first_point] = NODE_OF_CURVE;
   map->edge_state[map->edge_count++] = MAP_VISIBLE;
   return ARRAY_PUSH(&sheet->edge, edge);
 }
@@ -273,7 +283,7 @@ bool fold_bridges_add(const struct outline_gaps_input *input,
             bridge_all_gaps(&b, true);
   segment_grid_fini(&b.grid);
   mem_free(b.degree);
-  mem_free(b.is_cut);
+  mem_free(b.node);
   ARRAY_FREE(&b.start);
   ARRAY_FREE(&b.stop);
   return ok;
