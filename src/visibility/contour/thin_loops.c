@@ -50,6 +50,7 @@ enum { BODY_FACES = 4 };
 /* What is known of a segment of the stack. */
 struct stack_segment {
   double length, height; /* of its triangle; on the page, grid units */
+  double off;            /* how far what it stands for is from it, at most */
   size_t turn; /* the last node up to its first one at which the image turns
                   back; the curve's first: none */
 };
@@ -256,10 +257,12 @@ static bool take_off_loops(struct thin_loops *l) {
 
 /* ---- Folds --------------------------------------------------------------- */
 
-/* Whether all steps between two of the stack are as near to the straight line
- * between these as a share of the triangles' mean height. */
-static bool is_straight_fold(const struct thin_loops *l, size_t from,
-                             size_t to) {
+/* Whether all that was between two steps of the stack, before any of it became
+ * straight, is as near to the straight line between these as a share of the
+ * triangles' mean height, and as ink.
+ * off  gets how near it is, if so */
+static bool is_straight_fold(const struct thin_loops *l, size_t from, size_t to,
+                             double *off) {
   struct geom_point p = stack_node(l, from)->page, q = stack_node(l, to)->page;
   double x = (double)q.x - p.x, y = (double)q.y - p.y;
   double heights = 0, length = 0, square = x * x + y * y;
@@ -270,15 +273,18 @@ static bool is_straight_fold(const struct thin_loops *l, size_t from,
   heights /= (double)(to - from);
   if (!(length - sqrt(square) < FOLD_HEIGHTS * heights))
     return false;
+  *off = 0;
+  double before = 0; /* of the step before */
   for (size_t i = from; i < to; i++) {
-    struct geom_point at = stack_node(l, i)->page;
+    struct geom_point at = stack_node(l, i + 1)->page;
     double px = (double)at.x - p.x, py = (double)at.y - p.y;
     double t = square > 0 ? (px * x + py * y) / square : 0;
     t = fmin(fmax(t, 0), 1);
-    if (!(hypot(px - t * x, py - t * y) < THIN_SHARE * heights))
-      return false;
+    double away = hypot(px - t * x, py - t * y);
+    *off = fmax(*off, fmax(before, away) + measure_of(l, i)->off);
+    before = away;
   }
-  return true;
+  return *off < fmin(THIN_SHARE * heights, VISIBLE_WIDTH);
 }
 
 /* A filter for is_straight_fold, by sums in another order: false only where
@@ -295,7 +301,7 @@ static bool is_back_and_forth(const struct thin_loops *l, size_t from,
  * crease along which the first one ran, and the surface beside that is as high
  * as the triangle: what is on the crease itself would be within it.  Where the
  * triangle is narrower than ink the crease and the line are one. */
-static bool straighten(struct thin_loops *l, size_t from) {
+static bool straighten(struct thin_loops *l, size_t from, double off) {
   struct contour_step *step = &l->step.item[from];
   struct contour_step end = l->step.item[l->step.count - 1];
   l->step.count = from + 2;
@@ -311,7 +317,9 @@ static bool straighten(struct thin_loops *l, size_t from) {
     made->along_crease = false;
     made->width = made->height;
   }
-  return measure_segment(l, from);
+  bool ok = measure_segment(l, from);
+  l->measure.item[from - l->first].off = off;
+  return ok;
 }
 
 /* Makes one segment of the last ones of the stack that fold back and forth
@@ -329,13 +337,13 @@ static bool straighten_fold(struct thin_loops *l) {
     turn = measure_of(l, turn - 1)->turn;
   if (turn <= lowest)
     return true;
-  double length = 0, heights = 0;
+  double length = 0, heights = 0, off;
   for (size_t i = last; i > lowest; i--) {
     length += measure_of(l, i - 1)->length;
     heights += measure_of(l, i - 1)->height;
     if (i <= turn && is_back_and_forth(l, i - 1, last, length, heights) &&
-        is_straight_fold(l, i - 1, last))
-      return straighten(l, i - 1);
+        is_straight_fold(l, i - 1, last, &off))
+      return straighten(l, i - 1, off);
   }
   return true;
 }
