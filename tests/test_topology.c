@@ -321,6 +321,9 @@ static void a_part_is_found_where_the_next_faces_repeat_it(void **state) {
     assert_int_equal(part.points, 2 * POINTS);
     memset(head, 0, POINTS * sizeof *head);
   }
+  assert_true(repeated_part_find(&part, &scene, NULL, 1, FACES * BOXES));
+  assert_int_equal(part.face, FACES);
+  assert_int_equal(part.faces, 2 * FACES);
   assert_true(
       repeated_part_is_at(&part, &scene, 3 * FACES, FACES * BOXES, &shift));
   assert_int_equal(shift, 2 * POINTS);

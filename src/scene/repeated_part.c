@@ -45,7 +45,7 @@ static inline struct point_span span_of_corners(const uint32_t *corner,
 static bool are_free(const uint32_t *free, const uint32_t *corner,
                      uint32_t count) {
   bool all = true;
-  for (uint32_t i = 0; i < count; i++)
+  for (uint32_t i = 0; free != NULL && i < count; i++)
     all &= free[corner[i]] == SCENE_NONE;
   return all;
 }
@@ -76,7 +76,7 @@ bool repeated_part_find(struct repeated_part *part, const struct scene *scene,
     const uint32_t *corner = scene->corner.item + start;
     uint32_t count = scene_face_corners(scene, f);
     struct point_span own = span_of_corners(corner, count);
-    bool is_start = f == face || own.low > all.high;
+    bool is_start = f == face ? free != NULL : own.low > all.high;
     if (is_start && starts > 0 && is_repeated_at(part, scene, all, f, end_face))
       return true;
     if (is_start && starts == 0 && are_free(free, corner, count)) {

@@ -15,7 +15,9 @@ struct repeated_part {
 /* Looks for the first faces from one on that are repeated by those just after
  * them, each with points that are higher by one number and than all of theirs.
  * Not all such faces are found: the search ends after a few thousand sides.
- * free  one a point: SCENE_NONE where the first corners of the part may be
+ * free  one a point: SCENE_NONE where the first corners of the part may be;
+ *       NULL: not known, so that it begins with a face that has higher points
+ *       than all from `face` on before it
  * Returns whether there are any. */
 bool repeated_part_find(struct repeated_part *part, const struct scene *scene,
                         const uint32_t *free, uint32_t face, uint32_t end_face);
