@@ -4,6 +4,7 @@
  * Runs of plain statements are divided at the ends of lines once they are half
  * a megabyte long.  So the files are some megabytes of them, with a few other
  * statements at random places. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -221,6 +222,111 @@ static void points_may_follow_runs_of_faces(void **state) {
   assert_null(fault);
 }
 
+/* ---- Parts of an assembly ------------------------------------------------ */
+
+static const char *const odd_names[] = {
+    "o a b \t\r\n", "g\n",           "usemtl red\n",  "g x\\\ny\n",
+    "o \x01\n",     "s 1\n",         "mtllib no.x\n", "o\n",
+    "# o x\\\n",    "vt 1\\\n2\n",   "other\n",       " v 1 2 3\n",
+    "f 1 2 2 1\n",  "f 1 2 60003\n", "f 3 2 999999\n"};
+
+static void put_odd(struct text *text, struct random *random) {
+  enum {
+    POINT_KINDS = sizeof odd_points / sizeof *odd_points,
+    FACE_KINDS = sizeof odd_faces / sizeof *odd_faces,
+    NAME_KINDS = sizeof odd_names / sizeof *odd_names
+  };
+  switch (random_below(random, 4)) {
+  case 0:
+    put(text, odd_points[random_below(random, POINT_KINDS)]);
+    break;
+  case 1:
+    put(text, odd_faces[random_below(random, FACE_KINDS)]);
+    break;
+  default:
+    put(text, odd_names[random_below(random, NAME_KINDS)]);
+  }
+}
+
+/* A prism over a polygon; points are counted from `first`.
+ * form  what follows an index */
+static void put_prism(struct text *text, struct random *random, int sides,
+                      int first, const char *form) {
+  char statement[LONGEST];
+  double x = random_between(random, 0, 99), y = random_between(random, 0, 99);
+  for (int i = 0; i < 2 * sides; i++) {
+    snprintf(statement, sizeof statement, "v %.*g %.9g %d\n",
+             random_int(random, 6, 12), x + cos(6.2831853 * (i / 2) / sides),
+             y + sin(6.2831853 * (i / 2) / sides), i % 2);
+    put(text, statement);
+  }
+  for (int k = 0; k < sides; k++) {
+    int a = first + 2 * k, b = first + 2 * ((k + 1) % sides);
+    snprintf(statement, sizeof statement,
+             sides == 3 ? "f %d%s %d%s %d%s\nf %d%s %d%s %d%s\n"
+                        : "f %d%s %d%s %d%s %d%s\n",
+             a, form, b, form, b + 1, form, sides == 3 ? a : a + 1, form, b + 1,
+             form, a + 1, form);
+    put(text, statement);
+  }
+  for (int top = 0; top < 2; top++) {
+    put(text, "f");
+    for (int k = 0; k < sides; k++) {
+      int at = top ? k : sides - 1 - k;
+      snprintf(statement, sizeof statement, " %d%s", first + 2 * at + top,
+               form);
+      put(text, statement);
+    }
+    put(text, "\n");
+  }
+}
+
+/* Prisms after each other, most with names; one in `rarity` has something odd
+ * before it; 0: none has. */
+static struct text write_assembly(uint64_t seed, uint32_t rarity) {
+  enum { BYTES = 2 << 20, ROOM = 1 << 14 };
+  static const char *const forms[] = {"", "//1", "/1/1", "/7"};
+  struct random random = {seed};
+  struct text text = {malloc(BYTES + ROOM), 0};
+  assert_non_null(text.bytes);
+  put(&text, "vt 0 0\n");
+  int first = 1, kinds = random_int(&random, 1, 3);
+  if (seed % 4 == 1)
+    put(&text, "vn 0 0 1\n");
+  for (int i = 0; text.count < BYTES; i++) {
+    static const char *const name[] = {"o part%d\n", "g of %d\n",
+                                       "usemtl m%d\n", "# %d\n\n"};
+    char statement[LONGEST];
+    int sides = kinds == 1 ? 3 : random_int(&random, 3, 2 + 11 * (kinds - 1));
+    snprintf(statement, sizeof statement, name[random_below(&random, 4)],
+             i / 2);
+    if (rarity > 0 && random_below(&random, rarity) == 0)
+      put_odd(&text, &random);
+    if (seed % 8 == 3 && i == 900)
+      put(&text, "vt 1 \\\nv 7 7 7\n");
+    put(&text, random_below(&random, 3) ? statement : "vt 0.5 1\n");
+    put_prism(&text, &random, sides, first, forms[random_below(&random, 4)]);
+    first += 2 * sides;
+  }
+  return text;
+}
+
+/* Points and faces take turns. */
+static void assemblies_are_read_alike(void **state) {
+  static const uint32_t rarities[] = {0, 2000, 800, 400, 150};
+  skip_without_processors();
+  for (int seed = 1; seed <= rounds(80); seed++) {
+    struct text text = write_assembly((uint64_t)seed, rarities[(seed / 4) % 5]);
+    const char *path = temporary_file(state, "a.obj", text.bytes, text.count);
+    reading_takes_marks = seed % 2 == 0;
+    const char *fault = reading_parallel_file_fault(&reader_obj, path);
+    reading_takes_marks = true;
+    free(text.bytes);
+    if (fault != NULL)
+      fail_msg("assembly of seed %d: %s", seed, fault);
+  }
+}
+
 /* The end of the file may cut a statement of a part anywhere. */
 static void files_may_end_anywhere(void **state) {
   struct random random = {3};
@@ -268,6 +374,8 @@ int main(void) {
       cmocka_unit_test(plain_files_are_read_alike),
       cmocka_unit_test(other_statements_are_found_where_they_are),
       cmocka_unit_test_setup_teardown(files_are_read_as_they_are_in_memory,
+                                      temporary_set_up, temporary_tear_down),
+      cmocka_unit_test_setup_teardown(assemblies_are_read_alike,
                                       temporary_set_up, temporary_tear_down),
       cmocka_unit_test_setup_teardown(points_may_follow_runs_of_faces,
                                       temporary_set_up, temporary_tear_down),

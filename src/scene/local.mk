@@ -29,6 +29,7 @@ librecto_core_la_SOURCES += \
   %D%/obj_parser.c %D%/obj_parser.h \
   %D%/obj_plain.c %D%/obj_plain.h \
   %D%/obj_run.c \
+  %D%/obj_short_runs.c %D%/obj_short_runs.h \
   %D%/obj_triangles.c \
   %D%/ply_colour.c %D%/ply_colour.h \
   %D%/ply_header.c %D%/ply_header.h \

@@ -5,9 +5,8 @@
  * cache from being read (doc/decisions/0091). */
 #include "scene/obj_blocks.h"
 
-#include <string.h>
-
 #include "scene/diagnostics.h"
+#include "scene/obj_short_runs.h"
 
 /* Hands a block to the parser. */
 static recto_status enter_lines(const struct line_blocks *lines,
@@ -28,21 +27,6 @@ static recto_status enter_lines(const struct line_blocks *lines,
 recto_status obj_blocks_enter(const struct obj_blocks *blocks,
                               struct obj_parser *p) {
   return enter_lines(&blocks->lines, p);
-}
-
-recto_status obj_blocks_keep_names(struct obj_blocks *blocks,
-                                   struct obj_parser *p) {
-  for (int i = 0; i < NAME_COUNT; i++) {
-    struct material_name *name = &p->name[i];
-    if (name->length == 0 || name->start == blocks->name[i].item)
-      continue;
-    blocks->name[i].count = 0;
-    if (!ARRAY_RESERVE(&blocks->name[i], name->length))
-      return error_memory(p->error);
-    memcpy(blocks->name[i].item, name->start, name->length);
-    name->start = blocks->name[i].item;
-  }
-  return RECTO_OK;
 }
 
 recto_status obj_blocks_read_points_behind(const struct obj_blocks *blocks,
@@ -80,9 +64,11 @@ recto_status obj_blocks_read(struct obj_blocks *blocks, struct scene *scene,
       break;
     status = obj_blocks_enter(blocks, &p);
     if (status == RECTO_OK)
+      status = obj_read_short_runs(&p);
+    if (status == RECTO_OK)
       status = obj_read_statements(&p, false);
     if (status == RECTO_OK)
-      status = obj_blocks_keep_names(blocks, &p);
+      status = obj_keep_names(&p);
   }
   if (status == RECTO_OK)
     status = obj_finish_points(&p);
@@ -94,6 +80,4 @@ recto_status obj_blocks_read(struct obj_blocks *blocks, struct scene *scene,
 
 void obj_blocks_close(struct obj_blocks *blocks) {
   line_blocks_close(&blocks->lines);
-  for (int i = 0; i < NAME_COUNT; i++)
-    ARRAY_FREE(&blocks->name[i]);
 }

@@ -8,7 +8,6 @@
 /* Zero-initialised has no file. */
 struct obj_blocks {
   struct line_blocks lines;
-  ARRAY(char) name[NAME_COUNT]; /* current names, of earlier blocks */
 };
 
 /* How many bytes of a block are read at once. */
@@ -18,10 +17,6 @@ enum { OBJ_BLOCK_BYTES = 1 << 18 };
  * Errors  as of obj_parser_open */
 USE_RESULT recto_status obj_blocks_enter(const struct obj_blocks *blocks,
                                          struct obj_parser *p);
-
-/* Copies the current names, which lie in the block, before it goes. */
-USE_RESULT recto_status obj_blocks_keep_names(struct obj_blocks *blocks,
-                                              struct obj_parser *p);
 
 /* Reads the points of all blocks after the current one, which stays. */
 USE_RESULT recto_status obj_blocks_read_points_behind(

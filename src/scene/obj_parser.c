@@ -45,23 +45,27 @@ void obj_finish_statement(struct obj_parser *p) {
   }
 }
 
-size_t obj_count_lines(const char *at, const char *end) {
+size_t obj_count_bytes(const char *at, const char *end, char byte) {
   enum { COLUMNS = 32, ROWS = UINT8_MAX }; /* whose sums are bytes */
   size_t all = 0;
   while (end - at >= COLUMNS) {
-    uint8_t lines[COLUMNS] = {0};
+    uint8_t found[COLUMNS] = {0};
     size_t rows = (size_t)(end - at) / COLUMNS;
     rows = rows < ROWS ? rows : ROWS;
     for (size_t r = 0; r < rows; r++, at += COLUMNS)
 #pragma omp simd
       for (int k = 0; k < COLUMNS; k++)
-        lines[k] = (uint8_t)(lines[k] + (at[k] == '\n'));
+        found[k] = (uint8_t)(found[k] + (at[k] == byte));
     for (int k = 0; k < COLUMNS; k++)
-      all += lines[k];
+      all += found[k];
   }
   for (; at < end; at++)
-    all += *at == '\n';
+    all += *at == byte;
   return all;
+}
+
+size_t obj_count_lines(const char *at, const char *end) {
+  return obj_count_bytes(at, end, '\n');
 }
 
 void obj_skip_lines_without_points(struct obj_parser *p) {
@@ -174,7 +178,23 @@ recto_status obj_finish(struct obj_parser *p) {
                           p->error);
 }
 
+recto_status obj_keep_names(struct obj_parser *p) {
+  for (int i = 0; i < NAME_COUNT; i++) {
+    struct material_name *name = &p->name[i];
+    if (name->length == 0 || name->start == p->kept_name[i].item)
+      continue;
+    p->kept_name[i].count = 0;
+    if (!ARRAY_RESERVE(&p->kept_name[i], name->length))
+      return error_memory(p->error);
+    memcpy(p->kept_name[i].item, name->start, name->length);
+    name->start = p->kept_name[i].item;
+  }
+  return RECTO_OK;
+}
+
 void obj_parser_fini(struct obj_parser *p) {
+  for (int i = 0; i < NAME_COUNT; i++)
+    ARRAY_FREE(&p->kept_name[i]);
   materials_fini(&p->materials);
   ARRAY_FREE(&p->bad);
   ARRAY_FREE(&p->mark);

@@ -34,14 +34,18 @@ struct obj_parser {
   unsigned long strange; /* line of the first that was not; 0 */
   const char *run_end;   /* where the last run of plain statements ended */
   size_t run_bytes;      /* its length, with those right before it */
+  const struct obj_run_kind *run_kind; /* and what it is of */
   /* The statements that room was made for at once, when a run of them was long;
    * or NULL. */
   const struct obj_run_kind *has_room_for;
+  size_t short_wait;  /* blocks until short runs are sought again, */
+  size_t short_pause; /* and after the last time (obj_short_runs.c) */
   struct precision_sample sample;
   ARRAY(uint32_t) bad; /* points that cannot be used, ascending */
   ARRAY(uint32_t) corner;
   struct material_name name[NAME_COUNT];
-  bool renamed; /* since the current group was chosen */
+  ARRAY(char) kept_name[NAME_COUNT]; /* those of earlier blocks */
+  bool renamed;                      /* since the current group was chosen */
   struct materials materials;
   ARRAY(char) group;
   bool others;      /* a line that may be no point was passed over */
@@ -82,6 +86,9 @@ USE_RESULT recto_status obj_finish_points(struct obj_parser *p);
 
 /* Ends the file: tells one that is not OBJ, and gives the groups colours. */
 USE_RESULT recto_status obj_finish(struct obj_parser *p);
+
+/* Copies the current names, which lie in the text, before it goes. */
+USE_RESULT recto_status obj_keep_names(struct obj_parser *p);
 
 void obj_parser_fini(struct obj_parser *p);
 
@@ -133,6 +140,9 @@ static inline bool obj_is_at_end_of_line(const struct obj_parser *p) {
  * continued. */
 void obj_skip_line(struct obj_parser *p, bool may_continue);
 
+/* How many bytes between two places have a value. */
+size_t obj_count_bytes(const char *at, const char *end, char byte);
+
 /* How many lines end between two places. */
 size_t obj_count_lines(const char *at, const char *end);
 
@@ -171,6 +181,11 @@ USE_RESULT recto_status obj_read_statements(struct obj_parser *p,
 
 /* Reads the points of all lines after this one, and the normals. */
 USE_RESULT recto_status obj_read_ahead(struct obj_parser *p);
+
+/* Makes the group of the current names the current one.  It is named by those
+ * of object, group and material that there are, with slashes between them: each
+ * combination is a group. */
+USE_RESULT recto_status obj_use_named_group(struct obj_parser *p);
 
 /* Adds the triangle of the current line, whose points are there, as its
  * statement does. */

@@ -65,7 +65,8 @@ static size_t next_sampled(const struct obj_parser *p, size_t number) {
 static bool read_points(const struct obj_parser *p, struct obj_run *run) {
   struct scene_point *point =
       p->scene->point.item + p->scene->point.count + run->before;
-  size_t first = p->seen + run->before, sampled = next_sampled(p, first);
+  size_t first = p->seen + run->before,
+         sampled = next_sampled(p, first + run->count);
   for (; has_short_statement(run, 'v'); run->count++) {
     const char *past = read_plain_point(run, &point[run->count]);
     if (past == NULL)

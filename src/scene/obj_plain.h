@@ -3,6 +3,8 @@
 #ifndef SCENE_OBJ_PLAIN_H
 #define SCENE_OBJ_PLAIN_H
 
+#include <sys/types.h>
+
 #include "scene/obj_parser.h"
 
 enum {
@@ -28,6 +30,17 @@ struct obj_run_kind {
   /* Adds what was read to the scene; false when memory ran out. */
   bool (*add)(struct obj_parser *p, const struct obj_run *run);
 };
+
+/* Where the parser is in its file. */
+off_t obj_place_in_file(const struct obj_parser *p);
+
+/* Goes on so many bytes: to where the next block is to begin, if this one has
+ * not as many. */
+void obj_go_on(struct obj_parser *p, size_t bytes);
+
+/* How many bytes there are from where the parser is to the end of the file, or
+ * of what is in memory. */
+size_t obj_bytes_left(const struct obj_parser *p);
 
 extern const struct obj_run_kind obj_plain_points, obj_plain_triangles,
     obj_plain_quadrilaterals;

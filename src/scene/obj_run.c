@@ -180,19 +180,16 @@ static void take_run(struct obj_parser *p, const struct obj_run_kind *kind,
   p->line += run->count;
 }
 
-/* Where the parser is in its file. */
-static off_t place_in_file(const struct obj_parser *p) {
+off_t obj_place_in_file(const struct obj_parser *p) {
   return p->lines->end - (p->end - p->at);
 }
 
-/* Goes on so many bytes: to where the next block is to begin, if this one has
- * not as many. */
-static void go_on(struct obj_parser *p, size_t bytes) {
+void obj_go_on(struct obj_parser *p, size_t bytes) {
   if (bytes <= (size_t)(p->end - p->at)) {
     p->at += bytes;
     return;
   }
-  line_blocks_seek(p->lines, place_in_file(p) + (off_t)bytes);
+  line_blocks_seek(p->lines, obj_place_in_file(p) + (off_t)bytes);
   p->at = p->end;
   if (p->diagnostics != NULL) {
     p->diagnostics->bytes = p->diagnostics->poll_at = p->at;
@@ -221,15 +218,13 @@ static recto_status read_parts_of_run(struct parts *parts, int workers,
     }
   }
   p->run_bytes = *plain ? p->run_bytes + past : 0;
-  go_on(p, past);
+  obj_go_on(p, past);
   return p->out_of_memory ? error_memory(p->error) : status;
 }
 
-/* How many bytes there are from where the parser is to the end of the file, or
- * of what is in memory. */
-static size_t bytes_left(const struct obj_parser *p) {
+size_t obj_bytes_left(const struct obj_parser *p) {
   return p->lines == NULL ? (size_t)(p->end - p->at)
-                          : (size_t)(p->lines->size - place_in_file(p));
+                          : (size_t)(p->lines->size - obj_place_in_file(p));
 }
 
 /* Reads parts of what follows where the run was so long so far that this is
@@ -237,7 +232,7 @@ static size_t bytes_left(const struct obj_parser *p) {
  * plain  gets whether all of them were plain */
 static recto_status read_ahead(struct obj_parser *p,
                                const struct obj_run_kind *kind, bool *plain) {
-  size_t left = bytes_left(p);
+  size_t left = obj_bytes_left(p);
   int workers = parallel_workers(p->run_bytes / PART_BYTES, 1);
   size_t most = TIMES_SO_FAR * p->run_bytes;
   size_t count = (most < left ? most : left) / PART_BYTES;
@@ -249,7 +244,7 @@ static recto_status read_ahead(struct obj_parser *p,
     return RECTO_OK;
   struct parts parts = {.p = p, .kind = kind, .count = count, .broken = count};
   if (p->lines != NULL)
-    parts.from = place_in_file(p);
+    parts.from = obj_place_in_file(p);
   parts.part = mem_calloc(count, sizeof *parts.part);
   if (parts.part == NULL)
     return error_memory(p->error);
@@ -274,7 +269,7 @@ static recto_status read_ahead(struct obj_parser *p,
  * as much memory, they grow. */
 static void reserve_ahead(struct obj_parser *p, const struct obj_run_kind *kind,
                           size_t bytes) {
-  size_t left = bytes_left(p), count = left / (bytes / PLAIN_RUN);
+  size_t left = obj_bytes_left(p), count = left / (bytes / PLAIN_RUN);
   if (left > AHEAD_BYTES && count < SCENE_LIMIT / 4 && kind->reserve(p, count))
     p->has_room_for = kind;
 }
@@ -296,13 +291,15 @@ static recto_status read_alone(struct obj_parser *p,
   return ok && !p->out_of_memory ? RECTO_OK : error_memory(p->error);
 }
 
-/* Reads a run, in parallel where there was another right before it: also in the
- * block before (obj_blocks.h). */
+/* Reads a run, in parallel where there was another of its kind right before it:
+ * also in the block before (obj_blocks.h). */
 static recto_status read_run(struct obj_parser *p,
                              const struct obj_run_kind *kind) {
   const char *start = p->at;
-  if (p->run_end > p->at || p->at - p->run_end >= OBJ_PLAIN_ROOM)
+  if (p->run_end > p->at || p->at - p->run_end >= OBJ_PLAIN_ROOM ||
+      p->run_kind != kind)
     p->run_bytes = 0;
+  p->run_kind = kind;
   recto_status status = RECTO_OK;
   bool plain = p->run_bytes > 0;
   while (status == RECTO_OK && plain)

@@ -185,7 +185,7 @@ recto_status read_passes_faces(struct read_passes *passes,
       status = take(user, p->scene, error);
     scene_drop_elements(p->scene);
     if (status == RECTO_OK)
-      status = obj_blocks_keep_names(&passes->blocks, p);
+      status = obj_keep_names(p);
   }
   if (status == RECTO_OK && !passes->knows_faces) {
     passes->knows_faces = true;

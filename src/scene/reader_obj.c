@@ -128,9 +128,7 @@ static recto_status read_mtllib(struct obj_parser *p, size_t keyword) {
   return materials_add_library(&p->materials, name, p->error);
 }
 
-/* The current group is named by those of object, group and material that
- * there are, with slashes between them: each combination is a group. */
-static recto_status use_named_group(struct obj_parser *p) {
+recto_status obj_use_named_group(struct obj_parser *p) {
   p->group.count = 0;
   for (int i = 0; i < NAME_COUNT; i++) {
     const struct material_name *name = &p->name[i];
@@ -288,7 +286,7 @@ static recto_status add_statement(struct obj_parser *p, unsigned long line,
   recto_status status = RECTO_OK;
   if (!has_usable_references(p, line, is_face ? "face" : "polyline"))
     return is_face ? scene_skip_face(p->scene, p->error) : RECTO_OK;
-  if (p->renamed && (status = use_named_group(p)) != RECTO_OK)
+  if (p->renamed && (status = obj_use_named_group(p)) != RECTO_OK)
     return status;
   return is_face ? obj_add_face(p, line)
                  : scene_add_wire(p->scene, p->corner.item, p->corner.count,
