@@ -279,6 +279,25 @@ static void the_contour_of_a_band_reaches_its_border(void **state) {
   recto_scene_destroy(scene);
 }
 
+/* A strip about the Y axis, straight across. */
+static void ramp(double u, double v, double p[3]) {
+  double turn = 2.5 * u, radius = 0.4 + 0.6 * v / (2 * M_PI);
+  p[0] = radius * cos(turn);
+  p[1] = 0.8 * (u / M_PI - 1);
+  p[2] = -radius * sin(turn);
+}
+
+/* Where its lines across are seen end-on its contour is a dot, at which no line
+ * ends and which draws nothing of the outline. */
+static void the_borders_of_a_ramp_go_on_at_dots(void **state) {
+  (void)state;
+  recto_scene *scene = open_scene(ramp, OPEN, 80, 4);
+  /* 42 and 28 mm where it does. */
+  assert_true(bare_length(scene, 60, 0) < 0.5);
+  assert_true(bare_length(scene, 120, 0) < 0.5);
+  recto_scene_destroy(scene);
+}
+
 /* The distance from a stroke's end to other silhouettes and borders, mm. */
 static double distance_to_others(const recto_drawing *drawing, size_t stroke,
                                  const double at[2]) {
@@ -353,6 +372,7 @@ int main(void) {
       cmocka_unit_test(borders_go_on_where_contours_turn_back),
       cmocka_unit_test(folds_between_warped_quads_are_outlines),
       cmocka_unit_test(the_contour_of_a_band_reaches_its_border),
+      cmocka_unit_test(the_borders_of_a_ramp_go_on_at_dots),
       cmocka_unit_test(the_rim_of_the_teapot_reaches_its_contour),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

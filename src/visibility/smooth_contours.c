@@ -170,6 +170,22 @@ static bool add_curve(struct contour_pieces *c, size_t index) {
   return true;
 }
 
+/* Hides a curve's edges, from `first` on, if it is no more than a dot on the
+ * page, as where a straight line of its surface is seen end-on: it has no
+ * direction, so that no line ends at it, and the outline goes on there. */
+static void hide_dot(struct contour_pieces *c, size_t first) {
+  const struct sheet *sheet = c->sheet;
+  struct box2 box = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
+  for (size_t e = first; e < sheet->edge.count; e++) {
+    struct geom_segment s = sheet_ends(sheet, sheet->edge.item[e].point);
+    box = box2_union(box, box2_of_segment(s.p, s.q));
+  }
+  if (first < sheet->edge.count &&
+      fmax((double)box.x1 - box.x0, (double)box.y1 - box.y0) <
+          TOLERANCE_OUTLINE_UNITS)
+    memset(c->map->edge_state + first, MAP_HIDDEN, sheet->edge.count - first);
+}
+
 static bool add_all_curves(struct contour_pieces *c) {
   struct map *map = c->map;
   size_t most =
@@ -178,9 +194,12 @@ static bool add_all_curves(struct contour_pieces *c) {
   if (state == NULL)
     return false;
   map->edge_state = state;
-  for (size_t i = 0; i < c->curves->curve.count; i++)
+  for (size_t i = 0; i < c->curves->curve.count; i++) {
+    size_t first = c->sheet->edge.count;
     if (!poll_at(i) || !add_curve(c, i))
       return false;
+    hide_dot(c, first);
+  }
   return true;
 }
 
