@@ -155,9 +155,11 @@ static size_t count_own_crossings(const struct polyline *a) {
   size_t crossings = 0;
   for (size_t i = 1; i < a->count; i++)
     for (size_t k = i + 2; k < a->count; k++) {
-      point p = a->at[i - 1], q = a->at[i], r = a->at[k - 1], s = a->at[k];
-      crossings += cross(p, q, r) * cross(p, q, s) < 0 &&
-                   cross(r, s, p) * cross(r, s, q) < 0;
+      point p = a->at[i - 1], q = a->at[i];
+      point r = {a->at[k - 1].x + 1e-7, a->at[k - 1].y + 1.7e-7};
+      point s = {a->at[k].x + 1e-7, a->at[k].y + 1.7e-7};
+      crossings += (cross(p, q, r) > 0) != (cross(p, q, s) > 0) &&
+                   (cross(r, s, p) > 0) != (cross(r, s, q) > 0);
     }
   return crossings;
 }
@@ -548,6 +550,51 @@ static void sides_of_a_cusp_do_not_cross(void **state) {
   assert_true(curves > 50);
 }
 
+/* A line to the right that falls, with loops of a tolerance or less on its way,
+ * some of which do not close. */
+static void add_small_loops(struct drawing *drawing, struct random *random) {
+  double xy[2 * POINTS_MAX], x = 20, y = 100;
+  uint32_t count = 0;
+  for (int loop = 0; loop < 8; loop++) {
+    double side = TOLERANCE_MM * (0.1 + random_between(random, 0, 1));
+    double back = side * random_between(random, 0, 2);
+    const double step[][2] = {{4, -0.2},
+                              {4, -0.3},
+                              {side, side},
+                              {-back, 0.3 * side},
+                              {side, -2 * side}};
+    for (size_t i = 0; i < sizeof step / sizeof *step; i++) {
+      xy[2 * count] = x += step[i][0];
+      xy[2 * count + 1] = y += step[i][1];
+      count++;
+    }
+  }
+  drawing_fixture_stroke(drawing, 0, xy, count, false);
+}
+
+static void small_loops_stay(void **state) {
+  (void)state;
+  struct random random = {12};
+  size_t curves = 0, crossings = 0;
+  for (int scene = 0; scene < 200; scene++) {
+    struct drawing drawing;
+    start(&drawing);
+    add_small_loops(&drawing, &random);
+    fit(&drawing);
+    struct polyline own = stroke_line(&drawing, 0);
+    struct polyline curve = curve_line(&drawing, 0);
+    size_t count = count_own_crossings(&own);
+    assert_int_equal(count_own_crossings(&curve), count);
+    crossings += count;
+    curves += drawing_curve_of(&drawing, 0) != NULL;
+    free(own.at);
+    free(curve.at);
+    drawing_fini(&drawing);
+  }
+  assert_true(curves > 50);
+  assert_true(crossings > 200);
+}
+
 static void chords_are_as_near_as_asked(void **state) {
   (void)state;
   struct drawing drawing;
@@ -682,6 +729,7 @@ int main(void) {
       cmocka_unit_test(curve_passes_where_strokes_meet),
       cmocka_unit_test(curves_cross_where_strokes_do),
       cmocka_unit_test(sides_of_a_cusp_do_not_cross),
+      cmocka_unit_test(small_loops_stay),
       cmocka_unit_test(chords_are_as_near_as_asked),
       cmocka_unit_test(a_tight_page_is_the_box_of_the_curve),
       cmocka_unit_test(odd_strokes_are_survived),

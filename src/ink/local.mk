@@ -14,7 +14,9 @@ librecto_core_la_SOURCES += \
   %D%/curve/curve_samples.c %D%/curve/curve_samples.h \
   %D%/curve/curves.c %D%/curve/curves.h \
   %D%/curve/fit_targets.c %D%/curve/fit_targets.h \
+  %D%/curve/own_crossings.c %D%/curve/own_crossings.h \
   %D%/curve/part_fit.c %D%/curve/part_fit.h \
+  %D%/curve/stroke_loops.c %D%/curve/stroke_loops.h \
   %D%/curve/stroke_shape.c %D%/curve/stroke_shape.h \
   %D%/fill/fill.c %D%/fill/fill.h \
   %D%/fill/light.c %D%/fill/light.h \

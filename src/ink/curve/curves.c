@@ -13,6 +13,7 @@
 
 #include "base/poll.h"
 #include "ink/curve/part_fit.h"
+#include "ink/curve/stroke_loops.h"
 
 /* Parts of one stroke that are farther apart along it than so many tolerances
  * are to keep clear of each other. */
@@ -29,6 +30,12 @@ enum { SIDES_A_POLL = 1 << 10 };
  * share of its length. */
 #define RING_SHARE (1 / 16.0)
 
+/* How far from a crossing that a curve would change vertices stay, at first, as
+ * a multiple of the tolerance; and how often that is doubled before the stroke
+ * stays as it is. */
+#define STAY_TOLERANCES 2
+enum { ROUNDS_MAX = 6 };
+
 struct curves {
   struct drawing *drawing;
   double whole_tolerance; /* mm, of all strokes, at most */
@@ -36,6 +43,7 @@ struct curves {
   struct clearance clearance;
   struct stroke_shape shape; /* of the current stroke */
   struct part_fit pieces;
+  struct stroke_loops loops;
   size_t sides; /* since the last poll */
 };
 
@@ -131,6 +139,29 @@ static bool has_only_corners(const struct stroke_shape *shape) {
   return i + 1 >= shape->vertex.count;
 }
 
+/* Appends the pieces of the shape, if there are curves among them; more of its
+ * vertices stay until they cross themselves where the stroke does. */
+static bool fit_shape(struct curves *c) {
+  struct drawing *drawing = c->drawing;
+  size_t control = drawing->control.count;
+  bool ok = true, same = false;
+  for (int round = 0; ok && !same && round < ROUNDS_MAX; round++) {
+    drawing->control.count = control;
+    c->pieces.along.count = 0;
+    c->pieces.has_curves = false;
+    same = has_only_corners(&c->shape);
+    ok = same || add_shape_pieces(c);
+    if (ok && !same && c->pieces.has_curves)
+      ok = stroke_loops_keep(
+          &c->loops, &c->shape, &c->pieces, control,
+          STAY_TOLERANCES * ldexp(c->pieces.tolerance, round), &same);
+    else
+      same = true;
+  }
+  c->pieces.has_curves = c->pieces.has_curves && same;
+  return ok;
+}
+
 static bool fit_stroke(struct curves *c, uint32_t index) {
   struct drawing *drawing = c->drawing;
   const struct drawing_stroke *stroke = &drawing->stroke.item[index];
@@ -145,7 +176,7 @@ static bool fit_stroke(struct curves *c, uint32_t index) {
         .stroke = index,
         .start = c->shape.start,
         .whole = stroke->closed ? c->shape.length : INFINITY};
-    if (!has_only_corners(&c->shape) && !add_shape_pieces(c))
+    if (!fit_shape(c))
       return false;
   }
   if (!c->pieces.has_curves)
@@ -181,6 +212,8 @@ bool curves_fit(struct drawing *drawing, double tolerance) {
   clearance_fini(&c.clearance);
   stroke_shape_fini(&c.shape);
   curve_samples_fini(&c.pieces.of);
+  ARRAY_FREE(&c.pieces.along);
   ARRAY_FREE(&c.pieces.parameter);
+  stroke_loops_fini(&c.loops);
   return ok;
 }

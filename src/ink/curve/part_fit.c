@@ -319,7 +319,8 @@ bool part_fit_add(struct part_fit *c, const struct stroke_part *part) {
       piece.end = part_fit_direction(&c->of, part, next, reach, reach);
     }
     sample[next].target = piece.control[3];
-    ok = add_fitted_piece(c, piece.control);
+    ok = add_fitted_piece(c, piece.control) &&
+         ARRAY_PUSH(&c->along, sample[next].along);
     piece.start = piece.end;
   }
   return ok;

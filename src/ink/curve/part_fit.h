@@ -9,6 +9,8 @@ struct part_fit {
   double tolerance;        /* mm, of the current stroke */
   struct curve_samples of; /* the current stroke */
   bool has_curves;         /* of the current stroke, so far */
+  ARRAY(double) along; /* one a piece added, mm: where it ends on the current
+                              stroke */
   ARRAY(double) parameter; /* memory for one a sample */
 };
 

@@ -1,0 +1,39 @@
+/* own_crossings.h - where a line crosses itself. */
+#ifndef INK_CURVE_OWN_CROSSINGS_H
+#define INK_CURVE_OWN_CROSSINGS_H
+
+#include "base/sort.h"
+#include "drawing/drawing.h"
+
+/* A point of a line, and how far along its stroke that is, mm. */
+struct own_point {
+  struct drawing_point at;
+  double along;
+};
+
+struct own_crossing {
+  struct drawing_point at;
+  double along[2]; /* the two places on the line, mm */
+};
+
+/* A line and its crossings. */
+struct own_crossings {
+  ARRAY(struct own_point) line; /* to be set */
+  ARRAY(struct own_crossing) crossing;
+  ARRAY(struct sort_key) order; /* memory */
+};
+
+/* Finds all crossings of sides of the line that do not follow each other.
+ * Cost     n log n in the points, and linear in the pairs of sides that overlap
+ *          in the direction in which the line extends farther
+ * Returns false when memory ran out or the caller cancelled. */
+USE_RESULT bool own_crossings_find(struct own_crossings *own);
+
+/* Removes from both those crossings that have a place in common, one for one,
+ * within a distance, mm. */
+void own_crossings_remove_common(struct own_crossings *a,
+                                 struct own_crossings *b, double within);
+
+void own_crossings_fini(struct own_crossings *own);
+
+#endif
