@@ -33,6 +33,7 @@ enum {
   LARGE_SHARE = 1 << 10, /* of the scene's square size: the least large face */
   LARGE_MAX = 1 << 12,   /* as many large faces are laid out */
   CELLS_FOR = 1 << 15,   /* the cells are those of so many triangles */
+  SAMPLES = 1 << 9,      /* of faces that may be about as large as these */
   LIKE_LARGEST = 16,     /* one part of so many of the largest face's size */
   SHARE_MAX = 4,         /* one part of so many of all faces are that large */
   ROUNDS_MAX = 16        /* of restoring connected runs */
@@ -54,16 +55,17 @@ struct hiding {
 
 /* ---- 2. Large faces ------------------------------------------------------ */
 
-/* Counts the faces that are about as large as the largest one. */
-static size_t count_like_largest(const struct face_runs *runs) {
-  const struct large_face *large = runs->large.item;
+/* Whether many faces are about as large as the largest one; of a sample, as
+ * those that are not large are not listed. */
+static bool has_many_like_largest(const struct hiding *hiding) {
+  const struct face_runs *runs = &hiding->runs;
+  size_t faces = scene_face_count(hiding->scene), count = 0, samples = 0;
   double most = 0;
-  size_t count = 0;
   for (size_t i = 0; i < runs->large.count; i++)
-    most = fmax(most, large[i].size);
-  for (size_t i = 0; i < runs->large.count; i++)
-    count += LIKE_LARGEST * large[i].size >= most;
-  return count;
+    most = fmax(most, runs->large.item[i].size);
+  for (size_t f = 0; f < faces; f += faces / SAMPLES + 1, samples++)
+    count += LIKE_LARGEST * face_runs_size(hiding->scene, (uint32_t)f) >= most;
+  return SHARE_MAX * count > samples;
 }
 
 /* Marks the largest faces, at most LARGE_MAX, as not left out; returns how many
@@ -328,7 +330,7 @@ static recto_status find_hidden(struct hiding *hiding,
     status = error_memory(error);
     goto end;
   }
-  if (SHARE_MAX * count_like_largest(&hiding->runs) > faces)
+  if (has_many_like_largest(hiding))
     goto end;
   memset(left_out, 1, faces);
   if (choose_large(hiding, large, left_out) == 0)

@@ -44,6 +44,12 @@ static inline double size_of(const struct box3 *box) {
   return max_number(x * y, max_number(y * z, z * x));
 }
 
+double face_runs_size(const struct scene *scene, uint32_t face) {
+  struct box3 box = space_of_face(scene, scene_face_start(scene, face),
+                                  scene_face_start(scene, face + 1));
+  return size_of(&box);
+}
+
 /* Whether all faces within a box are small; it may hold points that no face
  * uses, which may be anywhere. */
 static inline bool has_small_faces(const struct box3 *box, double large) {

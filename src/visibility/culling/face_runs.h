@@ -42,6 +42,9 @@ USE_RESULT bool face_runs_init(struct face_runs *runs,
                                const struct scene *scene, double large);
 void face_runs_fini(struct face_runs *runs);
 
+/* How much a face may hide, as of large_face. */
+double face_runs_size(const struct scene *scene, uint32_t face);
+
 /* The first face after run `r`. */
 static inline uint32_t face_runs_end(const struct face_runs *runs,
                                      const struct scene *scene, size_t r) {
