@@ -370,6 +370,58 @@ static void folds_between_two_contours_are_drawn(void **state) {
   recto_scene_destroy(scene);
 }
 
+/* The last point of a stroke from its end `k` on, 0 or 1, that is no nearer to
+ * `from` than a distance, in points from there. */
+static size_t point_away(const recto_stroke *stroke, int k, size_t from,
+                         double mm) {
+  size_t i = from;
+  for (double length = 0; i + 1 < stroke->count && length < mm; i++) {
+    const double *p = stroke->points + 2 * (k == 0 ? i : stroke->count - 1 - i);
+    const double *q = k == 0 ? p + 2 : p - 2;
+    length += hypot(q[0] - p[0], q[1] - p[1]);
+  }
+  return i;
+}
+
+/* Whether an end of a stroke turns by more than 60 degrees from what is before
+ * its last third of a millimetre. */
+static bool has_hook(const recto_stroke *stroke, int k) {
+  size_t i = point_away(stroke, k, 0, 0.3), j = point_away(stroke, k, i, 1.5);
+  const double *at[3];
+  const size_t index[3] = {0, i, j};
+  for (int n = 0; n < 3; n++)
+    at[n] =
+        stroke->points + 2 * (k == 0 ? index[n] : stroke->count - 1 - index[n]);
+  const double a[2] = {at[0][0] - at[1][0], at[0][1] - at[1][1]};
+  const double b[2] = {at[1][0] - at[2][0], at[1][1] - at[2][1]};
+  return a[0] * b[0] + a[1] * b[1] <
+         0.5 * hypot(a[0], a[1]) * hypot(b[0], b[1]);
+}
+
+/* A cusp is found to about a segment, and the segment beyond it leads back. */
+static void ends_of_contours_have_no_hooks(void **state) {
+  int hooks = 0;
+  (void)state;
+  recto_scene *scene = smooth_scene(torus_knot, false, 300, 16);
+  for (int view = 0; view < 36; view++) {
+    recto_options options;
+    smooth_view(&options, 0);
+    options.camera.azimuth_deg = 10 * view;
+    options.camera.elevation_deg = 10 + 31 * (view % 2);
+    options.ink.exact = false;
+    recto_drawing *drawing = smooth_draw(scene, &options);
+    for (size_t s = 0; s < recto_drawing_stroke_count(drawing); s++) {
+      recto_stroke stroke;
+      assert_true(recto_drawing_stroke(drawing, s, &stroke));
+      for (int k = 0; k < 2 && !stroke.closed; k++)
+        hooks += has_hook(&stroke, k);
+    }
+    recto_drawing_destroy(drawing);
+  }
+  assert_int_equal(hooks, 0); /* 3 while cusps alone decided */
+  recto_scene_destroy(scene);
+}
+
 /* A wall that folds over in front of its outline, LEDGE_COLUMNS x LEDGE_ROWS
  * quads, each step of the latter away from the viewer.  Over the middle columns
  * one strip leans back, by less than those beside it do not. */
@@ -432,6 +484,7 @@ int main(void) {
       cmocka_unit_test(folds_of_five_heights_that_continue_one_are_drawn),
       cmocka_unit_test(folds_between_two_contours_are_drawn),
       cmocka_unit_test(gaps_beside_a_contour_are_closed),
+      cmocka_unit_test(ends_of_contours_have_no_hooks),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

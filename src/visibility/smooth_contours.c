@@ -156,8 +156,10 @@ static bool add_curve(struct contour_pieces *c, size_t index) {
   struct curve_pieces pieces = {c->curves, &c->curves->curve.item[index],
                                 c->divided.piece.item + of->first, of->count};
   curve_pieces_absorb_short(&pieces);
-  if (!c->options.exact)
+  if (!c->options.exact) {
     curve_pieces_absorb_runs(&pieces, &c->sheet->camera);
+    curve_pieces_trim_hooks(&pieces, &c->sheet->camera);
+  }
   for (size_t i = 0; i < pieces.count; i++) {
     const struct contour_piece *piece = &pieces.piece[i];
     if (point == SHEET_NONE && !point_at(c, piece->from, &point))

@@ -13,6 +13,11 @@ enum { SHORT_SEGMENTS = 6 };
 #define CROSSED_HEIGHTS 1
 #define GAP_HEIGHTS 0.5
 
+/* A hook at a cusp is no longer than so many heights of its triangle, and turns
+ * from as much of the curve before it by more than 60 degrees. */
+#define HOOK_HEIGHTS 0.5
+#define HOOK_COSINE 0.5
+
 /* ---- Short pieces -------------------------------------------------------- */
 
 static bool runs_along_crease(const struct curve_pieces *pieces,
@@ -107,4 +112,107 @@ void curve_pieces_absorb_runs(struct curve_pieces *pieces,
                               const struct camera *camera) {
   absorb(pieces, camera, false);
   absorb(pieces, camera, true);
+}
+
+/* ---- Hooks --------------------------------------------------------------- */
+
+/* A vector between the images of two nodes, and its length. */
+struct page_chord {
+  double x, y, length;
+};
+
+static struct page_chord chord_of(const struct curve_pieces *pieces,
+                                  uint32_t from, uint32_t to) {
+  struct geom_point p = contour_curves_node(pieces->curves, from)->page;
+  struct geom_point q = contour_curves_node(pieces->curves, to)->page;
+  double x = (double)q.x - p.x, y = (double)q.y - p.y;
+  return (struct page_chord){x, y, hypot(x, y)};
+}
+
+/* The last step from `at` on, in a direction, up to which a curve is no longer
+ * than a distance; no farther than `limit`. */
+static uint32_t pass_length(const struct curve_pieces *pieces, uint32_t at,
+                            int direction, uint32_t limit, double most) {
+  double length = 0;
+  while (at != limit) {
+    uint32_t next = direction < 0 ? at - 1 : at + 1;
+    length += chord_of(pieces, at, next).length;
+    if (length > most)
+      break;
+    at = next;
+  }
+  return at;
+}
+
+/* Where the hook at an end of a curve begins; the end itself if it has none.
+ * direction  from the end along the piece, which goes on to `limit` */
+static uint32_t find_hook(const struct curve_pieces *pieces, uint32_t end,
+                          int direction, uint32_t limit,
+                          const struct camera *camera) {
+  const struct contour_curves *curves = pieces->curves;
+  double most =
+      HOOK_HEIGHTS * contour_height(camera, contour_curves_node(curves, end),
+                                    contour_curves_segment(
+                                        curves, direction < 0 ? end - 1 : end));
+  uint32_t last = pass_length(pieces, end, direction, limit, most);
+  for (uint32_t at = last; at != end; at = direction < 0 ? at + 1 : at - 1) {
+    uint32_t before = pass_length(pieces, at, direction, limit, most);
+    if (before == at && at != limit)
+      before = direction < 0 ? at - 1 : at + 1;
+    struct page_chord hook = chord_of(pieces, at, end);
+    struct page_chord curve = chord_of(pieces, before, at);
+    if (hook.x * curve.x + hook.y * curve.y <
+        HOOK_COSINE * hook.length * curve.length)
+      return at;
+  }
+  return end;
+}
+
+/* Hides what is behind the hook that begins at step `at`, from piece `i` on in
+ * a direction. */
+static void hide_hook(struct curve_pieces *pieces, size_t i, int direction,
+                      uint32_t at) {
+  struct contour_piece *piece = &pieces->piece[i];
+  bool back = direction < 0;
+  while (back ? contour_position(piece->from) >= at
+              : contour_position(piece->to) <= at) {
+    piece->is_visible = false;
+    piece += direction;
+  }
+  *(back ? &piece->to : &piece->from) = contour_cut_at(at);
+  piece -= direction;
+  *(back ? &piece->from : &piece->to) = contour_cut_at(at);
+}
+
+/* Hides the hook at the end of the visible pieces from `i` on in a direction,
+ * beside which a hidden one is. */
+static void trim_hook(struct curve_pieces *pieces, size_t i, int direction,
+                      const struct camera *camera) {
+  const struct contour_piece *piece = &pieces->piece[i];
+  bool back = direction < 0;
+  struct contour_cut end = back ? piece->to : piece->from;
+  size_t last = i;
+  if (end.crossing || end.t != 0)
+    return;
+  while (back ? last > 0 && pieces->piece[last - 1].is_visible
+              : last + 1 < pieces->count && pieces->piece[last + 1].is_visible)
+    last += (size_t)direction;
+  struct contour_cut other =
+      back ? pieces->piece[last].from : pieces->piece[last].to;
+  uint32_t limit = other.step + (back && other.t > 0);
+  uint32_t at = find_hook(pieces, end.step, direction, limit, camera);
+  if (at != end.step && at != limit)
+    hide_hook(pieces, i, direction, at);
+}
+
+void curve_pieces_trim_hooks(struct curve_pieces *pieces,
+                             const struct camera *camera) {
+  for (size_t i = 0; i + 1 < pieces->count; i++) {
+    const struct contour_piece *a = &pieces->piece[i], *b = a + 1;
+    if (a->is_visible == b->is_visible || runs_along_crease(pieces, a) ||
+        runs_along_crease(pieces, b))
+      continue;
+    trim_hook(pieces, a->is_visible ? i : i + 1, a->is_visible ? -1 : 1,
+              camera);
+  }
 }

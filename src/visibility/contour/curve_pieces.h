@@ -38,4 +38,9 @@ void curve_pieces_absorb_short(struct curve_pieces *pieces);
 void curve_pieces_absorb_runs(struct curve_pieces *pieces,
                               const struct camera *camera);
 
+/* Hides the last segments of visible pieces that end at cusps, where these turn
+ * from the rest within half a height: a cusp is found to about a segment. */
+void curve_pieces_trim_hooks(struct curve_pieces *pieces,
+                             const struct camera *camera);
+
 #endif
