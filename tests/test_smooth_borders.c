@@ -361,6 +361,56 @@ static void the_rim_of_the_teapot_reaches_its_contour(void **state) {
   recto_scene_destroy(scene);
 }
 
+/* A wall that folds over just before its border, EAVES_COLUMNS x EAVES_ROWS
+ * quads, each step of the latter away from the viewer: one strip leans back, by
+ * so little that the mean normals of all vertices face the viewer. */
+enum { EAVES_COLUMNS = 40, EAVES_ROWS = 7 };
+
+static recto_scene *eaves(void) {
+  static const double step[EAVES_ROWS] = {0.4,  0.4,   0.4, 0.4,
+                                          0.15, -0.06, 0.15};
+  enum { POINTS = (EAVES_COLUMNS + 1) * (EAVES_ROWS + 1) };
+  static double point[POINTS][3];
+  static uint32_t corner[EAVES_COLUMNS * EAVES_ROWS * 4];
+  size_t corners = 0;
+  for (uint32_t i = 0; i <= EAVES_COLUMNS; i++) {
+    double x = -1;
+    for (uint32_t j = 0; j <= EAVES_ROWS; j++) {
+      uint32_t at = i * (EAVES_ROWS + 1) + j;
+      const uint32_t quad[4] = {at, at + 1, at + EAVES_ROWS + 2,
+                                at + EAVES_ROWS + 1};
+      point[at][0] = x;
+      point[at][1] = 0.4 * i - 8;
+      point[at][2] = -(double)j;
+      for (int k = 0; i < EAVES_COLUMNS && j < EAVES_ROWS && k < 4; k++)
+        corner[corners++] = quad[k];
+      x += j < EAVES_ROWS ? step[j] : 0;
+    }
+  }
+  return smooth_quads(point[0], POINTS, corner, corners);
+}
+
+/* The border is nearer to the fold than triangles are high. */
+static void a_long_fold_beside_a_border_is_drawn(void **state) {
+  (void)state;
+  recto_scene *scene = eaves();
+  recto_options options;
+  recto_options_init(&options);
+  options.camera.azimuth_deg = options.camera.elevation_deg = 0;
+  options.ink.contours = RECTO_CONTOURS_SMOOTH;
+  options.ink.edges = RECTO_EDGE_SILHOUETTE | RECTO_EDGE_BORDER;
+  recto_drawing *drawing = smooth_draw(scene, &options);
+  int silhouettes = 0;
+  for (size_t s = 0; s < recto_drawing_stroke_count(drawing); s++) {
+    recto_stroke stroke;
+    assert_true(recto_drawing_stroke(drawing, s, &stroke));
+    silhouettes += stroke.edge_class == RECTO_EDGE_SILHOUETTE;
+  }
+  assert_int_equal(silhouettes, 1);
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(scene);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_bowl_has_its_whole_outline),
@@ -374,6 +424,7 @@ int main(void) {
       cmocka_unit_test(the_contour_of_a_band_reaches_its_border),
       cmocka_unit_test(the_borders_of_a_ramp_go_on_at_dots),
       cmocka_unit_test(the_rim_of_the_teapot_reaches_its_contour),
+      cmocka_unit_test(a_long_fold_beside_a_border_is_drawn),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

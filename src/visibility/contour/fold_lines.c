@@ -49,6 +49,13 @@ static inline bool is_line_beyond(const struct page_segment *s,
   return area * area > reach * reach * (x * x + y * y);
 }
 
+/* Notes a line that is no contour.  It is no other image of the fold: only where
+ * it lies on that, nothing is missing. */
+static void note_other_line(struct fold_sample *at, double away) {
+  at->is_by_line = true;
+  at->is_beside = at->is_beside || away <= TOLERANCE_OUTLINE_UNITS;
+}
+
 /* Notes whether a line runs beside a sample: not where a contour only ends.
  * Creases are none, as ink may leave them out. */
 static void try_line(const struct fold_lines *f, const struct page_segment *s,
@@ -66,7 +73,9 @@ static void try_line(const struct fold_lines *f, const struct page_segment *s,
     return;
   if ((edge->edge_class & (RECTO_EDGE_CREASE | RECTO_EDGE_GROUP)) != 0)
     at->is_on_crease = at->is_on_crease || away <= TOLERANCE_OUTLINE_UNITS;
-  else if (!is_contour || (t > 0 && t < 1) ||
+  else if (!is_contour)
+    note_other_line(at, away);
+  else if ((t > 0 && t < 1) ||
            !fold_joints_is_loose(&f->joints, edge->point[t > 0]))
     at->is_beside = true;
 }
@@ -199,6 +208,22 @@ static bool add_line(struct fold_lines *f, size_t from, size_t to,
 
 /* ---- Chains -------------------------------------------------------------- */
 
+/* Adds the line of a visible run if it is long, else those of its parts that are
+ * by no other line either. */
+static bool add_lines_of_run(struct fold_lines *f, size_t from, size_t to) {
+  double height;
+  struct fold_run run = {f->sample.item + from, to - from, false};
+  if (fold_run_is_long(run, &height))
+    return add_line(f, from, to, false);
+  for (size_t i = from, end; i < to; i = end + 1) {
+    for (end = i; end < to && !f->sample.item[end].is_by_line;)
+      end++;
+    if (end > i && !add_line(f, i, end, false))
+      return false;
+  }
+  return true;
+}
+
 /* Adds the lines of samples beside which no line is drawn.  What is hidden over
  * less than a height does not end a line. */
 static bool add_visible_lines(struct fold_lines *f, size_t from, size_t to) {
@@ -223,7 +248,7 @@ static bool add_visible_lines(struct fold_lines *f, size_t from, size_t to) {
       } else {
         gap += sample[k].step;
       }
-    ok = ok && add_line(f, i, last + 1, false);
+    ok = ok && add_lines_of_run(f, i, last + 1);
     i = k;
   }
   return ok;

@@ -12,7 +12,8 @@ struct fold_sample {
   double step;     /* the length of the outline that it stands for */
   double height;   /* of its triangle, on the page, grid units */
   uint32_t outline, face;
-  bool is_beside;    /* a line is drawn beside it */
+  bool is_beside;    /* a line is drawn beside it that leaves none missing */
+  bool is_by_line;   /* a line that is no contour is within a height */
   bool is_on_crease; /* a crease is on it */
 };
 
