@@ -129,3 +129,19 @@ bool repeated_part_is_at(const struct repeated_part *part,
   return *shift >= part->points &&
          are_shifted(corner, own, part->corners, *shift);
 }
+
+bool repeated_parts_fill(const struct scene *scene, int samples) {
+  enum { COPIES = 16 };
+  uint64_t faces = scene_face_count(scene), ranges = (uint64_t)samples;
+  bool repeated = true;
+  for (uint64_t r = 0; repeated && r < ranges; r++) {
+    struct repeated_part part;
+    uint32_t shift, first = (uint32_t)(faces * (2 * r + 1) / (2 * ranges));
+    repeated = repeated_part_find(&part, scene, NULL, first, (uint32_t)faces) &&
+               part.faces <= (faces - part.face) / COPIES;
+    for (uint32_t i = 2; repeated && i < COPIES; i++)
+      repeated = repeated_part_is_at(&part, scene, part.face + i * part.faces,
+                                     (uint32_t)faces, &shift);
+  }
+  return repeated;
+}

@@ -29,4 +29,9 @@ bool repeated_part_is_at(const struct repeated_part *part,
                          const struct scene *scene, uint32_t face,
                          uint32_t end_face, uint32_t *shift);
 
+/* Whether the faces seem to be parts that are repeated many times, whose edges
+ * are copied in less time than those of several ranges take to be joined.
+ * samples  how many places to look at */
+bool repeated_parts_fill(const struct scene *scene, int samples);
+
 #endif

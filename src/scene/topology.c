@@ -317,31 +317,13 @@ static bool reserve_corners(struct topology *topology,
   return topology->corner_edge != NULL;
 }
 
-/* Whether the faces seem to be parts that are repeated, whose edges are copied
- * in less time than several ranges take to be joined: looks in the middle of
- * each range. */
-static bool is_repeated(const struct scene *scene, int workers) {
-  enum { COPIES = 16 };
-  uint64_t faces = scene_face_count(scene), ranges = (uint64_t)workers;
-  bool repeated = true;
-  for (uint64_t r = 0; repeated && r < ranges; r++) {
-    struct repeated_part part;
-    uint32_t shift, first = (uint32_t)(faces * (2 * r + 1) / (2 * ranges));
-    repeated = repeated_part_find(&part, scene, NULL, first, (uint32_t)faces) &&
-               part.faces <= (faces - part.face) / COPIES;
-    for (uint32_t i = 2; repeated && i < COPIES; i++)
-      repeated = repeated_part_is_at(&part, scene, part.face + i * part.faces,
-                                     (uint32_t)faces, &shift);
-  }
-  return repeated;
-}
-
 /* Builds the edges with the points as they are welded, and corner_edge where
  * there is room for it, or hubs need it. */
 static bool build_edges(struct topology *topology, const struct scene *scene) {
   int workers = parallel_workers(scene_face_count(scene), PARALLEL_ITEMS);
   bool overfull;
-  if (workers > 1 && topology->weld == NULL && is_repeated(scene, workers))
+  if (workers > 1 && topology->weld == NULL &&
+      repeated_parts_fill(scene, workers))
     workers = 1;
   ARRAY_FREE(&topology->edge);
   ARRAY_FREE(&topology->corner_copy);
