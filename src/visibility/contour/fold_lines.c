@@ -49,8 +49,8 @@ static inline bool is_line_beyond(const struct page_segment *s,
   return area * area > reach * reach * (x * x + y * y);
 }
 
-/* Notes a line that is no contour.  It is no other image of the fold: only where
- * it lies on that, nothing is missing. */
+/* Notes a line that is no contour.  As it is no other image of the fold, the
+ * fold is missing unless the line lies on it. */
 static void note_other_line(struct fold_sample *at, double away) {
   at->is_by_line = true;
   at->is_beside = at->is_beside || away <= TOLERANCE_OUTLINE_UNITS;
@@ -208,8 +208,8 @@ static bool add_line(struct fold_lines *f, size_t from, size_t to,
 
 /* ---- Chains -------------------------------------------------------------- */
 
-/* Adds the line of a visible run if it is long, else those of its parts that are
- * by no other line either. */
+/* Adds the line of a visible run if it is long, else those of its parts that
+ * are by no other line either. */
 static bool add_lines_of_run(struct fold_lines *f, size_t from, size_t to) {
   double height;
   struct fold_run run = {f->sample.item + from, to - from, false};
