@@ -57,6 +57,8 @@ unit_tests += %D%/test_outlines_whole
 %C%_test_outlines_whole_SOURCES = %D%/test_outlines_whole.c
 %C%_test_outlines_whole_LDADD = %D%/judge/libjudge.la \
   %D%/scenes/libscenes.la $(LDADD)
+unit_tests += %D%/test_large_faces
+%C%_test_large_faces_SOURCES = %D%/test_large_faces.c
 unit_tests += %D%/test_warped
 %C%_test_warped_SOURCES = %D%/test_warped.c
 %C%_test_warped_LDADD = %D%/scenes/libscenes.la $(LDADD)

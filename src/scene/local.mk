@@ -23,6 +23,7 @@ librecto_core_la_SOURCES += \
   %D%/limit.h \
   %D%/material.c %D%/material.h \
   %D%/name.c %D%/name.h \
+  %D%/large_faces.c %D%/large_faces.h \
   %D%/newell_normal.c %D%/newell_normal.h \
   %D%/obj_blocks.c %D%/obj_blocks.h \
   %D%/obj_marks.c \

@@ -10,27 +10,6 @@
 #include "base/union_find.h"
 #include "scene/angle.h"
 #include "scene/crease_marks.h"
-#include "scene/newell_normal.h"
-
-/* Faces of more corners have their normals kept. */
-enum { SMALL_FACE_MAX = 16 };
-
-static void find_normal(const struct scene *scene, uint32_t face,
-                        struct large_face_normals *normals, double normal[3]) {
-  if (scene_face_corners(scene, face) <= SMALL_FACE_MAX) {
-    newell_normal_of_face(scene, face, normal);
-    return;
-  }
-  int k = normals->last;
-  if (normals->face[k] != face)
-    k = 1 - k;
-  if (normals->face[k] != face) {
-    newell_normal_of_face(scene, face, normals->normal[k]);
-    normals->face[k] = face;
-  }
-  normals->last = k;
-  memcpy(normal, normals->normal[k], sizeof normals->normal[k]);
-}
 
 static int mark_of_edge(const struct sheet *sheet,
                         const struct sheet_edge *edge) {
@@ -59,7 +38,7 @@ double crease_cosine(const struct sheet *sheet, const struct sheet_edge *edge,
       return 1;
     if (!sheet->triangles_dropped)
       face = sheet->triangle.item[face].face;
-    find_normal(sheet->scene, face, normals, n[k]);
+    face_normal_by(normals, sheet->scene, face, n[k]);
   }
   for (int i = 0; i < 3; i++) {
     dot += n[0][i] * n[1][i];

@@ -6,19 +6,8 @@
 #include <stdatomic.h>
 
 #include "base/memory.h"
+#include "scene/large_faces.h"
 #include "view/sheet.h"
-
-/* The normals of the two last faces with many corners, so that they are not
- * computed again for each of their edges. */
-struct large_face_normals {
-  uint32_t face[2]; /* SHEET_NONE: none yet */
-  double normal[2][3];
-  int last; /* which was used last */
-};
-
-static inline struct large_face_normals large_face_normals_start(void) {
-  return (struct large_face_normals){.face = {SHEET_NONE, SHEET_NONE}};
-}
 
 /* The cosine of the angle between the two faces of an edge that is drawn as a
  * crease or a silhouette; 1 where it has other faces than two.  Faces that run

@@ -142,7 +142,7 @@ static void find_mean(const struct facing *f, const struct smooth_fan *fan,
     mean[k] = 0;
   for (size_t i = 0; i < fan->count; i++) {
     double n[3], angle = facing_angle(f, fan->face[i], fan->corner[i]);
-    newell_normal_of_face(f->scene, fan->face[i], n);
+    facing_face_normal(f, fan->face[i], n);
     if (!vector_normalise(n))
       continue;
     for (int k = 0; k < 3; k++)
@@ -199,7 +199,7 @@ static void follow_flat(const struct facing *f, struct ray *ray, uint32_t face,
     if (facing_is_feature(f, edge))
       return;
     face = e->first == face ? e->second : e->first;
-    newell_normal_of_face(f->scene, face, n);
+    facing_face_normal(f, face, n);
     if (!vector_normalise(n) || fabs(vector_dot(n, ray->along)) > bend)
       return;
     double far = leave_face(f, ray, face, scene_face_start(f->scene, face),

@@ -12,7 +12,6 @@
 #include "base/hash.h"
 #include "base/poll.h"
 #include "base/tolerance.h"
-#include "visibility/contour/zero_segments.h"
 
 /* How far a corner is moved, as a share of the width of the faces there: those
  * on a mesh's outline lie in the strip between it and the contour. */
@@ -135,21 +134,21 @@ bool corner_moves_is_along(const struct corner_moves *moves,
 
 /* How far a corner is moved on an edge, at most: by half of the width of the
  * wider face beside it, or of the narrower one within the picture. */
-static double farthest_move(const struct corner_moves *moves,
+static double farthest_move(struct corner_moves *moves,
                             const struct sheet_edge *edge, bool within) {
   const struct sheet *sheet = moves->sheet;
   double width[2] = {0, 0};
   for (int k = 0; k < 2; k++)
     if (edge->triangle[k] != SHEET_NONE)
-      width[k] =
-          extent_of_face(sheet, sheet->triangle.item[edge->triangle[k]].face);
+      width[k] = extent_of_face_by(
+          &moves->last[k], sheet, sheet->triangle.item[edge->triangle[k]].face);
   return MOVE_SHARE *
          (within ? fmin(width[0], width[1]) : fmax(width[0], width[1]));
 }
 
 /* Tries the contours about the edge along a side that starts or ends at a
  * corner. */
-static void try_side(const struct corner_moves *moves,
+static void try_side(struct corner_moves *moves,
                      const struct map_corner *corner,
                      struct corner_move *move) {
   const struct sheet *sheet = moves->sheet;
@@ -182,7 +181,7 @@ static void try_side(const struct corner_moves *moves,
 
 /* Where an outline passes behind a nearer one, moves a corner to the end of its
  * contour at the nearer contour, if there is one. */
-static void meet_contours(const struct corner_moves *moves,
+static void meet_contours(struct corner_moves *moves,
                           const struct map_corner *nearer,
                           const struct map_corner *farther,
                           struct corner_move *move) {

@@ -5,6 +5,7 @@
 
 #include "base/number_lists.h"
 #include "visibility/contour/drawn_outlines.h"
+#include "visibility/contour/zero_segments.h"
 
 /* From a point of the page to the nearest one of a contour. */
 struct corner_move {
@@ -28,6 +29,7 @@ struct corner_moves {
   ARRAY(struct corner_move) move;
   uint32_t *table; /* open addressing: a point -> 1 + its move; 0: free */
   size_t mask;
+  struct large_face_size last[2]; /* of the first and second faces of edges */
   uint32_t *of_corner; /* one a corner: 1 + the move of its point; 0: none */
 };
 

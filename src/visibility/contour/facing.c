@@ -339,8 +339,11 @@ recto_status facing_init(struct facing *f, const struct sheet *sheet,
       .scene = sheet->scene, .topology = topology, .camera = &sheet->camera};
   f->class_masks = mem_alloc(topology->edge.count, sizeof *f->class_masks);
   f->coarse = mem_alloc(f->scene->point.count, 1);
+  f->large = mem_alloc(1, sizeof *f->large);
+  if (f->large != NULL)
+    *f->large = large_face_normals_start();
   bool ok =
-      f->class_masks != NULL && f->coarse != NULL &&
+      f->class_masks != NULL && f->coarse != NULL && f->large != NULL &&
       topology_class_masks(topology, f->scene, crease_deg, f->class_masks) &&
       topology_coarse_parts(topology, f->scene, f->class_masks, f->coarse) &&
       find_face_signs(f) && find_near_faces(f) && find_facings(f, crease_deg);
@@ -350,6 +353,7 @@ recto_status facing_init(struct facing *f, const struct sheet *sheet,
 void facing_fini(struct facing *f) {
   mem_free(f->class_masks);
   mem_free(f->coarse);
+  mem_free(f->large);
   mem_free(f->face_sign);
   mem_free(f->point_flags);
   mem_free(f->near_corner);

@@ -20,7 +20,7 @@
 
 #include "base/tolerance.h"
 #include "base/union_find.h"
-#include "scene/newell_normal.h"
+#include "scene/large_faces.h"
 #include "view/sheet.h"
 #include "geom/vector.h"
 
@@ -30,13 +30,14 @@ struct facing_faces {
 };
 
 struct facing {
-  const struct scene *scene;       /* borrowed, not owned */
-  const struct topology *topology; /* borrowed, not owned */
-  const struct camera *camera;     /* borrowed, not owned */
-  uint8_t *class_masks;            /* one a topology edge */
-  uint8_t *coarse;                 /* one a point: topology_coarse_parts */
-  bool any_coarse;                 /* there are such points */
-  uint8_t *face_sign;              /* one a face: FACING_FRONT or FACING_BACK */
+  const struct scene *scene;        /* borrowed, not owned */
+  const struct topology *topology;  /* borrowed, not owned */
+  const struct camera *camera;      /* borrowed, not owned */
+  struct large_face_normals *large; /* memory */
+  uint8_t *class_masks;             /* one a topology edge */
+  uint8_t *coarse;                  /* one a point: topology_coarse_parts */
+  bool any_coarse;                  /* there are such points */
+  uint8_t *face_sign;   /* one a face: FACING_FRONT or FACING_BACK */
   uint8_t *point_flags; /* one a point: FACING_... of the faces about it, and
                               what else is known */
   struct facing_faces
@@ -60,6 +61,12 @@ struct facing {
   ARRAY(uint32_t) mixed; /* the faces about whose slots both signs are;
                             ascending */
 };
+
+/* The Newell normal of a face. */
+static inline void facing_face_normal(const struct facing *f, uint32_t face,
+                                      double normal[3]) {
+  face_normal_by(f->large, f->scene, face, normal);
+}
 
 enum {
   FACING_FRONT = 1,

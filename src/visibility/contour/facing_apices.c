@@ -15,7 +15,7 @@ bool facing_mark_bent(struct facing *f, double crease_deg) {
   for (size_t i = 0; i < f->mixed.count; i++) {
     uint32_t face = f->mixed.item[i];
     double n[3];
-    newell_normal_of_face(f->scene, face, n);
+    facing_face_normal(f, face, n);
     if (!vector_normalise(n))
       continue;
     for (uint32_t c = scene_face_start(f->scene, face);
@@ -33,7 +33,7 @@ bool facing_mark_bent(struct facing *f, double crease_deg) {
  * of it is seen. */
 static bool shows_no_side(const struct facing *f, uint32_t face) {
   double n[3], at[3], v[3];
-  newell_normal_of_face(f->scene, face, n);
+  facing_face_normal(f, face, n);
   facing_position(f, facing_point(f, scene_face_start(f->scene, face)), at);
   facing_view(f->camera, at, v);
   return !vector_normalise(n) || !vector_normalise(v) ||

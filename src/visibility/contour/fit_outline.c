@@ -51,6 +51,7 @@ struct outline_fit {
   struct loop_changes changes;
   ARRAY(struct place_move) move;
   uint8_t *is_turned_over; /* one a fragment */
+  struct large_face_size last;
 };
 
 /* Whether a place is to be moved to another one. */
@@ -81,10 +82,10 @@ static void ends_of_half(const struct outline_fit *f, uint32_t h, double a[2],
   place_of_corner(f, all[all[h].next].origin, b);
 }
 
-static double radius_about(const struct outline_fit *f, uint32_t h) {
+static double radius_about(struct outline_fit *f, uint32_t h) {
   uint32_t fragment = f->map->half_edge.item[h].fragment;
   uint32_t face = f->map->fragment.item[fragment].face;
-  return fmin(extent_of_face(f->sheet, face), SHEET_XY_MAX);
+  return fmin(extent_of_face_by(&f->last, f->sheet, face), SHEET_XY_MAX);
 }
 
 /* ---- 1 Corners ----------------------------------------------------------- */

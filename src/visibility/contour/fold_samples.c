@@ -48,12 +48,21 @@ static double height_of_face(const struct sheet *sheet, uint32_t face) {
                                    : height;
 }
 
+static double height_of_face_by(struct large_face_size *last,
+                                const struct sheet *sheet, uint32_t face) {
+  if (scene_face_corners(sheet->scene, face) <= SMALL_FACE_MAX)
+    return height_of_face(sheet, face);
+  if (last->face_after != face + 1)
+    *last = (struct large_face_size){height_of_face(sheet, face), face + 1};
+  return last->size;
+}
+
 bool fold_samples_add(struct fold_samples *samples, const struct sheet *sheet,
                       const struct contour_outline *outline, uint32_t number) {
   struct geom_segment s = outline->image;
   double x = (double)s.q.x - s.p.x, y = (double)s.q.y - s.p.y;
   double length = hypot(x, y);
-  double height = height_of_face(sheet, outline->face);
+  double height = height_of_face_by(&samples->last, sheet, outline->face);
   if (length == 0 || !(height > 0))
     return true;
   double count = fmin(ceil(SAMPLES_A_HEIGHT * length / height), SAMPLES_MAX);

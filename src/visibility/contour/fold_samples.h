@@ -37,6 +37,7 @@ struct fold_places {
 struct fold_samples {
   struct fold_sample *item;
   size_t count, capacity;
+  struct large_face_size last;
 };
 
 /* Adds samples of an outline.  Returns false when memory ran out. */

@@ -39,6 +39,7 @@ struct outline_gaps {
   const struct outline_gaps_input *in;
   struct nearest_contours nearest;
   struct page_cover cover;
+  struct large_face_size last;
   ARRAY(struct outline_part) part;
 };
 
@@ -66,14 +67,15 @@ struct sampled_outline {
 };
 
 /* Returns false for an outline that is a point. */
-static bool sample_outline(const struct sheet *sheet,
+static bool sample_outline(struct outline_gaps *g,
                            const struct contour_outline *outline,
                            struct sampled_outline *of) {
   struct geom_segment s = outline->image;
   double x = (double)s.q.x - s.p.x, y = (double)s.q.y - s.p.y;
   double length = hypot(x, y);
   of->image = s;
-  of->radius = fmin(extent_of_face(sheet, outline->face), SHEET_XY_MAX);
+  of->radius = fmin(extent_of_face_by(&g->last, g->in->sheet, outline->face),
+                    SHEET_XY_MAX);
   if (length == 0 || of->radius == 0)
     return false;
   double by = BESIDE / length;
@@ -180,7 +182,7 @@ static bool add_open_parts(struct outline_gaps *g,
                            const struct contour_outline *outline) {
   struct sampled_outline of;
   bool ok = true;
-  if (!sample_outline(g->in->sheet, outline, &of))
+  if (!sample_outline(g, outline, &of))
     return true;
   for (uint32_t k = first_uncovered(g, &of, 0, &ok); ok && k <= of.n;) {
     struct outline_sample to = look(g, &of, k, &ok);

@@ -36,7 +36,7 @@ static bool node_of_vertex(struct zero_finder *z, uint32_t point,
 
 static bool is_front(const struct facing *f, uint32_t face) {
   double n[3], at[3], v[3];
-  newell_normal_of_face(f->scene, face, n);
+  facing_face_normal(f, face, n);
   facing_position(f, facing_point(f, scene_face_start(f->scene, face)), at);
   facing_view(f->camera, at, v);
   return vector_dot(n, v) < 0;
@@ -86,8 +86,8 @@ static bool add_along_crease(struct zero_finder *z, uint32_t edge,
       .node = {node[0], node[1]}, .face = e->first, .along_crease = true};
   double first[3], second[3], at[3], beyond[3], along[3];
   uint32_t c = facing_corner_of_edge(f, e->second, edge);
-  newell_normal_of_face(f->scene, e->first, first);
-  newell_normal_of_face(f->scene, e->second, second);
+  facing_face_normal(f, e->first, first);
+  facing_face_normal(f, e->second, second);
   facing_position(f, e->point[0], at);
   facing_position(f, e->point[1], along);
   for (int k = 0; k < 3; k++)

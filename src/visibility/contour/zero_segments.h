@@ -88,4 +88,23 @@ static inline double extent_of_face(const struct sheet *sheet, uint32_t face) {
              : hypot((double)box.x1 - box.x0, (double)box.y1 - box.y0);
 }
 
+/* What was last found of a face of many corners, so that it is not found again
+ * for each of its edges. */
+struct large_face_size {
+  double size;
+  uint32_t face_after; /* that face and 1; 0: none yet */
+};
+
+/* How far apart points of a face's image are, at most.
+ * last  of the faces before */
+static inline double extent_of_face_by(struct large_face_size *last,
+                                       const struct sheet *sheet,
+                                       uint32_t face) {
+  if (scene_face_corners(sheet->scene, face) <= SMALL_FACE_MAX)
+    return extent_of_face(sheet, face);
+  if (last->face_after != face + 1)
+    *last = (struct large_face_size){extent_of_face(sheet, face), face + 1};
+  return last->size;
+}
+
 #endif
