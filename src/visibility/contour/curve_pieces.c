@@ -14,9 +14,11 @@ enum { SHORT_SEGMENTS = 6 };
 #define GAP_HEIGHTS 0.5
 
 /* A hook at a cusp is no longer than so many heights of its triangle, and turns
- * from as much of the curve before it by more than 60 degrees. */
+ * from as much of the curve before it by more than 60 degrees.  Neither has more
+ * segments than so many. */
 #define HOOK_HEIGHTS 0.5
 #define HOOK_COSINE 0.5
+enum { HOOK_SEGMENTS_MAX = 32 };
 
 /* ---- Short pieces -------------------------------------------------------- */
 
@@ -129,12 +131,12 @@ static struct page_chord chord_of(const struct curve_pieces *pieces,
   return (struct page_chord){x, y, hypot(x, y)};
 }
 
-/* The last step from `at` on, in a direction, up to which a curve is no longer
- * than a distance; no farther than `limit`. */
+/* The last of a few steps from `at` on, in a direction, up to which a curve is
+ * no longer than a distance; no farther than `limit`. */
 static uint32_t pass_length(const struct curve_pieces *pieces, uint32_t at,
                             int direction, uint32_t limit, double most) {
   double length = 0;
-  while (at != limit) {
+  for (int i = 0; i < HOOK_SEGMENTS_MAX && at != limit; i++) {
     uint32_t next = direction < 0 ? at - 1 : at + 1;
     length += chord_of(pieces, at, next).length;
     if (length > most)
