@@ -327,6 +327,29 @@ static void assemblies_are_read_alike(void **state) {
   }
 }
 
+/* A polyline took the first group, so the first face has another; all points
+ * of the first block have colours, which are not plain, so nothing before the
+ * first face is a run. */
+static void first_face_may_be_in_a_second_group(void **state) {
+  enum { BLOCK = 1 << 18, BYTES = 1 << 20, ROOM = 1 << 14 };
+  struct random random = {5};
+  struct text text = {malloc(BLOCK + BYTES + ROOM), 0};
+  int points = 0;
+  assert_non_null(text.bytes);
+  put(&text, "o wire\nv 0 0 0\nv 1 0 0\nl 1 2\n");
+  for (; text.count < BLOCK - 60; points++)
+    put(&text, "v 1 2 3 0.5 0.5 0.5\n");
+  while (text.count < BLOCK + BYTES) {
+    put(&text, "o part\n");
+    put_prism(&text, &random, 3, points + 3, "");
+    points += 6;
+  }
+  const char *path = temporary_file(state, "w.obj", text.bytes, text.count);
+  const char *fault = reading_parallel_file_fault(&reader_obj, path);
+  free(text.bytes);
+  assert_null(fault);
+}
+
 /* The end of the file may cut a statement of a part anywhere. */
 static void files_may_end_anywhere(void **state) {
   struct random random = {3};
@@ -378,6 +401,8 @@ int main(void) {
       cmocka_unit_test_setup_teardown(assemblies_are_read_alike,
                                       temporary_set_up, temporary_tear_down),
       cmocka_unit_test_setup_teardown(points_may_follow_runs_of_faces,
+                                      temporary_set_up, temporary_tear_down),
+      cmocka_unit_test_setup_teardown(first_face_may_be_in_a_second_group,
                                       temporary_set_up, temporary_tear_down),
       cmocka_unit_test(files_may_end_anywhere),
       cmocka_unit_test(large_files_have_the_room_that_they_need)};

@@ -366,11 +366,12 @@ static recto_status read_window(struct window *window, int workers,
 
 /* ---- Windows ------------------------------------------------------------- */
 
-/* Whether what follows may be read so. */
+/* Whether what follows may be read so.  The first face of a scene is read
+ * alone: groups are listed from it on. */
 static bool may_have_short_runs(const struct obj_parser *p) {
   const struct scene *scene = p->scene;
   enum { WINDOW_BYTES = MOST_PARTS * (SHORT_BYTES + LINE_ROOM) };
-  return p->known && p->bad.count == 0 && !p->ahead &&
+  return p->known && scene->face_count > 0 && p->bad.count == 0 && !p->ahead &&
          p->run_bytes < SHORT_BYTES &&
          scene->corner.count < SCENE_LIMIT - WINDOW_BYTES &&
          scene->point.count < SCENE_LIMIT - WINDOW_BYTES;
