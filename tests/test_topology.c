@@ -357,6 +357,25 @@ static void sides_of_repeated_parts_are_left_out(void **state) {
   scene_fini(&scene);
 }
 
+/* What was left out is of no use where too many edges meet at a point of later
+ * faces, so that all are found another way; sanitizers see whether it is
+ * freed. */
+static void repeated_parts_may_come_before_a_hub(void **state) {
+  (void)state;
+  enum { BOXES = 20, SIDES = 4000 };
+  struct scene scene;
+  scene_init(&scene);
+  for (int i = 0; i < BOXES; i++)
+    build_box(&scene, vector_of(2 * i, 0, 0), vector_of(2 * i + 1, 1, 1));
+  uint32_t hub = build_point(&scene, 0, 0, 9);
+  for (uint32_t i = 0; i <= SIDES; i++)
+    build_point(&scene, i, 1, 9);
+  for (uint32_t i = 1; i <= SIDES; i++)
+    build_triangle(&scene, hub, hub + i, hub + i + 1);
+  check_without_sides(&scene);
+  scene_fini(&scene);
+}
+
 /* ---- Counts -------------------------------------------------------------- */
 
 static void a_box_has_twelve_edges_of_two_faces_each(void **state) {
@@ -834,6 +853,7 @@ int main(void) {
       cmocka_unit_test(edges_do_not_depend_on_whether_they_are_copied),
       cmocka_unit_test(a_part_is_found_where_the_next_faces_repeat_it),
       cmocka_unit_test(sides_of_repeated_parts_are_left_out),
+      cmocka_unit_test(repeated_parts_may_come_before_a_hub),
       cmocka_unit_test(a_box_has_twelve_edges_of_two_faces_each),
       cmocka_unit_test(no_faces_have_no_edges),
       cmocka_unit_test(a_fan_of_100000_triangles_is_drawn_in_bounded_time),

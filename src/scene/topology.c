@@ -217,6 +217,7 @@ static void finish_ranges(struct edge_join *join, bool *overfull) {
   topology->borders = topology->edge.count - first->shared;
   if (join->ranges > 1)
     topology->borders = topology->edge.count;
+  ARRAY_FREE(&topology->corner_copy); /* of ranges that were overfull */
   memcpy(&topology->corner_copy, &first->corner_copy,
          sizeof topology->corner_copy);
   memset(&first->corner_copy, 0, sizeof first->corner_copy);
