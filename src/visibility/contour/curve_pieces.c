@@ -14,8 +14,8 @@ enum { SHORT_SEGMENTS = 6 };
 #define GAP_HEIGHTS 0.5
 
 /* A hook at a cusp is no longer than so many heights of its triangle, and turns
- * from as much of the curve before it by more than 60 degrees.  Neither has more
- * segments than so many. */
+ * from as much of the curve before it by more than 60 degrees.  Neither has
+ * more segments than so many. */
 #define HOOK_HEIGHTS 0.5
 #define HOOK_COSINE 0.5
 enum { HOOK_SEGMENTS_MAX = 32 };
