@@ -294,12 +294,11 @@ static struct text write_assembly(uint64_t seed, uint32_t rarity) {
   if (seed % 4 == 1)
     put(&text, "vn 0 0 1\n");
   for (int i = 0; text.count < BYTES; i++) {
-    static const char *const name[] = {"o part%d\n", "g of %d\n",
-                                       "usemtl m%d\n", "# %d\n\n"};
+    static const char *const name[] = {"o part", "g of ", "usemtl m", "\n# "};
     char statement[LONGEST];
     int sides = kinds == 1 ? 3 : random_int(&random, 3, 2 + 11 * (kinds - 1));
-    snprintf(statement, sizeof statement, name[random_below(&random, 4)],
-             i / 2);
+    snprintf(statement, sizeof statement, "%s%d\n",
+             name[random_below(&random, 4)], i / 2);
     if (rarity > 0 && random_below(&random, rarity) == 0)
       put_odd(&text, &random);
     if (seed % 8 == 3 && i == 900)
