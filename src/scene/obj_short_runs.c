@@ -340,11 +340,19 @@ static recto_status take_part(struct obj_parser *p, struct short_part *part) {
   return status;
 }
 
+/* How many parts come before the first that is not plain. */
+static size_t plain_parts(const struct window *window) {
+  size_t i = 0;
+  while (i < window->count && window->part[i].is_plain)
+    i++;
+  return i;
+}
+
 /* Reads a window; *taken: how many of its parts were plain, and are taken. */
 static recto_status read_window(struct window *window, int workers,
                                 size_t *taken) {
   struct obj_parser *p = window->p;
-  size_t count = window->count;
+  size_t count = window->count, plain;
   recto_status status = diagnostics_poll(p->diagnostics, p->at, p->error);
   *taken = 0;
   if (status != RECTO_OK)
@@ -352,10 +360,14 @@ static recto_status read_window(struct window *window, int workers,
   window->from = obj_place_in_file(p);
   if (!parallel_ranges(workers, count, 1, count_part, window) ||
       !place_parts(window) ||
-      !parallel_ranges(workers, count, 1, parse_counted_part, window) ||
-      !parallel_ranges(workers, count, 1, check_part, window))
+      !parallel_ranges(workers, count, 1, parse_counted_part, window))
     return error_memory(p->error);
-  while (status == RECTO_OK && *taken < count && window->part[*taken].is_plain)
+  /* Those after it may name points that were not read. */
+  plain = plain_parts(window);
+  if (!parallel_ranges(workers, plain, 1, check_part, window))
+    return error_memory(p->error);
+  plain = plain_parts(window);
+  while (status == RECTO_OK && *taken < plain)
     status = take_part(p, &window->part[(*taken)++]);
   if (status == RECTO_OK)
     status = obj_keep_names(p);
