@@ -106,10 +106,13 @@ bool own_crossings_find(struct own_crossings *own) {
   return true;
 }
 
-void own_crossings_remove_common(struct own_crossings *a,
+bool own_crossings_remove_common(struct own_crossings *a,
                                  struct own_crossings *b, double within) {
+  size_t compared = 0;
   for (size_t i = 0; i < a->crossing.count;) {
     size_t k = 0;
+    if (!poll_at(compared++))
+      return false;
     while (k < b->crossing.count &&
            drawing_distance(a->crossing.item[i].at, b->crossing.item[k].at) >
                within)
@@ -121,6 +124,7 @@ void own_crossings_remove_common(struct own_crossings *a,
     b->crossing.item[k] = b->crossing.item[--b->crossing.count];
     a->crossing.item[i] = a->crossing.item[--a->crossing.count];
   }
+  return true;
 }
 
 void own_crossings_fini(struct own_crossings *own) {

@@ -30,9 +30,12 @@ struct own_crossings {
 USE_RESULT bool own_crossings_find(struct own_crossings *own);
 
 /* Removes from both those crossings that have a place in common, one for one,
- * within a distance, mm. */
-void own_crossings_remove_common(struct own_crossings *a,
-                                 struct own_crossings *b, double within);
+ * within a distance, mm.
+ * Cost     linear in the pairs of crossings of both
+ * Returns false when the caller cancelled. */
+USE_RESULT bool own_crossings_remove_common(struct own_crossings *a,
+                                            struct own_crossings *b,
+                                            double within);
 
 void own_crossings_fini(struct own_crossings *own);
 

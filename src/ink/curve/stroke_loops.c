@@ -83,9 +83,9 @@ bool stroke_loops_keep(struct stroke_loops *loops, struct stroke_shape *shape,
                        double about, bool *same) {
   struct own_crossings *a = &loops->of_stroke, *b = &loops->of_pieces;
   if (!list_vertices(a, shape) || !list_chords(b, pieces, control) ||
-      !own_crossings_find(a) || !own_crossings_find(b))
+      !own_crossings_find(a) || !own_crossings_find(b) ||
+      !own_crossings_remove_common(a, b, SAME_TOLERANCES * pieces->tolerance))
     return false;
-  own_crossings_remove_common(a, b, SAME_TOLERANCES * pieces->tolerance);
   *same = a->crossing.count == 0 && b->crossing.count == 0;
   keep_crossings(shape, a, about);
   keep_crossings(shape, b, about);
