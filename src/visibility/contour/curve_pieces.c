@@ -171,31 +171,34 @@ static uint32_t find_hook(const struct curve_pieces *pieces, uint32_t end,
 }
 
 /* Hides what is behind the hook that begins at step `at`, from piece `i` on in
- * a direction. */
-static void hide_hook(struct curve_pieces *pieces, size_t i, int direction,
-                      uint32_t at) {
+ * a direction.  Returns how many pieces are hidden as a whole. */
+static size_t hide_hook(struct curve_pieces *pieces, size_t i, int direction,
+                        uint32_t at) {
   struct contour_piece *piece = &pieces->piece[i];
   bool back = direction < 0;
-  while (back ? contour_position(piece->from) >= at
-              : contour_position(piece->to) <= at) {
+  size_t hidden = 0;
+  for (; back ? contour_position(piece->from) >= at
+              : contour_position(piece->to) <= at;
+       hidden++) {
     piece->is_visible = false;
     piece += direction;
   }
   *(back ? &piece->to : &piece->from) = contour_cut_at(at);
   piece -= direction;
   *(back ? &piece->from : &piece->to) = contour_cut_at(at);
+  return hidden;
 }
 
 /* Hides the hook at the end of the visible pieces from `i` on in a direction,
- * beside which a hidden one is. */
-static void trim_hook(struct curve_pieces *pieces, size_t i, int direction,
-                      const struct camera *camera) {
+ * beside which a hidden one is.  Returns how many are hidden as a whole. */
+static size_t trim_hook(struct curve_pieces *pieces, size_t i, int direction,
+                        const struct camera *camera) {
   const struct contour_piece *piece = &pieces->piece[i];
   bool back = direction < 0;
   struct contour_cut end = back ? piece->to : piece->from;
   size_t last = i;
   if (end.crossing || end.t != 0)
-    return;
+    return 0;
   while (back ? last > 0 && pieces->piece[last - 1].is_visible
               : last + 1 < pieces->count && pieces->piece[last + 1].is_visible)
     last += (size_t)direction;
@@ -203,8 +206,8 @@ static void trim_hook(struct curve_pieces *pieces, size_t i, int direction,
       back ? pieces->piece[last].from : pieces->piece[last].to;
   uint32_t limit = other.step + (back && other.t > 0);
   uint32_t at = find_hook(pieces, end.step, direction, limit, camera);
-  if (at != end.step && at != limit)
-    hide_hook(pieces, i, direction, at);
+  return at != end.step && at != limit ? hide_hook(pieces, i, direction, at)
+                                       : 0;
 }
 
 void curve_pieces_trim_hooks(struct curve_pieces *pieces,
@@ -214,7 +217,10 @@ void curve_pieces_trim_hooks(struct curve_pieces *pieces,
     if (a->is_visible == b->is_visible || runs_along_crease(pieces, a) ||
         runs_along_crease(pieces, b))
       continue;
-    trim_hook(pieces, a->is_visible ? i : i + 1, a->is_visible ? -1 : 1,
-              camera);
+    /* The end that hiding a hook makes is not looked at again. */
+    if (a->is_visible)
+      (void)trim_hook(pieces, i, -1, camera);
+    else
+      i += trim_hook(pieces, i + 1, 1, camera);
   }
 }
