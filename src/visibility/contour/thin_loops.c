@@ -50,7 +50,8 @@ enum { BODY_FACES = 4 };
 /* What is known of a segment of the stack. */
 struct stack_segment {
   double length, height; /* of its triangle; on the page, grid units */
-  double off;            /* how far what it stands for is from it, at most */
+  double off;  /* how far what became straight there is from it, at most; parts
+                  that a loop was taken off from have 0 */
   size_t turn; /* the last node up to its first one at which the image turns
                   back; the curve's first: none */
 };
