@@ -249,6 +249,15 @@ static void folds_without_a_zero_set_are_drawn(void **state) {
   recto_scene_destroy(scene);
 }
 
+/* The same button, whose side leans outwards over a quarter of it alone. */
+static void dented_button(double u, double v, double p[3]) {
+  button(u, v, p);
+  double out = hypot(p[0], p[1]);
+  if (p[2] == button_row[BUTTON_EDGE][1] && cos(u) < 0.7)
+    for (int k = 0; k < 2; k++)
+      p[k] *= (out - 0.01) / out;
+}
+
 /* Fails where the middle of a long line of the mesh is far from ink. */
 static void check_mesh_lines(const recto_scene *scene, double azimuth_deg,
                              double elevation_deg, double long_mm,
@@ -273,6 +282,15 @@ static void arcs_of_legs_are_drawn(void **state) {
   if (scene == NULL)
     skip();
   check_mesh_lines(scene, 0, -75, 15, 1.5);
+  recto_scene_destroy(scene);
+}
+
+/* Of few outlines, but long on the page, such a fold is no noise. */
+static void large_folds_of_few_outlines_are_drawn(void **state) {
+  (void)state;
+  recto_scene *scene = smooth_scene(dented_button, true, 24, BUTTON_ROWS);
+  for (int elevation = -1; elevation <= 1; elevation++)
+    check_mesh_lines(scene, 0, elevation, 20, 1);
   recto_scene_destroy(scene);
 }
 
@@ -480,6 +498,7 @@ int main(void) {
       cmocka_unit_test(lines_lead_on_to_where_loops_are_left_out),
       cmocka_unit_test(folds_without_a_zero_set_are_drawn),
       cmocka_unit_test(arcs_of_legs_are_drawn),
+      cmocka_unit_test(large_folds_of_few_outlines_are_drawn),
       cmocka_unit_test(short_folds_that_continue_a_contour_are_drawn),
       cmocka_unit_test(folds_of_five_heights_that_continue_one_are_drawn),
       cmocka_unit_test(folds_between_two_contours_are_drawn),

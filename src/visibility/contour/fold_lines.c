@@ -21,6 +21,10 @@
 static const double joined_heights[] = {INFINITY, 6, 3};
 #define NEAR_JOINED_HEIGHTS 5
 
+/* The share of the picture's longer side from which on a line is long on the
+ * page. */
+#define PICTURE_SHARE (1.0 / 14)
+
 /* How far beside an outline nothing must hide it, grid units. */
 #define BESIDE 8
 
@@ -29,6 +33,7 @@ struct fold_lines {
   struct fold_joints joints;
   struct outline_chains chains;
   uint8_t *is_passed;         /* one an outline */
+  double long_on_page;        /* grid units */
   struct fold_samples sample; /* of a chain */
   struct fold_places place;   /* of a line */
 };
@@ -188,7 +193,7 @@ static bool add_line(struct fold_lines *f, size_t from, size_t to,
   uint32_t joint[2] = {SHEET_NONE, SHEET_NONE};
   double height;
   struct fold_run run = {f->sample.item + from, to - from, is_ring};
-  bool is_long = fold_run_is_long(run, &height);
+  bool is_long = fold_run_is_long(run, f->long_on_page, &height);
   if (!is_long && (is_ring || !fold_run_is_line(run, joined_heights[2])))
     return true;
   if (!is_ring) {
@@ -213,7 +218,7 @@ static bool add_line(struct fold_lines *f, size_t from, size_t to,
 static bool add_lines_of_run(struct fold_lines *f, size_t from, size_t to) {
   double height;
   struct fold_run run = {f->sample.item + from, to - from, false};
-  if (fold_run_is_long(run, &height))
+  if (fold_run_is_long(run, f->long_on_page, &height))
     return add_line(f, from, to, false);
   for (size_t i = from, end; i < to; i = end + 1) {
     for (end = i; end < to && !f->sample.item[end].is_by_line;)
@@ -231,7 +236,7 @@ static bool add_visible_lines(struct fold_lines *f, size_t from, size_t to) {
   double height;
   bool ok = true;
   struct fold_run whole = {sample + from, to - from, false};
-  if (!fold_run_is_long(whole, &height) &&
+  if (!fold_run_is_long(whole, f->long_on_page, &height) &&
       !fold_run_is_line(whole, joined_heights[2]))
     return true;
   for (size_t i = from; ok && i < to;) {
@@ -288,7 +293,7 @@ static bool sample_chain(struct fold_lines *f, uint32_t start, bool *is_ring) {
   }
   *is_ring = false;
   struct fold_run chain = {f->sample.item, f->sample.count, false};
-  if (!fold_run_is_long(chain, &height) &&
+  if (!fold_run_is_long(chain, f->long_on_page, &height) &&
       !fold_joints_may_join(&f->joints, chain, joined_heights[2])) {
     f->sample.count = 0;
     return true;
@@ -326,11 +331,24 @@ static bool add_all_lines(struct fold_lines *f) {
   return true;
 }
 
+/* The length from which on a line is long on the page: outlines extend as far
+ * as the picture does. */
+static double find_long_on_page(const struct zero_set *set) {
+  struct box2 box = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
+  for (size_t i = 0; i < set->outline.count; i++) {
+    const struct geom_segment *s = &set->outline.item[i].image;
+    box = box2_union(box, box2_of_segment(s->p, s->q));
+  }
+  return PICTURE_SHARE * fmax((double)box.x1 - box.x0, (double)box.y1 - box.y0);
+}
+
 bool fold_lines_add(const struct outline_gaps_input *input) {
   size_t outlines = input->set->outline.count;
   if (outlines == 0)
     return true;
-  struct fold_lines f = {.in = input, .joints = {.in = input}};
+  struct fold_lines f = {.in = input,
+                         .joints = {.in = input},
+                         .long_on_page = find_long_on_page(input->set)};
   f.is_passed = mem_calloc(outlines, 1);
   bool ok = f.is_passed != NULL && fold_joints_list(&f.joints) &&
             outline_chains_link(&f.chains, input->set) && add_all_lines(&f);

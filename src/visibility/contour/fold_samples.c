@@ -13,7 +13,11 @@ enum { SAMPLES_A_HEIGHT = 4, SAMPLES_MAX = 64 };
 /* The length of a run, at least, as a multiple of the mean height of its
  * triangles, and the outlines that it is of. */
 #define LONG_HEIGHTS 6
-enum { MANY_OUTLINES = 10, FEW_OUTLINES = 3 };
+enum { MANY_OUTLINES = 10, SEVERAL_OUTLINES = 5, FEW_OUTLINES = 3 };
+
+/* From how many heights on triangles beside an outline are slivers, of which
+ * noise makes long runs. */
+#define SLIVER_HEIGHTS 4
 
 /* The share of a run that may be on creases. */
 #define CREASE_SHARE 0.5
@@ -104,10 +108,14 @@ static struct run_measure measure_run(struct fold_run run) {
   return made;
 }
 
-bool fold_run_is_long(struct fold_run run, double *height) {
+bool fold_run_is_long(struct fold_run run, double long_on_page,
+                      double *height) {
   struct run_measure of = measure_run(run);
+  bool is_large = of.length >= long_on_page &&
+                  of.length <= SLIVER_HEIGHTS * of.height * of.outlines;
+  int outlines = is_large ? SEVERAL_OUTLINES : MANY_OUTLINES;
   *height = of.height;
-  return of.outlines >= MANY_OUTLINES && !of.on_creases &&
+  return of.outlines >= outlines && !of.on_creases &&
          of.length >= LONG_HEIGHTS * of.height;
 }
 

@@ -47,9 +47,11 @@ USE_RESULT bool fold_samples_add(struct fold_samples *samples,
                                  uint32_t number);
 
 /* Whether a run is long, as a multiple of the mean height of its triangles, and
- * of many outlines, no more than half of them creases.
- * height  gets that height */
-bool fold_run_is_long(struct fold_run run, double *height);
+ * of many outlines, or of several that are no sides of slivers if it is long on
+ * the page as well; no more than half of it is on creases.
+ * long_on_page  from which length on it is, grid units
+ * height        gets the mean height */
+bool fold_run_is_long(struct fold_run run, double long_on_page, double *height);
 
 /* Whether a run is so many of these heights long, and of three outlines at
  * least, no more than half of it creases. */
