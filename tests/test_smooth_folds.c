@@ -346,6 +346,17 @@ static void folds_of_five_heights_that_continue_one_are_drawn(void **state) {
   }
 }
 
+/* So are those of fewer heights that are large in the picture. */
+static void large_folds_that_continue_a_contour_are_drawn(void **state) {
+  (void)state;
+  for (int sides = 22; sides <= 24; sides += 2) {
+    recto_scene *scene = smooth_scene(button, true, sides, BUTTON_ROWS);
+    /* 3 of them while such a fold had to be of six heights. */
+    assert_int_equal(missing_of_rim(scene, sides, 12), 0);
+    recto_scene_destroy(scene);
+  }
+}
+
 /* A round tube along a torus knot, a third of the knot's own size. */
 static void knot_axis(double u, double p[3]) {
   double across = (30 + 13 * cos(3 * u)) / 30;
@@ -501,6 +512,7 @@ int main(void) {
       cmocka_unit_test(large_folds_of_few_outlines_are_drawn),
       cmocka_unit_test(short_folds_that_continue_a_contour_are_drawn),
       cmocka_unit_test(folds_of_five_heights_that_continue_one_are_drawn),
+      cmocka_unit_test(large_folds_that_continue_a_contour_are_drawn),
       cmocka_unit_test(folds_between_two_contours_are_drawn),
       cmocka_unit_test(gaps_beside_a_contour_are_closed),
       cmocka_unit_test(ends_of_contours_have_no_hooks),

@@ -21,6 +21,9 @@
 static const double joined_heights[] = {INFINITY, 6, 3};
 #define NEAR_JOINED_HEIGHTS 5
 
+/* The same for a line that is long on the page; no line is of fewer. */
+#define LARGE_JOINED_HEIGHTS 2.5
+
 /* The share of the picture's longer side from which on a line is long on the
  * page. */
 #define PICTURE_SHARE (1.0 / 14)
@@ -172,11 +175,14 @@ static bool add_place_edges(struct fold_lines *f, bool is_ring,
   return !is_ring || add_place_edge(f, &f->place.item[0], point, first);
 }
 
-/* How long a run from sample `from` to `last` has to be that contours continue,
- * in heights. */
+/* How long a run has to be, in heights, that is led on to contours at samples
+ * `from` and `last`. */
 static double least_heights(const struct fold_lines *f, const uint32_t joint[2],
                             size_t from, size_t last, double height) {
   int joints = (joint[0] != SHEET_NONE) + (joint[1] != SHEET_NONE);
+  struct fold_run line = {f->sample.item + from, last + 1 - from, false};
+  if (joints > 0 && fold_run_length(line) >= f->long_on_page)
+    return LARGE_JOINED_HEIGHTS;
   if (joints != 1)
     return joined_heights[joints];
   int k = joint[1] != SHEET_NONE;
@@ -194,7 +200,7 @@ static bool add_line(struct fold_lines *f, size_t from, size_t to,
   double height;
   struct fold_run run = {f->sample.item + from, to - from, is_ring};
   bool is_long = fold_run_is_long(run, f->long_on_page, &height);
-  if (!is_long && (is_ring || !fold_run_is_line(run, joined_heights[2])))
+  if (!is_long && (is_ring || !fold_run_is_line(run, LARGE_JOINED_HEIGHTS)))
     return true;
   if (!is_ring) {
     size_t last = to - 1;
@@ -237,7 +243,7 @@ static bool add_visible_lines(struct fold_lines *f, size_t from, size_t to) {
   bool ok = true;
   struct fold_run whole = {sample + from, to - from, false};
   if (!fold_run_is_long(whole, f->long_on_page, &height) &&
-      !fold_run_is_line(whole, joined_heights[2]))
+      !fold_run_is_line(whole, LARGE_JOINED_HEIGHTS))
     return true;
   for (size_t i = from; ok && i < to;) {
     if (!is_visible(f, &sample[i], &ok)) {
@@ -294,7 +300,7 @@ static bool sample_chain(struct fold_lines *f, uint32_t start, bool *is_ring) {
   *is_ring = false;
   struct fold_run chain = {f->sample.item, f->sample.count, false};
   if (!fold_run_is_long(chain, f->long_on_page, &height) &&
-      !fold_joints_may_join(&f->joints, chain, joined_heights[2])) {
+      !fold_joints_may_join(&f->joints, chain, LARGE_JOINED_HEIGHTS)) {
     f->sample.count = 0;
     return true;
   }

@@ -86,6 +86,13 @@ bool fold_samples_add(struct fold_samples *samples, const struct sheet *sheet,
   return true;
 }
 
+double fold_run_length(struct fold_run run) {
+  double sum = 0;
+  for (size_t i = 0; i < run.count; i++)
+    sum += run.sample[i].step;
+  return sum;
+}
+
 /* What is known of a run as a whole. */
 struct run_measure {
   double length, height; /* its own; the mean of its triangles' */

@@ -46,6 +46,9 @@ USE_RESULT bool fold_samples_add(struct fold_samples *samples,
                                  const struct contour_outline *outline,
                                  uint32_t number);
 
+/* Grid units. */
+double fold_run_length(struct fold_run run);
+
 /* Whether a run is long, as a multiple of the mean height of its triangles, and
  * of many outlines, or of several that are no sides of slivers if it is long on
  * the page as well; no more than half of it is on creases.
