@@ -706,11 +706,11 @@ static void equal_points_among_many_are_found(void **state) {
   scene_fini(&scene);
 }
 
-/* Some have another at just the length or a little less, in any direction, so
- * also across the sides of cells. */
-static void members_near_another_are_kept(void **state) {
-  (void)state;
-  const double length = 0x1p-20;
+/* Some have another at just their radius or a little less, in any direction, so
+ * also across the sides of cells.
+ * length   halved as often as the member's number says, none to twice
+ * lengths  in the side of a cell */
+static void keep_members_near_another(double length, int lengths) {
   struct random random = {32};
   struct scene scene;
   scene_init(&scene);
@@ -722,16 +722,15 @@ static void members_near_another_are_kept(void **state) {
     if (i % 50 == 1) {
       const struct scene_point *p = &scene.point.item[i - 1];
       memcpy(at, (double[]){p->x, p->y, p->z}, sizeof at);
-      at[random_below(&random, 3)] +=
-          (i % 4 > 1 ? length : -length) * (1 - 0x1p-20);
+      double radius = ldexp(length, -(int)(i / 50 % 3)) * (1 - 0x1p-20);
+      at[random_below(&random, 3)] += i % 4 > 1 ? radius : -radius;
     }
     add_point(&scene, at[0], at[1], at[2]);
     member[i].point = i;
-    if (i % 50 == 2)
-      member[i].halvings = CLUSTER_ALONE;
+    member[i].halvings = i % 50 == 2 ? CLUSTER_ALONE : (uint8_t)(i / 50 % 3);
   }
   size_t count = MANY_POINTS, pairs = 0;
-  assert_true(isolated_members_drop(&scene, length, member, &count));
+  assert_true(isolated_members_drop(&scene, length, lengths, member, &count));
   assert_true(count < MANY_POINTS / 10);
   for (size_t i = 0; i < count; i++) {
     assert_true(i == 0 || member[i - 1].point < member[i].point);
@@ -741,6 +740,19 @@ static void members_near_another_are_kept(void **state) {
   assert_int_equal(pairs, 2 * MANY_POINTS / 50);
   free(member);
   scene_fini(&scene);
+}
+
+static void members_near_another_are_kept(void **state) {
+  (void)state;
+  keep_members_near_another(0x1p-20, 64);
+  keep_members_near_another(0x1p-20, 4);
+}
+
+/* A quarter of the others lie at the sides of cells that are four times as wide
+ * as their radius, along each axis. */
+static void members_at_sides_of_cells_are_dropped(void **state) {
+  (void)state;
+  keep_members_near_another(0x1p-10, 4);
 }
 
 int main(void) {
@@ -770,6 +782,7 @@ int main(void) {
       cmocka_unit_test(a_noisy_teapot_is_drawn_as_a_clean_one),
       cmocka_unit_test(equal_points_among_many_are_found),
       cmocka_unit_test(members_near_another_are_kept),
+      cmocka_unit_test(members_at_sides_of_cells_are_dropped),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

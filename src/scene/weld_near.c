@@ -296,9 +296,10 @@ static bool join_members(struct welded *welded,
                          struct weld_candidates *candidates,
                          const struct topology *topology,
                          const rounding_lengths *lengths) {
+  enum { LENGTHS = 64 }; /* far less than most faces */
   const struct scene *scene = &welded->scene;
   struct cluster_member *member = candidates->member.item;
-  if (!isolated_members_drop(scene, welded->length, member,
+  if (!isolated_members_drop(scene, welded->length, LENGTHS, member,
                              &candidates->member.count))
     return false;
   if (candidates->member.count == 0)

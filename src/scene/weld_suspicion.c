@@ -73,8 +73,10 @@ static void set_radii(struct weld_candidates *candidates, double length) {
  * ran out. */
 static size_t join_candidates(struct weld_candidates *candidates,
                               const struct scene *scene, double length) {
+  enum { LENGTHS = 4 }; /* a sixteenth of a face */
   struct cluster_member *member = candidates->member.item;
-  return isolated_members_drop(scene, length, member, &candidates->member.count)
+  return isolated_members_drop(scene, length, LENGTHS, member,
+                               &candidates->member.count)
              ? cluster_join(scene, length, member, candidates->member.count)
              : SIZE_MAX;
 }
