@@ -5,7 +5,8 @@
  *   1 estimate from a sample how many faces lie over each other on the page
  *     (culling/face_samples.h); stop where they are few
  *   2 divide the faces into runs, and list the large ones; stop where many are
- *     about as large as the largest, as triangles at random are
+ *     about as large as the largest, as triangles at random are, before that
+ *     where many are large
  *   3 lay out the large faces alone, and raise the bounds of an occlusion
  *     buffer by them, from near to far
  *   4 test the boxes of runs; for fragments, lower the bounds by the contact
@@ -55,17 +56,33 @@ struct hiding {
 
 /* ---- 2. Large faces ------------------------------------------------------ */
 
-/* Whether many faces are about as large as the largest one; of a sample, as
- * those that are not large are not listed. */
-static bool has_many_like_largest(const struct hiding *hiding) {
+/* Whether many faces are at least this large, of a sample. */
+static bool has_many_of_size(const struct scene *scene, double least) {
+  size_t faces = scene_face_count(scene), count = 0, samples = 0;
+  for (size_t f = 0; f < faces; f += faces / SAMPLES + 1, samples++)
+    count += face_runs_size(scene, (uint32_t)f) >= least;
+  return SHARE_MAX * count > samples;
+}
+
+/* Whether many faces are about as large as the largest one, which may be a
+ * costly question only where many are large. */
+static bool has_many_like_largest(const struct scene *scene, double large) {
+  uint32_t faces = scene_face_count(scene);
+  double most = 0;
+  if (!has_many_of_size(scene, large))
+    return false;
+  for (uint32_t f = 0; f < faces; f++)
+    most = max_number(most, face_runs_size(scene, f));
+  return has_many_of_size(scene, most / LIKE_LARGEST);
+}
+
+/* The same where not many are large, of which the largest ones are listed. */
+static bool has_many_like_listed(const struct hiding *hiding) {
   const struct face_runs *runs = &hiding->runs;
-  size_t faces = scene_face_count(hiding->scene), count = 0, samples = 0;
   double most = 0;
   for (size_t i = 0; i < runs->large.count; i++)
-    most = fmax(most, runs->large.item[i].size);
-  for (size_t f = 0; f < faces; f += faces / SAMPLES + 1, samples++)
-    count += LIKE_LARGEST * face_runs_size(hiding->scene, (uint32_t)f) >= most;
-  return SHARE_MAX * count > samples;
+    most = max_number(most, runs->large.item[i].size);
+  return has_many_of_size(hiding->scene, most / LIKE_LARGEST);
 }
 
 /* Marks the largest faces, at most LARGE_MAX, as not left out; returns how many
@@ -323,14 +340,14 @@ static recto_status find_hidden(struct hiding *hiding,
   uint8_t *left_out = mem_alloc(faces, 1);
   recto_status status = RECTO_OK;
   bool done;
-  if (!(large > 0))
+  if (!(large > 0) || has_many_like_largest(hiding->scene, large))
     goto end;
   if (left_out == NULL ||
       !face_runs_init(&hiding->runs, hiding->scene, large)) {
     status = error_memory(error);
     goto end;
   }
-  if (has_many_like_largest(hiding))
+  if (has_many_like_listed(hiding))
     goto end;
   memset(left_out, 1, faces);
   if (choose_large(hiding, large, left_out) == 0)
