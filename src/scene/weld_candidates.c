@@ -4,10 +4,22 @@
 
 #include <math.h>
 
+#include "geom/vector.h"
+
 void weld_candidates_fini(struct weld_candidates *candidates) {
   ARRAY_FREE(&candidates->member);
   mem_free(candidates->number);
   mem_free(candidates->size);
+}
+
+bool weld_candidates_set(struct weld_candidates *candidates,
+                         const uint32_t *point, size_t count) {
+  if (!ARRAY_RESERVE(&candidates->member, count))
+    return false;
+  for (size_t i = 0; i < count; i++)
+    candidates->member.item[i] = (struct cluster_member){.point = point[i]};
+  candidates->member.count = count;
+  return true;
 }
 
 bool weld_candidates_list(struct weld_candidates *candidates,
@@ -17,10 +29,7 @@ bool weld_candidates_list(struct weld_candidates *candidates,
   size_t count;
   bool ok =
       topology_border_points(topology, scene->point.count, &point, &count) &&
-      ARRAY_RESERVE(&candidates->member, count);
-  for (size_t i = 0; ok && i < count; i++)
-    candidates->member.item[candidates->member.count++] =
-        (struct cluster_member){.point = point[i]};
+      weld_candidates_set(candidates, point, count);
   mem_free(point);
   return ok;
 }
@@ -42,16 +51,15 @@ static double square_between(const struct scene_point *a,
   return x * x + y * y + z * z;
 }
 
-/* The square of the longest side. */
-static double face_size(const struct scene *scene, uint32_t face) {
+double weld_face_size(const struct scene *scene, uint32_t face) {
   const struct scene_point *point = scene->point.item;
   uint32_t start = scene_face_start(scene, face);
   uint32_t end = scene_face_start(scene, face + 1);
   double most = 0;
   uint32_t before = scene->corner.item[end - 1];
   for (uint32_t c = start; c < end; c++) {
-    most = fmax(most,
-                square_between(&point[before], &point[scene->corner.item[c]]));
+    most = max_number(
+        most, square_between(&point[before], &point[scene->corner.item[c]]));
     before = scene->corner.item[c];
   }
   return most;
@@ -77,12 +85,12 @@ bool weld_candidates_measure(struct weld_candidates *candidates,
     if (number[0] == 0 && number[1] == 0)
       continue;
     if (edge->first != face)
-      size = face_size(scene, edge->first);
+      size = weld_face_size(scene, edge->first);
     face = edge->first;
     for (int k = 0; k < 2; k++)
       if (number[k] > 0)
         candidates->size[number[k] - 1] =
-            fmin(candidates->size[number[k] - 1], size);
+            min_number(candidates->size[number[k] - 1], size);
   }
   return true;
 }

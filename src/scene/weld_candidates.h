@@ -23,6 +23,11 @@ struct weld_candidates {
 
 void weld_candidates_fini(struct weld_candidates *candidates);
 
+/* Lists ascending points; they have no numbers yet.  Returns false when memory
+ * ran out. */
+USE_RESULT bool weld_candidates_set(struct weld_candidates *candidates,
+                                    const uint32_t *point, size_t count);
+
 /* Lists the points of borders; they have no numbers yet.  Returns false when
  * memory ran out. */
 USE_RESULT bool weld_candidates_list(struct weld_candidates *candidates,
@@ -32,6 +37,9 @@ USE_RESULT bool weld_candidates_list(struct weld_candidates *candidates,
 /* Numbers those that are listed.  Returns false when memory ran out. */
 USE_RESULT bool weld_candidates_number(struct weld_candidates *candidates,
                                        const struct scene *scene);
+
+/* The square of a face's longest side. */
+double weld_face_size(const struct scene *scene, uint32_t face);
 
 /* Sets the size of each candidate, which has a number: of the faces whose
  * border edges meet there, the smallest counts.  Returns false when memory ran
