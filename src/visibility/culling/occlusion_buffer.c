@@ -125,15 +125,19 @@ static inline int outside_mask(const uint64_t at[3]) {
 /* Computes a block's bound from those of its cells. */
 static void update_block(struct occlusion_buffer *buffer, int bx, int by) {
   const struct triangle_grid *cells = &buffer->cells;
-  int x0 = bx << OCCLUSION_BLOCK_SHIFT, y0 = by << OCCLUSION_BLOCK_SHIFT,
-      x1 = x0 + (1 << OCCLUSION_BLOCK_SHIFT),
-      y1 = y0 + (1 << OCCLUSION_BLOCK_SHIFT);
+  enum { SIDE = 1 << OCCLUSION_BLOCK_SHIFT };
+  int x0 = bx * SIDE, y0 = by * SIDE, columns = cells->columns - x0,
+      rows = cells->rows - y0;
+  const int32_t *bound =
+      buffer->bound + (size_t)y0 * (size_t)cells->columns + x0;
   int32_t least = INT32_MAX;
-  for (int y = y0; y < y1 && y < cells->rows; y++) {
-    const int32_t *bound = buffer->bound + (size_t)y * (size_t)cells->columns;
-    for (int x = x0; x < x1 && x < cells->columns; x++)
-      least = bound[x] < least ? bound[x] : least;
-  }
+  for (int y = 0; y < SIDE && y < rows; y++, bound += cells->columns)
+    if (columns >= SIDE)
+      for (int x = 0; x < SIDE; x++) /* so many are unrolled */
+        least = bound[x] < least ? bound[x] : least;
+    else
+      for (int x = 0; x < columns; x++)
+        least = bound[x] < least ? bound[x] : least;
   buffer->farthest[(size_t)by * (size_t)buffer->blocks + (size_t)bx] = least;
 }
 
