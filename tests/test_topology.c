@@ -11,6 +11,7 @@
 #include "scene/angle.h"
 #include "scene/edge_classes.h"
 #include "scene/edge_range.h"
+#include "scene/face_normal.h"
 #include "scene/repeated_part.h"
 #include "scene/topology.h"
 #include "tests/memory_faults.h"
@@ -816,6 +817,78 @@ static void angles_agree_with_the_mathematical_library(void **state) {
   }
 }
 
+/* ---- Sizes of faces ------------------------------------------------------ */
+
+/* Squares apart from each other, with a diagonal or as polygons.
+ * side  of each */
+static void fill_squares(struct scene *scene, const double *side,
+                         uint32_t squares, bool polygons) {
+  scene_init(scene);
+  for (uint32_t i = 0; i < squares; i++) {
+    const uint32_t corner[] = {4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3};
+    for (int k = 0; k < 4; k++)
+      build_point(scene, k == 1 || k == 2 ? side[i] : 0, k >= 2 ? side[i] : 0,
+                  i);
+    build_face(scene, corner, polygons ? 4 : 3);
+    if (!polygons)
+      build_triangle(scene, 4 * i + 2, 4 * i + 3, 4 * i);
+  }
+}
+
+/* Whether sizes tell that no face in a hundred is larger than four times the
+ * mean, in area. */
+static bool are_even(const double *side, uint32_t squares, bool polygons) {
+  struct scene scene;
+  struct face_sizes sizes;
+  fill_squares(&scene, side, squares, polygons);
+  struct face_direction *direction = face_directions_find(&scene, NULL, &sizes);
+  assert_non_null(direction);
+  bool even = face_sizes_are_even(&sizes, scene_face_count(&scene), 4, 0.25);
+  mem_free(direction);
+  scene_fini(&scene);
+  return even;
+}
+
+/* The share of the area of squares larger than four times the mean. */
+static double large_share(const double *side, uint32_t squares) {
+  double all = 0, large = 0;
+  for (uint32_t i = 0; i < squares; i++)
+    all += side[i] * side[i];
+  for (uint32_t i = 0; i < squares; i++)
+    large += side[i] * side[i] > 4 * all / squares ? side[i] * side[i] : 0;
+  return large / all;
+}
+
+static void sizes_tell_of_faces_that_are_even(void **state) {
+  enum { SQUARES = 50 };
+  struct random random = {5};
+  double side[SQUARES];
+  int certain = 0, large = 0;
+  (void)state;
+  for (int run = 0; run < 400; run++) {
+    double spread = 0.02 * run;
+    for (int i = 0; i < SQUARES; i++)
+      side[i] = exp(spread * (random_unit(&random) - 0.5));
+    bool even = are_even(side, SQUARES, run % 2 == 0);
+    bool is_large = large_share(side, SQUARES) > 0.25;
+    assert_false(even && is_large);
+    certain += even;
+    large += is_large;
+  }
+  assert_true(certain > 50 && large > 50);
+}
+
+/* Where squares of areas leave the range of doubles nothing is told. */
+static void sizes_beyond_doubles_tell_nothing(void **state) {
+  double side[8];
+  (void)state;
+  for (int exponent = -500; exponent <= 500; exponent += 10) {
+    for (int i = 0; i < 8; i++)
+      side[i] = ldexp(i == 0 ? 8 : 1, exponent);
+    assert_false(are_even(side, 8, exponent % 20 == 0));
+  }
+}
+
 /* ---- Faults -------------------------------------------------------------- */
 
 static void every_failed_allocation_is_reported(void **state) {
@@ -874,6 +947,8 @@ int main(void) {
       cmocka_unit_test(a_shell_far_from_the_origin_has_the_same_creases),
       cmocka_unit_test(right_angles_are_exact_and_have_no_minus_zero),
       cmocka_unit_test(angles_agree_with_the_mathematical_library),
+      cmocka_unit_test(sizes_tell_of_faces_that_are_even),
+      cmocka_unit_test(sizes_beyond_doubles_tell_nothing),
       cmocka_unit_test(every_failed_allocation_is_reported),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

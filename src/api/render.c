@@ -44,7 +44,8 @@ struct render {
   struct camera camera;
   struct visible_part visible;
   struct sheet sheet;
-  size_t triangles; /* of the sheet, also once they are dropped */
+  struct face_sizes sizes; /* of the faces that were laid out */
+  size_t triangles;        /* of the sheet, also once they are dropped */
   struct page_overflow overflow;
   struct map map;
   recto_drawing *made;
@@ -183,6 +184,8 @@ static recto_status project_scene(struct render *render, recto_error *error) {
       !(render->options->results & RECTO_RESULT_FACES) &&
       render->prepared->scene->cut != NULL)
     render->sheet.first_filled = render->prepared->scene->cut->first_face;
+  if (!render->visible.is_part)
+    render->sizes = render->topology.face_sizes;
   if (!uses_topology(render)) {
     render->sheet.topology = NULL;
     drop_topology(render);
@@ -385,7 +388,7 @@ static recto_status run_and_report(struct render *render, recto_error *error) {
                             render->sheet.topology)) ||
         !rounded_warn(render->drawing,
                       visible_part_scene(&render->visible, scene),
-                      render->options))
+                      &render->sizes, render->options))
       status = error_memory(error);
     source_numbers_set(render->drawing, scene);
     stats_add_seconds(render->report, "render_cpu_s", clock_cpu() - cpu);

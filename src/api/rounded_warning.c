@@ -191,13 +191,16 @@ static bool find_rounded_flats(const struct scene *scene,
 }
 
 bool rounded_warn(const struct drawing *drawing, const struct scene *scene,
+                  const struct face_sizes *sizes,
                   const recto_options *options) {
   const unsigned shown = RECTO_EDGE_CREASE | RECTO_EDGE_SILHOUETTE;
   bool found = false;
   if (options->warning == NULL || options->ink.fill != RECTO_FILL_NONE ||
       (options->ink.edges & shown) != shown ||
       (options->ink.edges & RECTO_EDGE_SMOOTH) != 0 || scene->cut != NULL ||
-      !is_mostly_outlines(drawing))
+      !is_mostly_outlines(drawing) ||
+      face_sizes_are_even(sizes, scene_face_count(scene), LARGE_FACE,
+                          LARGE_SHARE))
     return true;
   if (!find_rounded_flats(scene, &options->mesh, &found))
     return false;

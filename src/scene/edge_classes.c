@@ -209,8 +209,9 @@ bool topology_class_masks(const struct topology *topology,
     return true;
   }
   const struct face_direction *direction = topology->direction;
+  struct face_sizes sizes;
   struct face_direction *own =
-      direction == NULL ? face_directions_find(scene, NULL) : NULL;
+      direction == NULL ? face_directions_find(scene, NULL, &sizes) : NULL;
   struct class_work work = {
       crease_filter_of(scene, own != NULL ? own : direction, crease_deg),
       topology->edge.item, class_masks};

@@ -95,12 +95,17 @@ area_of_corners(const struct scene_point *point, const uint32_t *corner) {
                           &point[corner[2]]);
 }
 
-struct face_normal face_normal_of(const struct scene *scene, uint32_t face) {
+/* Twice the area vector of a face. */
+static struct face_normal area_of_face(const struct scene *scene,
+                                       uint32_t face) {
   uint32_t start = scene_face_start(scene, face);
-  struct face_normal n =
-      scene_face_start(scene, face + 1) - start == 3
-          ? area_of_corners(scene->point.item, scene->corner.item + start)
-          : sum_area(scene, face, 1);
+  return scene_face_start(scene, face + 1) - start == 3
+             ? area_of_corners(scene->point.item, scene->corner.item + start)
+             : sum_area(scene, face, 1);
+}
+
+struct face_normal face_normal_of(const struct scene *scene, uint32_t face) {
+  struct face_normal n = area_of_face(scene, face);
   return is_in_range(n.square) ? n : normal_of_odd_face(scene, face);
 }
 
@@ -134,6 +139,7 @@ struct direction_work {
   const struct scene *scene;
   struct face_direction *direction; /* one a face */
   uint64_t *narrow;                 /* as of face_directions_find */
+  struct face_sizes *sizes;         /* one a range of faces */
 };
 
 /* Faces that a thread takes at once: whole words of that map. */
@@ -161,17 +167,28 @@ MEM_PREFETCH_INLINE void prefetch_corners(const struct scene_point *point,
   MEM_PREFETCH(&point[corner[2]]);
 }
 
+static inline void add_size(struct face_sizes *sizes, double square) {
+  sizes->sum += sqrt(square);
+  sizes->fourth += square * square;
+}
+
 static bool find_directions(void *user, struct parallel_range range) {
   const struct direction_work *work = user;
   const struct scene *scene = work->scene;
+  struct face_sizes sizes = {0, 0};
   for (size_t f = range.begin; f < range.end; f++) {
     if (f + MEM_PREFETCH_AHEAD < range.end)
       prefetch_corners(
           scene->point.item,
           scene->corner.item +
               scene_face_start(scene, (uint32_t)f + MEM_PREFETCH_AHEAD));
-    work->direction[f] = direction_of(face_normal_of(scene, (uint32_t)f));
+    struct face_normal n = area_of_face(scene, (uint32_t)f);
+    add_size(&sizes, n.square);
+    if (!is_in_range(n.square))
+      n = normal_of_odd_face(scene, (uint32_t)f);
+    work->direction[f] = direction_of(n);
   }
+  work->sizes[range.begin / FACES_IN_RANGE] = sizes;
   return true;
 }
 
@@ -181,32 +198,61 @@ static bool find_triangle_directions(void *user, struct parallel_range range) {
   const struct direction_work work = *(const struct direction_work *)user;
   const struct scene_point *point = work.scene->point.item;
   const uint32_t *corner = work.scene->corner.item + 3 * range.begin;
+  struct face_sizes sizes = {0, 0};
   for (size_t f = range.begin; f < range.end; f++, corner += 3) {
     if (f + MEM_PREFETCH_AHEAD < range.end)
       prefetch_corners(point, corner + 3 * MEM_PREFETCH_AHEAD);
     struct face_normal n = area_of_corners(point, corner);
+    add_size(&sizes, n.square);
     if (work.narrow != NULL && are_narrow(point, corner, n.square))
       work.narrow[f / 64] |= UINT64_C(1) << f % 64;
     if (!is_in_range(n.square))
       n = normal_of_odd_face(work.scene, (uint32_t)f);
     work.direction[f] = direction_of(n);
   }
+  work.sizes[range.begin / FACES_IN_RANGE] = sizes;
   return true;
 }
 
-struct face_direction *face_directions_find(const struct scene *scene,
-                                            uint64_t *narrow) {
-  size_t faces = scene_face_count(scene);
-  struct direction_work work = {scene, mem_alloc(faces, sizeof *work.direction),
-                                narrow};
-  if (work.direction != NULL &&
-      !parallel_ranges(parallel_workers(faces, FACES_IN_RANGE), faces,
-                       FACES_IN_RANGE,
-                       scene->face_start.count == 0 ? find_triangle_directions
-                                                    : find_directions,
-                       &work)) {
-    mem_free(work.direction);
-    return NULL;
+/* Sums up what ranges have. */
+static struct face_sizes sum_sizes(const struct face_sizes *sizes,
+                                   size_t ranges) {
+  struct face_sizes sum = {0, 0};
+  for (size_t r = 0; r < ranges; r++) {
+    sum.sum += sizes[r].sum;
+    sum.fourth += sizes[r].fourth;
   }
-  return work.direction;
+  return sum;
+}
+
+struct face_direction *face_directions_find(const struct scene *scene,
+                                            uint64_t *narrow,
+                                            struct face_sizes *sizes) {
+  size_t faces = scene_face_count(scene),
+         ranges = parallel_range_count(faces, FACES_IN_RANGE);
+  struct direction_work work = {scene, mem_alloc(faces, sizeof *work.direction),
+                                narrow, mem_alloc(ranges, sizeof *work.sizes)};
+  bool ok = work.direction != NULL && work.sizes != NULL &&
+            parallel_ranges(
+                parallel_workers(faces, FACES_IN_RANGE), faces, FACES_IN_RANGE,
+                scene->face_start.count == 0 ? find_triangle_directions
+                                             : find_directions,
+                &work);
+  if (ok)
+    *sizes = sum_sizes(work.sizes, ranges);
+  else
+    mem_free(work.direction);
+  mem_free(work.sizes);
+  return ok ? work.direction : NULL;
+}
+
+/* A face above the mean by that factor is smaller than its fourth power over
+ * the cube of that limit.  Twice the sum of the powers covers all rounding,
+ * where neither end of the range of doubles is near. */
+bool face_sizes_are_even(const struct face_sizes *sizes, size_t faces,
+                         double factor, double share) {
+  double limit = factor * (sizes->sum / (double)faces),
+         cube = limit * limit * limit;
+  return cube > 0x1p-300 && sizes->sum < 0x1p+200 &&
+         2 * sizes->fourth <= share * sizes->sum * cube;
 }

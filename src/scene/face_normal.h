@@ -23,11 +23,24 @@ enum { FACE_DIRECTION_ONE = 32767 };
  * than TOLERANCE_WELD_FACE_SHARE of that, and maybe some others. */
 bool face_is_narrow_triangle(const struct scene *scene, uint32_t face);
 
+/* Sums over all faces, of twice the area of each and of the fourth power of
+ * that; 0, 0: not known. */
+struct face_sizes {
+  double sum, fourth;
+};
+
+/* Whether those larger than `factor` times the mean are certainly no more than
+ * such a share of the area of all. */
+bool face_sizes_are_even(const struct face_sizes *sizes, size_t faces,
+                         double factor, double share);
+
 /* The directions of all faces, which the caller owns; NULL when memory ran out,
  * or the caller cancelled.
  * narrow  NULL, or where all faces are triangles a bit a face, all 0: set for
- *         the narrow ones */
+ *         the narrow ones
+ * sizes   gets their sums */
 struct face_direction *face_directions_find(const struct scene *scene,
-                                            uint64_t *narrow);
+                                            uint64_t *narrow,
+                                            struct face_sizes *sizes);
 
 #endif

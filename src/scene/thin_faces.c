@@ -95,7 +95,8 @@ static bool find_narrow(struct thin_search *search, struct topology *topology) {
     return parallel_ranges(parallel_workers(faces, FACES_IN_RANGE), faces,
                            FACES_IN_RANGE, map_narrow, search);
   topology_drop_directions(topology);
-  topology->direction = face_directions_find(search->scene, search->thin);
+  topology->direction =
+      face_directions_find(search->scene, search->thin, &topology->face_sizes);
   return topology->direction != NULL;
 }
 

@@ -7,6 +7,7 @@
 #ifndef SCENE_TOPOLOGY_H
 #define SCENE_TOPOLOGY_H
 
+#include "scene/face_normal.h"
 #include "scene/scene.h"
 #include "scene/topology_edge.h"
 
@@ -29,6 +30,7 @@ struct topology {
   struct face_direction *direction; /* one a face of the scene (face_normal.h),
                                        where they were found before the classes
                                        of edges, which need them; or NULL */
+  struct face_sizes face_sizes;     /* of the scene, where those were found */
   uint8_t *used; /* one a point: whether a face or a polyline uses it, owned;
                     NULL: not kept */
   bool puts_corners_off; /* as of topology_init_edges */

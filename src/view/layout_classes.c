@@ -18,7 +18,8 @@ static bool are_found_late(const struct layout *layout) {
 static recto_status find_late(struct layout *layout) {
   struct topology *topology = layout->topology;
   if (topology->direction == NULL)
-    topology->direction = face_directions_find(layout->scene, NULL);
+    topology->direction =
+        face_directions_find(layout->scene, NULL, &topology->face_sizes);
   layout->class_masks =
       mem_calloc(topology->edge.count, sizeof *layout->class_masks);
   layout->filter = crease_filter_of(layout->scene, topology->direction,
