@@ -96,8 +96,8 @@ area_of_corners(const struct scene_point *point, const uint32_t *corner) {
 }
 
 /* Twice the area vector of a face. */
-static struct face_normal area_of_face(const struct scene *scene,
-                                       uint32_t face) {
+static inline struct face_normal area_of_face(const struct scene *scene,
+                                              uint32_t face) {
   uint32_t start = scene_face_start(scene, face);
   return scene_face_start(scene, face + 1) - start == 3
              ? area_of_corners(scene->point.item, scene->corner.item + start)

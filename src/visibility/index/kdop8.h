@@ -195,10 +195,9 @@ static inline bool kdop8_is_behind(uint64_t lanes) {
   return lanes >> (9 * KDOP8_LANE - 1) == 0;
 }
 
-/* May it overlap the query's on the page?  False is certain. */
-static inline bool kdop8_overlaps_page(uint64_t lanes) {
-  return (lanes | UINT64_C(1) << (9 * KDOP8_LANE - 1)) == KDOP8_GUARDS;
-}
+/* What kdop8_compare gives of a key that is so and may overlap the query's
+ * 8-DOP on the page. */
+#define KDOP8_BEHIND (KDOP8_GUARDS ^ UINT64_C(1) << (9 * KDOP8_LANE - 1))
 
 /* May the 8-DOP of a key overlap that of a query?  False is certain. */
 static inline bool kdop8_overlaps(uint64_t key, uint64_t query) {

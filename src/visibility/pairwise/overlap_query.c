@@ -23,20 +23,40 @@ void overlap_query_fini(struct overlap_query *query) {
 
 /* ---- Triangles ----------------------------------------------------------- */
 
+/* The sides of a triangle: a x + b y + c is 0 on a side, and negative on its
+ * left.  Terms are below 2^62, and so is the sum. */
+struct own_sides {
+  int64_t a[3], b[3], c[3];
+};
+
+static struct own_sides own_sides_of(const struct geom_triangle *own) {
+  struct own_sides sides;
+  for (int k = 0; k < 3; k++) {
+    const struct geom_point from = own->p[k], to = own->p[geom_next_corner(k)];
+    sides.a[k] = (int64_t)to.y - from.y;
+    sides.b[k] = (int64_t)from.x - to.x;
+    sides.c[k] = -(sides.a[k] * from.x + sides.b[k] * from.y);
+  }
+  return sides;
+}
+
+static inline int64_t value_at(const struct own_sides *own, int k,
+                               const struct geom_point *p) {
+  return own->a[k] * p->x + own->b[k] * p->y + own->c[k];
+}
+
 /* Are all three corners of a triangle on the right of a side of the current
  * one, or on it?  Then they do not overlap in an area.  Without jumps, as no
  * processor predicts which side it is. */
-static inline bool is_beyond_own_side(const struct geom_triangle *own,
+static inline bool is_beyond_own_side(const struct own_sides *own,
                                       const struct geom_point *a,
                                       const struct geom_point *b,
                                       const struct geom_point *c) {
   bool is_beyond = false;
 #pragma GCC unroll 3
-  for (int k = 0; k < 3; k++) {
-    const struct geom_point from = own->p[k], to = own->p[geom_next_corner(k)];
-    is_beyond |= (-geom_orient2d(from, to, *a) | -geom_orient2d(from, to, *b) |
-                  -geom_orient2d(from, to, *c)) >= 0;
-  }
+  for (int k = 0; k < 3; k++)
+    is_beyond |=
+        (value_at(own, k, a) | value_at(own, k, b) | value_at(own, k, c)) >= 0;
   return is_beyond;
 }
 
@@ -48,7 +68,7 @@ static bool add_overlapping_triangles(struct overlap_query *query,
                                       uint32_t *triangle, size_t count) {
   const struct sheet *sheet = query->sheet;
   const struct geom_point *point = sheet->point.item;
-  const struct geom_triangle own = query->corners;
+  const struct own_sides own = own_sides_of(&query->corners);
   size_t first = 0, n = 0;
   for (size_t i = 0; i < count; i++) {
     uint32_t t = triangle[i];
@@ -80,24 +100,40 @@ struct list_query {
   bool behind;    /* what is behind the triangle, else what is not */
 };
 
-/* Gathers those of the entries from `from` to before `end` that are searched
- * for, without a jump for each.  Returns how many there are.
- * past  gets where entries begin that are behind the triangle, if the list is
- *       sorted and any do, else `end` */
-static inline size_t gather_entries(const struct list_query *list, size_t from,
-                                    size_t end, size_t *past,
-                                    uint32_t found[ENTRIES_AT_ONCE]) {
+/* Gathers those of the entries from `from` to before `end` for which the
+ * comparison has that result, without a jump for each.  Returns how many there
+ * are.
+ * stops  ends before the first entry that is behind the triangle
+ * past   gets where it ended */
+static inline size_t gather_lanes(const struct list_query *list, size_t from,
+                                  size_t end, uint64_t wanted, const bool stops,
+                                  size_t *past,
+                                  uint32_t found[ENTRIES_AT_ONCE]) {
+  const uint64_t *key = list->key, query = list->kdop_query;
+  const uint32_t *item = list->item;
   size_t count = 0, i = from;
   for (; i < end; i++) {
-    uint64_t lanes = kdop8_compare(list->key[i], list->kdop_query);
-    if (!list->behind && list->is_sorted && kdop8_is_behind(lanes))
+    uint64_t lanes = kdop8_compare(key[i], query);
+    if (stops && kdop8_is_behind(lanes))
       break;
-    found[count] = list->item[i];
-    count += list->behind ? kdop8_is_behind(lanes) & kdop8_overlaps_page(lanes)
-                          : lanes == KDOP8_GUARDS;
+    found[count] = item[i];
+    count += lanes == wanted;
   }
   *past = i;
   return count;
+}
+
+/* The same for those that are searched for.
+ * past  gets where entries begin that are behind the triangle, if the list is
+ *       sorted and others are searched for, else `end` */
+static inline size_t gather_entries(const struct list_query *list, size_t from,
+                                    size_t end, size_t *past,
+                                    uint32_t found[ENTRIES_AT_ONCE]) {
+  if (list->behind)
+    return gather_lanes(list, from, end, KDOP8_BEHIND, false, past, found);
+  if (list->is_sorted)
+    return gather_lanes(list, from, end, KDOP8_GUARDS, true, past, found);
+  return gather_lanes(list, from, end, KDOP8_GUARDS, false, past, found);
 }
 
 /* Where the entries of a sorted list begin that are behind the triangle. */
