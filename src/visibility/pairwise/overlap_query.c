@@ -40,8 +40,8 @@ static struct own_sides own_sides_of(const struct geom_triangle *own) {
   return sides;
 }
 
-static inline int64_t value_at(const struct own_sides *own, int k,
-                               const struct geom_point *p) {
+static inline int64_t own_side_value(const struct own_sides *own, int k,
+                                     const struct geom_point *p) {
   return own->a[k] * p->x + own->b[k] * p->y + own->c[k];
 }
 
@@ -55,8 +55,8 @@ static inline bool is_beyond_own_side(const struct own_sides *own,
   bool is_beyond = false;
 #pragma GCC unroll 3
   for (int k = 0; k < 3; k++)
-    is_beyond |=
-        (value_at(own, k, a) | value_at(own, k, b) | value_at(own, k, c)) >= 0;
+    is_beyond |= (own_side_value(own, k, a) | own_side_value(own, k, b) |
+                  own_side_value(own, k, c)) >= 0;
   return is_beyond;
 }
 
