@@ -1,12 +1,14 @@
 /* planar_subdivision.c - finds what lies beside each side of each fragment.
  *
  * Phases
- *   1 pair the sides that are a whole edge of both their faces, the usual case;
- *     sort the others by the key of their line
+ *   1 pair the sides that are a whole edge of both their faces, the usual case,
+ *     which phase 2 has no part in; sort the others by the key of their line
  *   2 along each line sort the forward and the reversed sides by their low
  *     ends, and merge the two sequences: the stretches in common
  *   3 loop by loop divide the sides at the ends of their stretches */
 #include "visibility/fragments/planar_subdivision.h"
+
+#include <string.h>
 
 #include "base/number_lists.h"
 #include "base/parallel.h"
@@ -23,13 +25,15 @@ struct side_stretch {
   uint32_t corner[2];    /* at its low and at its high end */
   uint32_t half_edge[2]; /* of the two sides, when they are stored */
   bool upright;          /* places are y */
-  bool whole;            /* both sides are that, from end to end */
 };
 
 struct subdivision_work {
   const struct sheet *sheet;
   struct map *map;
   uint32_t *end; /* of each side: the corner where it ends */
+  /* Of each side: that which is its reverse from end to end; SHEET_NONE: none.
+   * Once half-edges are stored, its own one in place of that. */
+  uint32_t *partner;
   ARRAY(struct side_stretch) stretch;
   struct number_lists along; /* the stretches of each side, in its direction */
   uint32_t *before; /* half-edges before those of each range of fragments */
@@ -54,33 +58,33 @@ static bool same_place(const struct map *map, uint32_t a, uint32_t b) {
   return p->x == q->x && p->y == q->y;
 }
 
-/* Pairs the sides on one edge of which one is the reverse of the other.
- * paired  of each side, set to 1 for those */
-static bool pair_edges(struct subdivision_work *work, uint8_t *paired) {
+/* Pairs the sides on one edge of which one is the reverse of the other. */
+static bool pair_edges(struct subdivision_work *work) {
   const struct map *map = work->map;
   size_t edges = work->sheet->edge.count;
+  uint32_t *partner = work->partner;
   uint32_t *first = mem_alloc(edges, sizeof *first); /* of each edge: a side */
-  bool ok = first != NULL;
-  for (size_t e = 0; ok && e < edges; e++)
-    first[e] = SHEET_NONE;
-  for (uint32_t s = 0; ok && s < map->corner.count; s++) {
+  if (first == NULL)
+    return false;
+  memset(first, 0xff, edges * sizeof *first);
+  for (uint32_t s = 0; s < map->corner.count; s++) {
     (void)poll_at(s);
+    partner[s] = SHEET_NONE;
     if (map->corner.item[s].side != MAP_SIDE_EDGE ||
         map->corner.item[s].id >= edges)
       continue;
     uint32_t *other = &first[map->corner.item[s].id];
     if (*other == SHEET_NONE) {
       *other = s;
-    } else if (!paired[*other] && same_place(map, *other, work->end[s]) &&
+    } else if (partner[*other] == SHEET_NONE &&
+               same_place(map, *other, work->end[s]) &&
                same_place(map, s, work->end[*other])) {
-      struct side_stretch whole = {
-          .side = {*other, s}, .corner = {*other, s}, .whole = true};
-      paired[s] = paired[*other] = 1;
-      ok = ARRAY_PUSH(&work->stretch, whole);
+      partner[s] = *other;
+      partner[*other] = s;
     }
   }
   mem_free(first);
-  return ok;
+  return true;
 }
 
 static uint64_t key_of_edge(const struct sheet *sheet, uint32_t edge) {
@@ -169,50 +173,62 @@ static bool match_sides(struct subdivision_work *work, struct sort_key *side,
 struct line_keys {
   const struct subdivision_work *work;
   const side_lines *lines;
-  const uint8_t *paired; /* one a side */
-  struct sort_key *key;  /* one a side: those of a range from its begin on */
-  size_t *kept;          /* one a range: how many it has */
+  struct sort_key *key; /* one a side that is not paired */
+  size_t *before;       /* one a range: how many there are before it */
 };
+
+static bool count_unpaired_sides(void *user, struct parallel_range range) {
+  const struct line_keys *keys = user;
+  size_t n = 0;
+  for (size_t s = range.begin; s < range.end; s++)
+    n += keys->work->partner[s] == SHEET_NONE;
+  keys->before[range.begin / PARALLEL_ITEMS] = n;
+  return true;
+}
 
 static bool key_sides_of_range(void *user, struct parallel_range range) {
   const struct line_keys *keys = user;
   const struct subdivision_work *work = keys->work;
-  size_t n = range.begin;
+  size_t n = keys->before[range.begin / PARALLEL_ITEMS];
   for (size_t s = range.begin; s < range.end; s++)
-    if (!keys->paired[s])
+    if (work->partner[s] == SHEET_NONE)
       keys->key[n++] = (struct sort_key){
           keys->lines->item[s] != OF_EDGE
               ? keys->lines->item[s]
               : key_of_edge(work->sheet, work->map->corner.item[s].id),
           (uint32_t)s};
-  keys->kept[range.begin / PARALLEL_ITEMS] = n - range.begin;
   return true;
 }
 
-/* Lists these sides with the keys of their lines, in order; *count: how many.
- * Returns false when memory ran out or the caller cancelled. */
+/* Lists these sides with the keys of their lines, in order, and makes room for
+ * as many; *count: how many.  Returns false when memory ran out or the caller
+ * cancelled. */
 static bool key_sides(struct line_keys *keys, size_t *count) {
-  size_t sides = keys->work->map->corner.count;
-  keys->kept = mem_alloc(parallel_range_count(sides, PARALLEL_ITEMS),
-                         sizeof *keys->kept);
-  bool ok = keys->kept != NULL &&
-            parallel_ranges(parallel_workers(sides, PARALLEL_ITEMS), sides,
-                            PARALLEL_ITEMS, key_sides_of_range, keys);
-  if (ok)
-    *count = parallel_gather(keys->key, sizeof *keys->key, sides,
-                             PARALLEL_ITEMS, keys->kept);
-  mem_free(keys->kept);
+  size_t sides = keys->work->map->corner.count,
+         ranges = parallel_range_count(sides, PARALLEL_ITEMS);
+  int workers = parallel_workers(sides, PARALLEL_ITEMS);
+  keys->before = mem_alloc(ranges, sizeof *keys->before);
+  bool ok =
+      keys->before != NULL && parallel_ranges(workers, sides, PARALLEL_ITEMS,
+                                              count_unpaired_sides, keys);
+  for (size_t r = 0; ok && r < ranges; r++) {
+    size_t own = keys->before[r];
+    keys->before[r] = *count;
+    *count += own;
+  }
+  keys->key = ok ? mem_alloc(*count, 2 * sizeof *keys->key) : NULL;
+  ok = keys->key != NULL && parallel_ranges(workers, sides, PARALLEL_ITEMS,
+                                            key_sides_of_range, keys);
+  mem_free(keys->before);
   return ok;
 }
 
 static bool match_lines(struct subdivision_work *work,
                         const side_lines *lines) {
-  size_t sides = work->map->corner.count, count = 0;
-  struct sort_key *key = mem_alloc(sides, 2 * sizeof *key);
-  uint8_t *paired = mem_calloc(sides, 1);
-  struct line_keys keys = {work, lines, paired, key, NULL};
-  bool ok = key != NULL && paired != NULL && pair_edges(work, paired) &&
-            key_sides(&keys, &count);
+  size_t count = 0;
+  struct line_keys keys = {work, lines, NULL, NULL};
+  bool ok = pair_edges(work) && key_sides(&keys, &count);
+  struct sort_key *key = keys.key;
   if (ok)
     sort_keys(key, key + count, count);
   for (size_t i = 0, j, n = 0; ok && i < count; i = j, n++) {
@@ -221,7 +237,6 @@ static bool match_lines(struct subdivision_work *work,
     ok = poll_at(n) &&
          (j - i == 1 || match_sides(work, &key[i], key + count, j - i));
   }
-  mem_free(paired);
   mem_free(key);
   return ok;
 }
@@ -267,19 +282,26 @@ static void push_half_edge(struct half_edge_end *end,
 }
 
 /* Adds the half-edges of a side, which is divided at its T-junctions: where the
- * neighbour beside it changes. */
+ * neighbour beside it changes.  A partner stands for the twin until all are
+ * stored. */
 static void divide_side(const struct subdivision_work *work, uint32_t fragment,
                         uint32_t side, struct half_edge_end *end) {
   const struct map *map = work->map;
-  struct map_half_edge half = {fragment, side, side, SHEET_NONE, 0};
+  struct map_half_edge half = {fragment, side, side, work->partner[side], 0};
+  if (half.twin != SHEET_NONE) {
+    if (end->half_edge != NULL)
+      work->partner[side] = end->count;
+    push_half_edge(end, half);
+    return;
+  }
   bool ends = false; /* the last stretch ends where the side does */
   for (uint32_t i = work->along.start[side]; i < work->along.start[side + 1];
        i++) {
     struct side_stretch *stretch = &work->stretch.item[work->along.item[i]];
     bool upright = stretch->upright, reversed = stretch->side[1] == side;
     uint32_t from = stretch->corner[reversed], to = stretch->corner[!reversed];
-    if (!stretch->whole && coordinate_along(map, from, upright) !=
-                               coordinate_along(map, half.origin, upright)) {
+    if (coordinate_along(map, from, upright) !=
+        coordinate_along(map, half.origin, upright)) {
       push_half_edge(end, half);
       half.origin = from;
     }
@@ -287,9 +309,8 @@ static void divide_side(const struct subdivision_work *work, uint32_t fragment,
       stretch->half_edge[reversed] = end->count;
     push_half_edge(end, half);
     half.origin = to;
-    ends =
-        stretch->whole || coordinate_along(map, to, upright) ==
-                              coordinate_along(map, work->end[side], upright);
+    ends = coordinate_along(map, to, upright) ==
+           coordinate_along(map, work->end[side], upright);
   }
   if (!ends)
     push_half_edge(end, half);
@@ -316,9 +337,10 @@ static void divide_fragments(const struct subdivision_work *work,
     for (uint32_t l = 0; l < fragment->loops; l++) {
       struct map_loop *loop = &map->loop.item[fragment->loop + l];
       uint32_t first = end->count;
-      for (uint32_t i = 0; i < loop->count; i++) {
-        prefetch_stretch(work, loop->corner + i);
-        divide_side(work, (uint32_t)f, loop->corner + i, end);
+      for (uint32_t s = loop->corner; s < loop->corner + loop->count; s++) {
+        if (work->partner[s] == SHEET_NONE)
+          prefetch_stretch(work, s);
+        divide_side(work, (uint32_t)f, s, end);
       }
       if (end->half_edge == NULL)
         continue;
@@ -341,6 +363,16 @@ static bool store_half_edges(void *user, struct parallel_range range) {
   struct half_edge_end end = {work->map->half_edge.item,
                               work->before[range.begin / FRAGMENTS_IN_RANGE]};
   divide_fragments(work, range, &end);
+  return true;
+}
+
+/* Replaces the sides that stand for the twins of a range of half-edges. */
+static bool store_whole_twins(void *user, struct parallel_range range) {
+  const struct subdivision_work *work = user;
+  struct map_half_edge *half = work->map->half_edge.item;
+  for (size_t i = range.begin; i < range.end; i++)
+    if (half[i].twin != SHEET_NONE)
+      half[i].twin = work->partner[half[i].twin];
   return true;
 }
 
@@ -378,6 +410,7 @@ static bool divide_loops(struct subdivision_work *work) {
     return false;
   map->half_edge.count = sum;
   return for_all(work, count, FRAGMENTS_IN_RANGE, store_half_edges) &&
+         for_all(work, sum, PARALLEL_ITEMS, store_whole_twins) &&
          for_all(work, work->stretch.count, PARALLEL_ITEMS, store_twins);
 }
 
@@ -395,13 +428,17 @@ static bool find_ends_of_range(void *user, struct parallel_range range) {
 bool planar_subdivision_store(const side_lines *lines,
                               const struct sheet *sheet, struct map *map) {
   size_t count = map->corner.count;
-  struct subdivision_work work = {
-      .sheet = sheet, .map = map, .end = mem_alloc(count, sizeof *work.end)};
+  struct subdivision_work work = {.sheet = sheet,
+                                  .map = map,
+                                  .end = mem_alloc(count, sizeof *work.end),
+                                  .partner =
+                                      mem_alloc(count, sizeof *work.partner)};
   bool ok =
-      work.end != NULL &&
+      work.end != NULL && work.partner != NULL &&
       for_all(&work, map->loop.count, PARALLEL_ITEMS, find_ends_of_range) &&
       match_lines(&work, lines) && list_by_side(&work) && divide_loops(&work);
   mem_free(work.end);
+  mem_free(work.partner);
   number_lists_fini(&work.along);
   mem_free(work.before);
   ARRAY_FREE(&work.stretch);
