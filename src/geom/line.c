@@ -199,16 +199,10 @@ static bool same_line(const struct geom_line *l, const struct geom_line *m) {
          (l->x0 == m->x1 && l->y0 == m->y1 && l->x1 == m->x0 && l->y1 == m->y0);
 }
 
+/* The side of a point of the grid on which it lies of a line that is none. */
 static int side_of_point(const struct geom_line *line,
                          const struct geom_corner *corner) {
   double value, size;
-  if (line->is_grid_line) {
-    int64_t dx = (int64_t)line->x1 - line->x0,
-            dy = (int64_t)line->y1 - line->y0;
-    int64_t ex = (int64_t)corner->ix - line->x0,
-            ey = (int64_t)corner->iy - line->y0;
-    return geom_sign64(dx * ey - dy * ex);
-  }
   value = line->a * corner->ix + line->b * corner->iy + line->c;
   size =
       fabs(line->a * corner->ix) + fabs(line->b * corner->iy) + fabs(line->c);
@@ -243,8 +237,8 @@ static int side_of_doubles(const struct geom_line *line,
   return (value > bound) - (value < -bound);
 }
 
-int geom_line_side(const struct geom_line *line,
-                   const struct geom_corner *corner) {
+int geom_line_side_of_any(const struct geom_line *line,
+                          const struct geom_corner *corner) {
   const struct geom_line *p = corner->l1, *q = corner->l2;
   double x1, x2, y1, y2, w1, w2, w, det, size;
   int side;

@@ -18,6 +18,8 @@
 #ifndef GEOM_LINE_H
 #define GEOM_LINE_H
 
+#include <stddef.h>
+
 #include "geom/predicate.h"
 #include "geom/wide.h"
 
@@ -78,9 +80,20 @@ struct geom_corner geom_corner_at(struct geom_point p);
 struct geom_corner geom_corner_of(const struct geom_line *l1,
                                   const struct geom_line *l2);
 
+/* geom_line_side where not both are of the grid. */
+int geom_line_side_of_any(const struct geom_line *line,
+                          const struct geom_corner *corner);
+
 /* +1 where the corner lies left of the line, 0 on it, -1 right.  Exact. */
-int geom_line_side(const struct geom_line *line,
-                   const struct geom_corner *corner);
+static inline int geom_line_side(const struct geom_line *line,
+                                 const struct geom_corner *corner) {
+  if (corner->l1 != NULL || !line->is_grid_line)
+    return geom_line_side_of_any(line, corner);
+  int64_t dx = (int64_t)line->x1 - line->x0, dy = (int64_t)line->y1 - line->y0;
+  int64_t ex = (int64_t)corner->ix - line->x0,
+          ey = (int64_t)corner->iy - line->y0;
+  return geom_sign64(dx * ey - dy * ex);
+}
 
 /* The sign of the cross product of the two lines' directions: +1 where l2
  * turns left from l1.  Exact. */

@@ -117,6 +117,16 @@ static uint32_t list_face_sides(const struct face_union *work,
   return 0;
 }
 
+/* Whether a triangle or quadrilateral turns at each corner. */
+static inline bool turns_at_corners(const struct geom_point p[4], uint32_t n) {
+  if (n == 3)
+    return geom_orient2d(p[0], p[1], p[2]) != 0;
+  return geom_orient2d(p[0], p[1], p[2]) != 0 &&
+         geom_orient2d(p[1], p[2], p[3]) != 0 &&
+         geom_orient2d(p[2], p[3], p[0]) != 0 &&
+         geom_orient2d(p[3], p[0], p[1]) != 0;
+}
+
 /* Sets `outline` to that of a face that is one or two triangles, entirely
  * visible, if its outer sides are all edges and it turns at each corner.  Such
  * a face is stored without the arithmetic of regions.  Returns whether it is
@@ -139,13 +149,12 @@ static bool find_outline(const struct face_union *work,
     if (p[k].x < p[first].x || (p[k].x == p[first].x && p[k].y < p[first].y))
       first = k;
   }
-  for (uint32_t k = 0; k < n; k++) {
-    if (geom_orient2d(p[k], p[(k + 1) % n], p[(k + 2) % n]) == 0)
-      return false;
-    outline->side[k] = side[(first + k) % n];
-  }
+  if (n == 0 || !turns_at_corners(p, n))
+    return false;
+  for (uint32_t k = 0; k < n; k++)
+    outline->side[k] = side[first + k < n ? first + k : first + k - n];
   outline->count = n;
-  return n > 0;
+  return true;
 }
 
 static bool store_outline(struct face_union *work,

@@ -156,8 +156,9 @@ bool occluder_subtraction_collect(struct occluder_subtraction *subtraction,
   for (int k = 0; k < 3; k++)
     plane.p[k] = sheet->point.item[sheet->triangle.item[g].point[k]];
   geom_depth_range(plane.p, &low, &high);
+  /* Its own sides first: who searched for it tested the current one's. */
   if (high < subtraction->low ||
-      triangle_corners_disjoint(subtraction->plane.p, plane.p))
+      triangle_corners_disjoint(plane.p, subtraction->plane.p))
     return true;
   subtraction->counts.overlapping++;
   if (low <= subtraction->high &&
