@@ -50,13 +50,13 @@ static inline void polygon_position(const struct polygon *polygon, uint32_t c,
 /* Compares the positions of two corners by x, then y, then z. */
 static inline int polygon_compare(const struct polygon *polygon, uint32_t c,
                                   uint32_t d) {
-  double a[3], b[3];
-  polygon_position(polygon, c, a);
-  polygon_position(polygon, d, b);
-  for (int k = 0; k < 3; k++)
-    if (a[k] != b[k])
-      return a[k] < b[k] ? -1 : 1;
-  return 0;
+  const struct scene_point *a = &polygon->point[polygon->corner[c]],
+                           *b = &polygon->point[polygon->corner[d]];
+  if (a->x != b->x)
+    return a->x < b->x ? -1 : 1;
+  if (a->y != b->y)
+    return a->y < b->y ? -1 : 1;
+  return (a->z > b->z) - (a->z < b->z);
 }
 
 /* The square of the distance between two corners, rounded to 24 bits, so that

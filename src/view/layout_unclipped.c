@@ -39,6 +39,8 @@ static inline uint32_t add_unclipped_faces(struct layout *layout,
 
 uint32_t layout_unclipped_faces(struct layout *layout, uint32_t face,
                                 uint32_t end) {
+  if (face == end || scene_face_corners(layout->scene, face) != 3)
+    return face;
   struct layout_triangle_sink sink = layout_sink_of(layout);
   face = add_unclipped_faces(layout, &sink, face, end);
   layout_sink_close(layout, &sink);
