@@ -222,18 +222,94 @@ static void there_are_no_more_workers_than_given(void **state) {
   recto_options options;
   (void)state;
   recto_options_init(&options);
-  poll_open(&poll, &options);
   for (int workers = 1; workers <= 3; workers++) {
     memset((void *)&items, 0, sizeof items);
     items.fails_at = ITEMS;
     started = 0;
+    poll_open(&poll, &options);
     assert_true(
         parallel_ranges(workers, ITEMS, PARALLEL_ITEMS, do_items, &items));
+    poll_close(&poll);
     assert_int_equal(started, workers - 1);
     assert_true(items.workers <= workers);
     assert_int_equal(items.count, ITEMS);
   }
+}
+
+/* ---- Threads of a call --------------------------------------------------- */
+
+/* The same loop as `run`, within a call: threads that come too late for it are
+ * not waited for. */
+static void run_in_call(int threads) {
+  static struct work work;
+  memset((void *)&work, 0, sizeof work);
+  parallel_run(threads, do_some, &work);
+  for (size_t i = 0; i < THINGS; i++)
+    assert_int_equal(work.done[i], 1);
+  assert_int_equal(work.callers, 1);
+  assert_int_equal(work.awake, 1);
+  assert_in_range(work.workers, 1, threads);
+}
+
+static void threads_are_kept_until_the_call_ends(void **state) {
+  static const int threads[] = {3, 3, 2, 5, 1, 3}, all[] = {2, 2, 2, 4, 4, 4};
+  recto_options options;
+  struct poll poll;
+  (void)state;
+  recto_options_init(&options);
+  for (int call = 0; call < 2; call++) {
+    started = 0;
+    poll_open(&poll, &options);
+    for (size_t k = 0; k < sizeof threads / sizeof *threads; k++) {
+      run_in_call(threads[k]);
+      assert_int_equal(started, all[k]);
+    }
+    poll_close(&poll);
+  }
+}
+
+static void run_within(void *user, bool callers) {
+  struct work *work = user;
+  atomic_fetch_add(&work->workers, 1);
+  if (callers)
+    assert_int_equal(run(3), 3);
+}
+
+static void a_loop_within_a_loop_has_threads_of_its_own(void **state) {
+  static struct work work;
+  recto_options options;
+  struct poll poll;
+  (void)state;
+  recto_options_init(&options);
+  poll_open(&poll, &options);
+  for (int k = 0; k < 3; k++)
+    parallel_run(2, run_within, &work);
   poll_close(&poll);
+  assert_int_equal(started, 1 + 3 * 2);
+  assert_in_range(work.workers, 3, 6);
+}
+
+/* A host may fork in its progress function, and let the new process go on. */
+static void a_process_forked_in_a_call_goes_on(void **state) {
+  recto_options options;
+  struct poll poll;
+  int status;
+  (void)state;
+  recto_options_init(&options);
+  poll_open(&poll, &options);
+  run_in_call(3);
+  pid_t child = fork();
+  assert_true(child >= 0);
+  if (child == 0) {
+    bool all = run(3) == 3;
+    poll_close(&poll);
+    _exit(all ? 0 : 1);
+  }
+  assert_int_equal(waitpid(child, &status, 0), child);
+  assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  run_in_call(3);
+  poll_close(&poll);
+  assert_int_equal(started, 2);
 }
 
 static void few_items_and_no_call_have_one_worker(void **state) {
@@ -324,6 +400,10 @@ int main(void) {
       cmocka_unit_test_setup(a_range_that_fails_ends_the_others, reset),
       cmocka_unit_test_setup(ranges_are_cancelled, reset),
       cmocka_unit_test_setup(there_are_no_more_workers_than_given, reset),
+      cmocka_unit_test_setup(threads_are_kept_until_the_call_ends, reset),
+      cmocka_unit_test_setup(a_loop_within_a_loop_has_threads_of_its_own,
+                             reset),
+      cmocka_unit_test_setup(a_process_forked_in_a_call_goes_on, reset),
       cmocka_unit_test(what_ranges_keep_is_gathered_in_order),
       cmocka_unit_test_setup(few_items_and_no_call_have_one_worker, reset),
       cmocka_unit_test_setup(lines_do_not_depend_on_what_threads_there_are,

@@ -28,6 +28,7 @@ librecto_core_la_SOURCES += \
   %D%/status.c %D%/status.h \
   %D%/stream.c %D%/stream.h \
   %D%/target.c %D%/target.h \
+  %D%/thread_pool.c %D%/thread_pool.h \
   %D%/tolerance.h \
   %D%/union_find.h \
   %D%/utf8.c %D%/utf8.h \

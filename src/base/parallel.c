@@ -1,15 +1,14 @@
 /* parallel.c - a few threads for one loop, and as many as can be had.
  *
- * Threads are started for the loop and joined at its end: nothing remains that
- * a fork could break, no environment variable is read, no thread spins.  Where
- * pthread_create fails, the work is done by the threads that are there. */
+ * Threads are kept until the call of the library ends, or, where there is none,
+ * the loop: nothing remains that a fork could break, no environment variable is
+ * read, no thread spins.  Where the system starts no thread, the work is done
+ * by those that are there. */
 #ifdef __linux__
 #define _GNU_SOURCE /* sched_getaffinity */
 #endif
 #include "base/parallel.h"
 
-#include <pthread.h>
-#include <signal.h>
 #include <stdatomic.h>
 #include <string.h>
 #include <unistd.h>
@@ -17,42 +16,32 @@
 #include <sched.h>
 #endif
 
-enum { THREADS_MAX = 1024 };
+#include "base/thread_pool.h"
+
+enum { THREADS_MAX = THREAD_POOL_MAX + 1 };
 
 struct others {
   parallel_worker *worker;
   void *user;
 };
 
-static void *start_worker(void *argument) {
+static void start_worker(void *argument) {
   const struct others *others = argument;
   others->worker(others->user, false);
-  return NULL;
-}
-
-/* Starts up to `wanted` threads; returns how many there are.  They inherit a
- * mask that blocks all signals, so that the host's handlers run in the host's
- * own threads. */
-static int start_others(pthread_t *thread, int wanted, struct others *others) {
-  sigset_t all, before;
-  int count = 0;
-  if (sigfillset(&all) != 0 || pthread_sigmask(SIG_SETMASK, &all, &before) != 0)
-    return 0;
-  while (count < wanted &&
-         pthread_create(&thread[count], NULL, start_worker, others) == 0)
-    count++;
-  (void)pthread_sigmask(SIG_SETMASK, &before, NULL);
-  return count;
 }
 
 void parallel_run(int threads, parallel_worker *worker, void *user) {
-  pthread_t thread[THREADS_MAX];
   struct others others = {worker, user};
+  struct thread_pool *own = NULL, **kept = poll_pool();
   int wanted = threads <= THREADS_MAX ? threads - 1 : THREADS_MAX - 1;
-  int count = wanted > 0 ? start_others(thread, wanted, &others) : 0;
+  bool by_kept = wanted > 0 && kept != NULL &&
+                 thread_pool_offer(kept, wanted, start_worker, &others);
+  if (wanted > 0 && !by_kept)
+    (void)thread_pool_offer(&own, wanted, start_worker, &others);
   worker(user, true);
-  for (int i = 0; i < count; i++)
-    (void)pthread_join(thread[i], NULL);
+  if (by_kept)
+    thread_pool_withdraw(*kept);
+  thread_pool_end(own);
 }
 
 int parallel_processors(void) {

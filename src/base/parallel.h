@@ -12,7 +12,10 @@
 typedef void parallel_worker(void *user, bool is_caller);
 
 /* Runs the worker in the caller's thread and in up to `threads` - 1 others,
- * and returns when all of them have ended.
+ * and returns when all of them have ended.  The others are kept until the call
+ * of the library ends for which this thread works; one that has not begun when
+ * the caller's own has ended is not waited for.  Without a call each of them
+ * does a share.
  *
  * Where the system starts no more threads (a limit on processes or on memory)
  * there are fewer of them: the caller's own always runs, so that the work is

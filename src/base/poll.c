@@ -1,6 +1,8 @@
 /* poll.c - the poll of each thread. */
 #include "base/poll.h"
 
+#include "base/thread_pool.h"
+
 static _Thread_local struct poll *current;        /* NULL: none is open */
 static _Thread_local const atomic_bool *followed; /* NULL: none is */
 
@@ -10,12 +12,19 @@ void poll_open(struct poll *poll, const recto_options *options) {
   current = poll;
 }
 
-void poll_close(struct poll *poll) { current = poll->outer; }
+void poll_close(struct poll *poll) {
+  current = poll->outer;
+  thread_pool_end(poll->pool);
+}
 
 void poll_follow(const atomic_bool *ended) { followed = ended; }
 
 const recto_options *poll_options(void) {
   return current != NULL ? current->options : NULL;
+}
+
+struct thread_pool **poll_pool(void) {
+  return current != NULL ? &current->pool : NULL;
 }
 
 bool poll_is_cancelled(void) { return current != NULL && current->cancelled; }

@@ -20,13 +20,16 @@
 /* Items of a loop between two polls, which take a millisecond as a rule. */
 enum { POLL_ITEMS = 1 << 13 };
 
+struct thread_pool;
+
 struct poll {
   const recto_options *options; /* its progress function and user */
   double from, to; /* of the whole work: shares where the stage begins, ends */
   double share;    /* as reported last; never falls */
   const char *stage;
   bool cancelled;
-  struct poll *outer; /* of the call within which this one was made */
+  struct thread_pool *pool; /* for its loops; NULL: none was needed yet */
+  struct poll *outer;       /* of the call within which this one was made */
 };
 
 /* Makes `poll` the thread's own, until poll_close; as if one stage were all. */
@@ -59,5 +62,8 @@ void poll_follow(const atomic_bool *ended);
 
 /* The options of the call that this thread works for; NULL: it does not. */
 const recto_options *poll_options(void);
+
+/* The threads that are kept for loops of that call; NULL: there is no call. */
+struct thread_pool **poll_pool(void);
 
 #endif
