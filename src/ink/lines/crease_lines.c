@@ -53,6 +53,7 @@ double crease_cosine(const struct sheet *sheet, const struct sheet_edge *edge,
 
 void crease_lines_fini(struct crease_lines *lines) {
   mem_free(lines->edge);
+  mem_free(lines->cosine);
   mem_free((void *)lines->at);
   mem_free(lines->line);
   *lines = (struct crease_lines){.sheet = lines->sheet};
@@ -75,6 +76,30 @@ bool crease_lines_list(struct crease_lines *lines) {
     lines->edge = number_filter(lines->sheet->edge.count, creases_of_range,
                                 lines->sheet, &lines->count);
   return lines->edge != NULL;
+}
+
+/* Edges that a thread takes at once, each of which looks at its faces. */
+enum { MEASURED_EDGES = PARALLEL_RANGE(512) };
+
+static bool measure_edges_of_range(void *user, struct parallel_range range) {
+  const struct crease_lines *lines = user;
+  struct large_face_normals normals = large_face_normals_start();
+  for (size_t i = range.begin; i < range.end; i++)
+    lines->cosine[i] = crease_cosine(
+        lines->sheet, &lines->sheet->edge.item[lines->edge[i]], &normals);
+  return true;
+}
+
+bool crease_lines_measure(struct crease_lines *lines) {
+  if (lines->cosine != NULL)
+    return true;
+  if (!crease_lines_list(lines))
+    return false;
+  lines->cosine = mem_alloc(lines->count, sizeof *lines->cosine);
+  return lines->cosine != NULL &&
+         parallel_ranges(parallel_workers(lines->count, MEASURED_EDGES),
+                         lines->count, MEASURED_EDGES, measure_edges_of_range,
+                         lines);
 }
 
 /* Counts the drawable edges at the ends of the listed ones, up to two: each
@@ -113,47 +138,20 @@ bool crease_lines_find_ends(struct crease_lines *lines) {
                          PARALLEL_ITEMS, count_edges_of_range, lines);
 }
 
-struct crease_marks {
-  const struct crease_lines *lines;
-  double crease;
-  uint8_t *is_joined; /* one a listed edge */
-};
-
-static bool mark_joined_of_range(void *user, struct parallel_range range) {
-  const struct crease_marks *marks = user;
-  const struct sheet *sheet = marks->lines->sheet;
-  struct large_face_normals normals = large_face_normals_start();
-  for (size_t i = range.begin; i < range.end; i++) {
-    const struct sheet_edge *edge = &sheet->edge.item[marks->lines->edge[i]];
-    marks->is_joined[i] = crease_is_joined(
-        edge, crease_cosine(sheet, edge, &normals), marks->crease);
-  }
-  return true;
-}
-
 bool crease_lines_join(struct crease_lines *lines, double crease_deg) {
   if (lines->line != NULL)
     return true;
-  if (!crease_lines_list(lines))
+  if (!crease_lines_measure(lines))
     return false;
   const struct sheet *sheet = lines->sheet;
   uint32_t *line = union_find_create(sheet->point.count);
-  struct crease_marks marks = {lines, angle_of_degrees(crease_deg).cosine,
-                               mem_alloc(lines->count, 1)};
-  bool ok = line != NULL && marks.is_joined != NULL &&
-            parallel_ranges(parallel_workers(lines->count, PARALLEL_ITEMS),
-                            lines->count, PARALLEL_ITEMS, mark_joined_of_range,
-                            &marks);
-  for (size_t i = 0; ok && i < lines->count; i++) {
-    const uint32_t *point = sheet->edge.item[lines->edge[i]].point;
+  double crease = angle_of_degrees(crease_deg).cosine;
+  for (size_t i = 0; line != NULL && i < lines->count; i++) {
+    const struct sheet_edge *edge = &sheet->edge.item[lines->edge[i]];
     (void)poll_at(i);
-    if (marks.is_joined[i])
-      union_find_join(line, point[0], point[1]);
+    if (crease_is_joined(edge, lines->cosine[i], crease))
+      union_find_join(line, edge->point[0], edge->point[1]);
   }
-  mem_free(marks.is_joined);
-  if (ok)
-    lines->line = line;
-  else
-    mem_free(line);
-  return ok;
+  lines->line = line;
+  return line != NULL;
 }

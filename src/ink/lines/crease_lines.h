@@ -12,7 +12,8 @@
 /* The cosine of the angle between the two faces of an edge that is drawn as a
  * crease or a silhouette; 1 where it has other faces than two.  Faces that run
  * the same way along it count as bent sharply, and so do those whose edge is
- * marked as hard; one that is marked as smooth as not bent.
+ * marked as hard; one that is marked as smooth as not bent.  Where those of all
+ * are needed, crease_lines_measure finds them by several threads.
  * normals  of the edges before */
 double crease_cosine(const struct sheet *sheet, const struct sheet_edge *edge,
                      struct large_face_normals *normals);
@@ -33,6 +34,7 @@ struct crease_lines {
   uint32_t *edge; /* those drawn as creases or silhouettes, ascending: no other
                      bends by the crease angle; NULL: not yet listed */
   size_t count;
+  double *cosine;   /* one a listed edge: crease_cosine; NULL: not yet found */
   atomic_uchar *at; /* one a point: CREASE_END_ALONE where one of these is the
                        only drawable edge; NULL: not yet found */
   uint32_t *line;   /* the lines as a union-find of the sheet's points; NULL:
@@ -43,10 +45,12 @@ enum { CREASE_END = 1, CREASE_END_ALONE = 3, CREASE_END_SHARED = 7 };
 
 void crease_lines_fini(struct crease_lines *lines);
 
-/* List the edges; find where they end alone; join the lines, of edges that bend
- * by more than an angle, which is the same at every call.  Return false when
- * memory ran out or the caller cancelled. */
+/* List the edges; find their cosines, where they end alone; join the lines, of
+ * edges that bend by more than an angle, which is the same at every call, where
+ * their cosines are found too.  Return false when memory ran out or the caller
+ * cancelled. */
 USE_RESULT bool crease_lines_list(struct crease_lines *lines);
+USE_RESULT bool crease_lines_measure(struct crease_lines *lines);
 USE_RESULT bool crease_lines_find_ends(struct crease_lines *lines);
 USE_RESULT bool crease_lines_join(struct crease_lines *lines,
                                   double crease_deg);

@@ -71,18 +71,12 @@ static const struct sheet_edge *listed_edge(const struct speckle_search *s,
   return &s->sheet->edge.item[s->creases->edge[i]];
 }
 
-static double cosine_of(const struct speckle_search *s, size_t i,
-                        struct large_face_normals *normals) {
-  return crease_cosine(s->sheet, listed_edge(s, i), normals);
-}
-
 /* Finds which edges are of the line of a crease. */
 static bool find_edges_of_range(void *user, struct parallel_range range) {
   const struct speckle_search *s = user;
-  struct large_face_normals normals = large_face_normals_start();
   for (size_t i = range.begin; i < range.end; i++)
-    s->is_of_line[i] = crease_is_joined(listed_edge(s, i),
-                                        cosine_of(s, i, &normals), s->crease);
+    s->is_of_line[i] =
+        crease_is_joined(listed_edge(s, i), s->creases->cosine[i], s->crease);
   return true;
 }
 
@@ -210,13 +204,12 @@ static void measure_pieces(const struct speckle_search *s) {
 
 static void measure_lines(const struct speckle_search *s) {
   double degree = acos(-1) / 180;
-  struct large_face_normals normals = large_face_normals_start();
   for (uint32_t e = 0; e < s->creases->count; e++) {
     const struct sheet_edge *edge = listed_edge(s, e);
     (void)poll_at(e);
     if (!s->is_of_line[e])
       continue;
-    double cosine = cosine_of(s, e, &normals);
+    double cosine = s->creases->cosine[e];
     uint32_t pen = pens_of_line(s->pens, RECTO_EDGE_CREASE,
                                 sheet_edge_group(s->sheet, edge));
     uint32_t piece = union_find_root(s->piece, e);
@@ -284,7 +277,8 @@ static bool find_and_mark(struct speckle_search *s,
                           const struct segment_graph *graph,
                           struct crease_lines *creases,
                           const struct crease_angles *angles, uint8_t *drop) {
-  if (!crease_lines_find_ends(creases) || !find_line_corners(s))
+  if (!crease_lines_find_ends(creases) || !crease_lines_measure(creases) ||
+      !find_line_corners(s))
     return false;
   if (!has_candidates(s))
     return true;

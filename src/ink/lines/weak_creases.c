@@ -69,11 +69,10 @@ static void look_at_edges(const struct crease_lines *creases,
   double crease = angle_of_degrees(angles->crease_deg).cosine;
   double start = angle_of_degrees(angles->start_deg).cosine;
   double very = angle_of_degrees(angles->zigzag_deg).cosine;
-  struct large_face_normals normals = large_face_normals_start();
   for (size_t i = 0; i < creases->count; i++) {
     const struct sheet_edge *edge = &sheet->edge.item[creases->edge[i]];
     const uint32_t *point = edge->point;
-    double cosine = crease_cosine(sheet, edge, &normals);
+    double cosine = creases->cosine[i];
     (void)poll_at(i);
     struct crease_line *of = &lines[union_find_root(creases->line, point[0])];
     of->is_sharp = of->is_sharp || cosine < start;
