@@ -4,6 +4,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -131,10 +132,67 @@ static void it_does_not_matter_which_way_faces_are_turned(void **state) {
   check_views(RECTO_EDGE_SILHOUETTE, first_turned, second_sphere);
 }
 
+/* A Klein bottle: a tube that passes through its own side. */
+static void bottle(double u, double v, double p[3]) {
+  double round = 4 - 2 * cos(u), straight = u < M_PI ? cos(u) : -1;
+  p[0] = (6 * cos(u) * (1 + sin(u)) + round * straight * cos(v)) / 12;
+  p[1] = (16 * sin(u) + (u < M_PI ? round * sin(u) * cos(v) : 0)) / 12;
+  p[2] = round * sin(v) / 12;
+}
+
+enum { BOTTLE_ALONG = 48, BOTTLE_AROUND = 24 };
+
+static recto_scene *klein_bottle(void) {
+  static double point[(BOTTLE_ALONG + 1) * BOTTLE_AROUND][3];
+  static uint32_t corner[BOTTLE_ALONG * BOTTLE_AROUND * 4];
+  size_t corners = 0;
+  for (uint32_t i = 0; i <= BOTTLE_ALONG; i++)
+    for (uint32_t j = 0; j < BOTTLE_AROUND; j++) {
+      uint32_t row = i * BOTTLE_AROUND, next = (j + 1) % BOTTLE_AROUND;
+      const uint32_t quad[4] = {row + j, row + BOTTLE_AROUND + j,
+                                row + BOTTLE_AROUND + next, row + next};
+      bottle(2 * M_PI * i / BOTTLE_ALONG, 2 * M_PI * j / BOTTLE_AROUND,
+             point[row + j]);
+      for (int k = 0; i < BOTTLE_ALONG && k < 4; k++)
+        corner[corners++] = quad[k];
+    }
+  return smooth_quads(point[0], sizeof point / sizeof point[0], corner,
+                      corners);
+}
+
+/* Seen across its plane of symmetry, in which all its contours lie: where two
+ * cross none of them is the nearer one, and both end. */
+static void contours_that_cross_at_one_depth_both_end(void **state) {
+  (void)state;
+  recto_scene *scene = klein_bottle();
+  recto_options options;
+  smooth_view(&options, 0);
+  options.camera.azimuth_deg = options.camera.elevation_deg = 0;
+  options.ink.exact = false;
+  recto_drawing *drawing = smooth_draw(scene, &options);
+  options.ink.contours = RECTO_CONTOURS_MESH;
+  recto_drawing *mesh = smooth_draw(scene, &options);
+  double most = 0;
+  for (size_t s = 0; s < recto_drawing_stroke_count(drawing); s++) {
+    recto_stroke stroke;
+    assert_true(recto_drawing_stroke(drawing, s, &stroke));
+    for (size_t i = 0; i < stroke.count; i++)
+      most = fmax(most, smooth_distance_to_ink(mesh, RECTO_EDGE_SILHOUETTE,
+                                               stroke.points + 2 * i));
+  }
+  /* 6 where none of them ends. */
+  assert_true(most < 0.5);
+  recto_drawing_destroy(mesh);
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(scene);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(contours_end_where_surfaces_intersect),
       cmocka_unit_test(they_end_where_intersections_are_not_drawn),
-      cmocka_unit_test(it_does_not_matter_which_way_faces_are_turned)};
+      cmocka_unit_test(it_does_not_matter_which_way_faces_are_turned),
+      cmocka_unit_test(contours_that_cross_at_one_depth_both_end),
+  };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

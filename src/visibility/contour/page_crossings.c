@@ -24,7 +24,9 @@ static bool add_segments(struct segment_grid *grid,
   return true;
 }
 
-/* Cuts a segment where the other one crosses it, if it is the farther one. */
+/* Cuts a segment where the other one crosses it, if it is the farther one;
+ * contours of the same depth are both cut, as where a surface passes through
+ * another one just where both are seen edge-on. */
 static bool cut_at_crossing(struct contour_curves *curves,
                             const struct page_segment *a,
                             const struct page_segment *b) {
@@ -34,9 +36,10 @@ static bool cut_at_crossing(struct contour_curves *curves,
   double depth = page_segment_depth(b, t) - page_segment_depth(a, s);
   struct contour_cut of_a = {a->owner, fmin(s, 1 - 0x1p-30), true};
   struct contour_cut of_b = {b->owner, fmin(t, 1 - 0x1p-30), true};
-  return (depth <= 0 || ARRAY_PUSH(&curves->cut, of_a)) &&
-         (b->owner == SHEET_NONE || depth >= 0 ||
-          ARRAY_PUSH(&curves->cut, of_b));
+  bool is_border = b->owner == SHEET_NONE;
+  return (depth < 0 || (is_border && depth == 0) ||
+          ARRAY_PUSH(&curves->cut, of_a)) &&
+         (is_border || depth > 0 || ARRAY_PUSH(&curves->cut, of_b));
 }
 
 static bool cut_at_crossings(struct contour_curves *curves,
