@@ -318,8 +318,13 @@ void triangle_grid_fini(struct triangle_grid *grid) {
 
 bool triangle_grid_query_init(struct triangle_grid_query *query,
                               const struct triangle_grid *grid) {
+  size_t count = grid->triangle_count + 1;
   memset(query, 0, sizeof *query);
-  query->stamp = mem_calloc(grid->triangle_count + 1, sizeof *query->stamp);
+  query->stamp = mem_alloc(count, sizeof *query->stamp);
+  /* A page that is read before it is written faults twice, and interrupts the
+   * other threads: so all is written by the thread that reads it. */
+  if (query->stamp != NULL)
+    memset(query->stamp, 0, count * sizeof *query->stamp);
   return query->stamp != NULL;
 }
 

@@ -132,9 +132,14 @@ static bool solve_edges_of_batch(const struct edge_batches *batches,
 }
 
 /* In a map of its own until the end, as other threads write the maps beside
- * it. */
+ * it.  Each worker makes its query, all of whose memory it touches. */
 static bool solve_batch(void *user, struct parallel_range range) {
   const struct edge_batches *batches = user;
+  struct edge_query *query = &batches->query[range.worker];
+  const struct tiles_work *work = batches->work;
+  if (query->sheet == NULL &&
+      !edge_query_init(query, work->sheet, &work->lists, work->culling))
+    return false;
   struct map *stored = &batches->map[range.begin / BATCH_SIZE], map = *stored;
   bool ok = solve_edges_of_batch(batches, range, &map);
   *stored = map;
@@ -193,9 +198,6 @@ static bool solve_edges_tiles(struct tiles_work *work, struct map *map) {
       work, mem_calloc((size_t)workers, sizeof *batches.query),
       mem_calloc(count, sizeof *batches.map)};
   bool ok = batches.query != NULL && batches.map != NULL;
-  for (int k = 0; ok && k < workers; k++)
-    ok = edge_query_init(&batches.query[k], work->sheet, &work->lists,
-                         work->culling);
   for (size_t i = 0; ok && i < count; i++)
     batches.map[i].edge_state = map->edge_state;
   ok = ok && parallel_ranges(workers, work->states.edge.count, BATCH_SIZE,
