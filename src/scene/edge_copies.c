@@ -133,7 +133,7 @@ static bool copy_part(struct edge_copies *copies, struct edge_range *range,
                              &shift) &&
          has_free_points(copies, range, shift);
        *face += part->faces) {
-    if (!ARRAY_RESERVE(&range->edge, copies->edges) ||
+    if (!edge_range_reserve(range, copies->edges) ||
         !ARRAY_PUSH(&copies->shift, shift) ||
         !copy_to(copies, range, *face, shift))
       return false;

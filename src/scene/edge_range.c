@@ -145,8 +145,9 @@ static bool add_edge_of_side(struct edge_range *range,
   struct topology_edge edge = topology_new_edge(lower_end(it), upper_end(it),
                                                 it->face, it->from < it->to);
   uint32_t e = (uint32_t)range->edge.count;
-  if (!ARRAY_PUSH(&range->edge, edge))
+  if (!edge_range_reserve(range, 1))
     return false;
+  range->edge.item[range->edge.count++] = edge;
   uint32_t *head = &range->head[edge.point[0]];
   if (*head != EDGE_RANGE_HUB) {
     range->next[e] = *head;
@@ -238,7 +239,7 @@ MEM_PREFETCH_INLINE void prefetch_side(const struct side_loop *loop,
  * ran out, or where the caller cancelled. */
 static inline bool begin_sides(struct edge_range *range, struct side_loop *loop,
                                size_t sides) {
-  if (!poll_now() || !ARRAY_RESERVE(&range->edge, sides))
+  if (!poll_now() || !edge_range_reserve(range, sides))
     return false;
   *loop = (struct side_loop){.head = range->head,
                              .next = range->next,
@@ -388,14 +389,13 @@ bool edge_range_find(struct edge_range *range, bool with_hubs) {
   const struct scene *scene = range->scene;
   size_t points = scene->point.count;
   size_t corners = edge_range_corners(range);
-  /* The edges of later ranges are added to those of the first. */
-  size_t reserved = range->face == 0 ? scene->corner.count : corners;
   /* Of next no more is ever touched than there are edges: half of the corners
    * in a closed mesh. */
   range->head = mem_alloc(points, sizeof *range->head);
   range->next = mem_alloc(corners, sizeof *range->next);
   if (range->head == NULL || range->next == NULL ||
-      !ARRAY_RESERVE(&range->edge, reserved / 2 + reserved / 8))
+      (!range->is_placed &&
+       !edge_range_reserve(range, corners / 2 + corners / 8)))
     return false;
   if (with_hubs && !find_hubs(range))
     return false;
@@ -418,7 +418,8 @@ void edge_range_drop_lists(struct edge_range *range) {
 }
 
 void edge_range_fini(struct edge_range *range) {
-  ARRAY_FREE(&range->edge);
+  if (!range->is_placed)
+    ARRAY_FREE(&range->edge);
   ARRAY_FREE(&range->corner_copy);
   edge_range_drop_lists(range);
 }

@@ -12,6 +12,7 @@ librecto_core_la_SOURCES += \
   %D%/ear_clipping.c %D%/ear_clipping.h \
   %D%/edge_classes.c %D%/edge_classes.h \
   %D%/edge_copies.c %D%/edge_copies.h \
+  %D%/edge_join.c %D%/edge_join.h \
   %D%/edge_lists.h \
   %D%/edge_range.c %D%/edge_range.h \
   %D%/exact.c %D%/exact.h \
