@@ -54,20 +54,16 @@ static void sort_random_keys(struct random *random, size_t count,
 
 static void keys_are_sorted_stably_at_every_size(void **state) {
   (void)state;
-  static const uint64_t masks[] = {UINT64_MAX,
-                                   0,
-                                   1,
-                                   7,
-                                   0x7ff,
-                                   0x800,
-                                   0xffffffff,
-                                   UINT64_C(1) << 63,
-                                   UINT64_C(0xfff0000000000000),
-                                   UINT64_C(0x8000000000000001)};
+  static const uint64_t masks[] = {
+      UINT64_MAX, 0, 1, 7, 0x7ff, 0x800, 0xffffffff, UINT64_C(1) << 63,
+      UINT64_C(0xfff0000000000000), UINT64_C(0x8000000000000001),
+      /* long runs agree in the upper bits */
+      UINT64_C(0xf0000000000fffff), UINT64_C(0xff0000000fffffff)};
+  enum { MASKS = sizeof masks / sizeof *masks };
   struct random random = {1};
   for (size_t count = 0; count < 140; count++)
-    sort_random_keys(&random, count, masks[count % 10]);
-  for (size_t i = 0; i < 10; i++) {
+    sort_random_keys(&random, count, masks[count % MASKS]);
+  for (size_t i = 0; i < MASKS; i++) {
     sort_random_keys(&random, 1023, masks[i]);
     sort_random_keys(&random, 1024, masks[i]);
     sort_random_keys(&random, 3000, masks[i]);
@@ -85,6 +81,7 @@ static void several_threads_sort_stably(void **state) {
   poll_open(&poll, &options);
   sort_random_keys(&random, 300001, UINT64_MAX);
   sort_random_keys(&random, 200003, 0xfff0);
+  sort_random_keys(&random, 200003, UINT64_C(0xf0000000000fffff));
   poll_close(&poll);
 }
 

@@ -1,4 +1,8 @@
-/* sort.c - stable sorting: radix for integer keys, merging for the rest. */
+/* sort.c - stable sorting: radix for integer keys, merging for the rest.
+ *
+ * Of many integer keys only the upper bits are sorted by radix, so many that
+ * most keys differ in them; then the few items of each run that agree in these
+ * are sorted: fewer passes touch memory that is in no cache. */
 #include "base/sort.h"
 
 #include <stdatomic.h>
@@ -11,9 +15,9 @@
 enum {
   DIGIT_BITS = 11,
   DIGIT_COUNT = 1 << DIGIT_BITS,
-  PASS_COUNT = (64 + DIGIT_BITS - 1) / DIGIT_BITS,
-  RUN = 32,   /* items that insertion sorts as fast as merging */
-  FEW = 1024, /* below, merging is faster than clearing the histograms */
+  SPARE_BITS = 3, /* more than count the items, by which keys differ */
+  RUN = 32,       /* items that insertion sorts as fast as merging */
+  FEW = 1024,     /* below, merging is faster than clearing the histograms */
   DISTRIBUTED_ITEMS = 16 * POLL_ITEMS, /* between two polls */
   PART_COUNT = 4,          /* of the items of a pass, and threads, at most */
   PART_ITEMS_MIN = 1 << 14 /* for a thread to be worth while */
@@ -58,8 +62,9 @@ static void sort_few_keys(struct sort_key *item, struct sort_key *scratch,
     memcpy(item, from, count * sizeof *item);
 }
 
-static size_t digit(uint64_t key, int pass) {
-  return (size_t)(key >> (pass * DIGIT_BITS)) & (DIGIT_COUNT - 1);
+/* The digit that begins at bit `shift`. */
+static size_t digit(uint64_t key, int shift) {
+  return (size_t)(key >> shift) & (DIGIT_COUNT - 1);
 }
 
 /* A pass, which distributes the items by one digit, in equal parts.  Within a
@@ -69,7 +74,7 @@ struct sort_pass {
   const struct sort_key *from;
   struct sort_key *to;
   size_t count;
-  int pass, parts;
+  int shift, parts;
   bool counting; /* `start` gets the number of items of each digit */
   size_t (*start)[DIGIT_COUNT]; /* one a part */
   atomic_int next;              /* the first part that no thread has taken */
@@ -86,13 +91,13 @@ static void do_part(const struct sort_pass *pass, int part) {
   size_t i = first_of_part(pass, part);
   if (pass->counting) {
     for (; i < end; i++)
-      start[digit(from[i].key, pass->pass)]++;
+      start[digit(from[i].key, pass->shift)]++;
     return;
   }
   for (; i < end; i++) {
     if ((i + 1) % DISTRIBUTED_ITEMS == 0)
       (void)poll_now();
-    pass->to[start[digit(from[i].key, pass->pass)]++] = from[i];
+    pass->to[start[digit(from[i].key, pass->shift)]++] = from[i];
   }
 }
 
@@ -114,12 +119,12 @@ static void run_pass(struct sort_pass *pass, bool counting) {
 /* Distributes the items by one digit.
  * parts  of the items, done by as many threads at most */
 static void distribute(const struct sort_key *from, struct sort_key *to,
-                       size_t count, int pass, int parts) {
+                       size_t count, int shift, int parts) {
   size_t start[PART_COUNT][DIGIT_COUNT], sum = 0;
   struct sort_pass work = {.from = from,
                            .to = to,
                            .count = count,
-                           .pass = pass,
+                           .shift = shift,
                            .parts = parts,
                            .start = start};
   memset(start, 0, (size_t)parts * sizeof start[0]);
@@ -133,25 +138,48 @@ static void distribute(const struct sort_key *from, struct sort_key *to,
   run_pass(&work, false);
 }
 
+/* The first bit of the digits that are sorted by.
+ * differing  the bits in which any two keys differ, at least one */
+static int first_shift(size_t count, uint64_t differing) {
+  int bits = SPARE_BITS, end = 64 - __builtin_clzll(differing);
+  while (count >> (bits - SPARE_BITS))
+    bits++;
+  int shift = end - (bits + DIGIT_BITS - 1) / DIGIT_BITS * DIGIT_BITS;
+  return shift > 0 ? shift : 0;
+}
+
+/* Sorts each run of items that agree from bit `shift` on. */
+static void sort_runs(struct sort_key *item, struct sort_key *scratch,
+                      size_t count, int shift) {
+  for (size_t i = 0, end; i < count; i = end) {
+    for (end = i + 1;
+         end < count && (item[end].key ^ item[i].key) >> shift == 0;)
+      end++;
+    if (end - i > 1)
+      sort_keys(item + i, scratch + i, end - i);
+  }
+}
+
 void sort_keys(struct sort_key *item, struct sort_key *scratch, size_t count) {
   if (count < FEW) {
     sort_few_keys(item, scratch, count);
     return;
   }
-  /* One pass finds the bits in which any two keys differ; digits in which none
-   * do need no pass. */
   uint64_t differing = 0;
   for (size_t i = 1; i < count; i++)
     differing |= item[i].key ^ item[0].key;
+  if (differing == 0)
+    return;
   int workers =
       count < PART_ITEMS_MIN ? 1 : parallel_workers(count, PART_ITEMS_MIN);
+  int first = first_shift(count, differing);
   struct sort_key *from = item, *to = scratch;
-  for (int pass = 0; pass < PASS_COUNT; pass++) {
-    if (digit(differing, pass) == 0)
-      continue;
+  for (int shift = first; shift < 64; shift += DIGIT_BITS) {
+    if (digit(differing, shift) == 0)
+      continue; /* no key differs */
     if (count > POLL_ITEMS)
       (void)poll_now();
-    distribute(from, to, count, pass,
+    distribute(from, to, count, shift,
                workers < PART_COUNT ? workers : PART_COUNT);
     struct sort_key *swap = from;
     from = to;
@@ -159,6 +187,8 @@ void sort_keys(struct sort_key *item, struct sort_key *scratch, size_t count) {
   }
   if (from != item)
     memcpy(item, from, count * sizeof *item);
+  if (differing << (63 - first) << 1 != 0)
+    sort_runs(item, scratch, count, first);
 }
 
 bool sort_keys_alone(struct sort_key *item, size_t count) {

@@ -12,9 +12,10 @@ struct sort_key {
   uint32_t value;
 };
 
-/* Sorts by key, equal keys in their given order (radix, 11 bits a pass,
- * passes in which all keys agree are skipped).  `scratch` holds as many.  Large
- * arrays are sorted by several threads. */
+/* Sorts by key, equal keys in their given order (radix, 11 bits a pass, by as
+ * many of the upper bits as tell most keys apart; passes in which all keys
+ * agree are skipped).  `scratch` holds as many.  Large arrays are sorted by
+ * several threads. */
 void sort_keys(struct sort_key *item, struct sort_key *scratch, size_t count);
 
 /* The same with scratch of its own.  False when memory ran out. */
