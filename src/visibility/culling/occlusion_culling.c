@@ -220,10 +220,13 @@ void occlusion_culling_fini(struct occlusion_culling *culling) {
 /* A segment to be tested, from its farther to its nearer end, and how far what
  * is to be hidden may be off it. */
 struct tested_segment {
-  double x, y, z, dx, dy, dz, xy_off, z_off;
-  double per_x, per_y;       /* the parameter's changes: 1 / dx, 1 / dy, or 0 */
-  double side, per_side;     /* that of a cell, and 1 / side, which is exact */
-  int32_t nearest, farthest; /* of its depths, with the margin, in steps */
+  double x, y, z, dz, xy_off, z_off;
+  double per_x, per_y;  /* the parameter's changes: 1 / dx, 1 / dy, or 0 */
+  double low_x, high_x; /* of its ends */
+  double start_x, slope, run; /* its line is at start_x + slope (y - s.y), and
+                                 runs that far along x beside a row of cells */
+  double side, per_side;      /* that of a cell, and 1 / side, which is exact */
+  int32_t nearest, farthest;  /* of its depths, with the margin, in steps */
 };
 
 /* The parameter at which a segment that starts at `from` and runs by 1 / `per`
@@ -253,21 +256,25 @@ begin_segment(const struct occlusion_culling *culling, struct geom_point p,
   struct geom_point far = p.z < q.z ? p : q, near = p.z < q.z ? q : p;
   double dx = (double)near.x - far.x, dy = (double)near.y - far.y,
          side = (double)(INT64_C(1) << culling->buffer.cells.shift);
-  return (struct tested_segment){
+  struct tested_segment s = {
       .x = far.x,
       .y = far.y,
       .z = (double)far.z,
-      .dx = dx,
-      .dy = dy,
       .dz = (double)(near.z - far.z),
       .xy_off = xy_off,
       .z_off = z_off,
       .per_x = dx != 0 ? 1 / dx : 0,
       .per_y = dy != 0 ? 1 / dy : 0,
+      .low_x = dx < 0 ? near.x : far.x,
+      .high_x = dx < 0 ? far.x : near.x,
       .side = side,
       .per_side = 1 / side,
       .nearest = occlusion_steps_up((double)near.z + z_off),
       .farthest = occlusion_steps_up((double)far.z + z_off)};
+  s.slope = dx * s.per_y;
+  s.start_x = dy != 0 ? s.x : s.low_x;
+  s.run = dy != 0 ? s.slope * (side + 2 * xy_off) : s.high_x - s.low_x;
+  return s;
 }
 
 static bool is_hidden_in_cell(const struct occlusion_culling *culling,
@@ -286,21 +293,18 @@ static inline int column_of(const struct triangle_grid *cells,
 }
 
 /* The columns x0 to x1 of row y, within a range, that the segment may come as
- * close to as it may be off. */
+ * close to as it may be off.  Where its line is within its ends, it is rounded
+ * by far less than the unit that is added. */
 static void columns_near(const struct triangle_grid *cells,
                          const struct tested_segment *s, struct cell_range r,
                          int y, int *x0, int *x1) {
-  double low = cells->y0 + y * s->side - s->xy_off,
-         high = low + s->side + 2 * s->xy_off, off = s->xy_off + 1,
-         a = (low - s->y) * s->per_y, b = (high - s->y) * s->per_y;
-  if (s->per_y == 0) {
-    a = 0;
-    b = 1;
-  }
-  a = s->x + s->dx * (a < 0 ? 0 : a > 1 ? 1 : a);
-  b = s->x + s->dx * (b < 0 ? 0 : b > 1 ? 1 : b);
-  *x0 = column_of(cells, s, r, (a < b ? a : b) - off);
-  *x1 = column_of(cells, s, r, (a < b ? b : a) + off);
+  double low = cells->y0 + y * s->side - s->xy_off, off = s->xy_off + 1,
+         a = s->start_x + s->slope * (low - s->y), b = a + s->run,
+         left = a < b ? a : b, right = a < b ? b : a;
+  left = left < s->low_x ? s->low_x : left > s->high_x ? s->high_x : left;
+  right = right < s->low_x ? s->low_x : right > s->high_x ? s->high_x : right;
+  *x0 = column_of(cells, s, r, left - off);
+  *x1 = column_of(cells, s, r, right + off);
 }
 
 bool occlusion_culling_hides_near(const struct occlusion_culling *culling,
