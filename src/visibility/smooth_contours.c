@@ -77,20 +77,6 @@ static bool point_at(struct contour_pieces *c, struct contour_cut at,
   return true;
 }
 
-/* Whether the surface is on the left of a step's segment on the page. */
-static bool has_surface_left(const struct contour_pieces *c, uint32_t step,
-                             int side) {
-  const struct contour_node *a = contour_curves_node(c->curves, step);
-  const struct contour_segment *s = contour_curves_segment(c->curves, step);
-  double off = s->width * side;
-  struct geom_point outside = divided_curves_project(
-      &c->divided, (const double[3]){a->at[0] + off * s->normal[0],
-                                     a->at[1] + off * s->normal[1],
-                                     a->at[2] + off * s->normal[2]});
-  return geom_orient2d(a->page, contour_curves_node(c->curves, step + 1)->page,
-                       outside) <= 0;
-}
-
 /* How far the curve is from the mesh about a step on the page, grid units. */
 static double bulge_at(const struct contour_pieces *c, uint32_t step) {
   double most = 0;
@@ -127,7 +113,9 @@ static bool add_edges(struct contour_pieces *c,
         !ARRAY_PUSH(&c->height, height) ||
         !ARRAY_PUSH(&c->bulge, (float)bulge_at(c, at.step)))
       return false;
-    if (!has_surface_left(c, at.step, piece->side)) {
+    if (!contour_curves_surface_is_left(c->curves, &sheet->camera,
+                                        &c->divided.projection, at.step,
+                                        piece->side)) {
       struct sheet_edge *made = &sheet->edge.item[sheet->edge.count - 1];
       made->point[0] = edge.point[1];
       made->point[1] = edge.point[0];
@@ -157,6 +145,7 @@ static bool add_curve(struct contour_pieces *c, size_t index) {
                                 c->divided.piece.item + of->first, of->count};
   curve_pieces_absorb_short(&pieces);
   if (!c->options.exact) {
+    curve_pieces_hide_covered(&pieces, &c->sheet->camera);
     curve_pieces_absorb_runs(&pieces, &c->sheet->camera);
     curve_pieces_trim_hooks(&pieces, &c->sheet->camera);
   }
@@ -291,7 +280,8 @@ static bool add_pieces(struct contour_pieces *c) {
             (c->options.exact ||
              (thin_loops_remove(c->curves, c->set, c->sheet, c->topology) &&
               end_zigzags_straighten(c->curves, c->set, &c->sheet->camera))) &&
-            contour_cusps_cut(c->curves) && page_crossings_cut(c->curves) &&
+            contour_cusps_cut(c->curves) &&
+            page_crossings_cut(c->curves, &c->sheet->camera) &&
             intersection_cuts_add(c->curves, c->sheet, c->map) &&
             contour_cuts_sort(&c->curves->cut) &&
             divided_curves_find(&c->divided) && list_triangles_about(c) &&

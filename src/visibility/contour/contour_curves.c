@@ -133,3 +133,20 @@ bool contour_cuts_sort(struct contour_cuts *cuts) {
   cuts->count = kept;
   return true;
 }
+
+/* ---- Sides --------------------------------------------------------------- */
+
+bool contour_curves_surface_is_left(const struct contour_curves *curves,
+                                    const struct camera *camera,
+                                    const struct projection *projection,
+                                    size_t step, int side) {
+  const struct contour_node *a = contour_curves_node(curves, step);
+  const struct contour_segment *s = contour_curves_segment(curves, step);
+  double off = s->width * side;
+  const struct scene_point outside = {a->at[0] + off * s->normal[0],
+                                      a->at[1] + off * s->normal[1],
+                                      a->at[2] + off * s->normal[2]};
+  return geom_orient2d(
+             a->page, contour_curves_node(curves, step + 1)->page,
+             project_point(projection, camera_view(camera, &outside))) <= 0;
+}

@@ -3,6 +3,7 @@
 #ifndef VISIBILITY_CONTOUR_CONTOUR_CURVES_H
 #define VISIBILITY_CONTOUR_CONTOUR_CURVES_H
 
+#include "view/project.h"
 #include "visibility/contour/zero_set.h"
 
 /* A node of a curve and the segment that starts there.  A curve has one more
@@ -21,8 +22,11 @@ struct contour_curve {
 /* A place at which a curve is divided. */
 struct contour_cut {
   uint32_t step;
-  double t;      /* along the step's segment, 0 to before 1 */
-  bool crossing; /* something passes in front, or through, there */
+  double t;       /* along the step's segment, 0 to before 1 */
+  bool crossing;  /* something passes in front, or through, there */
+  int8_t covered; /* on the page the surface of what passes in front lies: 1:
+                     beyond the place along the curve; -1: before it; 0: it is
+                     not known where */
 };
 
 struct contour_cuts {
@@ -68,6 +72,13 @@ static inline const struct contour_segment *
 contour_curves_segment(const struct contour_curves *curves, size_t step) {
   return &curves->set->segment.item[curves->step.item[step].segment];
 }
+
+/* Whether the surface is on the left of a step's segment on the page.
+ * side  of contour_piece */
+bool contour_curves_surface_is_left(const struct contour_curves *curves,
+                                    const struct camera *camera,
+                                    const struct projection *projection,
+                                    size_t step, int side);
 
 /* The height on the page of the triangle of a segment that starts at a node,
  * grid units. */

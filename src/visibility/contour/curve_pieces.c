@@ -8,7 +8,8 @@
 enum { SHORT_SEGMENTS = 6 };
 
 /* The length of a short run, as a multiple of its triangles' heights: of one
- * that is visible, of one that begins or ends at a crossing, and of a gap. */
+ * that is visible, of one that begins or ends at a crossing, and of a gap.
+ * Samples are a height nearer than a piece is. */
 #define SHORT_HEIGHTS 2
 #define CROSSED_HEIGHTS 1
 #define GAP_HEIGHTS 0.5
@@ -68,6 +69,29 @@ static double length_in_heights(const struct curve_pieces *pieces,
     heights += contour_height(camera, a, contour_curves_segment(curves, i));
   }
   return heights > 0 ? length / (heights / steps) : 0;
+}
+
+/* Whether a curve is hidden at piece i, counted around a closed one; it is
+ * beyond its ends. */
+static bool is_hidden_at(const struct curve_pieces *pieces, size_t i) {
+  bool is_beyond = i == SIZE_MAX || i == pieces->count;
+  if (is_beyond && pieces->curve->closed)
+    i = i == SIZE_MAX ? pieces->count - 1 : 0;
+  else if (is_beyond)
+    return true;
+  return !pieces->piece[i].is_visible;
+}
+
+void curve_pieces_hide_covered(struct curve_pieces *pieces,
+                               const struct camera *camera) {
+  for (size_t i = 0; i < pieces->count; i++) {
+    struct contour_piece *piece = &pieces->piece[i];
+    if (piece->is_visible &&
+        ((piece->from.covered > 0 && is_hidden_at(pieces, i + 1)) ||
+         (piece->to.covered < 0 && is_hidden_at(pieces, i - 1))) &&
+        length_in_heights(pieces, piece, camera) < CROSSED_HEIGHTS)
+      piece->is_visible = false;
+  }
 }
 
 /* How long a run between two pieces is not to be absorbed, in heights. */

@@ -32,6 +32,12 @@ static inline double contour_position(struct contour_cut cut) {
  * both ends are crossings or creases, which are known to be some. */
 void curve_pieces_absorb_short(struct curve_pieces *pieces);
 
+/* Hides visible pieces of less than a height that lead from a crossing behind
+ * the surface of the contour in front to where the curve is hidden: visibility
+ * is asked as far in front of the curve. */
+void curve_pieces_hide_covered(struct curve_pieces *pieces,
+                               const struct camera *camera);
+
 /* Makes what is hidden over less than half a height of the triangles, and then
  * what is visible over less than two, or over less than one from or to a
  * crossing, like what is beside it; not between two crossings. */

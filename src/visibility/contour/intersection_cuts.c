@@ -207,7 +207,7 @@ static bool look_at(struct intersection_cuts *c, const struct page_segment *s,
     return true;
   return keep_nearest(
       c, (struct nearest_place){curve_of_step(c, s->owner),
-                                {s->owner, fmin(t, 1 - 0x1p-30), true},
+                                {s->owner, fmin(t, 1 - 0x1p-30), true, 0},
                                 hypot(px - t * dx, py - t * dy)});
 }
 

@@ -10,6 +10,7 @@
  * Exact   whether two segments cross; where is rounded
  * Cost    near linear in the segments and crossings
  * Returns false when memory ran out or the caller cancelled. */
-USE_RESULT bool page_crossings_cut(struct contour_curves *curves);
+USE_RESULT bool page_crossings_cut(struct contour_curves *curves,
+                                   const struct camera *camera);
 
 #endif
