@@ -46,6 +46,7 @@ static void find_contours(struct contour_sheet *s, uint32_t first,
   s->nearest = (struct nearest_contours){.sheet = &s->sheet,
                                          .map = &s->map,
                                          .first = first,
+                                         .cusps = s->nearest.cusps,
                                          .first_point = first_point};
   assert_true(nearest_contours_init(&s->nearest));
 }
@@ -154,7 +155,7 @@ static void the_nearest_of_all_contours_is_found(void **state) {
   (void)state;
   uint64_t r = 11;
   for (int trial = 0; trial < 500; trial++) {
-    struct contour_sheet s;
+    struct contour_sheet s = {.nearest = {.sheet = NULL}};
     int32_t span = trial % 3 == 0 ? 8 : 1 << (10 + trial % 18);
     make_random(&s, &r, span);
     for (int i = 0; i < 20; i++) {
@@ -172,6 +173,36 @@ static void the_nearest_of_all_contours_is_found(void **state) {
       check_distances(&found, &all, radius);
       assert_int_equal(nearest_contours_has_line(&s.nearest, p), all.on_line);
     }
+    fini_contours(&s);
+  }
+}
+
+/* A contour that turns back along itself, and a line across. */
+static void cusps_are_ends_and_lines_are_between(void **state) {
+  (void)state;
+  static const double along[2] = {1, 0};
+  for (int cusps = 0; cusps < 2; cusps++) {
+    struct contour_sheet s = {.nearest = {.sheet = NULL}};
+    exact_sheet_init(&s.sheet);
+    (void)add_point(&s.sheet, 1500, -900);
+    (void)add_point(&s.sheet, 1500, 900);
+    add_edge(&s.sheet, 0, 1, RECTO_EDGE_BORDER);
+    (void)add_point(&s.sheet, 0, 0);
+    (void)add_point(&s.sheet, 1000, 0);
+    (void)add_point(&s.sheet, 200, 100);
+    add_edge(&s.sheet, 2, 3, RECTO_EDGE_SILHOUETTE);
+    add_edge(&s.sheet, 4, 3, RECTO_EDGE_SILHOUETTE);
+    s.nearest.cusps = cusps;
+    find_contours(&s, 1, 2, NULL);
+    struct geom_point beyond = {2000, 0, 0};
+    struct nearest_contour found =
+        nearest_contours_find(&s.nearest, beyond, along, 5000);
+    assert_true((cusps ? found.loose : found.any) == 1000);
+    assert_true((cusps ? found.any : found.loose) > 1000);
+    assert_true(nearest_contours_has_line_between(&s.nearest, beyond,
+                                                  s.sheet.point.item[3]));
+    assert_false(nearest_contours_has_line_between(
+        &s.nearest, s.sheet.point.item[2], s.sheet.point.item[3]));
     fini_contours(&s);
   }
 }
@@ -200,7 +231,7 @@ static double compare_all_over(struct contour_sheet *s, int32_t size,
 static void lines_far_off_are_not_compared(void **state) {
   (void)state;
   const int32_t size = 1 << 27;
-  struct contour_sheet s;
+  struct contour_sheet s = {.nearest = {.sheet = NULL}};
   exact_sheet_init(&s.sheet);
   for (int32_t i = 0; i < ROWS; i++) {
     int32_t y = i * (2 * size / ROWS) - size;
@@ -218,7 +249,7 @@ static void lines_far_off_are_not_compared(void **state) {
 static void few_of_many_near_contours_are_compared(void **state) {
   (void)state;
   const int32_t size = 1 << 23;
-  struct contour_sheet s;
+  struct contour_sheet s = {.nearest = {.sheet = NULL}};
   exact_sheet_init(&s.sheet);
   for (int32_t i = 0; i < ROWS; i++) {
     int32_t x = random_between((uint64_t[]){(uint64_t)i * 77 + 1}, size);
@@ -236,6 +267,7 @@ static void few_of_many_near_contours_are_compared(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_nearest_of_all_contours_is_found),
+      cmocka_unit_test(cusps_are_ends_and_lines_are_between),
       cmocka_unit_test(lines_far_off_are_not_compared),
       cmocka_unit_test(few_of_many_near_contours_are_compared),
   };

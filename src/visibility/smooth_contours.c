@@ -264,7 +264,8 @@ static bool close_gaps(struct contour_pieces *c, uint32_t first,
                                            .bulges = (uint32_t)c->bulge.count,
                                            .grid = &c->grid.grid,
                                            .query = &c->query,
-                                           .compared = &c->curves->compared};
+                                           .compared = &c->curves->compared,
+                                           .exact = c->options.exact};
   return fold_bridges_add(&input, c->height.item) && border_ends_show(&input) &&
          outline_gaps_close(&input) && fold_lines_add(&input);
 }

@@ -19,6 +19,10 @@
 #define BEYOND (4 * TOLERANCE_OUTLINE_UNITS)
 enum { FIRST_ENTRIES_MAX = 64 };
 
+/* A contour has a cusp where it turns back along itself, by more than 154
+ * degrees. */
+#define CUSP_COSINE 0.9
+
 /* Contours that turn from an outline by more than 120 degrees are those of
  * another surface beside it. */
 #define TURNED_COSINE (-0.5)
@@ -49,6 +53,39 @@ static bool list_visible(struct nearest_contours *n) {
   return true;
 }
 
+/* The point of one of two edges of a curve that they have in common;
+ * SHEET_NONE: none. */
+static uint32_t common_point(const uint32_t a[2], const uint32_t b[2]) {
+  if (a[0] == b[0] || a[0] == b[1])
+    return a[0];
+  return a[1] == b[0] || a[1] == b[1] ? a[1] : SHEET_NONE;
+}
+
+/* Whether a curve has a cusp at the point that two edges have in common. */
+static bool has_cusp(const struct sheet *sheet, const uint32_t a[2],
+                     const uint32_t b[2], uint32_t common) {
+  const struct geom_point *all = sheet->point.item;
+  struct geom_point at = all[common], p = all[a[a[0] == common]],
+                    q = all[b[b[0] == common]];
+  double px = (double)p.x - at.x, py = (double)p.y - at.y;
+  double qx = (double)q.x - at.x, qy = (double)q.y - at.y;
+  return px * qx + py * qy > CUSP_COSINE * hypot(px, py) * hypot(qx, qy);
+}
+
+/* Lets contours end at their cusps: there no line goes on to what is beyond. */
+static void end_at_cusps(struct nearest_contours *n) {
+  const uint8_t *state = n->map->edge_state;
+  for (uint32_t e = n->first; e + 1 < n->sheet->edge.count; e++) {
+    const uint32_t *a = n->sheet->edge.item[e].point;
+    const uint32_t *b = n->sheet->edge.item[e + 1].point;
+    uint32_t at = common_point(a, b);
+    if (at != SHEET_NONE && state[e] != MAP_HIDDEN &&
+        state[e + 1] != MAP_HIDDEN && n->ends[at - n->first_point] == 2 &&
+        has_cusp(n->sheet, a, b, at))
+      n->ends[at - n->first_point] = 1;
+  }
+}
+
 static bool list_by_cells(struct segment_grid *grid) {
   grid->contours = grid->segment.count;
   return grid->contours == 0 || segment_grid_make(grid);
@@ -75,8 +112,11 @@ static bool sum_lists(struct nearest_contours *n) {
 bool nearest_contours_init(struct nearest_contours *nearest) {
   nearest->ends =
       mem_calloc(nearest->sheet->point.count - nearest->first_point, 1);
-  return nearest->ends != NULL && list_visible(nearest) &&
-         list_by_cells(&nearest->contour) && list_by_cells(&nearest->line) &&
+  if (nearest->ends == NULL || !list_visible(nearest))
+    return false;
+  if (nearest->cusps)
+    end_at_cusps(nearest);
+  return list_by_cells(&nearest->contour) && list_by_cells(&nearest->line) &&
          sum_lists(nearest);
 }
 
@@ -266,6 +306,28 @@ bool nearest_contours_has_line(struct nearest_contours *nearest,
             place_on_segment(s, p).distance <= TOLERANCE_COINCIDENT_UNITS)
           return true;
       }
+    }
+  return false;
+}
+
+bool nearest_contours_has_line_between(struct nearest_contours *nearest,
+                                       struct geom_point p,
+                                       struct geom_point q) {
+  const struct number_lists *lists = &nearest->line.cell.lists;
+  const struct page_segment way = {.p = p, .q = q};
+  double s, t;
+  if (nearest->line.contours == 0)
+    return false;
+  struct cell_range range =
+      triangle_grid_cells(&nearest->line.cell, box2_of_segment(p, q));
+  for (int y = range.y0; y <= range.y1; y++)
+    for (int x = range.x0; x <= range.x1; x++) {
+      size_t cell = triangle_grid_index(&nearest->line.cell, x, y);
+      nearest->compared += lists->start[cell + 1] - lists->start[cell];
+      for (uint32_t i = lists->start[cell]; i < lists->start[cell + 1]; i++)
+        if (page_segments_cross(
+                &way, &nearest->line.segment.item[lists->item[i]], &s, &t))
+          return true;
     }
   return false;
 }

@@ -14,12 +14,14 @@ struct nearest_contours {
   uint32_t first_point;      /* of the sheet's points: the same */
   const float *bulge; /* how far the first so many contours bulge, grid units */
   uint32_t bulges;
+  bool cusps; /* contours end at cusps, too */
   struct segment_grid contour;
   struct segment_grid line; /* other visible lines, but creases, as ink may
                                leave them out */
   uint32_t *sum;            /* entries of the lists of contours below and to the
                                left of each corner of a cell */
-  uint8_t *ends;     /* one a point of contours: of visible ones, at most 2 */
+  uint8_t *ends; /* one a point of contours: of visible ones, at most 2; 1 at
+                        a cusp that is an end */
   uint64_t compared; /* segments with points: the work done */
 };
 
@@ -28,7 +30,7 @@ USE_RESULT bool nearest_contours_init(struct nearest_contours *nearest);
 void nearest_contours_fini(struct nearest_contours *nearest);
 
 /* The nearest points of contours to one: of all but loose ends, at which one
- * visible contour alone ends, and of loose ends. */
+ * visible contour alone ends, or at a cusp, and of loose ends. */
 struct nearest_contour {
   double any, loose;    /* distances; INFINITY: none was found */
   struct geom_point at; /* of any */
@@ -53,5 +55,10 @@ struct nearest_contour nearest_contours_find(struct nearest_contours *nearest,
 /* Whether a line other than a contour runs through a point. */
 bool nearest_contours_has_line(struct nearest_contours *nearest,
                                struct geom_point p);
+
+/* Whether one lies between two points. */
+bool nearest_contours_has_line_between(struct nearest_contours *nearest,
+                                       struct geom_point p,
+                                       struct geom_point q);
 
 #endif

@@ -149,7 +149,9 @@ static bool look_at_contours(struct outline_gaps *g,
   if (at_end) {
     made->at = near.loose_at;
     made->point = near.loose_point;
-  } else if (near.any <= fmin(near.loose, radius)) {
+  } else if (near.any <= fmin(near.loose, radius) &&
+             !nearest_contours_has_line_between(&g->nearest, made->at,
+                                                near.at)) {
     made->at = near.at;
   }
   if (sure > 2 * TOLERANCE_OUTLINE_UNITS)
@@ -247,7 +249,8 @@ bool outline_gaps_close(const struct outline_gaps_input *input) {
                   .first = input->first,
                   .first_point = input->first_point,
                   .bulge = input->bulge,
-                  .bulges = input->bulges},
+                  .bulges = input->bulges,
+                  .cusps = !input->exact},
       .cover = {input->sheet, input->grid, input->query, SHEET_NONE}};
   bool ok = nearest_contours_init(&g.nearest) &&
             find_open_parts(&g, input->set) && add_part_edges(&g, input->map);

@@ -21,6 +21,8 @@ struct outline_gaps_input {
                                        of the outlines at least */
   struct triangle_grid_query *query;
   uint64_t *compared; /* what is near with what: gets the work done, too */
+  bool exact; /* thin loops are not left out, and cusps are not only those of
+                 the surface */
 };
 
 /* Adds visible edges of the class silhouette along those parts of the mesh's
