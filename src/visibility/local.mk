@@ -45,6 +45,7 @@ librecto_core_la_SOURCES += \
   %D%/culling/space_box.c %D%/culling/space_box.h \
   %D%/culling/potentially_visible.c %D%/culling/potentially_visible.h \
   %D%/culling/potentially_visible_restore.c \
+  %D%/contour/added_folds.c %D%/contour/added_folds.h \
   %D%/contour/arc_normals.c \
   %D%/contour/border_ends.c %D%/contour/border_ends.h \
   %D%/contour/border_sides.c %D%/contour/border_sides.h \
@@ -53,6 +54,8 @@ librecto_core_la_SOURCES += \
   %D%/culling/vertex_fans.c %D%/culling/vertex_fans.h \
   %D%/culling/contact_bounds.c %D%/culling/contact_bounds.h \
   %D%/contour/contour_curves.c %D%/contour/contour_curves.h \
+  %D%/contour/curvature_noise.c \
+  %D%/contour/curvature_noise.h \
   %D%/contour/curved_triangle.c %D%/contour/curved_triangle.h \
   %D%/contour/corner_moves.c %D%/contour/corner_moves.h \
   %D%/contour/curve_ends.c %D%/contour/curve_ends.h \

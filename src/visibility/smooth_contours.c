@@ -237,7 +237,8 @@ static bool list_folded_diagonals(struct contour_pieces *c) {
     if (!folded_faces_is_diagonal(sheet, edge))
       continue;
     uint32_t face = sheet->triangle.item[edge->triangle[0]].face;
-    struct contour_outline made = {sheet_ends(sheet, edge->point), face};
+    struct contour_outline made = {.image = sheet_ends(sheet, edge->point),
+                                   .face = face};
     if (!has_triangle_left(sheet, edge->triangle[0], made.image)) {
       struct geom_point p = made.image.p;
       made.image.p = made.image.q;

@@ -8,6 +8,7 @@
 #include "base/poll.h"
 #include "base/tolerance.h"
 #include "geom/nearest.h"
+#include "visibility/contour/added_folds.h"
 #include "visibility/contour/fold_joints.h"
 #include "visibility/contour/occluders.h"
 #include "visibility/contour/outline_chains.h"
@@ -21,8 +22,11 @@
 static const double joined_heights[] = {INFINITY, 6, 3};
 #define NEAR_JOINED_HEIGHTS 5
 
-/* The same for a line that is long on the page; no line is of fewer. */
+/* The same for a line that is long on the page, and where the mesh samples a
+ * smooth surface; no line is of fewer. */
 #define LARGE_JOINED_HEIGHTS 2.5
+static const double smooth_heights[] = {INFINITY, 2, 0.5};
+#define LEAST_HEIGHTS 0.5
 
 /* The share of the picture's longer side from which on a line is long on the
  * page. */
@@ -35,8 +39,9 @@ struct fold_lines {
   const struct outline_gaps_input *in;
   struct fold_joints joints;
   struct outline_chains chains;
-  uint8_t *is_passed;         /* one an outline */
-  double long_on_page;        /* grid units */
+  uint8_t *is_passed;  /* one an outline */
+  double long_on_page; /* grid units */
+  struct added_folds added;
   struct fold_samples sample; /* of a chain */
   struct fold_places place;   /* of a line */
 };
@@ -108,10 +113,12 @@ static void look_beside_fold(const struct fold_lines *f,
     }
 }
 
-/* Whether nothing hides the place just beside a sample, where its own surface
- * does not reach. */
+/* Whether a sample may be drawn: nothing hides the place just beside it, where
+ * its own surface does not reach, and no line was added beside it. */
 static bool is_visible(const struct fold_lines *f, const struct fold_sample *s,
                        bool *ok) {
+  if (added_folds_beside(&f->added, s))
+    return false;
   struct geom_point p = {(int32_t)lrint(s->x + BESIDE * s->along[1]),
                          (int32_t)lrint(s->y - BESIDE * s->along[0]),
                          (int64_t)s->z};
@@ -138,7 +145,7 @@ static bool fold_place_point(struct fold_lines *f, const struct fold_place *at,
 }
 
 static bool add_place_edge(struct fold_lines *f, const struct fold_place *at,
-                           uint32_t from, uint32_t to) {
+                           uint32_t from, uint32_t to, double height) {
   struct sheet *sheet = f->in->sheet;
   struct map *map = f->in->map;
   struct sheet_edge edge = {
@@ -149,12 +156,12 @@ static bool add_place_edge(struct fold_lines *f, const struct fold_place *at,
   if (!ARRAY_PUSH(&sheet->edge, edge))
     return false;
   map->edge_state[map->edge_count++] = MAP_VISIBLE;
-  return true;
+  return added_folds_add(&f->added, sheet_ends(sheet, edge.point), height);
 }
 
 /* Adds the edges along the places of a line. */
 static bool add_place_edges(struct fold_lines *f, bool is_ring,
-                            const uint32_t joint[2]) {
+                            const uint32_t joint[2], double height) {
   struct map *map = f->in->map;
   size_t count = f->place.count, most = f->in->sheet->edge.count + count + 1;
   uint32_t first, point;
@@ -169,10 +176,10 @@ static bool add_place_edges(struct fold_lines *f, bool is_ring,
     uint32_t from = point;
     if (!fold_place_point(f, &f->place.item[i],
                           i + 1 == count ? joint[1] : SHEET_NONE, &point) ||
-        !add_place_edge(f, &f->place.item[i], from, point))
+        !add_place_edge(f, &f->place.item[i], from, point, height))
       return false;
   }
-  return !is_ring || add_place_edge(f, &f->place.item[0], point, first);
+  return !is_ring || add_place_edge(f, &f->place.item[0], point, first, height);
 }
 
 /* How long a run has to be, in heights, that is led on to contours at samples
@@ -181,6 +188,8 @@ static double least_heights(const struct fold_lines *f, const uint32_t joint[2],
                             size_t from, size_t last, double height) {
   int joints = (joint[0] != SHEET_NONE) + (joint[1] != SHEET_NONE);
   struct fold_run line = {f->sample.item + from, last + 1 - from, false};
+  if (fold_run_is_smooth(line))
+    return smooth_heights[joints];
   if (joints > 0 && fold_run_length(line) >= f->long_on_page)
     return LARGE_JOINED_HEIGHTS;
   if (joints != 1)
@@ -192,6 +201,12 @@ static double least_heights(const struct fold_lines *f, const uint32_t joint[2],
                                                      : joined_heights[1];
 }
 
+/* Whether a run is long enough if contours continue it. */
+static bool may_be_line(struct fold_run run) {
+  return fold_run_is_line(run, fold_run_is_smooth(run) ? LEAST_HEIGHTS
+                                                       : LARGE_JOINED_HEIGHTS);
+}
+
 /* Adds the line of a run of the chain, if it is long, or if contours continue
  * it. */
 static bool add_line(struct fold_lines *f, size_t from, size_t to,
@@ -200,7 +215,7 @@ static bool add_line(struct fold_lines *f, size_t from, size_t to,
   double height;
   struct fold_run run = {f->sample.item + from, to - from, is_ring};
   bool is_long = fold_run_is_long(run, f->long_on_page, &height);
-  if (!is_long && (is_ring || !fold_run_is_line(run, LARGE_JOINED_HEIGHTS)))
+  if (!is_long && (is_ring || !may_be_line(run)))
     return true;
   if (!is_ring) {
     size_t last = to - 1;
@@ -214,7 +229,7 @@ static bool add_line(struct fold_lines *f, size_t from, size_t to,
     run = (struct fold_run){f->sample.item + from, last + 1 - from, false};
   }
   return fold_run_smooth(run, height, &f->place) &&
-         add_place_edges(f, is_ring, joint);
+         add_place_edges(f, is_ring, joint, height);
 }
 
 /* ---- Chains -------------------------------------------------------------- */
@@ -242,8 +257,7 @@ static bool add_visible_lines(struct fold_lines *f, size_t from, size_t to) {
   double height;
   bool ok = true;
   struct fold_run whole = {sample + from, to - from, false};
-  if (!fold_run_is_long(whole, f->long_on_page, &height) &&
-      !fold_run_is_line(whole, LARGE_JOINED_HEIGHTS))
+  if (!fold_run_is_long(whole, f->long_on_page, &height) && !may_be_line(whole))
     return true;
   for (size_t i = from; ok && i < to;) {
     if (!is_visible(f, &sample[i], &ok)) {
@@ -300,7 +314,7 @@ static bool sample_chain(struct fold_lines *f, uint32_t start, bool *is_ring) {
   *is_ring = false;
   struct fold_run chain = {f->sample.item, f->sample.count, false};
   if (!fold_run_is_long(chain, f->long_on_page, &height) &&
-      !fold_joints_may_join(&f->joints, chain, LARGE_JOINED_HEIGHTS)) {
+      !fold_joints_may_join(&f->joints, chain, LEAST_HEIGHTS)) {
     f->sample.count = 0;
     return true;
   }
@@ -348,13 +362,24 @@ static double find_long_on_page(const struct zero_set *set) {
   return PICTURE_SHARE * fmax((double)box.x1 - box.x0, (double)box.y1 - box.y0);
 }
 
+/* The mean length of outlines, grid units; 1 at least. */
+static double mean_length(const struct zero_set *set) {
+  double sum = 0;
+  for (size_t i = 0; i < set->outline.count; i++) {
+    const struct geom_segment *s = &set->outline.item[i].image;
+    sum += hypot((double)s->q.x - s->p.x, (double)s->q.y - s->p.y);
+  }
+  return fmax(sum / (double)set->outline.count, 1);
+}
+
 bool fold_lines_add(const struct outline_gaps_input *input) {
   size_t outlines = input->set->outline.count;
   if (outlines == 0)
     return true;
   struct fold_lines f = {.in = input,
                          .joints = {.in = input},
-                         .long_on_page = find_long_on_page(input->set)};
+                         .long_on_page = find_long_on_page(input->set),
+                         .added = {.cell = mean_length(input->set)}};
   f.is_passed = mem_calloc(outlines, 1);
   bool ok = f.is_passed != NULL && fold_joints_list(&f.joints) &&
             outline_chains_link(&f.chains, input->set) && add_all_lines(&f);
@@ -362,6 +387,7 @@ bool fold_lines_add(const struct outline_gaps_input *input) {
   fold_joints_fini(&f.joints);
   outline_chains_fini(&f.chains);
   mem_free(f.is_passed);
+  ARRAY_FREE(&f.added.segment);
   ARRAY_FREE(&f.sample);
   ARRAY_FREE(&f.place);
   return ok;

@@ -15,6 +15,10 @@ enum { SAMPLES_A_HEIGHT = 4, SAMPLES_MAX = 64 };
 #define LONG_HEIGHTS 6
 enum { MANY_OUTLINES = 10, SEVERAL_OUTLINES = 5, FEW_OUTLINES = 3 };
 
+/* The least length of a run of few outlines where the mesh samples a smooth
+ * surface. */
+#define SMOOTH_LONG_HEIGHTS 3
+
 /* From how many heights on triangles beside an outline are slivers, of which
  * noise makes long runs. */
 #define SLIVER_HEIGHTS 4
@@ -78,6 +82,7 @@ bool fold_samples_add(struct fold_samples *samples, const struct sheet *sheet,
                                .along = {x / length, y / length},
                                .step = length / count,
                                .height = height,
+                               .curvature = outline->curvature,
                                .outline = number,
                                .face = outline->face};
     if (!ARRAY_PUSH(samples, made))
@@ -97,18 +102,22 @@ double fold_run_length(struct fold_run run) {
 struct run_measure {
   double length, height; /* its own; the mean of its triangles' */
   int outlines;
+  struct curvature_squares curvature;
   bool on_creases; /* more than a share of it is */
 };
 
 static struct run_measure measure_run(struct fold_run run) {
   double sum = 0, on_creases = 0;
-  struct run_measure made = {0, 0, 0, false};
+  struct run_measure made = {0, 0, 0, {0, 0}, false};
   for (size_t i = 0; i < run.count; i++) {
     const struct fold_sample *s = &run.sample[i];
     made.length += s->step;
     sum += s->step * s->height;
     on_creases += s->is_on_crease ? s->step : 0;
-    made.outlines += i == 0 || s->outline != run.sample[i - 1].outline;
+    if (i > 0 && s->outline == run.sample[i - 1].outline)
+      continue;
+    made.outlines++;
+    curvature_squares_add(&made.curvature, s->curvature);
   }
   made.height = made.length > 0 ? sum / made.length : 0;
   made.on_creases = on_creases > CREASE_SHARE * made.length;
@@ -118,18 +127,27 @@ static struct run_measure measure_run(struct fold_run run) {
 bool fold_run_is_long(struct fold_run run, double long_on_page,
                       double *height) {
   struct run_measure of = measure_run(run);
-  bool is_large = of.length >= long_on_page &&
-                  of.length <= SLIVER_HEIGHTS * of.height * of.outlines;
-  int outlines = is_large ? SEVERAL_OUTLINES : MANY_OUTLINES;
+  bool is_sliver = of.length > SLIVER_HEIGHTS * of.height * of.outlines;
+  bool is_large = of.length >= long_on_page;
+  int outlines = is_large && !is_sliver ? SEVERAL_OUTLINES : MANY_OUTLINES;
+  double heights = LONG_HEIGHTS;
+  if (curvature_is_smooth(of.curvature) && !is_sliver) {
+    outlines = FEW_OUTLINES;
+    heights = SMOOTH_LONG_HEIGHTS;
+  }
   *height = of.height;
   return of.outlines >= outlines && !of.on_creases &&
-         of.length >= LONG_HEIGHTS * of.height;
+         of.length >= heights * of.height;
 }
 
 bool fold_run_is_line(struct fold_run run, double heights) {
   struct run_measure of = measure_run(run);
-  return of.outlines >= FEW_OUTLINES && !of.on_creases &&
-         of.length >= heights * of.height;
+  return !of.on_creases && of.length >= heights * of.height &&
+         (of.outlines >= FEW_OUTLINES || curvature_is_smooth(of.curvature));
+}
+
+bool fold_run_is_smooth(struct fold_run run) {
+  return curvature_is_smooth(measure_run(run).curvature);
 }
 
 /* The mean of the samples about one, as far to either side as there are such of

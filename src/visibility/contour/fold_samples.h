@@ -12,6 +12,7 @@ struct fold_sample {
   double step;     /* the length of the outline that it stands for */
   double height;   /* of its triangle, on the page, grid units */
   uint32_t outline, face;
+  struct curvature_squares curvature;
   bool is_beside;    /* a line is drawn beside it that leaves none missing */
   bool is_by_line;   /* a line that is no contour is within a height */
   bool is_on_crease; /* a crease is on it */
@@ -57,8 +58,12 @@ double fold_run_length(struct fold_run run);
 bool fold_run_is_long(struct fold_run run, double long_on_page, double *height);
 
 /* Whether a run is so many of these heights long, and of three outlines at
- * least, no more than half of it creases. */
+ * least or smooth, no more than half of it creases. */
 bool fold_run_is_line(struct fold_run run, double heights);
+
+/* Whether the mesh samples a smooth surface about a run: less evidence tells
+ * its folds from noise. */
+bool fold_run_is_smooth(struct fold_run run);
 
 /* Finds the places of a smooth line along a run: means of the samples about
  * some of them.  The first and the last sample are places themselves, but of a

@@ -40,6 +40,9 @@ enum { FOLD_SEGMENTS_MAX = 32 };
 #define FOLD_AREA 0.5
 enum { LONG_SEGMENTS_MIN = 24 };
 
+/* The same of a loop where the mesh samples a smooth surface. */
+#define SMOOTH_LOOP_HEIGHTS 1.5
+
 /* What is narrower is one line in ink: common pens are wider, grid units. */
 #define VISIBLE_WIDTH (2.0 * TOLERANCE_OUTLINE_UNITS)
 
@@ -130,6 +133,7 @@ static bool measure_segment(struct thin_loops *l, size_t i) {
 struct page_loop {
   double area, length; /* twice its area */
   double height;       /* the mean of its triangles' */
+  struct curvature_squares curvature;
   size_t segments;
 };
 
@@ -141,8 +145,11 @@ static struct page_loop measure_loop(const struct thin_loops *l, size_t from,
   double x0 = first.p.x + s * ((double)first.q.x - first.p.x);
   double y0 = first.p.y + s * ((double)first.q.y - first.p.y);
   double x = 0, y = 0, area = 0, length = 0, heights = 0;
+  struct curvature_squares curvature = {0, 0};
   for (size_t i = from + 1; i <= to; i++) {
     struct geom_point p = stack_node(l, i)->page;
+    curvature_squares_add(
+        &curvature, l->set->segment.item[l->step.item[i].segment].curvature);
     double next_x = p.x - x0, next_y = p.y - y0;
     area += x * next_y - y * next_x;
     length += hypot(next_x - x, next_y - y);
@@ -152,7 +159,7 @@ static struct page_loop measure_loop(const struct thin_loops *l, size_t from,
   }
   length += hypot(x, y);
   return (struct page_loop){fabs(area), length, heights / (double)(to - from),
-                            to - from};
+                            curvature, to - from};
 }
 
 /* Whether a loop is thin: its area over half of its length is its mean
@@ -162,10 +169,14 @@ static bool is_thin(const struct page_loop *loop) {
 }
 
 /* Whether a loop is a fold however thin it is: it is long, or long and wide,
- * and something can be drawn between its two sides. */
+ * and something can be drawn between its two sides.  Where the mesh samples a
+ * smooth surface it is no noise. */
 static bool is_long(const struct page_loop *loop, double heights) {
+  if (loop->area < RECTO_FINEST_MM * SHEET_UNITS_PER_MM * loop->length)
+    return false;
+  if (curvature_is_smooth(loop->curvature))
+    return loop->length >= 2 * SMOOTH_LOOP_HEIGHTS * loop->height;
   return loop->segments >= LONG_SEGMENTS_MIN &&
-         loop->area >= RECTO_FINEST_MM * SHEET_UNITS_PER_MM * loop->length &&
          (loop->length >= 2 * heights * loop->height ||
           (loop->area >= 2 * FOLD_AREA * loop->height * loop->height &&
            (loop->area >= VISIBLE_WIDTH * loop->length ||

@@ -213,8 +213,9 @@ bool zero_finder_add_outline(struct zero_finder *z, uint32_t edge) {
   unsigned second = sign_at_edge(z, e->second, edge);
   if ((first == second) != e->same_way)
     return true;
-  struct contour_outline made = {.face = first == FACING_FRONT ? e->first
-                                                               : e->second};
+  struct contour_outline made = {
+      .face = first == FACING_FRONT ? e->first : e->second,
+      .curvature = curvature_noise_sum(&z->curvature, f, e->point, 2)};
   uint32_t c = facing_corner_of_edge(f, made.face, edge);
   if (c == SHEET_NONE)
     return true;

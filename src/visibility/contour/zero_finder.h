@@ -11,6 +11,7 @@ struct zero_finder {
   struct zero_set *set;
   const struct facing *facing;
   struct folded_faces folded;
+  struct curvature_noise curvature;
   struct projection projection;
   bool mesh_is_inside; /* no face is clipped by the page's margins */
   uint32_t

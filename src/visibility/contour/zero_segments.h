@@ -6,7 +6,7 @@
 
 #include "base/sort.h"
 #include "visibility/predicate/box2.h"
-#include "visibility/contour/facing.h"
+#include "visibility/contour/curvature_noise.h"
 
 /* Where the contour crosses an edge or a diagonal, or meets a vertex. */
 struct contour_node {
@@ -30,6 +30,7 @@ struct contour_segment {
                           g along the view; negative where the surface's normal
                           curves into the line of sight */
   bool along_crease;
+  struct curvature_squares curvature; /* at the triangle's corners */
   double height; /* the triangle's least, scene units; of a crease, over that
                     or twice the least, whichever is less */
   double width;  /* how uneven the mesh is about it: by its height; nearly 0 at
@@ -40,7 +41,8 @@ struct contour_segment {
  * its left. */
 struct contour_outline {
   struct geom_segment image;
-  uint32_t face; /* the one that faces the viewer */
+  uint32_t face;                      /* the one that faces the viewer */
+  struct curvature_squares curvature; /* about it */
 };
 
 struct zero_set {

@@ -171,7 +171,9 @@ recto_status zero_set_find(struct zero_set *set, const struct sheet *sheet,
                           .folded = {.sheet = sheet},
                           .projection = projection_of(facing->camera),
                           .mesh_is_inside = sheet->clipped_page == 0};
-  bool ok = folded_faces_mark(&z.folded) && cross_all(&z);
+  bool ok = folded_faces_mark(&z.folded) &&
+            curvature_noise_find(&z.curvature, facing) && cross_all(&z);
+  curvature_noise_fini(&z.curvature);
   folded_faces_fini(&z.folded);
   mem_free(z.edge_node);
   mem_free(z.point_node);

@@ -26,7 +26,8 @@ struct zero_triangle {
   double normal[PLACES][3];
   double facing[PLACES]; /* g */
   bool back[PLACES];
-  double height; /* the mesh's triangle's least */
+  struct curvature_squares curvature; /* at its corners */
+  double height;                      /* the mesh's triangle's least */
 };
 
 /* ---- The places ---------------------------------------------------------- */
@@ -79,6 +80,10 @@ static void place_corners(struct zero_triangle *t) {
     t->facing[k] = f->value[facing_place(f, slot)];
     t->curved.straight[k] = edge != SHEET_NONE && facing_is_feature(f, edge);
   }
+  const uint32_t point[3] = {facing_point(f, t->corner[0]),
+                             facing_point(f, t->corner[1]),
+                             facing_point(f, t->corner[2])};
+  t->curvature = curvature_noise_sum(&t->finder->curvature, f, point, 3);
   curved_triangle_init(&t->curved);
   find_height(t);
 }
@@ -166,6 +171,7 @@ static bool add_segment(struct zero_triangle *t, const int of[3],
                         const uint32_t node[2]) {
   struct contour_segment s = {.node = {node[0], node[1]},
                               .face = t->face,
+                              .curvature = t->curvature,
                               .height = t->height,
                               .width = t->height};
   describe(t, of, &s);
