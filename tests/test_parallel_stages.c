@@ -151,6 +151,45 @@ static void write_soup(FILE *to) {
     fprintf(to, "f %d %d %d\n", 3 * f + 1, 3 * f + 2, 3 * f + 3);
 }
 
+/* Points of a small triangle somewhere. */
+static void write_small_triangle(FILE *to, struct random *random) {
+  double at[3];
+  for (int k = 0; k < 3; k++)
+    at[k] = random_unit(random);
+  for (int k = 0; k < 3; k++)
+    fprintf(to, "v %.6f %.6f %.6f\n",
+            at[0] + random_between(random, -0.003, 0.003),
+            at[1] + random_between(random, -0.003, 0.003),
+            at[2] + random_between(random, -0.003, 0.003));
+}
+
+/* The first half of the faces has exactly as many edges as there is room for in
+ * its part of the array of all (edge_join.c), and the second half shares some.
+ * Two triangles with a common edge, copies of the first, and single ones: that
+ * some of these run the other way keeps them from being repeated parts. */
+static void write_full(FILE *to) {
+  enum {
+    HALF = 4 * POLL_ITEMS,
+    ROOM = 3 * HALF / 2 + 3 * HALF / 16 + POLL_ITEMS,
+    ALONE = (ROOM - 5) / 3
+  };
+  _Static_assert(ROOM == 5 + 3 * ALONE, "no edges are left");
+  struct random random = {4};
+  for (int f = 0; f < ALONE + 2 + HALF / 9; f++)
+    write_small_triangle(to, &random);
+  fprintf(to, "f 1 2 3\nf 2 1 4\n");
+  for (int f = 2; f < HALF - ALONE; f++)
+    fprintf(to, "f 1 2 3\n");
+  for (int f = 0, p = 5; f < ALONE; f++, p += 3) {
+    int turn = random_unit(&random) < 0.5;
+    fprintf(to, "f %d %d %d\n", p, p + 1 + turn, p + 2 - turn);
+  }
+  for (int f = 0, p = 5; f < HALF / 3; f++, p += 3)
+    fprintf(to, "f %d %d %d\n", p + 1, p, 5 + 3 * ALONE + f);
+  for (int f = HALF / 3; f < HALF; f++)
+    fprintf(to, "f 1 2 3\n");
+}
+
 /* kinds  letters of those below that are drawn */
 static const struct model {
   const char *name, *kinds;
@@ -158,7 +197,8 @@ static const struct model {
 } models[] = {
     {"surface", "lfe", write_surface}, {"shuffled", "lh", write_shuffled},
     {"mixed", "lfhe", write_mixed},    {"polygons", "l", write_polygons},
-    {"fins", "l", write_fins},         {"soup", "l", write_soup}};
+    {"fins", "l", write_fins},         {"soup", "l", write_soup},
+    {"full", "", write_full}};
 
 /* The model as text of OBJ, *length bytes, to be freed by the caller. */
 static char *text_of_model(const struct model *model, size_t *length) {

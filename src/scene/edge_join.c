@@ -68,19 +68,23 @@ static void set_ranges(struct edge_join *join) {
 
 /* Gives each range a part of one array, as only what gets edges is touched: for
  * half as many edges as corners, as closed surfaces have, for some more, and
- * for as many as are numbered at once. */
+ * for as many as are numbered at once.  Between two parts lies some more, which
+ * none of them uses: so edges after a full part are moved too, and many in each
+ * round (move_edges). */
 static bool place_edge_ranges(struct edge_join *join) {
   struct edge_range *all = join->all;
   size_t room[RANGES_MAX], sum = 0;
   for (size_t r = 0; r < join->ranges; r++) {
     size_t corners = edge_range_corners(&join->range[r]);
-    sum += room[r] = corners / 2 + corners / 16 + POLL_ITEMS;
+    room[r] = corners / 2 + corners / 16 + POLL_ITEMS;
+    sum += room[r] + POLL_ITEMS;
   }
   if (!ARRAY_RESERVE(&all->edge, sum))
     return false;
   for (size_t r = join->ranges; r-- > 0;) {
     struct edge_range *range = &join->range[r];
-    range->edge.item = all->edge.item + (sum -= room[r]);
+    sum -= room[r] + POLL_ITEMS;
+    range->edge.item = all->edge.item + sum;
     range->edge.capacity = room[r];
     range->is_placed = true;
   }
