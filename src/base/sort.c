@@ -151,7 +151,12 @@ static int first_shift(size_t count, uint64_t differing) {
 /* Sorts each run of items that agree from bit `shift` on. */
 static void sort_runs(struct sort_key *item, struct sort_key *scratch,
                       size_t count, int shift) {
+  size_t polled = 0;
   for (size_t i = 0, end; i < count; i = end) {
+    if (i - polled >= DISTRIBUTED_ITEMS) {
+      (void)poll_now();
+      polled = i;
+    }
     for (end = i + 1;
          end < count && (item[end].key ^ item[i].key) >> shift == 0;)
       end++;
