@@ -136,7 +136,7 @@ static void a_stage_polls_in_each_of_its_loops(void **state) {
       {painted, "faces", 252},       {painted, "ink", 53},
       {hatched, "ink", 64},          {shaded_by_pen, "ink", 253},
       {results, "results", 47},      {verified, "verify", 1258},
-      {newell, "solve", 38},         {watkins, "intersections", 314},
+      {newell, "solve", 38},         {watkins, "intersections", 329},
       {warnock, "subdividing", 364}, {zbuffer, "visibility", 28},
       {one_source, "ink", 2978},
   };

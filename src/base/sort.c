@@ -153,7 +153,7 @@ static void sort_runs(struct sort_key *item, struct sort_key *scratch,
                       size_t count, int shift) {
   size_t polled = 0;
   for (size_t i = 0, end; i < count; i = end) {
-    if (i - polled >= DISTRIBUTED_ITEMS) {
+    if (i - polled >= POLL_ITEMS) {
       (void)poll_now();
       polled = i;
     }
