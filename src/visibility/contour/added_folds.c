@@ -3,9 +3,6 @@
 
 #include <math.h>
 
-/* Segments beside a sample turn from it by no more than 60 degrees. */
-#define BESIDE_COSINE 0.5
-
 /* What is so far beyond an end of a segment, as a share of its length, is still
  * beside it: segments of a line turn. */
 #define BEYOND 0.5
@@ -48,7 +45,8 @@ static bool is_sample_beside(const struct geom_segment *s,
   double across = x * py - y * px;
   return along >= -BEYOND * square && along <= (1 + BEYOND) * square &&
          across * across <= at->height * at->height * square &&
-         x * at->along[0] + y * at->along[1] >= BESIDE_COSINE * sqrt(square);
+         x * at->along[0] + y * at->along[1] >=
+             FOLD_BESIDE_COSINE * sqrt(square);
 }
 
 bool added_folds_beside(const struct added_folds *folds,

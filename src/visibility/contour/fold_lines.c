@@ -13,9 +13,6 @@
 #include "visibility/contour/occluders.h"
 #include "visibility/contour/outline_chains.h"
 
-/* Lines beside an outline turn from it by no more than 60 degrees. */
-#define BESIDE_COSINE 0.5
-
 /* The heights of a line that is not of many outlines, at least, if a contour
  * continues it at one end, and at both; and at one end that is within a height
  * of it. */
@@ -82,7 +79,7 @@ static void try_line(const struct fold_lines *f, const struct page_segment *s,
   double cosine = x * at->along[0] + y * at->along[1];
   if (!is_contour)
     cosine = fabs(cosine);
-  if (away > at->height || cosine < BESIDE_COSINE * hypot(x, y))
+  if (away > at->height || cosine < FOLD_BESIDE_COSINE * hypot(x, y))
     return;
   if ((edge->edge_class & (RECTO_EDGE_CREASE | RECTO_EDGE_GROUP)) != 0)
     at->is_on_crease = at->is_on_crease || away <= TOLERANCE_OUTLINE_UNITS;

@@ -6,6 +6,9 @@
 #include "base/memory.h"
 #include "visibility/contour/zero_segments.h"
 
+/* Lines beside a sample turn from its outline by no more than 60 degrees. */
+#define FOLD_BESIDE_COSINE 0.5
+
 struct fold_sample {
   double x, y, z;  /* of the page */
   double along[2]; /* the direction of its outline, of unit length */
@@ -52,7 +55,8 @@ double fold_run_length(struct fold_run run);
 
 /* Whether a run is long, as a multiple of the mean height of its triangles, and
  * of many outlines, or of several that are no sides of slivers if it is long on
- * the page as well; no more than half of it is on creases.
+ * the page as well, or of few where it is smooth; no more than half of it is on
+ * creases.
  * long_on_page  from which length on it is, grid units
  * height        gets the mean height */
 bool fold_run_is_long(struct fold_run run, double long_on_page, double *height);
