@@ -11,8 +11,8 @@
 #include <cmocka.h>
 
 #include "scene/corner_normals.h"
-#include "scene/crease_marks.h"
-#include "scene/edge_classes.h"
+#include "scene/edges/crease_marks.h"
+#include "scene/edges/edge_classes.h"
 #include "tests/memory_faults.h"
 #include "tests/reading.h"
 

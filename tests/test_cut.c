@@ -17,7 +17,7 @@
 #include "base/sort.h"
 #include "cut/cut.h"
 #include "scene/diagnostics.h"
-#include "scene/edge_classes.h"
+#include "scene/edges/edge_classes.h"
 #include "scene/newell_normal.h"
 
 static const double pi = 3.14159265358979323846;

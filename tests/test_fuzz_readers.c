@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "scene/material.h"
+#include "scene/obj/material.h"
 #include "scene/read.h"
 #include "tests/reading.h"
 #include "tests/scenes/random.h"

@@ -19,7 +19,7 @@
 #include <cmocka.h>
 
 #include "scene/corner_normals.h"
-#include "scene/import_format.h"
+#include "scene/readers/import_format.h"
 #include "scene/read.h"
 #include "tests/polled.h"
 #include "tests/reading.h"

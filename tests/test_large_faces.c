@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "scene/large_faces.h"
+#include "scene/topology/large_faces.h"
 
 /* Adds a regular polygon in the plane z = 0. */
 static void add_polygon(struct scene *scene, int corners) {

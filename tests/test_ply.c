@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "scene/corner_normals.h"
-#include "scene/ply_colour.h"
+#include "scene/ply/ply_colour.h"
 #include "scene/read.h"
 #include "tests/memory_faults.h"
 #include "tests/reading.h"

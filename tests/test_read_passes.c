@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "scene/obj_blocks.h"
+#include "scene/obj/obj_blocks.h"
 #include "scene/read_passes.h"
 #include "tests/reading.h"
 #include "tests/temporary.h"

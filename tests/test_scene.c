@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "base/stream.h"
-#include "scene/self_intersection.h"
+#include "scene/triangulation/self_intersection.h"
 #include "scene/read.h"
 #include "scene/scene.h"
 #include "scene/name.h"

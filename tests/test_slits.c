@@ -10,9 +10,9 @@
 
 #include "recto.h"
 #include "scene/diagnostics.h"
-#include "scene/edge_classes.h"
-#include "scene/face_rewrite.h"
-#include "scene/weld_near.h"
+#include "scene/edges/edge_classes.h"
+#include "scene/weld/face_rewrite.h"
+#include "scene/weld/weld_near.h"
 #include "tests/memory_faults.h"
 #include "tests/scenes/build.h"
 

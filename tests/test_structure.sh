@@ -15,14 +15,14 @@ sources() {
 # it does by itself, the program recto.h alone;
 # readers and writers never include each other.
 #
-# Within visibility and ink the folders have levels too: a folder includes
-# itself, lower levels, and the headers that lie in the layer itself, which
-# include no folder.  So no method of visibility includes another one.  The
-# sources that lie in the layer itself (the choice of a method, the phases of
-# ink) stand above all.
+# Within the scene, visibility and ink the folders have levels too: a folder
+# includes itself, lower levels, and the headers that lie in the layer itself,
+# which include no folder.  So no method of visibility includes another one.
+# The sources that lie in the layer itself (the choice of a reader or a method,
+# the phases of ink) stand above all.
 #
 # Every file opens with its name and its job, which is not to be looked up in
-# another file.
+# another file.  The guard of a header is its path.
 check_sources() {
   # shellcheck disable=SC2016 # of awk
   (cd "$1" && sources . | xargs awk '
@@ -31,6 +31,8 @@ check_sources() {
               "cli import", name, " ")
         for (i in name)
           layer[name[i]] = i - 1
+        set_level("scene", 1, "readers topology triangulation")
+        set_level("scene", 2, "edges obj ply weld")
         set_level("visibility", 1, "predicate")
         set_level("visibility", 2, "index")
         set_level("visibility", 3, "contour culling intersection fragments")
@@ -46,6 +48,7 @@ check_sources() {
         count = split(folders, name, " ")
         for (i = 1; i <= count; i++)
           level[of "/" name[i]] = number
+        has_levels[of]
       }
       # "src/view/sheet.c" -> "view", "backends/writer.c" -> "backends"
       function folder(path) {
@@ -71,6 +74,12 @@ check_sources() {
         sub(/.*\//, "", path)
         sub(/\.[ch]$/, "", path)
         return path
+      }
+      # "src/scene/weld/slits.h" -> "SCENE_WELD_SLITS_H"
+      function guard(path) {
+        sub(/^src\//, "", path)
+        gsub(/[\/.]/, "_", path)
+        return toupper(path)
       }
       # The reader or writer that a file is.
       function member(path, word) {
@@ -98,9 +107,13 @@ check_sources() {
           wrong("does not open with its job")
         if (index($0, " - see "))
           wrong("opens with a reference in place of its job")
-        if ((from == "visibility" || from == "ink") && subfolder(file) != "" &&
+        if (from in has_levels && subfolder(file) != "" &&
             !(subfolder(file) in level))
           wrong("its folder has no level")
+      }
+      /^#ifndef .*_H$/ && file ~ /\.h$/ && $2 != guard(file) {
+        included = $2
+        wrong("its guard is not its path")
       }
       /^ *# *include *"/ {
         included = $0
@@ -121,14 +134,13 @@ check_sources() {
         else if (from == "judge" && to != "judge" && to != "base" &&
                  to != "scene")
           wrong("the judge sees base and the scene alone")
-        else if (from == "judge" &&
-                 included ~ /^scene\/(triangul|ear_clip|reflex|polygon)/)
+        else if (from == "judge" && included ~ /^scene\/triangulation\//)
           wrong("the judge triangulates by itself")
         else if (from == "cli" && to != "cli")
           wrong("the program sees recto.h alone")
         else if (member(included) != "" && member(included) != member(file))
           wrong("readers and writers do not know each other")
-        else if (from == to && (from == "visibility" || from == "ink") &&
+        else if (from == to && from in has_levels &&
                  goes_up(subfolder(file), subfolder(included)))
           wrong("a folder that is not below")
         else if (from == to && is_beside(file, included))
@@ -343,6 +355,8 @@ chmod -R u+w "$copy"
 cat >"$scratch/includes" <<'END'
 src/base/memory.c|#include "geom/ratio.h"
 src/scene/scene.c|#include "view/sheet.h"
+src/scene/topology/topology.c|#include "scene/weld/weld_near.h"
+src/scene/scene.h|#include "scene/topology/topology.h"
 src/visibility/map.c|  #  include "ink/ink.h"
 src/visibility/newell/newell.c|#include "visibility/watkins/pitch/watkins.h"
 src/visibility/watkins/pitch/watkins.c|#include "visibility/watkins/exact/sweep.h"
@@ -355,12 +369,12 @@ src/visibility/solver.h|#include "visibility/predicate/occlusion.h"
 src/ink/lines/chain.c|#include "ink/hatch/hatch.h"
 src/ink/ink.c|#include "visibility/predicate/occlusion.h"
 src/api/render.c|#include "ink/lines/stroke.h"
-src/scene/reader_obj.c|#include "scene/reader_stl.h"
+src/scene/obj/reader_obj.c|#include "scene/readers/reader_stl.h"
 backends/writer_svg.c|#include "scene/scene.h"
 backends/writer_svg.c|#include "ink/ink.h"
 backends/writer_svg.c|#include "backends/writer_hpgl.h"
 src/judge/judge.c|#include "view/sheet.h"
-src/judge/triangulation.c|#include "scene/triangulate.h"
+src/judge/triangulation.c|#include "scene/triangulation/triangulate.h"
 backends/writers.c|#include "api/handle.h"
 src/cli/main.c|#include "base/memory.h"
 src/cli/main.c|#include "scene/scene.h"
@@ -381,6 +395,7 @@ done
 printf '/* 2e-5\n2e-5 */ double c = 2e-4; /* 2e-5 */\n' >>"$copy/src/geom/ratio.c"
 printf 'double b = 2\n  * TOLERANCE_TONE;\n' >>"$copy/src/geom/ratio.c"
 sed -i 's|Users       view/camera_axes.c|&, view/page.c|' "$copy/src/base/tolerance.h"
+sed -i 's|#ifndef GEOM_LINE_H|#ifndef LINE_H|' "$copy/src/geom/line.h"
 echo "int n = report_get(0, 0, 0, 0);" >>"$copy/src/api/render.c"
 printf '/* %80s */\n' wide >>"$copy/src/geom/ratio.c"
 echo "int x;" >"$copy/src/geom/new.c"
@@ -423,7 +438,7 @@ while IFS='|' read -r file line; do
   claim "$file may not have $line" finds sources "$file: " ": ${included%\"}"
 done <"$scratch/includes"
 claim "nothing else is reported for the files with planted lines" \
-  test "$(wc -l <"$scratch/sources")" -eq "$(($(wc -l <"$scratch/includes") + 3))"
+  test "$(wc -l <"$scratch/sources")" -eq "$(($(wc -l <"$scratch/includes") + 4))"
 for literal in 1e-9 1.5e-12 1E-6f 0.e-3; do
   claim "a tolerance of $literal may not stand in a source" finds \
     tolerances "src/geom/ratio.c: " " = $literal;"
@@ -445,6 +460,8 @@ claim "nor with a reference in its place" finds sources \
   "src/geom/wide.c: opens with a reference" ""
 claim "a folder may not be without a level" finds sources \
   "src/visibility/included/new.c: its folder has no level" ""
+claim "the guard of a header may not be any other than its path" finds sources \
+  "src/geom/line.h: its guard is not its path: " LINE_H
 claim "modules may not include each other in a circle" finds circles \
   "geom/convex: in a circle of includes" ""
 claim "a function may not have the name of another one" finds names \

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "scene/topology.h"
+#include "scene/topology/topology.h"
 #include "tests/scenes/scenes.h"
 #include "tests/scenes/subdivide.h"
 

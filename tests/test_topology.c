@@ -9,11 +9,11 @@
 #include <cmocka.h>
 
 #include "scene/angle.h"
-#include "scene/edge_classes.h"
-#include "scene/edge_range.h"
+#include "scene/edges/edge_classes.h"
+#include "scene/topology/edge_range.h"
 #include "scene/face_normal.h"
-#include "scene/repeated_part.h"
-#include "scene/topology.h"
+#include "scene/topology/repeated_part.h"
+#include "scene/topology/topology.h"
 #include "tests/memory_faults.h"
 #include "tests/scenes/random.h"
 #include "tests/scenes/scenes.h"

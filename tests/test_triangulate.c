@@ -16,8 +16,8 @@
 #include "scene/exact.h"
 #include "tests/memory_faults.h"
 #include "tests/scenes/random.h"
-#include "scene/reflex_tree.h"
-#include "scene/triangulate.h"
+#include "scene/triangulation/reflex_tree.h"
+#include "scene/triangulation/triangulate.h"
 
 enum { MOST = 2048 };
 

@@ -17,7 +17,7 @@
 #include "tests/scenes/random.h"
 #include "tests/scenes/solver_named.h"
 #include "tests/valgrind.h"
-#include "scene/triangulate.h"
+#include "scene/triangulation/triangulate.h"
 
 /* ---- Scenes -------------------------------------------------------------- */
 

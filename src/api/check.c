@@ -17,7 +17,7 @@
 #include "ink/ink.h"
 #include "ink/pens.h"
 #include "judge/svg/svg.h"
-#include "scene/weld_near.h"
+#include "scene/weld/weld_near.h"
 
 /* The number of samples of the drawing, and of the edges. */
 enum { SAMPLES = 200000 };

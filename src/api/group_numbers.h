@@ -4,7 +4,7 @@
 #define API_GROUP_NUMBERS_H
 
 #include "drawing/drawing.h"
-#include "scene/topology.h"
+#include "scene/topology/topology.h"
 
 /* Sets the sources of all strokes and fills, whose faces are those of the
  * scene: the number of the face, of the edge or of the polyline among those of

@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "base/tolerance.h"
-#include "scene/crease_marks.h"
+#include "scene/edges/crease_marks.h"
 
 bool judge_input_init(struct judge_input *input, const struct scene *scene) {
   size_t count = scene->point.count;

@@ -1,7 +1,7 @@
 /* part_marks.c - finds the marks of creases that count in a model. */
 #include "api/part_marks.h"
 
-#include "scene/crease_marks.h"
+#include "scene/edges/crease_marks.h"
 #include "scene/read.h"
 
 /* Reads a model as a whole; its faults have been reported. */

@@ -4,7 +4,7 @@
 
 #include "api/part_tones.h"
 #include "parts/part.h"
-#include "scene/topology.h"
+#include "scene/topology/topology.h"
 
 /* Zero-initialised is empty. */
 struct part_solve {

@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-#include "scene/topology.h"
+#include "scene/topology/topology.h"
 
 bool part_tones_are_wanted(const recto_options *options) {
   const double *light = options->ink.light;

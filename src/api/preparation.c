@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "base/tolerance.h"
-#include "scene/coarse_parts.h"
-#include "scene/crease_marks.h"
-#include "scene/edge_classes.h"
+#include "scene/edges/coarse_parts.h"
+#include "scene/edges/crease_marks.h"
+#include "scene/edges/edge_classes.h"
 #include "view/camera_aim.h"
 #include "view/used.h"
 

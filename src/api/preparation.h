@@ -5,7 +5,7 @@
 #define API_PREPARATION_H
 
 #include "cut/cut.h"
-#include "scene/weld_near.h"
+#include "scene/weld/weld_near.h"
 #include "view/rescale.h"
 
 /* Zero-initialised is empty. */

@@ -5,7 +5,7 @@
 #include "api/sized.h"
 #include "base/poll.h"
 #include "ink/shading.h"
-#include "scene/edge_classes.h"
+#include "scene/edges/edge_classes.h"
 
 /* The class of a mesh edge in this view: as it was drawn, or for an edge of a
  * class that was not requested, by its faces.  The other face of a silhouette

@@ -7,10 +7,10 @@
 #include "base/parallel.h"
 #include "base/poll.h"
 #include "ink/planar_regions.h"
-#include "scene/crease_marks.h"
-#include "scene/edge_classes.h"
+#include "scene/edges/crease_marks.h"
+#include "scene/edges/edge_classes.h"
 #include "scene/newell_normal.h"
-#include "scene/topology.h"
+#include "scene/topology/topology.h"
 #include "geom/vector.h"
 
 /* So many times larger than the mean is a large face; facets of a curved

@@ -93,7 +93,7 @@
  * Derivation  one degree: normals that are written with two digits are off by
  *             half of it, those of CAD programs at the seams of smooth surfaces
  *             by some tenths.
- * Users       scene/corner_normals.c, scene/crease_marks.c
+ * Users       scene/corner_normals.c, scene/edges/crease_marks.c
  * Ten times   hard edges that bend by less than ten degrees are none. */
 #define TOLERANCE_NORMAL_SQUARED_COSINE 0.99969541350954785
 
@@ -103,7 +103,7 @@
  * Derivation  each unit normal is off by about 2 units in the last place and
  *             their product by as many again: 8 * 2^-53, so that a flat or a
  *             square joint is not a crease by rounding.
- * Users       scene/edge_classes.c, scene/crease_marks.c
+ * Users       scene/edges/edge_classes.c, scene/edges/crease_marks.c
  * Ten times   joints within 5e-8 rad of the crease angle count as within. */
 #define TOLERANCE_CREASE_COSINE (8 * 0x1p-53)
 
@@ -113,7 +113,7 @@
  * Derivation  where one corner moves by the root of three of an error one way
  *             and others the other way, it turns by 3.5 of them over its
  *             height: rounded up.
- * Users       scene/crease_rounding.c
+ * Users       scene/edges/crease_rounding.c
  * Ten times   in single precision creases of 30.01 degrees are none where faces
  *             are a hundredth of the model wide. */
 #define TOLERANCE_CREASE_ERRORS 4
@@ -123,7 +123,7 @@
  * Unit        1 (a cosine)
  * Derivation  a twentieth of a degree about 30: of scans, whose faces are so
  *             small that rounding turns them by more, creases stay as they are.
- * Users       scene/crease_rounding.c, scene/edge_classes.c
+ * Users       scene/edges/crease_rounding.c, scene/edges/edge_classes.c
  * Ten times   creases of 30.5 degrees between the small faces of a scan are
  *             none, which divides lines of noise so that more are drawn. */
 #define TOLERANCE_CREASE_ROUNDING 0x1p-11
@@ -202,8 +202,7 @@
  *             triangle; beyond the triangle, where the corners of another one
  *             are tested, it grows with the distance over the
  *             triangle's width.
- * Users       view/layout_clipping.c,
- *             visibility/predicate/contact.c,
+ * Users       view/layout_clipping.c, visibility/predicate/contact.c,
  *             visibility/intersection/edge_crossing.c, api/verify.c
  * Ten times   faces 0.15 um apart on paper count as touching. */
 #define TOLERANCE_CONTACT_GRID_UNITS 16
@@ -233,7 +232,7 @@
  * Unit        share of the face's own extent
  * Derivation  single precision and six digits round a point by 1e-7 of its
  *             size; sums of a few of those stay below.
- * Users       scene/triangulate.c, judge/triangles.c
+ * Users       scene/triangulation/triangulate.c, judge/triangles.c
  * Ten times   fewer faces are counted as warped. */
 #define TOLERANCE_WARP_SHARE 1e-6
 
@@ -243,7 +242,7 @@
  * Derivation  two corners that should be one were computed in several ways: a
  *             chain of some ten operations in the file's precision, each off
  *             by half a unit in the last place, at either corner.
- * Users       scene/weld_near.c
+ * Users       scene/weld/weld_near.c
  * Ten times   of %.6f, gaps of 1.6e-4 units: see the next. */
 #define TOLERANCE_WELD_ERRORS 32
 
@@ -251,7 +250,7 @@
  * model.
  * Unit        share of the common scale of the coordinates
  * Derivation  2^-18 of a sheet of A4 is 1 um, a hundredth of a fine pen.
- * Users       scene/weld_near.c
+ * Users       scene/weld/weld_near.c
  * Ten times   gaps of 10 um on the page are closed; still a tenth of a pen. */
 #define TOLERANCE_WELD_SHARE 0x1p-18
 
@@ -259,7 +258,8 @@
  * Unit        share of the face's longest side
  * Derivation  parts of a face that are so thin are not seen, even where the
  *             face is as large as the page: a millimetre by 297 mm.
- * Users       scene/weld_near.c, scene/thin_faces.c, scene/face_normal.c
+ * Users       scene/weld/weld_near.c, scene/weld/thin_faces.c,
+ *             scene/face_normal.c
  * Ten times   gaps of a tenth of a face are closed, which can be seen. */
 #define TOLERANCE_WELD_FACE_SHARE 0x1p-8
 
@@ -267,7 +267,7 @@
  * that they may be meant to be one.
  * Unit        share of the size of the faces about a corner
  * Derivation  by experience: modelled gaps are wider.
- * Users       scene/weld_suspicion.c
+ * Users       scene/weld/weld_suspicion.c
  * Ten times   models of loose plates are warned about too. */
 #define TOLERANCE_GAP_SHARE 0x1p-6
 
@@ -276,7 +276,8 @@
  * Derivation  the areas of lobes that cancel add up to rounding noise, 2^-53 of
  *             the square for each of the corners: this leaves room for
  *             thousands.
- * Users       scene/polygon.c, judge/triangulation.c, judge/intersections.c
+ * Users       scene/triangulation/polygon.c, judge/triangulation.c,
+ *             judge/intersections.c
  * Ten times   needles that are ten times wider, in relation to their length,
  *             are projected along their thinnest extent, and may be
  *             triangulated otherwise. */

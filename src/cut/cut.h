@@ -8,7 +8,7 @@
 #ifndef CUT_CUT_H
 #define CUT_CUT_H
 
-#include "scene/topology.h"
+#include "scene/topology/topology.h"
 
 enum { CUT_PLANES_MAX = 3 };
 

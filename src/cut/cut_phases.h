@@ -10,7 +10,7 @@
 
 #include "cut/cut_lines.h"
 #include "cut/section.h"
-#include "scene/triangulate.h"
+#include "scene/triangulation/triangulate.h"
 
 enum { CUT_NO_PLANE = 255 };
 

@@ -5,7 +5,7 @@
  *   recto-import SECONDS MB FORMAT [PATH]
  *
  * Without a path it reads standard input.  It writes to descriptor 3 what
- * scene/import_format.h describes.
+ * scene/readers/import_format.h describes.
  *
  * The file is imported as it is, without any of Assimp's own improvements:
  * polygons stay polygons.  The tree of nodes is traversed with an explicit
@@ -34,7 +34,7 @@
 #include "base/sanitizer.h"
 #include "import/model_3mf.h"
 #include "import/opened_files.h"
-#include "scene/import_format.h"
+#include "scene/readers/import_format.h"
 
 /* From a node's own coordinates to the scene's: rows of a 3 x 4 matrix. */
 struct transform {

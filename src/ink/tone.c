@@ -20,7 +20,7 @@
 #include "base/tolerance.h"
 #include "ink/fill/light.h"
 #include "ink/planar_regions.h"
-#include "scene/edge_classes.h"
+#include "scene/edges/edge_classes.h"
 #include "scene/newell_normal.h"
 #include "geom/vector.h"
 

@@ -6,7 +6,7 @@
 #include "judge/camera.h"
 #include "judge/clipped_triangle.h"
 #include "judge/triangulation.h"
-#include "scene/crease_rounding.h"
+#include "scene/edges/crease_rounding.h"
 
 /* ---- Facings ------------------------------------------------------------- */
 

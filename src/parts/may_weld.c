@@ -8,7 +8,7 @@
 #include "base/hash.h"
 #include "base/poll.h"
 #include "parts/part_scene.h"
-#include "scene/weld_candidates.h"
+#include "scene/weld/weld_candidates.h"
 
 /* The width of a cell, in lengths. */
 enum { CELL_LENGTHS = 4 };

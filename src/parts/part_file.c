@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "parts/part_common.h"
-#include "scene/crease_marks.h"
+#include "scene/edges/crease_marks.h"
 #include "scene/limit.h"
 
 static const unsigned char magic[8] = {'r', 'e', 'c', 't', 'o', 'p', 't', '\n'};

@@ -4,7 +4,7 @@
 #define PARTS_PART_JOIN_H
 
 #include "parts/part_merge.h"
-#include "scene/topology.h"
+#include "scene/topology/topology.h"
 
 /* How much the parts say. */
 struct part_join_counts {

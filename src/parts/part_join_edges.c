@@ -4,7 +4,7 @@
 #include "base/sort.h"
 #include "parts/part_join.h"
 #include "parts/part_join_phases.h"
-#include "scene/edge_classes.h"
+#include "scene/edges/edge_classes.h"
 #include "visibility/map_assembly.h"
 
 static recto_status set_classes(struct join_work *work) {

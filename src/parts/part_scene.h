@@ -13,7 +13,7 @@
 #define PARTS_PART_SCENE_H
 
 #include "parts/face_pick.h"
-#include "scene/topology.h"
+#include "scene/topology/topology.h"
 
 struct part_scene {
   struct scene scene; /* the groups are borrowed, not owned */

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "parts/plan_section.h"
-#include "scene/crease_marks.h"
+#include "scene/edges/crease_marks.h"
 #include "scene/exact.h"
 #include "scene/limit.h"
 

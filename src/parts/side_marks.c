@@ -4,7 +4,7 @@
 
 #include "base/poll.h"
 #include "base/sort.h"
-#include "scene/crease_marks.h"
+#include "scene/edges/crease_marks.h"
 
 /* The bits of a side that say which face's it is, and which of its sides. */
 enum { FACE_SHIFT = 32, PLACE_SHIFT = 1 };

@@ -3,7 +3,7 @@
 #ifndef PARTS_SIDE_MARKS_H
 #define PARTS_SIDE_MARKS_H
 
-#include "scene/topology.h"
+#include "scene/topology/topology.h"
 
 /* Zero-initialised is empty: none counts. */
 struct side_marks {

@@ -8,7 +8,7 @@
 #include "scene/scene.h"
 
 #include "base/sort.h"
-#include "scene/self_intersection.h"
+#include "scene/triangulation/self_intersection.h"
 #include "scene/diagnostics.h"
 #include "scene/exact.h"
 #include "scene/limit.h"

@@ -1,67 +1,67 @@
-# src/scene/local.mk - the sources of this layer.
+# src/scene/local.mk - the sources of this layer, a folder a step.
 librecto_core_la_SOURCES += \
   %D%/angle.c %D%/angle.h \
-  %D%/cluster.c %D%/cluster.h \
-  %D%/coarse_parts.c %D%/coarse_parts.h \
-  %D%/conversion.c %D%/conversion.h \
-  %D%/corner_edges.c \
   %D%/corner_normals.c %D%/corner_normals.h \
-  %D%/crease_marks.c %D%/crease_marks.h \
-  %D%/crease_rounding.c %D%/crease_rounding.h \
   %D%/diagnostics.c %D%/diagnostics.h \
-  %D%/ear_clipping.c %D%/ear_clipping.h \
-  %D%/edge_classes.c %D%/edge_classes.h \
-  %D%/edge_copies.c %D%/edge_copies.h \
-  %D%/edge_join.c %D%/edge_join.h \
-  %D%/edge_lists.h \
-  %D%/edge_range.c %D%/edge_range.h \
   %D%/exact.c %D%/exact.h \
   %D%/face.c \
   %D%/face_normal.c %D%/face_normal.h \
-  %D%/face_rewrite.c %D%/face_rewrite.h \
-  %D%/import_format.c %D%/import_format.h \
-  %D%/isolated_members.c %D%/isolated_members.h \
   %D%/limit.h \
-  %D%/material.c %D%/material.h \
   %D%/name.c %D%/name.h \
-  %D%/large_faces.c %D%/large_faces.h \
   %D%/newell_normal.c %D%/newell_normal.h \
-  %D%/obj_blocks.c %D%/obj_blocks.h \
-  %D%/obj_marks.c \
-  %D%/obj_parser.c %D%/obj_parser.h \
-  %D%/obj_plain.c %D%/obj_plain.h \
-  %D%/obj_run.c \
-  %D%/obj_short_runs.c %D%/obj_short_runs.h \
-  %D%/obj_triangles.c \
-  %D%/ply_colour.c %D%/ply_colour.h \
-  %D%/ply_header.c %D%/ply_header.h \
-  %D%/ply_parser.c %D%/ply_parser.h \
-  %D%/ply_value.h \
-  %D%/polygon.c %D%/polygon.h \
-  %D%/positions.c %D%/positions.h \
   %D%/precision.c %D%/precision.h \
   %D%/read.c %D%/read.h \
   %D%/read_passes.c %D%/read_passes.h \
-  %D%/reader_import.c \
-  %D%/reader_mtl.c \
-  %D%/reader_obj.c \
-  %D%/reader_ply.c \
-  %D%/reader_stl.c \
-  %D%/reflex_tree.c %D%/reflex_tree.h \
-  %D%/repeated_part.c %D%/repeated_part.h \
   %D%/scene.c %D%/scene.h \
-  %D%/self_intersection.c %D%/self_intersection.h \
-  %D%/side_iterator.h \
-  %D%/slot_table.c %D%/slot_table.h \
-  %D%/slits.c %D%/slits.h \
   %D%/smoothing.c %D%/smoothing.h \
-  %D%/thin_faces.c %D%/thin_faces.h \
-  %D%/topology.c %D%/topology.h \
-  %D%/topology_edge.h \
-  %D%/triangulate.c %D%/triangulate.h \
-  %D%/triangulation.h \
-  %D%/unusable.c %D%/unusable.h \
-  %D%/weld_equal.c %D%/weld_equal.h \
-  %D%/weld_candidates.c %D%/weld_candidates.h \
-  %D%/weld_near.c %D%/weld_near.h \
-  %D%/weld_suspicion.c
+  %D%/edges/coarse_parts.c %D%/edges/coarse_parts.h \
+  %D%/edges/crease_marks.c %D%/edges/crease_marks.h \
+  %D%/edges/crease_rounding.c %D%/edges/crease_rounding.h \
+  %D%/edges/edge_classes.c %D%/edges/edge_classes.h \
+  %D%/obj/material.c %D%/obj/material.h \
+  %D%/obj/obj_blocks.c %D%/obj/obj_blocks.h \
+  %D%/obj/obj_marks.c \
+  %D%/obj/obj_parser.c %D%/obj/obj_parser.h \
+  %D%/obj/obj_plain.c %D%/obj/obj_plain.h \
+  %D%/obj/obj_run.c \
+  %D%/obj/obj_short_runs.c %D%/obj/obj_short_runs.h \
+  %D%/obj/obj_triangles.c \
+  %D%/obj/reader_mtl.c \
+  %D%/obj/reader_obj.c \
+  %D%/ply/ply_colour.c %D%/ply/ply_colour.h \
+  %D%/ply/ply_header.c %D%/ply/ply_header.h \
+  %D%/ply/ply_parser.c %D%/ply/ply_parser.h \
+  %D%/ply/ply_value.h \
+  %D%/ply/reader_ply.c \
+  %D%/readers/conversion.c %D%/readers/conversion.h \
+  %D%/readers/import_format.c %D%/readers/import_format.h \
+  %D%/readers/positions.c %D%/readers/positions.h \
+  %D%/readers/reader_import.c \
+  %D%/readers/reader_stl.c \
+  %D%/readers/unusable.c %D%/readers/unusable.h \
+  %D%/topology/corner_edges.c \
+  %D%/topology/edge_copies.c %D%/topology/edge_copies.h \
+  %D%/topology/edge_join.c %D%/topology/edge_join.h \
+  %D%/topology/edge_lists.h \
+  %D%/topology/edge_range.c %D%/topology/edge_range.h \
+  %D%/topology/large_faces.c %D%/topology/large_faces.h \
+  %D%/topology/repeated_part.c %D%/topology/repeated_part.h \
+  %D%/topology/side_iterator.h \
+  %D%/topology/slot_table.c %D%/topology/slot_table.h \
+  %D%/topology/topology.c %D%/topology/topology.h \
+  %D%/topology/topology_edge.h \
+  %D%/topology/weld_equal.c %D%/topology/weld_equal.h \
+  %D%/triangulation/ear_clipping.c %D%/triangulation/ear_clipping.h \
+  %D%/triangulation/polygon.c %D%/triangulation/polygon.h \
+  %D%/triangulation/reflex_tree.c %D%/triangulation/reflex_tree.h \
+  %D%/triangulation/self_intersection.c %D%/triangulation/self_intersection.h \
+  %D%/triangulation/triangulate.c %D%/triangulation/triangulate.h \
+  %D%/triangulation/triangulation.h \
+  %D%/weld/cluster.c %D%/weld/cluster.h \
+  %D%/weld/face_rewrite.c %D%/weld/face_rewrite.h \
+  %D%/weld/isolated_members.c %D%/weld/isolated_members.h \
+  %D%/weld/slits.c %D%/weld/slits.h \
+  %D%/weld/thin_faces.c %D%/weld/thin_faces.h \
+  %D%/weld/weld_candidates.c %D%/weld/weld_candidates.h \
+  %D%/weld/weld_near.c %D%/weld/weld_near.h \
+  %D%/weld/weld_suspicion.c

@@ -38,7 +38,7 @@ const struct reader *read_find(const char *path, const char *format);
 void read_begin_file(struct scene *scene, const char *path);
 
 /* Reads `path` ("-": standard input) and adds it to the scene, in the unit and
- * with the up axis of the first: see scene/conversion.h.
+ * with the up axis of the first: see scene/readers/conversion.h.
  * format  a reader's name, or NULL: by extension
  * Errors  RECTO_ERROR_IO, _FORMAT (broken or truncated), _UNSUPPORTED (no
  *         reader), _LIMIT (2^31 points, corners or faces passed), _MEMORY;

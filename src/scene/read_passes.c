@@ -13,7 +13,7 @@
 #include <string.h>
 
 #include "base/poll.h"
-#include "scene/obj_blocks.h"
+#include "scene/obj/obj_blocks.h"
 #include "scene/read.h"
 
 enum { BLOCK_BYTES = 1 << 20 };

@@ -1,7 +1,7 @@
 /* layout_classes.c - finds the classes of edges that do not depend on the
  * camera, if any is requested, and the parts that sample no smooth surface. */
-#include "scene/coarse_parts.h"
-#include "scene/edge_classes.h"
+#include "scene/edges/coarse_parts.h"
+#include "scene/edges/edge_classes.h"
 #include "view/layout_phases.h"
 
 /* Whether edges get their classes one by one, when they are chosen: nobody

@@ -25,10 +25,10 @@
 #ifndef VIEW_LAYOUT_PHASES_H
 #define VIEW_LAYOUT_PHASES_H
 
-#include "scene/edge_classes.h"
+#include "scene/edges/edge_classes.h"
 #include "view/clip.h"
 #include "view/sheet.h"
-#include "scene/triangulate.h"
+#include "scene/triangulation/triangulate.h"
 
 /* What clipping leaves of an edge or a diagonal. */
 struct layout_clipped {

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/poll.h"
-#include "scene/edge_classes.h"
+#include "scene/edges/edge_classes.h"
 #include "view/project.h"
 #include "geom/vector.h"
 

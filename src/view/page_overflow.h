@@ -3,7 +3,7 @@
 #ifndef VIEW_PAGE_OVERFLOW_H
 #define VIEW_PAGE_OVERFLOW_H
 
-#include "scene/topology.h"
+#include "scene/topology/topology.h"
 #include "view/camera.h"
 
 struct page_overflow {

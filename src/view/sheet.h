@@ -21,7 +21,7 @@
 
 #include "base/memory.h"
 #include "geom/predicate.h"
-#include "scene/topology.h"
+#include "scene/topology/topology.h"
 #include "view/camera.h"
 
 #define SHEET_UNITS_PER_MM 1048576.0 /* 2^20 */

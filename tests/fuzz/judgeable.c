@@ -5,9 +5,9 @@
 #include <stdlib.h>
 
 #include "api/handle.h"
-#include "scene/self_intersection.h"
+#include "scene/triangulation/self_intersection.h"
 #include "tests/scenes/box.h"
-#include "scene/triangulate.h"
+#include "scene/triangulation/triangulate.h"
 
 /* Corners of a face at one position have one index. */
 static bool has_corner_twice(const uint32_t *corner, size_t count) {

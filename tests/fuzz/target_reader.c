@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/material.h"
+#include "scene/obj/material.h"
 #include "scene/read.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/render.h"

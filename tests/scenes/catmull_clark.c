@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "scene/topology.h"
+#include "scene/topology/topology.h"
 #include "tests/scenes/build.h"
 
 /* What surrounds a point. */

@@ -17,7 +17,7 @@
 #include "base/union_find.h"
 #include "base/sort.h"
 #include "ink/fill/outline.h"
-#include "scene/edge_classes.h"
+#include "scene/edges/edge_classes.h"
 
 struct merge {
   struct drawing *drawing;

@@ -9,7 +9,7 @@
 #include "base/poll.h"
 #include "base/union_find.h"
 #include "scene/angle.h"
-#include "scene/crease_marks.h"
+#include "scene/edges/crease_marks.h"
 
 static int mark_of_edge(const struct sheet *sheet,
                         const struct sheet_edge *edge) {

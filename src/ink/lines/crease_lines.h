@@ -6,7 +6,7 @@
 #include <stdatomic.h>
 
 #include "base/memory.h"
-#include "scene/large_faces.h"
+#include "scene/topology/large_faces.h"
 #include "view/sheet.h"
 
 /* The cosine of the angle between the two faces of an edge that is drawn as a

@@ -7,8 +7,8 @@
 
 #include "base/parallel.h"
 #include "base/poll.h"
-#include "scene/coarse_parts.h"
-#include "scene/edge_classes.h"
+#include "scene/edges/coarse_parts.h"
+#include "scene/edges/edge_classes.h"
 
 uint32_t facing_corner_of_edge(const struct facing *f, uint32_t face,
                                uint32_t edge) {

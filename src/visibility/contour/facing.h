@@ -20,7 +20,7 @@
 
 #include "base/tolerance.h"
 #include "base/union_find.h"
-#include "scene/large_faces.h"
+#include "scene/topology/large_faces.h"
 #include "view/sheet.h"
 #include "geom/vector.h"
 

@@ -2,7 +2,7 @@
 #ifndef VISIBILITY_CONTOUR_PART_SIZE_H
 #define VISIBILITY_CONTOUR_PART_SIZE_H
 
-#include "scene/topology.h"
+#include "scene/topology/topology.h"
 
 /* What one search after the other needs; zero-initialised but for what is
  * borrowed. */

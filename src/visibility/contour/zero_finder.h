@@ -3,7 +3,7 @@
 #define VISIBILITY_CONTOUR_ZERO_FINDER_H
 
 #include "view/clip.h"
-#include "scene/triangulate.h"
+#include "scene/triangulation/triangulate.h"
 #include "visibility/contour/folded_faces.h"
 #include "visibility/contour/zero_segments.h"
 

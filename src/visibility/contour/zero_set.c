@@ -6,7 +6,7 @@
 #include "base/poll.h"
 #include "visibility/contour/zero_finder.h"
 #include "view/clip.h"
-#include "scene/triangulate.h"
+#include "scene/triangulation/triangulate.h"
 
 void zero_set_fini(struct zero_set *set) {
   ARRAY_FREE(&set->node);
