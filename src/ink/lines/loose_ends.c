@@ -25,18 +25,16 @@ bool loose_ends_init(struct loose_ends *ends, const struct segment_graph *graph,
     ends->low[axis] = -page_mm[axis] / 2 * SHEET_UNITS_PER_MM;
     ends->count[axis] = 1 - (int)floor(2 * ends->low[axis] / ends->cell);
   }
-  ends->first = mem_calloc((size_t)ends->count[0] * (size_t)ends->count[1],
-                           sizeof *ends->first);
-  ends->blocks = ((size_t)ends->count[0] >> LOOSE_BLOCK_SHIFT) + 1;
-  ends->has_ends = mem_calloc(
-      ends->blocks, ((size_t)ends->count[1] >> LOOSE_BLOCK_SHIFT) + 1);
-  return ends->first != NULL && ends->has_ends != NULL;
+  size_t cells = (size_t)ends->count[0] * (size_t)ends->count[1];
+  ends->first = mem_calloc(cells, sizeof *ends->first);
+  ends->is_near = mem_calloc(cells, sizeof *ends->is_near);
+  return ends->first != NULL && ends->is_near != NULL;
 }
 
 void loose_ends_fini(struct loose_ends *ends) {
   ARRAY_FREE(&ends->end);
   mem_free(ends->first);
-  mem_free(ends->has_ends);
+  mem_free(ends->is_near);
   ARRAY_FREE(&ends->listed);
 }
 
@@ -45,15 +43,18 @@ void loose_ends_fini(struct loose_ends *ends) {
 static bool list_loose_end(struct loose_ends *ends, struct ink_point at,
                            uint32_t number) {
   int x = loose_ends_cell(ends, 0, at.x), y = loose_ends_cell(ends, 1, at.y);
-  for (int row = y - (y > 0); row <= y + 1 && row < ends->count[1]; row++)
-    for (int i = x - (x > 0); i <= x + 1 && i < ends->count[0]; i++) {
-      uint32_t *first = &ends->first[row * ends->count[0] + i];
-      struct listed_end listed = {number, *first};
+  for (int row = y - 2; row <= y + 2; row++)
+    for (int i = x - 2; i <= x + 2; i++) {
+      if (row < 0 || row >= ends->count[1] || i < 0 || i >= ends->count[0])
+        continue;
+      int cell = row * ends->count[0] + i;
+      ends->is_near[cell] = 1;
+      if (abs(row - y) > 1 || abs(i - x) > 1)
+        continue;
+      struct listed_end listed = {number, ends->first[cell]};
       if (!ARRAY_PUSH(&ends->listed, listed))
         return false;
-      *first = (uint32_t)ends->listed.count;
-      ends->has_ends[(size_t)(row >> LOOSE_BLOCK_SHIFT) * ends->blocks +
-                     (size_t)(i >> LOOSE_BLOCK_SHIFT)] = 1;
+      ends->first[cell] = (uint32_t)ends->listed.count;
     }
   return true;
 }

@@ -3,13 +3,10 @@
 #ifndef INK_LINES_LOOSE_ENDS_H
 #define INK_LINES_LOOSE_ENDS_H
 
-#include <stdlib.h>
+#include <math.h>
 
 #include "ink/lines/segment_graph.h"
 #include "ink/pens.h"
-
-/* Blocks have 2^LOOSE_BLOCK_SHIFT cells along each side. */
-enum { LOOSE_BLOCK_SHIFT = 3 };
 
 struct loose_end {
   struct ink_point at;
@@ -33,9 +30,8 @@ struct loose_ends {
   uint32_t *first;     /* one a cell: the first listed of the loose ends in it
                            and in those about it, as in listed_end */
   ARRAY(struct listed_end) listed;
-  uint8_t *has_ends; /* one a block of cells: some cell of it has a list */
-  size_t blocks;     /* in a row of these */
-  bool is_shared;    /* several threads test segments */
+  uint8_t *is_near; /* one a cell: it or one beside it has a list */
+  bool is_shared;   /* several threads test segments */
 };
 
 /* False when memory ran out; loose_ends_fini is called in any case. */
@@ -58,28 +54,21 @@ static inline int loose_ends_cell(const struct loose_ends *ends, int axis,
   return cell < 0 ? 0 : cell < last ? (int)cell : last;
 }
 
-/* A block of cells. */
-struct loose_block {
-  int x, y;
-};
-
-static inline struct loose_block
-loose_ends_block_of(const struct loose_ends *ends, struct ink_point at) {
-  return (struct loose_block){
-      loose_ends_cell(ends, 0, at.x) >> LOOSE_BLOCK_SHIFT,
-      loose_ends_cell(ends, 1, at.y) >> LOOSE_BLOCK_SHIFT};
+/* Whether a loose end may be listed in the cell of a place or beside it. */
+static inline bool loose_ends_are_near(const struct loose_ends *ends,
+                                       struct ink_point at) {
+  int x = loose_ends_cell(ends, 0, at.x), y = loose_ends_cell(ends, 1, at.y);
+  return ends->is_near[y * ends->count[0] + x] != 0;
 }
 
-/* Whether loose ends may be listed in a cell of a segment from one block to
- * another: by the blocks of its box, of which there are two by two at most
- * where it is not long. */
-static inline bool loose_ends_may_meet(const struct loose_ends *ends,
-                                       struct loose_block from,
-                                       struct loose_block to) {
-  const uint8_t *row = ends->has_ends + (size_t)from.y * ends->blocks,
-                *to_row = ends->has_ends + (size_t)to.y * ends->blocks;
-  return (abs(to.x - from.x) > 1) | (abs(to.y - from.y) > 1) |
-         ((row[from.x] | row[to.x] | to_row[from.x] | to_row[to.x]) != 0);
+/* Whether a segment between two places may be in cells that are not beside that
+ * of one of them: by less than a cell, for rounding. */
+static inline bool loose_ends_is_long(const struct loose_ends *ends,
+                                      struct ink_point from,
+                                      struct ink_point to) {
+  double most = 0.99 * ends->cell;
+  return (fabs((double)to.x - from.x) > most) |
+         (fabs((double)to.y - from.y) > most);
 }
 
 /* Marks the ends that a segment passes by, but those of its own spur.

@@ -268,18 +268,17 @@ static void test_segment(struct spur_search *s, uint32_t segment) {
 static bool test_range(void *user, struct parallel_range range) {
   struct spur_search *s = user;
   const struct ink_point *at = s->graph->node.item;
+  const struct graph_segment *segment = s->graph->segment.item;
   uint32_t node = SEGMENT_GRAPH_NONE;
-  struct loose_block from = {0, 0};
+  bool near = false;
   for (size_t i = range.begin; i < range.end; i++) {
-    const struct graph_segment *segment = &s->graph->segment.item[i];
-    if (segment->node[0] != node) {
-      node = segment->node[0];
-      from = loose_ends_block_of(&s->loose, at[node]);
+    if (segment[i].node[0] != node) {
+      node = segment[i].node[0];
+      near = loose_ends_are_near(&s->loose, at[node]);
     }
-    struct loose_block to =
-        loose_ends_block_of(&s->loose, at[segment->node[1]]);
-    if (loose_ends_may_meet(&s->loose, from, to) &&
-        !graph_segment_is_hidden(segment))
+    if ((near ||
+         loose_ends_is_long(&s->loose, at[node], at[segment[i].node[1]])) &&
+        !graph_segment_is_hidden(&segment[i]))
       test_segment(s, (uint32_t)i);
   }
   return true;
