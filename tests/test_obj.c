@@ -275,7 +275,7 @@ static char *write_mixture(const char *blank) {
 
 static void plain_statements_are_read_as_all_others(void **state) {
   struct reading a, b;
-  char *plain = write_mixture(" "), *other = write_mixture("  ");
+  char *plain = write_mixture(" "), *other = write_mixture("\t");
   (void)state;
   reading_of(&a, &reader_obj, plain);
   reading_of(&b, &reader_obj, other);

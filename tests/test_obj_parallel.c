@@ -191,6 +191,53 @@ static void other_statements_are_found_where_they_are(void **state) {
     assert_same_in_parallel((uint64_t)seed, rarities[seed % 4]);
 }
 
+/* The text with other blanks, and mostly carriage returns at the ends of
+ * lines, as other programs write it. */
+static struct text dress(const struct text *text, struct random *random) {
+  struct text dressed = {malloc(3 * text->count), 0};
+  assert_non_null(dressed.bytes);
+  for (size_t i = 0; i < text->count; i++) {
+    char c = text->bytes[i];
+    bool may_have_space = i > 0 && text->bytes[i - 1] != '\\';
+    if (c == '\n' && may_have_space && random_below(random, 8) == 0)
+      put(&dressed, " ");
+    if (c == '\n' && random_below(random, 8) > 0)
+      put(&dressed, "\r");
+    if (c == ' ' && random_below(random, 8) == 0)
+      put(&dressed, " ");
+    dressed.bytes[dressed.count++] = c;
+  }
+  return dressed;
+}
+
+static void read_alone(struct reading *reading, const struct text *text) {
+  reading_init(reading);
+  assert_int_equal(
+      reading_bytes(reading, &reader_obj, text->bytes, text->count), RECTO_OK);
+}
+
+static void blanks_and_carriage_returns_change_nothing(void **state) {
+  static const uint32_t rarities[] = {0, 20000, 300, 5000};
+  (void)state;
+  skip_without_processors();
+  for (int seed = 1; seed <= rounds(12); seed++) {
+    struct random random = {(uint64_t)seed};
+    struct text text = write_file((uint64_t)seed, rarities[seed % 4]);
+    struct text dressed = dress(&text, &random);
+    struct reading plain, other;
+    read_alone(&plain, &text);
+    read_alone(&other, &dressed);
+    assert_true(reading_same(&plain.scene, &other.scene));
+    assert_int_equal(plain.warnings, other.warnings);
+    reading_fini(&plain);
+    reading_fini(&other);
+    assert_null(
+        reading_parallel_fault(&reader_obj, dressed.bytes, dressed.count));
+    free(text.bytes);
+    free(dressed.bytes);
+  }
+}
+
 /* Of a file each thread reads the parts that it parses. */
 static void files_are_read_as_they_are_in_memory(void **state) {
   static const uint32_t rarities[] = {0, 20000, 60000, 5000};
@@ -395,6 +442,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(plain_files_are_read_alike),
       cmocka_unit_test(other_statements_are_found_where_they_are),
+      cmocka_unit_test(blanks_and_carriage_returns_change_nothing),
       cmocka_unit_test_setup_teardown(files_are_read_as_they_are_in_memory,
                                       temporary_set_up, temporary_tear_down),
       cmocka_unit_test_setup_teardown(assemblies_are_read_alike,

@@ -8,7 +8,8 @@
 
 uint32_t corner_normal_encode(double x, double y, double z) {
   enum { MIDDLE = 512, LONGEST = 511 };
-  double most = fmax(fabs(x), fmax(fabs(y), fabs(z)));
+  double most = fabs(x) > fabs(y) ? fabs(x) : fabs(y);
+  most = most > fabs(z) ? most : fabs(z);
   if (!(most > 0 && isfinite(x) && isfinite(y) && isfinite(z)))
     return 0;
   x /= most;

@@ -4,44 +4,43 @@
  * Normals are counted like points: an index may name one that comes later, and
  * then all are read ahead.  A face whose normal is not there is a face without
  * normals, and no more is wrong with it. */
-#include "scene/obj/obj_parser.h"
+#include "scene/obj/obj_plain.h"
 
-#include <math.h>
 #include <string.h>
 
-#include "base/number.h"
 #include "scene/corner_normals.h"
 #include "scene/diagnostics.h"
 
 /* ---- vn ------------------------------------------------------------------ */
 
 #if DIGITS_CHUNKS
-enum { PLAIN_ROOM = 3 * NUMBER_PLAIN_ROOM }; /* more than a plain one has */
+static bool reserve_normals(struct obj_parser *p, size_t count) {
+  return ARRAY_RESERVE(&p->normal, count);
+}
 
-/* Reads "vn x y z" for as long as the numbers are short decimals; false when
- * memory ran out. */
-static bool read_plain_normals(struct obj_parser *p) {
-  while (p->end - p->at > PLAIN_ROOM && memcmp(p->at, "vn ", 3) == 0) {
-    const char *at = p->at + 3;
-    double x, y, z;
-    at = number_parse_plain(at, &x);
-    at = at != NULL && *at == ' ' ? number_parse_plain(at + 1, &y) : NULL;
-    at = at != NULL && *at == ' ' ? number_parse_plain(at + 1, &z) : NULL;
-    if (at == NULL || *at != '\n')
+/* Reads "vn x y z" for as long as the numbers are finite. */
+static bool read_plain_normals(const struct obj_parser *p,
+                               struct obj_run *run) {
+  uint32_t *normal = p->normal.item + p->normal.count + run->before;
+  for (; obj_has_room(run) && memcmp(run->at, "vn ", 3) == 0; run->count++) {
+    double xyz[3];
+    const char *past = obj_read_three_numbers(run, run->at + 2, xyz);
+    if (past == NULL)
       break;
-    if (!ARRAY_PUSH(&p->normal, corner_normal_encode(x, y, z)))
-      return false;
-    p->normals_seen++;
-    p->line++;
-    p->at = at + 1;
+    normal[run->count] = corner_normal_encode(xyz[0], xyz[1], xyz[2]);
+    run->at = past;
   }
   return true;
 }
-#else
-static bool read_plain_normals(struct obj_parser *p) {
-  (void)p;
+
+static bool add_plain_normals(struct obj_parser *p, const struct obj_run *run) {
+  p->normal.count += run->count;
+  p->normals_seen += run->count;
   return true;
 }
+
+const struct obj_run_kind obj_plain_normals = {
+    reserve_normals, read_plain_normals, add_plain_normals};
 #endif
 
 recto_status obj_read_normal(struct obj_parser *p) {
@@ -73,9 +72,8 @@ recto_status obj_read_normal(struct obj_parser *p) {
   else
     diagnostics_fault(p->diagnostics, SCENE_FAULT_NOT_FINITE, line,
                       "normal that is not finite, taken as none");
-  return ARRAY_PUSH(&p->normal, normal) && read_plain_normals(p)
-             ? RECTO_OK
-             : error_memory(p->error);
+  return ARRAY_PUSH(&p->normal, normal) ? obj_run_normals(p)
+                                        : error_memory(p->error);
 }
 
 /* ---- s ------------------------------------------------------------------- */

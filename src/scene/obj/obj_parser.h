@@ -111,6 +111,20 @@ static inline void obj_skip_blanks(struct obj_parser *p) {
   p->at = at;
 }
 
+static inline const char *obj_pass_spaces(const char *at) {
+  while (*at == ' ')
+    at++;
+  return at;
+}
+
+/* Passes over the end of a line, and blanks before it; NULL where there is
+ * something else. */
+static inline const char *obj_pass_end_of_line(const char *at) {
+  while (*at != '\n' && is_blank(*at))
+    at++;
+  return *at == '\n' ? at + 1 : NULL;
+}
+
 /* Passes over the texture and normal indices, /n or //n or /n/n.
  * normal  gets where that of the normal is; NULL: there is none */
 static inline const char *obj_pass_other_indices(const char *at,
@@ -245,6 +259,9 @@ static inline bool obj_find_plain_normal(const struct obj_parser *p,
 /* Reads "v x y z" for as long as the numbers are short decimals: all points
  * that are so are finite. */
 USE_RESULT recto_status obj_run_points(struct obj_parser *p);
+
+/* Reads "vn x y z" likewise. */
+USE_RESULT recto_status obj_run_normals(struct obj_parser *p);
 
 /* Reads faces for as long as they are triangles without fault, a line each,
  * of points and a group that are there: nearly all are. */

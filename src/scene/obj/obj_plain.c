@@ -1,6 +1,6 @@
-/* obj_plain.c - plain points and faces of an OBJ file: "v x y z", "f a b c" and
- * "f a b c d" that are like those before them, read without the tests that only
- * others need. */
+/* obj_plain.c - plain points, normals and faces of an OBJ file: "v x y z",
+ * "vn x y z", "f a b c" and "f a b c d" that are like those before them, read
+ * without the tests that only others need. */
 #include "scene/obj/obj_plain.h"
 
 #include <math.h>
@@ -14,43 +14,36 @@
 
 enum { PLAIN_ROOM = OBJ_PLAIN_ROOM };
 
+/* Of a function that is compiled for each number of corners, with normals and
+ * without. */
+#if defined __GNUC__
+#define SPECIALIZED static inline __attribute__((always_inline))
+#else
+#define SPECIALIZED static inline
+#endif
+
 /* Is there a statement of that letter, with room to look at? */
 static inline bool has_short_statement(const struct obj_run *run,
                                        char keyword) {
-  return run->count < run->most && run->at < run->end &&
-         run->limit - run->at > PLAIN_ROOM && run->at[0] == keyword &&
-         run->at[1] == ' ';
+  return obj_has_room(run) && run->at[0] == keyword && run->at[1] == ' ';
 }
 
 /* ---- Points -------------------------------------------------------------- */
 
-/* Reads a coordinate of a statement; NULL where it is no finite number, or
- * where those before it were too long. */
-static inline const char *read_coordinate(const struct obj_run *run,
-                                          const char *at, double *value) {
-  if (at - run->at > PLAIN_ROOM / 2)
-    return NULL;
-  const char *past = number_parse_plain(at, value);
-  if (past != NULL && *past <= ' ')
-    return past;
-  past = number_parse_double(at, run->limit, value);
-  return past != NULL && isfinite(*value) ? past : NULL;
+const char *obj_read_finite(const struct obj_run *run, const char *at,
+                            double *value) {
+  at = number_parse_double(obj_pass_spaces(at), run->limit, value);
+  return at != NULL && isfinite(*value) ? at : NULL;
 }
 
 /* Reads "v x y z" to its end; NULL where it is something else. */
 static inline const char *read_plain_point(const struct obj_run *run,
                                            struct scene_point *point) {
-  const char *at = run->at + 1;
   double value[3];
-  for (int k = 0; k < 3; k++) {
-    if (*at != ' ')
-      return NULL;
-    at = read_coordinate(run, at + 1, &value[k]);
-    if (at == NULL)
-      return NULL;
-  }
-  *point = (struct scene_point){value[0], value[1], value[2]};
-  return *at == '\n' ? at + 1 : NULL;
+  const char *past = obj_read_three_numbers(run, run->at + 1, value);
+  if (past != NULL)
+    *point = (struct scene_point){value[0], value[1], value[2]};
+  return past;
 }
 
 /* The number of the point that is sampled next, from `number` on. */
@@ -89,14 +82,16 @@ static bool read_points(const struct obj_parser *p, struct obj_run *run) {
 static const char *sample_point(struct obj_parser *p, const char *at,
                                 const struct scene_point *point) {
   const double xyz[3] = {point->x, point->y, point->z};
-  at += 2;
+  at++;
   for (int k = 0; k < 3; k++) {
+    while (*at == ' ')
+      at++;
     const char *start = at;
     while (*at > ' ')
       at++;
-    precision_add_literal(&p->sample, start, at++, xyz[k]);
+    precision_add_literal(&p->sample, start, at, xyz[k]);
   }
-  return at;
+  return obj_pass_end_of_line(at);
 }
 
 static bool add_points(struct obj_parser *p, const struct obj_run *run) {
@@ -119,44 +114,79 @@ static bool reserve_points(struct obj_parser *p, size_t count) {
 
 /* ---- Faces --------------------------------------------------------------- */
 
+static bool wants_normals(const struct obj_parser *p) {
+  return p->scene->needs_crease_marks && p->normal.count > 0;
+}
+
+/* Reads "/texture/normal", each of up to seven digits, or one of them, of a
+ * normal that is there; NULL where it is something else.
+ * normal  gets the index of the normal from 1, if it has one; NULL: it is not
+ *         wanted, and none may be there where normals are needed */
+static inline const char *read_other_indices(const struct obj_parser *p,
+                                             const char *at, uint32_t *normal) {
+  uint64_t chunk, index;
+  at++;
+  at += digits_count(at, &chunk);
+  if (*at != '/')
+    return at;
+  at = digits_read_few(at + 1, &index);
+  if (normal == NULL)
+    return p->scene->needs_crease_marks ? NULL : at;
+  if (at == NULL || index - 1 >= p->normal.count)
+    return NULL;
+  *normal = (uint32_t)index;
+  return at;
+}
+
+/* Whether a statement is so long so far that it is not plain. */
+static inline bool is_too_long(const char *start, const char *at) {
+  return at - start > PLAIN_ROOM / 2;
+}
+
 /* Reads " index" or " index/other/other" of up to seven digits, of a point
- * seen so far; NULL where it is something else, such as the index of a normal
- * where these are needed and there are none yet, or where the statement, which
- * begins at `start`, is too long. */
-static inline const char *read_plain_index(const struct obj_parser *p,
-                                           const char *start, const char *at,
-                                           uint32_t *point) {
+ * seen so far; NULL where it is something else, or where the statement, which
+ * begins at `start`, is too long.
+ * normal  gets the index of its normal from 1, or 0: it has none; NULL: as
+ *         above */
+SPECIALIZED const char *read_plain_index(const struct obj_parser *p,
+                                         const char *start, const char *at,
+                                         uint32_t *point, uint32_t *normal) {
   uint64_t index;
   if (*at != ' ')
     return NULL;
-  at = digits_read_few(at + 1, &index);
-  if (at == NULL || --index >= p->seen)
+  const char *past = digits_read_few(at + 1, &index);
+  if (past == NULL) {
+    at = obj_pass_spaces(at);
+    past = is_too_long(start, at) ? NULL : digits_read_few(at, &index);
+    if (past == NULL)
+      return NULL;
+  }
+  if (--index >= p->seen)
     return NULL;
   *point = (uint32_t)(p->first + index);
-  if (*at != '/')
-    return at;
-  const char *normal;
-  at = obj_pass_other_indices(at, &normal);
-  return at - start > PLAIN_ROOM / 2 ||
-                 (normal != NULL && p->scene->needs_crease_marks &&
-                  p->normal.count == 0)
-             ? NULL
-             : at;
+  if (normal != NULL)
+    *normal = 0;
+  if (*past != '/')
+    return past;
+  past = read_other_indices(p, past, normal);
+  return past == NULL || is_too_long(start, past) ? NULL : past;
 }
 
 /* Reads "f a b c", or one index more, to its end; NULL where it is something
  * else.
- * corners  of the face: 3 or 4, here and below */
-static inline const char *read_plain_face(const struct obj_parser *p,
-                                          const char *start, int corners,
-                                          uint32_t *corner) {
+ * corners  of the face: 3 or 4, here and below
+ * normal   gets an index a corner, if they are wanted, here and below */
+SPECIALIZED const char *read_plain_face(const struct obj_parser *p,
+                                        const char *start, int corners,
+                                        uint32_t *corner, uint32_t *normal) {
   const char *at = start + 1;
   for (int k = 0; k < corners; k++) {
-    at = read_plain_index(p, start, at, &corner[k]);
+    at = read_plain_index(p, start, at, &corner[k],
+                          normal != NULL ? &normal[k] : NULL);
     if (at == NULL)
       return NULL;
   }
-  return *at == '\n' ? at + 1 : NULL;
+  return obj_pass_end_of_line(at);
 }
 
 static inline bool is_surely_valid(const struct scene *scene,
@@ -168,34 +198,55 @@ static inline bool is_surely_valid(const struct scene *scene,
 /* Faces whose corners are read before their points are looked at. */
 enum { FACES_OF_BLOCK = 64 };
 
-/* Reads the corners of up to FACES_OF_BLOCK faces, and fetches their points;
- * returns how many are plain.
+/* Reads the corners of up to FACES_OF_BLOCK faces, and fetches their points and
+ * normals; returns how many are plain.
  * begin  gets where each of them begins */
-static inline size_t read_block_of_faces(const struct obj_parser *p,
-                                         struct obj_run *run, size_t corners,
-                                         uint32_t *corner,
-                                         const char *begin[FACES_OF_BLOCK]) {
+SPECIALIZED size_t read_block_of_faces(const struct obj_parser *p,
+                                       struct obj_run *run, size_t corners,
+                                       uint32_t *corner, uint32_t *normal,
+                                       const char *begin[FACES_OF_BLOCK]) {
   const struct scene_point *point = p->scene->point.item;
   size_t left = run->most - run->count, read = 0;
   left = left < FACES_OF_BLOCK ? left : FACES_OF_BLOCK;
   for (; read < left && has_short_statement(run, 'f'); read++) {
-    const char *past = read_plain_face(p, run->at, (int)corners, corner);
+    const char *past =
+        read_plain_face(p, run->at, (int)corners, corner, normal);
     if (past == NULL)
       break;
-    for (size_t k = 0; k < corners; k++)
+    for (size_t k = 0; k < corners; k++) {
       MEM_PREFETCH(&point[corner[k]]);
+      if (normal != NULL)
+        MEM_PREFETCH(p->normal.item + normal[k]);
+    }
     begin[read] = run->at;
     run->at = past;
     corner += corners;
+    if (normal != NULL)
+      normal += corners;
   }
   return read;
 }
 
+bool obj_find_normals_of_face(const struct obj_parser *p, uint32_t *normal,
+                              size_t corners) {
+  bool all = true;
+  uint32_t bits = 0;
+  for (size_t k = 0; k < corners; k++) {
+    normal[k] = normal[k] > 0 ? p->normal.item[normal[k] - 1] : 0;
+    all = all && normal[k] != 0;
+    bits |= normal[k];
+  }
+  for (size_t k = 0; k < corners && !all; k++)
+    normal[k] = 0;
+  return all;
+}
+
 /* Reads the faces of a run.  Their points lie anywhere in memory: they are
  * looked at block by block, once they have been fetched. */
-static inline void read_corners_of_faces(const struct obj_parser *p,
-                                         struct obj_run *run,
-                                         const size_t corners) {
+SPECIALIZED void read_corners_of_faces(const struct obj_parser *p,
+                                       struct obj_run *run,
+                                       const size_t corners,
+                                       const bool has_normals) {
   struct scene *scene = p->scene;
   size_t before = scene->corner.count + corners * run->before, read;
   uint32_t *corner = scene->corner.item + before;
@@ -204,10 +255,12 @@ static inline void read_corners_of_faces(const struct obj_parser *p,
       scene->face_start.count > 0 ? scene->face_start.item + face + 1 : NULL;
   uint32_t *group =
       scene->face_group.count > 0 ? scene->face_group.item + face : NULL;
+  uint32_t *normal =
+      has_normals ? p->run_normal.item + corners * run->before : NULL;
   const char *begin[FACES_OF_BLOCK];
   size_t valid;
   do {
-    read = read_block_of_faces(p, run, corners, corner, begin);
+    read = read_block_of_faces(p, run, corners, corner, normal, begin);
     for (valid = 0; valid < read && is_surely_valid(scene, corner, corners);
          valid++, corner += corners, run->count++) {
       if (start != NULL)
@@ -215,89 +268,20 @@ static inline void read_corners_of_faces(const struct obj_parser *p,
       if (group != NULL)
         group[run->count] = scene->current_group;
     }
+    for (size_t f = 0; has_normals && f < valid; f++, normal += corners)
+      if (obj_find_normals_of_face(p, normal, corners))
+        run->has_normals = true;
   } while (valid == FACES_OF_BLOCK);
   if (valid < read)
     run->at = begin[valid];
 }
 
-static bool wants_normals(const struct obj_parser *p) {
-  return p->scene->needs_crease_marks && p->normal.count > 0;
-}
-
-/* Reads the normal of the corner at a place, whose point was read: indices of
- * up to seven digits, of a normal that is there.  Returns where it ends; NULL
- * where it is something else.
- * normal  gets 0 where there is no index */
-static inline const char *read_plain_normal(const struct obj_parser *p,
-                                            const char *at, uint32_t *normal) {
-  uint64_t chunk;
-  *normal = 0;
-  at += digits_count(at, &chunk);
-  if (*at != '/')
-    return at;
-  at++;
-  at += digits_count(at, &chunk);
-  if (*at == '/') {
-    int count = digits_count(++at, &chunk);
-    if (count == 0 || count == 8)
-      return NULL;
-    uint64_t index = digits_sum(chunk, count) - 1;
-    if (index >= p->normal.count)
-      return NULL;
-    *normal = p->normal.item[index];
-    at += count;
-  }
-  return *at == ' ' || *at == '\n' ? at : NULL;
-}
-
-/* Reads the normals of the corners of "f a b c"; of a face without a normal at
- * one of them, none.  Returns where it ends; NULL where one is not plain.
- * any  gets the bits of those that it has, beside those that it had */
-static inline const char *read_normals_of_face(const struct obj_parser *p,
-                                               const char *at, size_t corners,
-                                               uint32_t *normal,
-                                               uint32_t *any) {
-  bool all = true;
-  uint32_t bits = 0;
-  at++;
-  for (size_t k = 0; k < corners; k++) {
-    at = read_plain_normal(p, at + 1, &normal[k]);
-    if (at == NULL)
-      return NULL;
-    all = all && normal[k] != 0;
-    bits |= normal[k];
-  }
-  for (size_t k = 0; k < corners && !all; k++)
-    normal[k] = 0;
-  *any |= all ? bits : 0;
-  return at + 1;
-}
-
-/* Reads the normals of the faces of a run, which begins at `at`; the run ends
- * before the first face with one that is not plain. */
-static void read_normals_of_faces(const struct obj_parser *p,
-                                  struct obj_run *run, const char *at,
-                                  size_t corners) {
-  uint32_t *normal = p->run_normal.item + corners * run->before, any = 0;
-  for (size_t f = 0; f < run->count; f++) {
-    const char *past =
-        read_normals_of_face(p, at, corners, &normal[corners * f], &any);
-    if (past == NULL) {
-      run->count = f;
-      run->at = at;
-      break;
-    }
-    at = past;
-  }
-  run->has_normals = any != 0;
-}
-
 static inline bool read_faces(const struct obj_parser *p, struct obj_run *run,
                               const size_t corners) {
-  const char *start = run->at;
-  read_corners_of_faces(p, run, corners);
   if (wants_normals(p))
-    read_normals_of_faces(p, run, start, corners);
+    read_corners_of_faces(p, run, corners, true);
+  else
+    read_corners_of_faces(p, run, corners, false);
   return true;
 }
 

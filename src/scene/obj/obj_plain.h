@@ -1,10 +1,11 @@
-/* obj_plain.h - plain points and faces of an OBJ file, and what differs between
- * them. */
+/* obj_plain.h - plain points, normals and faces of an OBJ file, and what
+ * differs between them. */
 #ifndef SCENE_OBJ_OBJ_PLAIN_H
 #define SCENE_OBJ_OBJ_PLAIN_H
 
 #include <sys/types.h>
 
+#include "base/number.h"
 #include "scene/obj/obj_parser.h"
 
 enum {
@@ -42,7 +43,50 @@ void obj_go_on(struct obj_parser *p, size_t bytes);
  * of what is in memory. */
 size_t obj_bytes_left(const struct obj_parser *p);
 
-extern const struct obj_run_kind obj_plain_points, obj_plain_triangles,
-    obj_plain_quadrilaterals;
+/* ---- What they have in common -------------------------------------------- */
+
+#if DIGITS_CHUNKS
+/* Is there a statement, with room to look at? */
+static inline bool obj_has_room(const struct obj_run *run) {
+  return run->count < run->most && run->at < run->end &&
+         run->limit - run->at > OBJ_PLAIN_ROOM;
+}
+
+/* Reads a number that is finite, and spaces before it; NULL: there is none. */
+const char *obj_read_finite(const struct obj_run *run, const char *at,
+                            double *value);
+
+/* Reads a coordinate of a statement, most often behind one space; NULL where it
+ * is no finite number, or where those before it were too long. */
+static inline const char *obj_read_coordinate(const struct obj_run *run,
+                                              const char *at, double *value) {
+  if (*at != ' ' || at - run->at > OBJ_PLAIN_ROOM / 2)
+    return NULL;
+  const char *past = number_parse_plain(at + 1, value);
+  return past != NULL && *past <= ' ' ? past : obj_read_finite(run, at, value);
+}
+
+/* Reads the three numbers behind a keyword, which ends at `at`, and the end of
+ * the line; NULL where there is something else. */
+static inline const char *obj_read_three_numbers(const struct obj_run *run,
+                                                 const char *at,
+                                                 double value[3]) {
+  for (int k = 0; k < 3; k++) {
+    at = obj_read_coordinate(run, at, &value[k]);
+    if (at == NULL)
+      return NULL;
+  }
+  return obj_pass_end_of_line(at);
+}
+#endif
+
+/* Replaces the indices of a face's normals, from 1, by the normals; 0: it has
+ * none.  Where it has not one at each corner, it gets none, and this is
+ * false. */
+bool obj_find_normals_of_face(const struct obj_parser *p, uint32_t *normal,
+                              size_t corners);
+
+extern const struct obj_run_kind obj_plain_points, obj_plain_normals,
+    obj_plain_triangles, obj_plain_quadrilaterals;
 
 #endif

@@ -1,4 +1,4 @@
-/* obj_run.c - runs of plain points and faces of an OBJ file.
+/* obj_run.c - runs of plain points, normals and faces of an OBJ file.
  *
  * Nearly all statements are like the one before them, and plain: they are read
  * without the tests that only others need.  What follows a run is left to
@@ -316,6 +316,10 @@ recto_status obj_run_points(struct obj_parser *p) {
              : read_run(p, &obj_plain_points);
 }
 
+recto_status obj_run_normals(struct obj_parser *p) {
+  return read_run(p, &obj_plain_normals);
+}
+
 /* Those that follow a triangle or a quadrilateral, and have as many corners. */
 recto_status obj_run_faces(struct obj_parser *p) {
   const struct scene *scene = p->scene;
@@ -331,6 +335,11 @@ recto_status obj_run_faces(struct obj_parser *p) {
 #else
 
 recto_status obj_run_points(struct obj_parser *p) {
+  (void)p;
+  return RECTO_OK;
+}
+
+recto_status obj_run_normals(struct obj_parser *p) {
   (void)p;
   return RECTO_OK;
 }
