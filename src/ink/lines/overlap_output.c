@@ -342,12 +342,14 @@ static bool rebuild(struct output_overlaps *r, const struct node_rows *rows) {
 
 /* One round; sets *changed if another round may find more.
  * here, next  as of output_overlaps */
-static bool drop_once(struct segment_graph *graph, const struct node_rows *rows,
-                      int32_t output_step, struct changed_cells *here,
-                      struct changed_cells *next, bool *changed) {
+static bool drop_once(struct segment_graph *graph,
+                      const struct node_clusters *clusters,
+                      struct changed_cells *here, struct changed_cells *next,
+                      bool *changed) {
+  const struct node_rows *rows = clusters->rows;
   struct output_overlaps r = {.here = here, .next = next};
-  bool ok = vertex_snapping_init(&r.snapping, graph, output_step) &&
-            vertex_snapping_drop_duplicates(&r.snapping, rows);
+  bool ok = vertex_snapping_init(&r.snapping, graph, clusters->step) &&
+            vertex_snapping_drop_duplicates(&r.snapping, clusters);
   if (ok)
     mark_moved(&r);
   ok = ok && find_pairs(&r, rows);
@@ -379,17 +381,20 @@ recto_status segment_graph_drop_output_overlaps(struct segment_graph *graph,
   if (graph->approximate == NULL)
     return error_memory(error);
   struct changed_cells *cells = mem_calloc(2, sizeof *cells);
-  bool ok = cells != NULL, changed = true;
+  struct node_clusters clusters;
+  bool ok = node_clusters_init(&clusters, graph, rows, whole) && cells != NULL,
+       changed = true;
   recto_status status = RECTO_OK;
   for (int round = 0; ok && changed && round < SEGMENT_GRAPH_ROUNDS; round++) {
     struct changed_cells *next = &cells[round & 1];
     struct changed_cells *here = round > 0 ? &cells[!(round & 1)] : NULL;
     memset(next, 0, sizeof *next);
-    ok = drop_once(graph, rows, whole, here, next, &changed);
+    ok = drop_once(graph, &clusters, here, next, &changed);
     if (ok && changed)
       status = segment_graph_index_ends(graph, error);
     ok = ok && status == RECTO_OK;
   }
+  node_clusters_fini(&clusters);
   mem_free(cells);
   return ok || status != RECTO_OK ? status : error_memory(error);
 }

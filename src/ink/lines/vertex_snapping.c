@@ -77,23 +77,13 @@ bool vertex_snapping_unite(struct vertex_snapping *snapping, uint32_t from,
 
 /* ---- 1. Clusters --------------------------------------------------------- */
 
-struct node_clusters {
-  const struct vertex_snapping *snapping;
-  const struct node_rows *rows;
-  uint32_t *of_node; /* the node whose cluster each is in, which is itself for
-                        the first node of a cluster and one with none near */
-  uint8_t *others;   /* of each node that begins a cluster: how many further
-                        nodes the cluster has, at most LARGE_CLUSTER_MIN */
-  size_t moved;      /* nodes that are in the cluster of another */
-};
-
 /* Visits the nodes near node i in [k, end), a range of one row in order of x.
  * add  adds those that are in no other cluster to that of node i; else returns
  *      whether there are any */
 static bool visit_near_nodes(struct node_clusters *clusters, uint32_t i,
                              uint32_t k, uint32_t end, bool add) {
-  const struct ink_point *at = clusters->snapping->graph->node.item;
-  int32_t step = clusters->snapping->output_step;
+  const struct ink_point *at = clusters->graph->node.item;
+  int32_t step = clusters->step;
   int64_t x_max = (int64_t)at[i].x + step;
   for (; k < end && at[k].x <= x_max; k++) {
     if (llabs((int64_t)at[k].y - at[i].y) > step)
@@ -114,8 +104,8 @@ static bool visit_near_nodes(struct node_clusters *clusters, uint32_t i,
 static bool visit_later_nodes(struct node_clusters *clusters, uint32_t r,
                               uint32_t i, bool add) {
   const struct node_rows *rows = clusters->rows;
-  const struct ink_point *at = clusters->snapping->graph->node.item;
-  int32_t step = clusters->snapping->output_step;
+  const struct ink_point *at = clusters->graph->node.item;
+  int32_t step = clusters->step;
   if (visit_near_nodes(clusters, i, i + 1, rows->start[r + 1], add))
     return true;
   for (uint32_t q = r + 1; at[i].y + step >= rows->low[q]; q++) {
@@ -141,7 +131,7 @@ static bool find_near_of_range(void *user, struct parallel_range range) {
 
 /* Returns false when the caller cancelled. */
 static bool gather_clusters(struct node_clusters *clusters) {
-  size_t count = clusters->snapping->graph->node.count;
+  size_t count = clusters->graph->node.count;
   if (!parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
                        PARALLEL_ITEMS, find_near_of_range, clusters))
     return false;
@@ -152,6 +142,23 @@ static bool gather_clusters(struct node_clusters *clusters) {
       (void)visit_later_nodes(clusters, clusters->rows->row[i], i, true);
   }
   return true;
+}
+
+bool node_clusters_init(struct node_clusters *clusters,
+                        const struct segment_graph *graph,
+                        const struct node_rows *rows, int32_t step) {
+  size_t nodes = graph->node.count;
+  *clusters =
+      (struct node_clusters){.graph = graph, .rows = rows, .step = step};
+  clusters->of_node = mem_alloc(nodes, sizeof *clusters->of_node);
+  clusters->others = mem_calloc(nodes, sizeof *clusters->others);
+  return clusters->of_node != NULL && clusters->others != NULL &&
+         (nodes == 0 || gather_clusters(clusters));
+}
+
+void node_clusters_fini(struct node_clusters *clusters) {
+  mem_free(clusters->of_node);
+  mem_free(clusters->others);
 }
 
 /* ---- 2. and 3. Contraction, duplicates ----------------------------------- */
@@ -210,7 +217,7 @@ struct snapping_candidates {
 static bool list_candidates_of_range(void *user, struct parallel_range range) {
   const struct snapping_candidates *candidates = user;
   const struct node_clusters *clusters = candidates->clusters;
-  const struct graph_segment *s = clusters->snapping->graph->segment.item;
+  const struct graph_segment *s = clusters->graph->segment.item;
   size_t n = range.begin;
   for (size_t i = range.begin; i < range.end; i++)
     if (clusters->others[clusters->of_node[s[i].node[0]]] &&
@@ -224,7 +231,7 @@ static bool list_candidates_of_range(void *user, struct parallel_range range) {
  * cancelled. */
 static bool list_snapping_candidates(const struct node_clusters *clusters,
                                      struct sort_key *pair, size_t *listed) {
-  size_t count = clusters->snapping->graph->segment.count;
+  size_t count = clusters->graph->segment.count;
   struct snapping_candidates candidates = {
       clusters, pair,
       mem_calloc(parallel_range_count(count, PARALLEL_ITEMS),
@@ -283,33 +290,23 @@ static void drop_all_duplicates(struct vertex_snapping *snapping,
 }
 
 bool vertex_snapping_drop_duplicates(struct vertex_snapping *snapping,
-                                     const struct node_rows *rows) {
-  size_t nodes = snapping->graph->node.count, count = 0;
-  struct node_clusters clusters = {
-      .snapping = snapping,
-      .rows = rows,
-      .of_node = mem_alloc(nodes, sizeof *clusters.of_node),
-      .others = mem_calloc(nodes, sizeof *clusters.others)};
+                                     const struct node_clusters *clusters) {
+  size_t count = snapping->graph->segment.count;
   struct sort_key *pair = NULL, *scratch = NULL;
   uint32_t *kept = NULL;
-  bool ok = clusters.of_node != NULL && clusters.others != NULL &&
-            (nodes == 0 || gather_clusters(&clusters));
-  if (ok && clusters.moved > 0) {
-    count = snapping->graph->segment.count;
-    pair = mem_alloc(count, sizeof *pair);
-    ok = pair != NULL && list_snapping_candidates(&clusters, pair, &count);
-  }
+  if (clusters->moved == 0)
+    return true;
+  pair = mem_alloc(count, sizeof *pair);
+  bool ok = pair != NULL && list_snapping_candidates(clusters, pair, &count);
   if (ok && count > 0) {
     scratch = mem_alloc(count, sizeof *scratch);
     kept = mem_alloc(count, sizeof *kept);
     ok = scratch != NULL && kept != NULL;
   }
   if (ok && count > 0) {
-    count = contract_clusters(snapping, &clusters, pair, count);
+    count = contract_clusters(snapping, clusters, pair, count);
     drop_all_duplicates(snapping, pair, scratch, count, kept);
   }
-  mem_free(clusters.of_node);
-  mem_free(clusters.others);
   mem_free(pair);
   mem_free(scratch);
   mem_free(kept);

@@ -8,6 +8,27 @@
 
 #include "ink/lines/segment_graph.h"
 
+/* Clusters of near nodes.  They follow from the nodes' positions, which stay
+ * from round to round. */
+struct node_clusters {
+  const struct segment_graph *graph;
+  const struct node_rows *rows;
+  int32_t step;      /* see above */
+  uint32_t *of_node; /* the node whose cluster each is in, which is itself for
+                        the first node of a cluster and one with none near */
+  uint8_t *others;   /* of each node that begins a cluster: how many further
+                        nodes the cluster has, up to a limit */
+  size_t moved;      /* nodes that are in the cluster of another */
+};
+
+/* False when memory ran out or the caller cancelled; node_clusters_fini is
+ * called in any case.
+ * Cost  near linear; in parallel, but for what is near */
+USE_RESULT bool node_clusters_init(struct node_clusters *clusters,
+                                   const struct segment_graph *graph,
+                                   const struct node_rows *rows, int32_t step);
+void node_clusters_fini(struct node_clusters *clusters);
+
 struct vertex_snapping {
   struct segment_graph *graph;
   int32_t output_step;
@@ -38,7 +59,7 @@ bool vertex_snapping_unite(struct vertex_snapping *snapping, uint32_t from,
  * Cost  near linear. */
 USE_RESULT bool
 vertex_snapping_drop_duplicates(struct vertex_snapping *snapping,
-                                const struct node_rows *rows);
+                                const struct node_clusters *clusters);
 
 static inline struct ink_point
 vertex_snapping_at(const struct vertex_snapping *snapping, uint32_t node) {
