@@ -102,29 +102,53 @@ bool crease_lines_measure(struct crease_lines *lines) {
                          lines);
 }
 
-/* Counts the drawable edges at the ends of the listed ones, up to two: each
- * sets the next bit. */
+struct end_count {
+  const struct sheet *sheet;
+  const uint8_t *dropped;
+  atomic_uchar *at;
+};
+
+static inline unsigned count_at(const struct end_count *ends, uint32_t point) {
+  return atomic_load_explicit(&ends->at[point], memory_order_relaxed);
+}
+
+/* Counts an edge: each sets the next bit. */
+static void count_end(const struct end_count *ends, uint32_t point) {
+  unsigned before = count_at(ends, point);
+  if (before == 0 || before == CREASE_END_SHARED)
+    return;
+  before = atomic_fetch_or_explicit(&ends->at[point], CREASE_END_ALONE,
+                                    memory_order_relaxed);
+  if (before != CREASE_END)
+    atomic_store_explicit(&ends->at[point], CREASE_END_SHARED,
+                          memory_order_relaxed);
+}
+
+/* Most edges end at no point that is counted for. */
 static bool count_edges_of_range(void *user, struct parallel_range range) {
-  const struct crease_lines *lines = user;
+  const struct end_count ends = *(const struct end_count *)user;
   for (size_t e = range.begin; e < range.end; e++) {
-    const struct sheet_edge *edge = &lines->sheet->edge.item[e];
-    for (int k = 0; k < 2 && edge->edge_class != 0; k++) {
-      atomic_uchar *at = &lines->at[edge->point[k]];
-      unsigned before = atomic_load_explicit(at, memory_order_relaxed);
-      if (before == 0 || before == CREASE_END_SHARED)
-        continue;
-      before =
-          atomic_fetch_or_explicit(at, CREASE_END_ALONE, memory_order_relaxed);
-      if (before != CREASE_END)
-        atomic_store_explicit(at, CREASE_END_SHARED, memory_order_relaxed);
-    }
+    const struct sheet_edge *edge = &ends.sheet->edge.item[e];
+    if ((count_at(&ends, edge->point[0]) | count_at(&ends, edge->point[1])) ==
+            0 ||
+        edge->edge_class == 0 || (ends.dropped != NULL && ends.dropped[e]))
+      continue;
+    count_end(&ends, edge->point[0]);
+    count_end(&ends, edge->point[1]);
   }
   return true;
 }
 
+bool crease_ends_count(const struct sheet *sheet, const uint8_t *dropped,
+                       atomic_uchar *at) {
+  size_t edges = sheet->edge.count;
+  struct end_count ends = {sheet, dropped, at};
+  return parallel_ranges(parallel_workers(edges, PARALLEL_ITEMS), edges,
+                         PARALLEL_ITEMS, count_edges_of_range, &ends);
+}
+
 bool crease_lines_find_ends(struct crease_lines *lines) {
   const struct sheet *sheet = lines->sheet;
-  size_t edges = sheet->edge.count;
   if (lines->at != NULL)
     return true;
   if (!crease_lines_list(lines))
@@ -133,9 +157,7 @@ bool crease_lines_find_ends(struct crease_lines *lines) {
   for (size_t i = 0; lines->at != NULL && i < lines->count; i++)
     for (int k = 0; k < 2; k++)
       lines->at[sheet->edge.item[lines->edge[i]].point[k]] = CREASE_END;
-  return lines->at != NULL &&
-         parallel_ranges(parallel_workers(edges, PARALLEL_ITEMS), edges,
-                         PARALLEL_ITEMS, count_edges_of_range, lines);
+  return lines->at != NULL && crease_ends_count(sheet, NULL, lines->at);
 }
 
 bool crease_lines_join(struct crease_lines *lines, double crease_deg) {

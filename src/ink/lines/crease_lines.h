@@ -43,6 +43,16 @@ struct crease_lines {
 
 enum { CREASE_END = 1, CREASE_END_ALONE = 3, CREASE_END_SHARED = 7 };
 
+/* Counts the drawable edges, visible or not, at some points of a sheet.
+ * dropped  one an edge: it does not count; NULL: all do
+ * at       one a point: CREASE_END where edges are counted, else 0; becomes
+ *          CREASE_END_ALONE where there is one, CREASE_END_SHARED where there
+ *          are more
+ * Returns false when the caller cancelled.  Cost: linear in the edges, in
+ * parallel */
+USE_RESULT bool crease_ends_count(const struct sheet *sheet,
+                                  const uint8_t *dropped, atomic_uchar *at);
+
 void crease_lines_fini(struct crease_lines *lines);
 
 /* List the edges; find their cosines, where they end alone; join the lines, of

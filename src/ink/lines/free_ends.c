@@ -1,9 +1,10 @@
 /* free_ends.c - finds the chains of creases that end free.
  *
  * Phases
- *   1 count the drawable edges, visible or not, at each vertex of the mesh
- *   2 an end of a chain is free where no other segment ends at its node, and
- *     which is a vertex with one drawable edge
+ *   1 find the ends of chains of which no other segment ends at the node, and
+ *     which are vertices of the mesh
+ *   2 count the drawable edges, visible or not, at these vertices
+ *   3 an end is free where there is one
  * Where something hides the rest of a line, or the page or a cut ends it, it
  * goes on in the model, and that end is not free.  So a closed network of
  * lines, as the edges of a solid are, has no free ends, whatever is seen of
@@ -15,26 +16,20 @@
 #include "base/parallel.h"
 #include "base/poll.h"
 #include "base/tolerance.h"
+#include "ink/lines/crease_lines.h"
 
 /* Classes of lines of which a chain may be a speckle. */
 static const unsigned inner_classes = RECTO_EDGE_CREASE | RECTO_EDGE_GROUP;
 
-/* The number of drawable edges at each vertex that were not dropped, up to 2;
- * NULL when memory ran out. */
-static uint8_t *count_edges_at_vertices(const struct sheet *sheet,
-                                        const uint8_t *dropped) {
-  uint8_t *count = mem_calloc(sheet->point.count, sizeof *count);
-  for (size_t e = 0; count != NULL && e < sheet->edge.count; e++) {
-    const struct sheet_edge *edge = &sheet->edge.item[e];
-    (void)poll_at(e);
-    for (int k = 0;
-         k < 2 && edge->edge_class != 0 && (dropped == NULL || !dropped[e]);
-         k++)
-      count[edge->point[k]] =
-          (uint8_t)(count[edge->point[k]] + (count[edge->point[k]] < 2));
-  }
-  return count;
-}
+/* What the ranges of paths have in common. */
+struct free_end_search {
+  struct ink_paths *paths;
+  const struct segment_graph *graph;
+  const struct sheet *sheet;
+  double near;         /* how far a node may be from a vertex, grid units */
+  atomic_uchar *at;    /* one a sheet point: see crease_ends_count */
+  atomic_bool any_may; /* end free */
+};
 
 /* Whether the path bounds nothing on the page and has an end to itself. */
 static bool may_end_free(const struct segment_graph *graph,
@@ -48,35 +43,26 @@ static bool may_end_free(const struct segment_graph *graph,
   return alone && (path->classes & ~inner_classes) == 0;
 }
 
-/* Whether an end of a chain is free.
- * near   how far its node may be from the vertex, grid units
- * count  of the drawable edges at each sheet point */
-static bool is_free_end(const struct segment_graph *graph,
-                        const struct sheet *sheet, uint32_t end, double near,
-                        const uint8_t *count) {
+/* The vertex at an end of a chain where no other segment ends; SHEET_NONE:
+ * there is none. */
+static uint32_t vertex_of_end(const struct free_end_search *search,
+                              uint32_t end) {
+  const struct segment_graph *graph = search->graph;
+  const struct sheet *sheet = search->sheet;
   const struct graph_segment *s = &graph->segment.item[end >> 1];
   uint32_t node = s->node[end & 1];
   struct ink_point at = graph->node.item[node];
+  double near = search->near;
   if (graph->ends.start[node + 1] - graph->ends.start[node] > 1)
-    return false;
+    return SHEET_NONE;
   for (int k = 0; k < 2; k++) {
     uint32_t point = sheet->edge.item[s->edge].point[k];
     const struct geom_point *p = &sheet->point.item[point];
     if (fabs((double)p->x - at.x) <= near && fabs((double)p->y - at.y) <= near)
-      return point < sheet->vertex_count && count[point] == 1;
+      return point < sheet->vertex_count ? point : SHEET_NONE;
   }
-  return false; /* within an edge */
+  return SHEET_NONE; /* within an edge */
 }
-
-/* What the ranges of paths have in common. */
-struct free_end_search {
-  struct ink_paths *paths;
-  const struct segment_graph *graph;
-  const struct sheet *sheet;
-  double near;
-  uint8_t *count;      /* see is_free_end */
-  atomic_bool any_may; /* end free */
-};
 
 static bool find_candidates_of_range(void *user, struct parallel_range range) {
   struct free_end_search *search = user;
@@ -84,21 +70,31 @@ static bool find_candidates_of_range(void *user, struct parallel_range range) {
   for (size_t i = range.begin; i < range.end; i++) {
     struct ink_path *path = &search->paths->path.item[i];
     path->is_free = may_end_free(search->graph, path);
-    any = any || path->is_free;
+    for (int k = 0; k < 2 && path->is_free; k++) {
+      uint32_t vertex = vertex_of_end(search, path->end[k]);
+      if (vertex == SHEET_NONE)
+        continue;
+      atomic_store_explicit(&search->at[vertex], CREASE_END,
+                            memory_order_relaxed);
+      any = true;
+    }
   }
   if (any)
     atomic_store(&search->any_may, true);
   return true;
 }
 
+static bool is_free_end(const struct free_end_search *search, uint32_t end) {
+  uint32_t vertex = vertex_of_end(search, end);
+  return vertex != SHEET_NONE && search->at[vertex] == CREASE_END_ALONE;
+}
+
 static bool test_ends_of_range(void *user, struct parallel_range range) {
-  const struct free_end_search *s = user;
+  const struct free_end_search *search = user;
   for (size_t i = range.begin; i < range.end; i++) {
-    struct ink_path *path = &s->paths->path.item[i];
-    path->is_free =
-        path->is_free &&
-        (is_free_end(s->graph, s->sheet, path->end[0], s->near, s->count) ||
-         is_free_end(s->graph, s->sheet, path->end[1], s->near, s->count));
+    struct ink_path *path = &search->paths->path.item[i];
+    path->is_free = path->is_free && (is_free_end(search, path->end[0]) ||
+                                      is_free_end(search, path->end[1]));
   }
   return true;
 }
@@ -109,20 +105,19 @@ bool paths_find_free_ends(struct ink_paths *paths,
                           double output_step) {
   size_t count = paths->path.count;
   int workers = parallel_workers(count, PARALLEL_ITEMS);
-  struct free_end_search search = {.paths = paths,
-                                   .graph = graph,
-                                   .sheet = sheet,
-                                   .near = output_step +
-                                           2 * TOLERANCE_COINCIDENT_UNITS};
-  if (!parallel_ranges(workers, count, PARALLEL_ITEMS, find_candidates_of_range,
-                       &search))
-    return false;
-  if (!atomic_load(&search.any_may))
-    return true;
-  search.count = count_edges_at_vertices(sheet, dropped);
+  struct free_end_search search = {
+      .paths = paths,
+      .graph = graph,
+      .sheet = sheet,
+      .near = output_step + 2 * TOLERANCE_COINCIDENT_UNITS,
+      .at = mem_calloc(sheet->point.count, sizeof *search.at)};
   bool ok =
-      search.count != NULL && parallel_ranges(workers, count, PARALLEL_ITEMS,
-                                              test_ends_of_range, &search);
-  mem_free(search.count);
+      search.at != NULL && parallel_ranges(workers, count, PARALLEL_ITEMS,
+                                           find_candidates_of_range, &search);
+  if (ok && search.any_may)
+    ok = crease_ends_count(sheet, dropped, search.at);
+  ok = ok && parallel_ranges(workers, count, PARALLEL_ITEMS, test_ends_of_range,
+                             &search);
+  mem_free((void *)search.at);
   return ok;
 }
