@@ -4,8 +4,9 @@
  * same ends.  So a segment is isolated that has no node near it but its own,
  * which no other segment has near it.  Most are.  The search that shows it
  * runs in parallel, and what looks for overlaps has the other segments alone.
- * Invariants  Nodes have their positions throughout.  Where a segment gets
- *   other ends, its new surroundings are searched
+ * Invariants  Nodes have their positions throughout, and none but those near
+ *   each other are merged, so that ends of isolated segments are not.  Where
+ *   another segment gets other ends, its new surroundings are searched
  *   (segment_graph_mark_near_nodes), and isolated segments that have an end
  *   there join the others again (segment_graph_take_isolated). */
 #include "ink/lines/segment_graph.h"
@@ -131,20 +132,16 @@ recto_status segment_graph_separate_isolated(struct segment_graph *graph,
 
 struct isolated_search {
   const struct segment_graph *graph;
-  const uint32_t *root; /* see segment_graph_take_isolated */
-  uint8_t *is_taken;    /* one an isolated segment */
+  uint8_t *is_taken; /* one an isolated segment */
   atomic_bool any;
 };
 
 static bool find_taken_of_range(void *user, struct parallel_range range) {
   struct isolated_search *search = user;
   const struct graph_segment *s = search->graph->isolated.item;
-  const uint32_t *root = search->root;
   bool any = false;
   for (size_t i = range.begin; i < range.end; i++) {
-    uint32_t a = s[i].node[0], b = s[i].node[1];
-    bool is_taken = root != NULL ? root[a] != a || root[b] != b
-                                 : has_end_near_segment(search->graph, &s[i]);
+    bool is_taken = has_end_near_segment(search->graph, &s[i]);
     search->is_taken[i] = is_taken;
     any = any || is_taken;
   }
@@ -154,10 +151,9 @@ static bool find_taken_of_range(void *user, struct parallel_range range) {
 }
 
 bool segment_graph_take_isolated(struct segment_graph *graph,
-                                 const uint32_t *root,
                                  struct graph_segments *taken) {
   size_t count = graph->isolated.count;
-  struct isolated_search search = {graph, root, mem_alloc(count, 1), false};
+  struct isolated_search search = {graph, mem_alloc(count, 1), false};
   bool ok = search.is_taken != NULL &&
             parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
                             PARALLEL_ITEMS, find_taken_of_range, &search);

@@ -310,11 +310,10 @@ static bool add_snapped_segment(struct output_overlaps *r,
 }
 
 /* Adds the segments again that are left of those in `segment`, the pieces, and
- * the isolated ones that have moved or have something near them now. */
+ * the isolated ones that have something near them now. */
 static bool rebuild(struct output_overlaps *r, const struct node_rows *rows) {
   struct segment_graph *graph = r->snapping.graph;
   const struct vertex_snapping *snapping = &r->snapping;
-  struct graph_segments taken = {NULL, 0, 0};
   size_t old = graph->segment.count;
   graph->segment.count = 0;
   for (size_t i = 0; i < old; i++) {
@@ -327,13 +326,9 @@ static bool rebuild(struct output_overlaps *r, const struct node_rows *rows) {
   for (size_t i = 0; i < r->piece.count; i++)
     if (!add_snapped_segment(r, rows, r->piece.item[i]))
       return false;
-  bool ok = segment_graph_take_isolated(graph, snapping->root, &taken);
-  for (size_t i = 0; ok && i < taken.count; i++)
-    ok = add_snapped_segment(r, rows, taken.item[i]);
-  ARRAY_FREE(&taken);
   segment_graph_move_gaps(graph, snapping->root);
   size_t count = graph->segment.count;
-  if (!ok || !segment_graph_take_isolated(graph, NULL, &graph->segment))
+  if (!segment_graph_take_isolated(graph, &graph->segment))
     return false;
   for (size_t i = count; i < graph->segment.count; i++)
     mark_changed(r, r->next, &graph->segment.item[i]);

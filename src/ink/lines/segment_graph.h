@@ -141,11 +141,9 @@ bool segment_graph_mark_near_nodes(struct segment_graph *graph,
                                    uint32_t segment);
 
 /* Moves isolated segments to the end of `taken`: those with an end that is
- * marked in near_segment or, where root != NULL, with one that it merges into
- * another node.  Returns false when memory ran out.
+ * marked in near_segment.  Returns false when memory ran out.
  * Cost  linear in the isolated segments, in parallel */
 USE_RESULT bool segment_graph_take_isolated(struct segment_graph *graph,
-                                            const uint32_t *root,
                                             struct graph_segments *taken);
 
 /* Moves all isolated segments back, and indexes the ends. */
