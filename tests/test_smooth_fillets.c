@@ -35,6 +35,16 @@ static double reach_of_cylinder(const double d[3]) {
          FILLET * sqrt(smooth_dot(d, d));
 }
 
+/* What is made, of strips of fillets in each quarter. */
+struct shape {
+  body_reach *reach;
+  bool box;    /* else a cylinder */
+  bool halves; /* flat faces begin with the half of a strip, as those of a
+                  Minkowski sum with a sphere without points at its poles and
+                  its equator */
+  int strips;
+};
+
 /* ---- Bodies -------------------------------------------------------------- */
 
 /* The number of a point, which is added unless it is there. */
@@ -59,15 +69,26 @@ static void add_triangle(struct body *b, uint32_t p, uint32_t q, uint32_t r) {
   b->corner[b->corners++] = r;
 }
 
+/* The rings of a fillet. */
+static int rings_of(const struct shape *shape) {
+  return shape->halves ? shape->strips : shape->strips + 1;
+}
+
+/* The angle at which a ring of a fillet is. */
+static double angle_of_ring(const struct shape *shape, int ring) {
+  return (ring + (shape->halves ? 0.5 : 0)) * M_PI / (2 * shape->strips);
+}
+
 /* A point of a ring: of strips about the axis, and of strips of fillets. */
-static uint32_t point_of_ring(struct body *b, bool box, int strips, int i,
+static uint32_t point_of_ring(struct body *b, const struct shape *shape, int i,
                               int ring) {
-  int upper = ring > strips ? 1 : 0;
-  double v = (ring - upper * (strips + 1)) * M_PI / (2 * strips);
+  int strips = shape->strips, rings = rings_of(shape);
+  int upper = ring >= rings ? 1 : 0;
+  double v = angle_of_ring(shape, ring - upper * rings);
   double up =
       upper ? 1 - FILLET + FILLET * sin(v) : FILLET - 1 - FILLET * cos(v);
   double out = FILLET * (upper ? cos(v) : sin(v));
-  if (!box) {
+  if (!shape->box) {
     double u = 2 * M_PI * i / SIDES;
     return add_point(b, (1 - FILLET + out) * cos(u), up,
                      -(1 - FILLET + out) * sin(u));
@@ -79,23 +100,25 @@ static uint32_t point_of_ring(struct body *b, bool box, int strips, int i,
   return add_point(b, x + out * cos(u), up, -(z + out * sin(u)));
 }
 
-static void make_body(struct body *b, bool box, int strips) {
-  int around = box ? 4 * (strips + 1) : SIDES, rings = 2 * (strips + 1);
+static void make_body(struct body *b, const struct shape *shape) {
+  int around = shape->box ? 4 * (shape->strips + 1) : SIDES;
+  int rings = 2 * rings_of(shape);
+  double up = 1 - FILLET * (1 - cos(angle_of_ring(shape, 0)));
   b->points = b->corners = 0;
-  uint32_t bottom = add_point(b, 0, -1, 0), top = add_point(b, 0, 1, 0);
+  uint32_t bottom = add_point(b, 0, -up, 0), top = add_point(b, 0, up, 0);
   for (int i = 0; i < around; i++) {
     int next = (i + 1) % around;
-    add_triangle(b, bottom, point_of_ring(b, box, strips, next, 0),
-                 point_of_ring(b, box, strips, i, 0));
+    add_triangle(b, bottom, point_of_ring(b, shape, next, 0),
+                 point_of_ring(b, shape, i, 0));
     for (int j = 0; j + 1 < rings; j++) {
-      uint32_t p = point_of_ring(b, box, strips, i, j);
-      uint32_t q = point_of_ring(b, box, strips, next, j);
-      uint32_t r = point_of_ring(b, box, strips, next, j + 1);
+      uint32_t p = point_of_ring(b, shape, i, j);
+      uint32_t q = point_of_ring(b, shape, next, j);
+      uint32_t r = point_of_ring(b, shape, next, j + 1);
       add_triangle(b, p, q, r);
-      add_triangle(b, p, r, point_of_ring(b, box, strips, i, j + 1));
+      add_triangle(b, p, r, point_of_ring(b, shape, i, j + 1));
     }
-    add_triangle(b, top, point_of_ring(b, box, strips, i, rings - 1),
-                 point_of_ring(b, box, strips, next, rings - 1));
+    add_triangle(b, top, point_of_ring(b, shape, i, rings - 1),
+                 point_of_ring(b, shape, next, rings - 1));
   }
 }
 
@@ -128,9 +151,9 @@ static void find_distances(const recto_drawing *drawing, const struct body *b,
   }
 }
 
-static void check_body(bool box, int strips, body_reach *reach) {
+static void check_body(struct shape shape) {
   static struct body body;
-  make_body(&body, box, strips);
+  make_body(&body, &shape);
   const recto_mesh mesh = {.points = &body.point[0][0],
                            .point_count = body.points,
                            .corners = body.corner,
@@ -147,10 +170,10 @@ static void check_body(bool box, int strips, body_reach *reach) {
     struct smooth_axes axes = smooth_axes_of(&options);
     recto_drawing *drawing = smooth_draw(scene, &options);
     assert_int_equal(recto_drawing_stroke_count(drawing), 1);
-    find_distances(drawing, &body, reach, &axes, &ink, &own);
-    if (!(ink <= own))
-      fail_msg("%d strips, view %d: off by %g mm, the mesh by %g", strips, view,
-               ink, own);
+    find_distances(drawing, &body, shape.reach, &axes, &ink, &own);
+    if (!(ink <= (shape.halves ? 2 * own : own)))
+      fail_msg("%d strips, view %d: off by %g mm, the mesh by %g", shape.strips,
+               view, ink, own);
     recto_drawing_destroy(drawing);
   }
   recto_scene_destroy(scene);
@@ -160,20 +183,31 @@ static void check_body(bool box, int strips, body_reach *reach) {
  * mesh by 0.16, and a cylinder by 2.09. */
 static void flat_faces_do_not_bulge(void **state) {
   (void)state;
-  check_body(true, 4, reach_of_box);
-  check_body(true, 8, reach_of_box);
+  check_body((struct shape){reach_of_box, .box = true, .strips = 4});
+  check_body((struct shape){reach_of_box, .box = true, .strips = 8});
 }
 
 static void sides_of_cylinders_do_not_bulge(void **state) {
   (void)state;
-  check_body(false, 4, reach_of_cylinder);
-  check_body(false, 8, reach_of_cylinder);
+  check_body((struct shape){reach_of_cylinder, .strips = 4});
+  check_body((struct shape){reach_of_cylinder, .strips = 8});
+}
+
+/* Where half of the angle at a vertex is taken for what the flat face bends, a
+ * box of 4 strips is off by 3.09 mm in the first view, its mesh by 0.14. */
+static void faces_that_begin_with_half_a_strip_are_flat(void **state) {
+  (void)state;
+  for (int strips = 4; strips <= 8; strips += 4) {
+    check_body((struct shape){reach_of_box, true, true, strips});
+    check_body((struct shape){reach_of_cylinder, false, true, strips});
+  }
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(flat_faces_do_not_bulge),
       cmocka_unit_test(sides_of_cylinders_do_not_bulge),
+      cmocka_unit_test(faces_that_begin_with_half_a_strip_are_flat),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -288,7 +288,8 @@ static void turn_across(const double normal[3], const double along[3],
 /* How much an arc counts, where the mean normal counts 1.
  * behind  is set to how the surface goes on behind it
  * value   is set to what the normal is to be along that: 0 if all that the
- *         surface bends there is what the arc bends */
+ *         surface bends there is what the arc bends, or up to five ninths are
+ *         left, as beside a flat face that begins with a part of a strip */
 static double weigh_arc(const struct facing *f, const struct arc *arc,
                         const struct smooth_fan *about, const double normal[3],
                         struct ray *behind, double *value) {
@@ -313,7 +314,7 @@ static double weigh_arc(const struct facing *f, const struct arc *arc,
   double whole = vector_dot(flat, arc->along);
   double part = whole != 0 ? 1 + vector_dot(mean, arc->along) / whole : 1;
   part = fmin(fmax(part, 0), 1);
-  part = fmax(0, fmin(part, 2 * part - 2. / 3));
+  part = fmax(0, fmin(part, 6 * part - 10. / 3));
   *value = part * vector_dot(bent, behind->along);
   return fmin(ratio, 64) * fmin(ratio, 64) - 1;
 }
