@@ -1,6 +1,6 @@
 /* test_nearest_contours.c - the nearest contours are those that a comparison
  * with all of them finds, in work that does not follow how many there are. */
-#include "visibility/contour/nearest_contours.h"
+#include "visibility/fold/nearest_contours.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,6 +1,6 @@
 /* test_outline_chains.c - outlines are linked as a search of all of them says,
  * in work that is near linear also where very many meet at a point. */
-#include "visibility/contour/outline_chains.h"
+#include "visibility/fold/outline_chains.h"
 
 #include <math.h>
 #include <setjmp.h>

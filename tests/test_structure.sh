@@ -35,10 +35,10 @@ check_sources() {
         set_level("scene", 2, "edges obj ply weld")
         set_level("visibility", 1, "predicate")
         set_level("visibility", 2, "index")
-        set_level("visibility", 3, "contour culling intersection fragments")
-        set_level("visibility", 4, "pairwise scan")
-        set_level("visibility", 5, "raster")
-        set_level("visibility", 6, "brute newell scanline_zbuffer tiles warnock " \
+        set_level("visibility", 3, "zero_set culling intersection fragments")
+        set_level("visibility", 4, "contour pairwise scan")
+        set_level("visibility", 5, "fold raster")
+        set_level("visibility", 6, "fit brute newell scanline_zbuffer tiles warnock " \
               "watkins zbuffer")
         set_level("ink", 1, "lines")
         set_level("ink", 2, "curve fill order")

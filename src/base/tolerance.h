@@ -22,9 +22,9 @@
  *             ink/lines/overlap_collinear.c, ink/lines/overlap.c,
  *             ink/lines/overlap_output.c, ink/lines/short_spurs.c,
  *             ink/hatch/hatch_lines.c, ink/hatch/inset.c,
- *             visibility/contour/border_ends.c, visibility/contour/line_ends.c,
- *             visibility/contour/nearest_contours.c,
- *             visibility/contour/outline_gaps.c, visibility/index/bsp_plane.h,
+ *             visibility/fit/border_ends.c, visibility/fit/line_ends.c,
+ *             visibility/fold/nearest_contours.c,
+ *             visibility/fold/outline_gaps.c, visibility/index/bsp_plane.h,
  *             visibility/intersection/edge_crossing.c
  * Ten times   lines 20 nm apart, such as two models side by side, become one:
  *             still far below what a pen can show. */
@@ -57,7 +57,7 @@
  *             differences of coordinates that are themselves rounded: some
  *             hundred units of 2^-53, and ten times as much for a model far
  *             from its origin.
- * Users       visibility/contour/facing.h
+ * Users       visibility/zero_set/facing.h
  * Ten times   contours move by 1e-11 of the surface's radius. */
 #define TOLERANCE_FACING 0x1p-40
 
@@ -66,12 +66,11 @@
  * Unit        page grid units (2^-20 mm)
  * Derivation  an eighth of a millimetre, less than half of a common pen's
  *             width: a gap that ink fills.
- * Users       visibility/contour/border_ends.c,
+ * Users       visibility/fit/border_ends.c,
  *             visibility/contour/doubled_contours.c,
- *             visibility/contour/fold_lines.c,
- *             visibility/contour/nearest_contours.c,
- *             visibility/contour/outline_gaps.c,
- *             visibility/contour/thin_loops.c, visibility/smooth_contours.c
+ *             visibility/contour/thin_loops.c, visibility/fold/fold_lines.c,
+ *             visibility/fold/nearest_contours.c,
+ *             visibility/fold/outline_gaps.c, visibility/smooth_contours.c
  * Ten times   gaps of a millimetre stay open. */
 #define TOLERANCE_OUTLINE_UNITS (1 << 17)
 
@@ -79,9 +78,8 @@
  * than this.
  * Unit        page grid units (2^-20 mm)
  * Derivation  1/64 mm, a tenth of what the thinnest pens draw.
- * Users       visibility/contour/corner_moves.c,
- *             visibility/contour/drawn_outlines.c,
- *             visibility/contour/fit_outline.c
+ * Users       visibility/fit/corner_moves.c,
+ *             visibility/fit/drawn_outlines.c, visibility/fit/fit_outline.c
  * Ten times   a rim of the fill 0.16 mm wide, or of paper, shows beside a thin
  *             line. */
 #define TOLERANCE_FILL_UNITS (1 << 14)

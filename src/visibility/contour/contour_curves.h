@@ -4,7 +4,7 @@
 #define VISIBILITY_CONTOUR_CONTOUR_CURVES_H
 
 #include "view/project.h"
-#include "visibility/contour/zero_set.h"
+#include "visibility/zero_set/zero_set.h"
 
 /* A node of a curve and the segment that starts there.  A curve has one more
  * step than segments; the last step of a closed one has the node of the

@@ -1,0 +1,54 @@
+/* fold_joints.h - the ends of contours that lines along folds continue. */
+#ifndef VISIBILITY_FOLD_FOLD_JOINTS_H
+#define VISIBILITY_FOLD_FOLD_JOINTS_H
+
+#include "visibility/fold/fold_samples.h"
+#include "visibility/fold/outline_gaps.h"
+#include "visibility/contour/segment_grid.h"
+
+/* Where a contour only ends. */
+struct joint_end {
+  int32_t x, y;
+};
+
+struct fold_joints {
+  const struct outline_gaps_input *in; /* borrowed, not owned */
+  struct segment_grid grid;            /* visible lines */
+  uint8_t *ends; /* one a point of contours: of visible ones, at most 2 */
+  ARRAY(struct joint_end) loose; /* ascending by x */
+};
+
+/* Lists the visible lines, and the ends of contours.
+ * joints  zero-initialised but for what is borrowed; the caller frees it
+ * Returns false when memory ran out or the caller cancelled. */
+USE_RESULT bool fold_joints_list(struct fold_joints *joints);
+void fold_joints_fini(struct fold_joints *joints);
+
+/* Whether a contour ends near the box of the samples of a chain that is so many
+ * of its triangles' heights long. */
+bool fold_joints_may_join(const struct fold_joints *joints,
+                          struct fold_run chain, double heights);
+
+/* Leads an end of a run on along its chain to the sample that is nearest to the
+ * end of a contour there, whatever is beside it.
+ * sample  those of the chain, and their number
+ * at      of them: the run's end
+ * k       0: the run's beginning; 1: its end
+ * height  the mean height of its triangles
+ * joint   gets the sheet's point where the contour ends; SHEET_NONE: there is
+ *         none, nothing changes */
+void fold_joints_lead_on(const struct fold_joints *joints,
+                         const struct fold_sample *sample, size_t count,
+                         size_t *at, int k, double height, uint32_t *joint);
+
+/* Whether a contour only ends at a point. */
+static inline bool fold_joints_is_loose(const struct fold_joints *joints,
+                                        uint32_t point) {
+  return joints->ends[point - joints->in->first_point] < 2;
+}
+
+/* The cells within a distance of a place. */
+struct cell_range fold_joints_cells(const struct fold_joints *joints, double x,
+                                    double y, double by);
+
+#endif

@@ -1,0 +1,366 @@
+/* facing.c - the normals of the smooth surface at the vertices of a mesh, and
+ * which way they face. */
+#include "visibility/zero_set/facing.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/parallel.h"
+#include "base/poll.h"
+#include "scene/edges/coarse_parts.h"
+#include "scene/edges/edge_classes.h"
+
+uint32_t facing_corner_of_edge(const struct facing *f, uint32_t face,
+                               uint32_t edge) {
+  const uint32_t *edges = f->topology->corner_edge;
+  uint32_t end = scene_face_start(f->scene, face + 1);
+  for (uint32_t c = scene_face_start(f->scene, face); c < end; c++)
+    if (edges[c] == edge)
+      return c;
+  return SHEET_NONE;
+}
+
+/* ---- Slots --------------------------------------------------------------- */
+
+bool facing_corners_across(const struct facing *f, uint32_t edge,
+                           uint32_t pair[2][2]) {
+  const struct topology_edge *e = &f->topology->edge.item[edge];
+  uint32_t c = facing_corner_of_edge(f, e->first, edge);
+  uint32_t d = facing_corner_of_edge(f, e->second, edge);
+  if (c == SHEET_NONE || d == SHEET_NONE)
+    return false;
+  pair[0][0] = c;
+  pair[0][1] = scene_next_corner(f->scene, e->second, d);
+  pair[1][0] = scene_next_corner(f->scene, e->first, c);
+  pair[1][1] = d;
+  return true;
+}
+
+bool facing_is_split(const struct facing *f, uint32_t edge) {
+  const struct topology_edge *e = &f->topology->edge.item[edge];
+  uint32_t pair[2][2];
+  if (!facing_is_feature(f, edge))
+    return false;
+  if (e->uses != 2 || e->same_way || e->first == e->second)
+    return true;
+  return !facing_corners_across(f, edge, pair) ||
+         facing_slot(f, pair[0][0]) != facing_slot(f, pair[0][1]) ||
+         facing_slot(f, pair[1][0]) != facing_slot(f, pair[1][1]);
+}
+
+/* Joins the corners of two faces at both ends of their smooth edge. */
+static void join_corners(struct facing *f, uint32_t edge) {
+  uint32_t pair[2][2];
+  if (!facing_corners_across(f, edge, pair))
+    return;
+  for (int k = 0; k < 2; k++) {
+    uint32_t a = f->near_corner[pair[k][0]], b = f->near_corner[pair[k][1]];
+    if (a != 0 && b != 0)
+      union_find_join(f->sets, a - 1, b - 1);
+  }
+}
+
+/* Lists the edges of near faces whose first face is near: those at points of
+ * crossed faces are among them. */
+static bool list_near_edges(struct facing *f) {
+  for (size_t i = 0; i < f->near.count; i++) {
+    uint32_t face = f->near.item[i];
+    for (uint32_t c = scene_face_start(f->scene, face);
+         c < scene_face_start(f->scene, face + 1); c++) {
+      uint32_t edge = f->topology->corner_edge[c];
+      if (f->topology->edge.item[edge].first == face &&
+          !ARRAY_PUSH(&f->near_edge, edge))
+        return false;
+    }
+  }
+  return true;
+}
+
+/* Marks the points at features among the near edges; returns whether there are
+ * any. */
+static bool mark_split_points(struct facing *f) {
+  bool any = false;
+  for (size_t i = 0; i < f->near_edge.count; i++) {
+    uint32_t edge = f->near_edge.item[i];
+    if (!facing_is_feature(f, edge))
+      continue;
+    for (int k = 0; k < 2; k++)
+      f->point_flags[f->topology->edge.item[edge].point[k]] |= FACING_SPLIT;
+    any = true;
+  }
+  return any;
+}
+
+/* Numbers the corners of near faces. */
+static bool number_near_corners(struct facing *f) {
+  uint32_t count = 0;
+  if (f->near_corner == NULL)
+    f->near_corner = mem_calloc(f->scene->corner.count, sizeof *f->near_corner);
+  for (size_t i = 0; f->near_corner != NULL && i < f->near.count; i++) {
+    uint32_t face = f->near.item[i];
+    for (uint32_t c = scene_face_start(f->scene, face);
+         c < scene_face_start(f->scene, face + 1); c++)
+      f->near_corner[c] = ++count;
+  }
+  return f->near_corner != NULL;
+}
+
+/* Finds the points at which normals are split, and which corners there share
+ * one: at all points of crossed faces, as all faces there are near.  Returns
+ * false when memory ran out. */
+static bool split_at_features(struct facing *f) {
+  if (!mark_split_points(f))
+    return true;
+  f->sets = union_find_create(f->near_corners);
+  f->signs = mem_calloc(f->near_corners, sizeof *f->signs);
+  if (f->sets == NULL || f->signs == NULL || !number_near_corners(f))
+    return false;
+  for (size_t i = 0; i < f->near_edge.count; i++)
+    if ((facing_flags_of_edge(f, f->near_edge.item[i]) & FACING_SPLIT) != 0 &&
+        !facing_is_feature(f, f->near_edge.item[i]))
+      join_corners(f, f->near_edge.item[i]);
+  for (size_t i = 0; i < f->near.count; i++) {
+    uint32_t face = f->near.item[i];
+    for (uint32_t c = scene_face_start(f->scene, face);
+         c < scene_face_start(f->scene, face + 1); c++)
+      f->signs[union_find_root(f->sets, f->near_corner[c] - 1)] |=
+          f->face_sign[face];
+  }
+  return true;
+}
+
+/* The union of the signs of a near face's slots. */
+static unsigned signs_of_face(const struct facing *f, uint32_t face) {
+  unsigned signs = 0;
+  for (uint32_t c = scene_face_start(f->scene, face);
+       c < scene_face_start(f->scene, face + 1); c++)
+    signs |= facing_signs(f, facing_slot(f, c));
+  return signs;
+}
+
+/* Notes the places of the slots of all corners of near faces. */
+static bool place_near_corners(struct facing *f) {
+  uint32_t at = 0, points = (uint32_t)f->scene->point.count;
+  if (f->corner_place == NULL)
+    f->corner_place = mem_alloc(f->near_corners, sizeof *f->corner_place);
+  for (size_t i = 0; f->corner_place != NULL && i < f->near.count; i++) {
+    uint32_t face = f->near.item[i], end = scene_face_start(f->scene, face + 1);
+    for (uint32_t c = scene_face_start(f->scene, face); c < end; c++, at++) {
+      uint32_t slot = facing_point(f, c);
+      if (f->point_flags[slot] & FACING_SPLIT)
+        slot = points + union_find_root(f->sets, at);
+      f->corner_place[at] = f->place[slot];
+    }
+  }
+  return f->corner_place != NULL;
+}
+
+/* Lists the faces about whose slots both signs are, and numbers these slots,
+ * whose normals are needed.  Returns false when memory ran out. */
+static bool number_needed(struct facing *f) {
+  f->place =
+      mem_calloc(f->scene->point.count + f->near_corners, sizeof *f->place);
+  if (f->place == NULL)
+    return false;
+  for (size_t i = 0; i < f->crossed.count; i++) {
+    uint32_t face = f->crossed.item[i];
+    if (signs_of_face(f, face) != FACING_MIXED)
+      continue;
+    if (!ARRAY_PUSH(&f->mixed, face))
+      return false;
+    for (uint32_t c = scene_face_start(f->scene, face);
+         c < scene_face_start(f->scene, face + 1); c++) {
+      uint32_t *place = &f->place[facing_slot(f, c)];
+      if (*place == 0)
+        *place = (uint32_t)++f->count;
+    }
+  }
+  return place_near_corners(f);
+}
+
+/* ---- Signs --------------------------------------------------------------- */
+
+/* Finds the sign of each face by its own normal. */
+static bool find_signs_of_range(void *user, struct parallel_range range) {
+  const struct facing *f = user;
+  const struct scene *scene = f->scene;
+  const struct camera *camera = f->camera;
+  const uint32_t *weld = f->topology->weld;
+  uint8_t *sign = f->face_sign;
+  for (size_t face = range.begin; face < range.end; face++) {
+    uint32_t first =
+        scene->corner.item[scene_face_start(scene, (uint32_t)face)];
+    double n[3], v[3];
+    if (weld != NULL)
+      first = weld[first];
+    const struct scene_point *p = &scene->point.item[first];
+    newell_normal_of_face(scene, (uint32_t)face, n);
+    facing_view(camera, (const double[3]){p->x, p->y, p->z}, v);
+    /* Coarse parts have no smooth contour. */
+    sign[face] = vector_dot(n, v) < 0 && !(f->any_coarse && f->coarse[first])
+                     ? FACING_FRONT
+                     : FACING_BACK;
+  }
+  return true;
+}
+
+static bool find_face_signs(struct facing *f) {
+  uint32_t faces = scene_face_count(f->scene);
+  f->any_coarse = memchr(f->coarse, 1, f->scene->point.count) != NULL;
+  f->face_sign = mem_alloc(faces, 1);
+  return f->face_sign != NULL &&
+         parallel_ranges(parallel_workers(faces, PARALLEL_ITEMS), faces,
+                         PARALLEL_ITEMS, find_signs_of_range, f);
+}
+
+/* Sets flags of a face's points. */
+static void set_flags(struct facing *f, uint32_t face, uint8_t flags) {
+  for (uint32_t c = scene_face_start(f->scene, face);
+       c < scene_face_start(f->scene, face + 1); c++)
+    f->point_flags[f->scene->corner.item[c]] |= flags;
+}
+
+/* The loops over all faces take a few operations for each, and a face has three
+ * corners at least.  What they read is copied, so that the compiler knows that
+ * writing bytes does not change it. */
+
+/* Sets the signs of all faces for their points. */
+static void set_signs(struct facing *f) {
+  const struct scene *scene = f->scene;
+  const uint32_t *corner = scene->corner.item, faces = scene_face_count(scene);
+  const uint32_t *start =
+      scene->face_start.count > 0 ? scene->face_start.item : NULL;
+  const uint8_t *signs = f->face_sign;
+  uint8_t *flags = f->point_flags;
+  for (uint32_t face = 0, c = 0; face < faces; face++) {
+    uint32_t end = start != NULL ? start[face + 1] : c + 3;
+    uint8_t sign = signs[face];
+    flags[corner[c]] |= sign;
+    flags[corner[c + 1]] |= sign;
+    flags[corner[c + 2]] |= sign;
+    for (c += 3; c < end; c++)
+      flags[corner[c]] |= sign;
+  }
+}
+
+/* Lists the faces of whose points' flags the union has all of some bits.
+ * Returns false when memory ran out or the caller cancelled. */
+static bool list_faces_with(const struct facing *f, unsigned bits,
+                            struct facing_faces *list) {
+  const struct scene *scene = f->scene;
+  const uint32_t *corner = scene->corner.item, faces = scene_face_count(scene);
+  const uint32_t *start =
+      scene->face_start.count > 0 ? scene->face_start.item : NULL;
+  const uint8_t *flags = f->point_flags;
+  for (uint32_t face = 0, c = 0; face < faces; face++) {
+    uint32_t end = start != NULL ? start[face + 1] : c + 3;
+    unsigned all =
+        flags[corner[c]] | flags[corner[c + 1]] | flags[corner[c + 2]];
+    for (c += 3; c < end; c++)
+      all |= flags[corner[c]];
+    if ((all & bits) == bits && !ARRAY_PUSH(list, face))
+      return false;
+  }
+  return poll_now();
+}
+
+/* Gives points that are welded the flags of each other. */
+static void share_flags(struct facing *f) {
+  const uint32_t *weld = f->topology->weld;
+  size_t points = weld != NULL ? f->scene->point.count : 0;
+  for (size_t p = 0; p < points; p++)
+    f->point_flags[weld[p]] |= f->point_flags[p];
+  for (size_t p = 0; p < points; p++)
+    f->point_flags[p] = f->point_flags[weld[p]];
+}
+
+/* Finds the faces that the contour can cross, and those about them.  Returns
+ * false when memory ran out or the caller cancelled. */
+static bool find_near_faces(struct facing *f) {
+  f->point_flags = mem_calloc(f->scene->point.count, 1);
+  if (f->point_flags == NULL)
+    return false;
+  set_signs(f);
+  share_flags(f);
+  if (!list_faces_with(f, FACING_MIXED, &f->crossed))
+    return false;
+  for (size_t i = 0; i < f->crossed.count; i++)
+    set_flags(f, f->crossed.item[i], FACING_NEEDED);
+  share_flags(f);
+  if (!list_faces_with(f, FACING_NEEDED, &f->near))
+    return false;
+  for (size_t i = 0; i < f->near.count; i++)
+    f->near_corners += scene_face_corners(f->scene, f->near.item[i]);
+  return list_near_edges(f);
+}
+
+/* ---- The whole ----------------------------------------------------------- */
+
+static void free_slots(struct facing *f) {
+  mem_free(f->sets);
+  mem_free(f->signs);
+  mem_free(f->place);
+  mem_free(f->normal);
+  mem_free(f->value);
+  ARRAY_FREE(&f->mixed);
+  f->signs = NULL;
+  f->sets = f->place = NULL;
+  f->normal = NULL;
+  f->value = NULL;
+  f->count = 0;
+}
+
+/* Finds slots and their normals by the edges' classes.  Returns false when
+ * memory ran out or the caller cancelled. */
+static bool find_normals(struct facing *f) {
+  return split_at_features(f) && number_needed(f) && facing_find_normals(f);
+}
+
+/* Finds normals and values, normals again where none stands for all faces about
+ * a point: bent ones are told by mean normals, contradictions by what is final.
+ * Returns false when memory ran out or the caller cancelled. */
+static bool find_facings(struct facing *f, double crease_deg) {
+  if (!find_normals(f))
+    return false;
+  bool is_bent = facing_mark_bent(f, crease_deg);
+  if (facing_mark_contradicted(f) || is_bent) {
+    facing_crease_apices(f);
+    free_slots(f);
+    if (!find_normals(f))
+      return false;
+  }
+  return facing_find_values(f);
+}
+
+recto_status facing_init(struct facing *f, const struct sheet *sheet,
+                         const struct topology *topology, double crease_deg,
+                         recto_error *error) {
+  *f = (struct facing){
+      .scene = sheet->scene, .topology = topology, .camera = &sheet->camera};
+  f->class_masks = mem_alloc(topology->edge.count, sizeof *f->class_masks);
+  f->coarse = mem_alloc(f->scene->point.count, 1);
+  f->large = mem_alloc(1, sizeof *f->large);
+  if (f->large != NULL)
+    *f->large = large_face_normals_start();
+  bool ok =
+      f->class_masks != NULL && f->coarse != NULL && f->large != NULL &&
+      topology_class_masks(topology, f->scene, crease_deg, f->class_masks) &&
+      topology_coarse_parts(topology, f->scene, f->class_masks, f->coarse) &&
+      find_face_signs(f) && find_near_faces(f) && find_facings(f, crease_deg);
+  return ok ? RECTO_OK : error_memory(error);
+}
+
+void facing_fini(struct facing *f) {
+  mem_free(f->class_masks);
+  mem_free(f->coarse);
+  mem_free(f->large);
+  mem_free(f->face_sign);
+  mem_free(f->point_flags);
+  mem_free(f->near_corner);
+  mem_free(f->corner_place);
+  mem_free(f->share);
+  ARRAY_FREE(&f->crossed);
+  ARRAY_FREE(&f->near);
+  ARRAY_FREE(&f->near_edge);
+  free_slots(f);
+}

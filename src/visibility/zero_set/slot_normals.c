@@ -1,0 +1,113 @@
+/* slot_normals.c - adds to each normal what the faces about it share in. */
+#include "visibility/zero_set/facing.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "base/poll.h"
+
+static double angle_between(const double a[3], const double b[3]) {
+  double cross[3];
+  vector_cross(a, b, cross);
+  return atan2(sqrt(vector_dot(cross, cross)), vector_dot(a, b));
+}
+
+double facing_angle(const struct facing *f, uint32_t face, uint32_t corner) {
+  uint32_t start = scene_face_start(f->scene, face);
+  uint32_t end = scene_face_start(f->scene, face + 1);
+  double at[3], to[3], from[3];
+  facing_position(f, facing_point(f, corner), at);
+  facing_position(f, facing_point(f, corner + 1 < end ? corner + 1 : start),
+                  to);
+  facing_position(f, facing_point(f, corner > start ? corner - 1 : end - 1),
+                  from);
+  for (int k = 0; k < 3; k++) {
+    to[k] -= at[k];
+    from[k] -= at[k];
+  }
+  return angle_between(to, from);
+}
+
+/* Finds what a face adds to the normals at its corners, if any is needed.
+ * at  of near corners: its first one */
+static void find_shares(const struct facing *f, uint32_t face, size_t at) {
+  double(*share)[3] = f->share + at;
+  uint32_t start = scene_face_start(f->scene, face);
+  uint32_t end = scene_face_start(f->scene, face + 1), c = start;
+  double n[3];
+  while (c < end && f->corner_place[at + c - start] == 0)
+    c++;
+  if (c == end)
+    return;
+  newell_normal_of_face(f->scene, face, n);
+  if (!vector_normalise(n))
+    return;
+  for (c = start; c < end; c++) {
+    double angle = facing_angle(f, face, c);
+    for (int k = 0; k < 3; k++)
+      share[c - start][k] = angle * n[k];
+  }
+}
+
+/* The shares of all near faces; they serve where more edges become creases, as
+ * no more normals are needed then.  Returns false when memory ran out. */
+static bool find_all_shares(struct facing *f) {
+  size_t at = 0;
+  f->share = mem_calloc(f->near_corners, sizeof *f->share);
+  for (size_t i = 0; f->share != NULL && i < f->near.count; i++) {
+    (void)poll_at(i);
+    find_shares(f, f->near.item[i], at);
+    at += scene_face_corners(f->scene, f->near.item[i]);
+  }
+  return f->share != NULL;
+}
+
+void facing_find_value(struct facing *f, uint32_t face, uint32_t corner) {
+  uint32_t slot = facing_slot(f, corner), place = f->place[slot];
+  double at[3], v[3];
+  if (place == 0 || !isnan(f->value[place - 1]))
+    return;
+  facing_turn_normal(f, face, corner);
+  facing_position(f, facing_point(f, corner), at);
+  facing_view(f->camera, at, v);
+  double g = facing_of_normal(f->normal[place - 1], v);
+  /* Rounding does not change a sign on which all faces agree. */
+  if (facing_signs(f, slot) == FACING_BACK)
+    g = fmax(g, 0);
+  else if (facing_signs(f, slot) == FACING_FRONT)
+    g = fmin(g, -DBL_MIN);
+  f->value[place - 1] = g;
+}
+
+/* Adds the shares of all near faces. */
+static void add_shares(struct facing *f) {
+  for (uint32_t i = 0; i < f->near_corners; i++) {
+    uint32_t place = f->corner_place[i];
+    for (int k = 0; place != 0 && k < 3; k++)
+      f->normal[place - 1][k] += f->share[i][k];
+  }
+}
+
+bool facing_find_normals(struct facing *f) {
+  f->normal = mem_calloc(f->count, sizeof *f->normal);
+  f->value = mem_alloc(f->count, sizeof *f->value);
+  if (f->normal == NULL || f->value == NULL ||
+      (f->share == NULL && !find_all_shares(f)))
+    return false;
+  add_shares(f);
+  for (size_t i = 0; i < f->count; i++) {
+    (void)vector_normalise(f->normal[i]);
+    f->value[i] = NAN;
+  }
+  return !poll_is_cancelled();
+}
+
+bool facing_find_values(struct facing *f) {
+  for (size_t i = 0; i < f->mixed.count; i++) {
+    uint32_t face = f->mixed.item[i];
+    for (uint32_t c = scene_face_start(f->scene, face);
+         c < scene_face_start(f->scene, face + 1); c++)
+      facing_find_value(f, face, c);
+  }
+  return !poll_is_cancelled();
+}

@@ -1,0 +1,184 @@
+/* zero_set.c - finds where the facing of a smooth surface changes sign. */
+#include "visibility/zero_set/zero_set.h"
+
+#include <string.h>
+
+#include "base/poll.h"
+#include "visibility/zero_set/zero_finder.h"
+#include "view/clip.h"
+#include "scene/triangulation/triangulate.h"
+
+void zero_set_fini(struct zero_set *set) {
+  ARRAY_FREE(&set->node);
+  ARRAY_FREE(&set->segment);
+  ARRAY_FREE(&set->border);
+  ARRAY_FREE(&set->outline);
+}
+
+/* ---- Nodes and segments -------------------------------------------------- */
+
+bool zero_finder_add_node(struct zero_finder *z, const double at[3],
+                          const double flat[3], uint32_t front, uint32_t back,
+                          uint32_t *node) {
+  struct contour_node made = {.at = {at[0], at[1], at[2]},
+                              .flat = {flat[0], flat[1], flat[2]},
+                              .front = front,
+                              .back = back,
+                              .segment = {SHEET_NONE, SHEET_NONE},
+                              .sheet_point = SHEET_NONE};
+  *node = (uint32_t)z->set->node.count;
+  return ARRAY_PUSH(&z->set->node, made);
+}
+
+/* Clips a segment.  Where the mesh is within the page's margins, a contour that
+ * is curved beyond them is not clipped: its images are moved to the border, so
+ * that its curve goes on.
+ * Returns false where nothing is left. */
+static bool clip_contour(const struct zero_finder *z, struct view_point end[2],
+                         bool moved[2]) {
+  unsigned outside = 0;
+  for (int k = 0; k < 2; k++)
+    outside |= clip_outcode(&z->projection, end[k]);
+  if (z->mesh_is_inside)
+    outside &= CLIP_NEAR_BIT;
+  return outside == 0 || clip_segment(&z->projection, end, moved);
+}
+
+bool zero_finder_add_segment(struct zero_finder *z, struct contour_segment s) {
+  double at[2][3];
+  struct view_point end[2];
+  bool moved[2] = {false, false};
+  for (int k = 0; k < 2; k++) {
+    memcpy(at[k], z->set->node.item[s.node[k]].at, sizeof at[k]);
+    end[k] = zero_finder_view(z, at[k]);
+  }
+  if (!clip_contour(z, end, moved))
+    return true;
+  for (int k = 0; k < 2; k++)
+    if (moved[k]) {
+      const struct camera *camera = z->facing->camera;
+      for (int i = 0; i < 3; i++)
+        at[k][i] = camera->eye[i] + end[k].x * camera->right[i] +
+                   end[k].y * camera->up[i] - end[k].d * camera->back[i];
+      if (!zero_finder_add_node(z, at[k], at[k], SHEET_NONE, SHEET_NONE,
+                                &s.node[k]))
+        return false;
+    }
+  for (int k = 0; k < 2; k++) {
+    struct contour_node *node = &z->set->node.item[s.node[k]];
+    if (node->degree < 2)
+      node->segment[node->degree] = (uint32_t)z->set->segment.count;
+    if (node->degree++ == 0)
+      node->page = project_point(&z->projection, end[k]);
+  }
+  return ARRAY_PUSH(&z->set->segment, s);
+}
+
+/* ---- Faces --------------------------------------------------------------- */
+
+static bool cross_polygon(struct zero_finder *z, uint32_t face, uint32_t start,
+                          uint32_t count) {
+  struct triangulation *triangulation = &z->triangulation;
+  z->corner.count = z->diagonal_node.count = 0;
+  if (!ARRAY_RESERVE(&z->corner, count) ||
+      !ARRAY_RESERVE(&z->diagonal_node, count))
+    return false;
+  for (uint32_t c = 0; c < count; c++) {
+    z->corner.item[c] = facing_point(z->facing, start + c);
+    z->diagonal_node.item[c] = 0;
+  }
+  if (!triangulate(triangulation, z->facing->scene->point.item, z->corner.item,
+                   count))
+    return false;
+  for (size_t t = 0; t < triangulation->triangle.count; t++) {
+    const struct triangulation_triangle *of = &triangulation->triangle.item[t];
+    const uint32_t corner[3] = {start + of->corner[0], start + of->corner[1],
+                                start + of->corner[2]};
+    if (!zero_finder_cross_triangle(z, face, corner, of->side))
+      return false;
+  }
+  return true;
+}
+
+static bool cross_face(struct zero_finder *z, uint32_t face) {
+  const struct facing *f = z->facing;
+  uint32_t start = scene_face_start(f->scene, face);
+  uint32_t count = scene_face_start(f->scene, face + 1) - start;
+  bool front = false, back = false;
+  for (uint32_t c = start; c < start + count; c++) {
+    bool is_back = facing_is_back(f, c);
+    front = front || !is_back;
+    back = back || is_back;
+  }
+  if (!front || !back)
+    return true;
+  if (count > 3)
+    return cross_polygon(z, face, start, count);
+  const uint32_t corner[3] = {start, start + 1, start + 2};
+  const uint32_t side[3] = {0, 1, 2};
+  uint32_t p = facing_point(f, start), q = facing_point(f, start + 1),
+           r = facing_point(f, start + 2);
+  return p == q || q == r || r == p ||
+         zero_finder_cross_triangle(z, face, corner, side);
+}
+
+/* ---- The whole ----------------------------------------------------------- */
+
+/* Whether an edge is neither a feature nor one at which faces fold over. */
+static inline bool is_within_surface(const struct zero_finder *z, uint32_t e) {
+  const struct facing *f = z->facing;
+  const struct topology_edge *edge = &f->topology->edge.item[e];
+  return (f->class_masks[e] & (RECTO_EDGE_CREASE | RECTO_EDGE_BORDER)) == 0 &&
+         edge->uses == 2 && !edge->same_way &&
+         f->face_sign[edge->first] == f->face_sign[edge->second] &&
+         edge->first != edge->second &&
+         (z->folded.is_folded == NULL ||
+          !(z->folded.is_folded[edge->first] ||
+            z->folded.is_folded[edge->second])) &&
+         !(f->any_coarse && f->coarse[edge->point[0]]);
+}
+
+static bool cross_edge(struct zero_finder *z, uint32_t e) {
+  const struct facing *f = z->facing;
+  const struct topology_edge *edge = &f->topology->edge.item[e];
+  if (!zero_finder_add_outline(z, e) || !zero_finder_add_border(z, e))
+    return false;
+  return edge->uses != 2 || edge->first == edge->second ||
+         f->coarse[edge->point[0]] ||
+         !(edge->same_way || facing_is_near(f, e)) || !facing_is_split(f, e) ||
+         zero_finder_cross_crease(z, e);
+}
+
+static bool cross_all(struct zero_finder *z) {
+  const struct facing *f = z->facing;
+  size_t edges = f->topology->edge.count;
+  z->edge_node = mem_calloc(edges, 2 * sizeof *z->edge_node);
+  if (z->edge_node == NULL)
+    return false;
+  for (size_t i = 0; i < f->mixed.count; i++)
+    if (!poll_at(i) || !cross_face(z, f->mixed.item[i]))
+      return false;
+  for (uint32_t e = 0; e < edges; e++)
+    if (!poll_at(e) || (!is_within_surface(z, e) && !cross_edge(z, e)))
+      return false;
+  return true;
+}
+
+recto_status zero_set_find(struct zero_set *set, const struct sheet *sheet,
+                           const struct facing *facing, recto_error *error) {
+  struct zero_finder z = {.set = set,
+                          .facing = facing,
+                          .folded = {.sheet = sheet},
+                          .projection = projection_of(facing->camera),
+                          .mesh_is_inside = sheet->clipped_page == 0};
+  bool ok = folded_faces_mark(&z.folded) &&
+            curvature_noise_find(&z.curvature, facing) && cross_all(&z);
+  curvature_noise_fini(&z.curvature);
+  folded_faces_fini(&z.folded);
+  mem_free(z.edge_node);
+  mem_free(z.point_node);
+  ARRAY_FREE(&z.diagonal_node);
+  ARRAY_FREE(&z.corner);
+  triangulation_fini(&z.triangulation);
+  return ok ? RECTO_OK : error_memory(error);
+}

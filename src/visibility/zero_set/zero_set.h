@@ -1,0 +1,27 @@
+/* zero_set.h - the contour of the smooth surface that a mesh samples: where its
+ * facing g changes sign.
+ *
+ * A triangle that it crosses is curved, and divided into four, over each of
+ * which g is linear: its zero set is one segment between two sides, or three.
+ * At a crease, where g jumps, the contour runs along the edge as far as its two
+ * faces have different signs there.  So the segments join to closed curves
+ * [HertzmannZorin2000], but for borders, the near plane, and the page's margins
+ * where faces are clipped by them, where they end. */
+#ifndef VISIBILITY_ZERO_SET_ZERO_SET_H
+#define VISIBILITY_ZERO_SET_ZERO_SET_H
+
+#include "view/sheet.h"
+#include "visibility/zero_set/zero_segments.h"
+
+/* Finds the contour.
+ * set     zero-initialised; the caller frees it
+ * sheet   laid out from the mesh
+ * Errors  RECTO_ERROR_MEMORY.
+ * Cost    linear in the corners */
+USE_RESULT recto_status zero_set_find(struct zero_set *set,
+                                      const struct sheet *sheet,
+                                      const struct facing *facing,
+                                      recto_error *error);
+void zero_set_fini(struct zero_set *set);
+
+#endif
