@@ -225,7 +225,8 @@ typedef enum recto_divide {
  * to writing (up to 1), an estimate by the options, and never falls within a
  * call; of a check it is that of the check.  It stands still in the stage
  * topology, of preparation, and in writing PDF, PS, EPS and PNG.  The function
- * may itself call the library, with other objects.
+ * may itself call the library, with other objects.  It may fork, too, but the
+ * new process is not to return from it: it ends, or starts another program.
  * It returns false to cancel: the call then ends within some 50 ms, for a
  * million triangles, with RECTO_ERROR_CANCELLED and no output, and does not
  * call it again.  Except that cairo lays out a page of PDF, PS or EPS without a
