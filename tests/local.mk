@@ -216,7 +216,8 @@ unit_tests += %D%/test_obj
   %D%/comma_locale.c %D%/comma_locale.h
 %C%_test_obj_LDADD = %D%/scenes/libscenes.la $(LDADD)
 unit_tests += %D%/test_obj_plain
-%C%_test_obj_plain_SOURCES = %D%/test_obj_plain.c
+%C%_test_obj_plain_SOURCES = %D%/test_obj_plain.c \
+  %D%/temporary.c %D%/temporary.h
 unit_tests += %D%/test_crease_marks
 %C%_test_crease_marks_SOURCES = %D%/test_crease_marks.c \
   %D%/reading.c %D%/reading.h

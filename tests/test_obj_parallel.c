@@ -210,6 +210,13 @@ static struct text dress(const struct text *text, struct random *random) {
   return dressed;
 }
 
+static struct text dress_instead(struct text text, uint64_t seed) {
+  struct random random = {seed};
+  struct text dressed = dress(&text, &random);
+  free(text.bytes);
+  return dressed;
+}
+
 static void read_alone(struct reading *reading, const struct text *text) {
   reading_init(reading);
   assert_int_equal(
@@ -328,6 +335,27 @@ static void put_prism(struct text *text, struct random *random, int sides,
   }
 }
 
+/* Smoothing groups and normals before a part; returns what follows its indices:
+ * some normal so far, or mostly `form`. */
+static const char *put_marks(struct text *text, struct random *random,
+                             int *normals, const char *form) {
+  static char own[LONGEST];
+  char statement[LONGEST];
+  if (random_below(random, 2) > 0) {
+    snprintf(statement, sizeof statement, "s %d\n", random_int(random, 0, 2));
+    put(text, random_below(random, 5) > 0 ? statement : "s off\n");
+  }
+  for (int n = random_int(random, 0, 3); n > 0; n--, ++*normals) {
+    snprintf(statement, sizeof statement, "vn %.3f %.4f 1e-1\n",
+             random_between(random, -1, 1), random_between(random, -1, 1));
+    put(text, statement);
+  }
+  if (*normals == 0 || random_below(random, 3) == 0)
+    return form;
+  snprintf(own, sizeof own, "//%d", random_int(random, 1, *normals));
+  return own;
+}
+
 /* Prisms after each other, most with names; one in `rarity` has something odd
  * before it; 0: none has. */
 static struct text write_assembly(uint64_t seed, uint32_t rarity) {
@@ -337,8 +365,8 @@ static struct text write_assembly(uint64_t seed, uint32_t rarity) {
   struct text text = {malloc(BYTES + ROOM), 0};
   assert_non_null(text.bytes);
   put(&text, "vt 0 0\n");
-  int first = 1, kinds = random_int(&random, 1, 3);
-  if (seed % 4 == 1)
+  int first = 1, kinds = random_int(&random, 1, 3), normals = seed % 4 == 1;
+  if (normals > 0)
     put(&text, "vn 0 0 1\n");
   for (int i = 0; text.count < BYTES; i++) {
     static const char *const name[] = {"o part", "g of ", "usemtl m", "\n# "};
@@ -351,7 +379,10 @@ static struct text write_assembly(uint64_t seed, uint32_t rarity) {
     if (seed % 8 == 3 && i == 900)
       put(&text, "vt 1 \\\nv 7 7 7\n");
     put(&text, random_below(&random, 3) ? statement : "vt 0.5 1\n");
-    put_prism(&text, &random, sides, first, forms[random_below(&random, 4)]);
+    const char *form = forms[random_below(&random, 4)];
+    if (seed % 3 == 0)
+      form = put_marks(&text, &random, &normals, form);
+    put_prism(&text, &random, sides, first, form);
     first += 2 * sides;
   }
   return text;
@@ -363,6 +394,8 @@ static void assemblies_are_read_alike(void **state) {
   skip_without_processors();
   for (int seed = 1; seed <= rounds(80); seed++) {
     struct text text = write_assembly((uint64_t)seed, rarities[(seed / 4) % 5]);
+    if (seed % 5 == 0)
+      text = dress_instead(text, (uint64_t)seed);
     const char *path = temporary_file(state, "a.obj", text.bytes, text.count);
     reading_takes_marks = seed % 2 == 0;
     const char *fault = reading_parallel_file_fault(&reader_obj, path);

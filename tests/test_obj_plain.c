@@ -1,5 +1,5 @@
 /* test_obj_plain.c - which statements of an OBJ file are plain: those are read
- * in runs, and by several threads. */
+ * in runs, and by several threads; and so are parts of nothing else. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -8,8 +8,10 @@
 
 #include <cmocka.h>
 
+#include "base/line_blocks.h"
 #include "scene/corner_normals.h"
-#include "scene/obj/obj_plain.h"
+#include "scene/obj_counted_part.h"
+#include "tests/temporary.h"
 
 #if DIGITS_CHUNKS
 
@@ -141,8 +143,62 @@ static void other_statements_are_not_plain(void **state) {
   }
 }
 
+/* Reads the first part of a file of so many times the text, of triangles and
+ * what else there may be; returns whether it is plain. */
+static bool is_part_plain(void **state, const char *text, bool wants_marks) {
+  enum { BYTES = OBJ_COUNTED_BYTES + 2 * OBJ_COUNTED_ROOM };
+  size_t length = strlen(text), count = 0;
+  char *bytes = malloc(BYTES + length);
+  struct line_blocks lines = {.bytes = NULL};
+  struct obj_counted_part part = {.lines = 0};
+  struct scene scene;
+  struct obj_parser p;
+  assert_non_null(bytes);
+  for (; count < BYTES; count += length)
+    memcpy(bytes + count, text, length);
+  const char *path = temporary_file(state, "a.obj", bytes, count);
+  set_up(&p, &scene);
+  scene.needs_crease_marks = wants_marks;
+  assert_true(line_blocks_open(&lines, path, BYTES));
+  obj_counted_part_count(&part, &lines, 0, 0);
+  assert_true(ARRAY_RESERVE(&scene.point, part.points.most) &&
+              ARRAY_RESERVE(&p.normal, part.normals.most) &&
+              scene_reserve_faces(&scene, part.faces, part.corners));
+  if (part.corners == 3 * part.faces)
+    obj_counted_part_parse(&part, &p);
+  else
+    part.is_plain = false;
+  obj_counted_part_check(&part, &p);
+  bool is_plain = part.is_plain;
+  obj_counted_part_fini(&part);
+  line_blocks_close(&lines);
+  tear_down(&p, &scene);
+  free(bytes);
+  return is_plain;
+}
+
+static void parts_may_have_normals_and_smoothing_groups(void **state) {
+  static const char *const plain[] = {
+      "o a\nv 1 2 3\nf 1 2 3\n", "g a\r\ns 1\r\n\r\nv 1 2 3\r\nf 1 2 3\r\n",
+      "s off\nf 1 2 3\ns 25\nf 2 3 4\n",
+      "v  1 2 3 \nvn 0 0 1\nvt 0 1\nusemtl b\ns 0 \nf 1//1 2/7/3  3 \n"};
+  static const char *const other[] = {"f 1 2 3\ns none\n",
+                                      "f 1 2 3\nvn 0 x 1\n", "f 1 2 3 # text\n",
+                                      "f 1\t2 3 4\n", "f 1 2 3\nf 1 2 x\n"};
+  for (int wants_marks = 0; wants_marks < 2; wants_marks++) {
+    for (size_t i = 0; i < sizeof plain / sizeof *plain; i++)
+      assert_true(is_part_plain(state, plain[i], wants_marks > 0));
+    for (size_t i = 0; i < sizeof other / sizeof *other; i++)
+      assert_true(!is_part_plain(state, other[i], wants_marks > 0) ||
+                  (i == 1 && wants_marks == 0));
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test_setup_teardown(
+          parts_may_have_normals_and_smoothing_groups, temporary_set_up,
+          temporary_tear_down),
       cmocka_unit_test(points_may_have_spaces_and_carriage_returns),
       cmocka_unit_test(normals_may_have_spaces_and_carriage_returns),
       cmocka_unit_test(faces_may_have_spaces_and_carriage_returns),

@@ -78,9 +78,7 @@ recto_status obj_read_normal(struct obj_parser *p) {
 
 /* ---- s ------------------------------------------------------------------- */
 
-/* The number of a smoothing group, or off, as smoothing_set has it; false where
- * the word is neither. */
-static bool parse_smoothing(const char *at, const char *stop, uint32_t *group) {
+bool obj_parse_smoothing(const char *at, const char *stop, uint32_t *group) {
   uint64_t number = 0;
   size_t length = (size_t)(stop - at);
   bool is_off = length == 3 && memcmp(at, "off", length) == 0;
@@ -102,12 +100,13 @@ recto_status obj_read_smoothing(struct obj_parser *p) {
   unsigned long line = p->line;
   uint32_t group;
   p->known = true;
+  p->run_bytes = 0; /* what follows is another run */
   p->at++;
   obj_skip_blanks(p);
   const char *word = p->at;
   while (p->at < p->end && !obj_ends_word(*p->at))
     p->at++;
-  bool is_read = parse_smoothing(word, p->at, &group);
+  bool is_read = obj_parse_smoothing(word, p->at, &group);
   obj_skip_blanks(p);
   if (!is_read || !obj_is_at_end_of_line(p))
     return obj_skip_broken(p, start, line, "smoothing group");

@@ -45,7 +45,10 @@ void obj_finish_statement(struct obj_parser *p) {
   }
 }
 
-size_t obj_count_bytes(const char *at, const char *end, char byte) {
+/* How many lines end between two places, or how many words there are behind a
+ * space. */
+static inline size_t count_text_ends(const char *at, const char *end,
+                                     const bool words) {
   enum { COLUMNS = 32, ROWS = UINT8_MAX }; /* whose sums are bytes */
   size_t all = 0;
   while (end - at >= COLUMNS) {
@@ -55,17 +58,23 @@ size_t obj_count_bytes(const char *at, const char *end, char byte) {
     for (size_t r = 0; r < rows; r++, at += COLUMNS)
 #pragma omp simd
       for (int k = 0; k < COLUMNS; k++)
-        found[k] = (uint8_t)(found[k] + (at[k] == byte));
+        found[k] =
+            (uint8_t)(found[k] + (words ? (at[k] == ' ') & (at[k + 1] > ' ')
+                                        : at[k] == '\n'));
     for (int k = 0; k < COLUMNS; k++)
       all += found[k];
   }
   for (; at < end; at++)
-    all += *at == byte;
+    all += words ? at[0] == ' ' && at[1] > ' ' : at[0] == '\n';
   return all;
 }
 
 size_t obj_count_lines(const char *at, const char *end) {
-  return obj_count_bytes(at, end, '\n');
+  return count_text_ends(at, end, false);
+}
+
+size_t obj_count_words(const char *at, const char *end) {
+  return count_text_ends(at, end, true);
 }
 
 void obj_skip_lines_without_points(struct obj_parser *p) {

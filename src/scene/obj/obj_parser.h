@@ -154,11 +154,11 @@ static inline bool obj_is_at_end_of_line(const struct obj_parser *p) {
  * continued. */
 void obj_skip_line(struct obj_parser *p, bool may_continue);
 
-/* How many bytes between two places have a value. */
-size_t obj_count_bytes(const char *at, const char *end, char byte);
-
 /* How many lines end between two places. */
 size_t obj_count_lines(const char *at, const char *end);
+
+/* How many words begin behind a space between them, at the end of lines. */
+size_t obj_count_words(const char *at, const char *end);
 
 /* From the start of a line over lines without a letter v, and so without
  * points; stays there where the line after them may continue them. */
@@ -229,6 +229,10 @@ static inline bool obj_is_surely_plain(const struct scene *scene,
 
 /* vn x y z. */
 USE_RESULT recto_status obj_read_normal(struct obj_parser *p);
+
+/* The number of a smoothing group, or off, as smoothing_set has it; false where
+ * the word is neither. */
+bool obj_parse_smoothing(const char *at, const char *stop, uint32_t *group);
 
 /* s and a number, or off. */
 USE_RESULT recto_status obj_read_smoothing(struct obj_parser *p);

@@ -5,9 +5,10 @@
 
 #include "scene/obj/obj_parser.h"
 
-/* Reads what follows in a file of blocks for as long as it is plain points and
- * faces of any number of corners, and names: all or nothing of it, with the
- * same result as obj_read_statements.  To be called at the start of a block. */
+/* Reads what follows in a file of blocks for as long as it is plain points,
+ * normals, faces of any number of corners, names and smoothing groups: all or
+ * nothing of it, with the same result as obj_read_statements.  To be called at
+ * the start of a block. */
 USE_RESULT recto_status obj_read_short_runs(struct obj_parser *p);
 
 #endif

@@ -98,6 +98,7 @@ static bool is_bad(const struct obj_parser *p, uint32_t point) {
 static recto_status read_rest(struct obj_parser *p, struct material_name *name,
                               size_t keyword) {
   p->known = true;
+  p->run_bytes = 0; /* what follows is another run */
   p->at += keyword;
   obj_skip_blanks(p);
   name->start = p->at;
