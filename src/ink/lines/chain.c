@@ -202,9 +202,11 @@ static bool sort_paths(struct ink_paths *paths) {
   return ok;
 }
 
-/* Gives the points of a range of paths their positions. */
+/* Gives the points of a range of paths their positions, by the segments, which
+ * are anywhere in memory. */
 static bool place_points_of_range(void *user, struct parallel_range range) {
   const struct chain *c = user;
+  const struct graph_segment *segment = c->graph->segment.item;
   struct ink_paths *paths = c->paths;
   for (size_t i = range.begin; i < range.end; i++) {
     struct ink_path *path = &paths->path.item[i];
@@ -215,15 +217,17 @@ static bool place_points_of_range(void *user, struct parallel_range range) {
     path->end[0] = end[0];
     path->end[1] = end[path->count - 1];
     for (uint32_t k = 0; k < path->count; k++) {
-      const struct graph_segment *s = &c->graph->segment.item[end[k] >> 1];
-      point[k] = c->graph->node.item[s->node[end[k] & 1]];
+      if (k + MEM_PREFETCH_AHEAD < path->count)
+        MEM_PREFETCH(&segment[end[k + MEM_PREFETCH_AHEAD] >> 1]);
+      const struct graph_segment *s = &segment[end[k] >> 1];
+      uint32_t node = s->node[end[k] & 1];
+      point[k] = c->graph->node.item[node];
       path->classes |= (uint8_t)(s->style_key & RECTO_EDGES_ALL);
+      if (paths->approximate != NULL)
+        paths->approximate[path->point + k] = c->graph->approximate[node];
     }
     for (uint32_t k = 0; c->path_of_segment != NULL && k < path->count; k++)
       c->path_of_segment[end[k] >> 1] = (uint32_t)i;
-    for (uint32_t k = 0; paths->approximate != NULL && k < path->count; k++)
-      paths->approximate[path->point + k] =
-          c->graph->approximate[node_of_end(c, end[k])];
   }
   return true;
 }
