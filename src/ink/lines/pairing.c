@@ -69,37 +69,54 @@ static void pair_ends(struct pairing *p, uint32_t a, uint32_t b) {
 
 /* ---- Small fans ---------------------------------------------------------- */
 
-static void pair_small_fan(struct pairing *p, const uint32_t *end,
-                           uint32_t count) {
-  enum { NO_PAIR = 4 }; /* greater than any sum of a cosine and a penalty */
-  struct node_end fan[SMALL_FAN_MAX];
-  for (uint32_t i = 0; i < count; i++)
-    fan[i] = node_end(p, end[i]);
-  while (count > 1) {
-    float best = NO_PAIR;
-    uint32_t a = 0, b = 0;
-    /* Ties go to the first: ends are sorted by position on the page. */
-    for (uint32_t i = 0; i + 1 < count; i++) {
-      for (uint32_t k = i + 1; k < count; k++) {
-        if (fan[i].pen_key != fan[k].pen_key)
-          continue;
-        float bend =
-            fan[i].away.x * fan[k].away.x + fan[i].away.y * fan[k].away.y;
-        if (fan[i].style_key != fan[k].style_key)
-          bend += 2.5f; /* more than any two cosines differ */
-        if (bend < best) {
-          best = bend;
-          a = i;
-          b = k;
-        }
+/* Greater than any sum of a cosine and a penalty. */
+enum { NO_PAIR = 4 };
+
+/* Finds the straightest pair of a fan.
+ * alike  all ends have one pen key and one style key
+ * Returns NO_PAIR where no two have one pen key. */
+static inline float find_straightest(const struct node_end *fan, uint32_t count,
+                                     bool alike, uint32_t pair[2]) {
+  float best = NO_PAIR;
+  /* Ties go to the first: ends are sorted by position on the page. */
+  for (uint32_t i = 0; i + 1 < count; i++) {
+    for (uint32_t k = i + 1; k < count; k++) {
+      if (!alike && fan[i].pen_key != fan[k].pen_key)
+        continue;
+      float bend =
+          fan[i].away.x * fan[k].away.x + fan[i].away.y * fan[k].away.y;
+      if (!alike && fan[i].style_key != fan[k].style_key)
+        bend += 2.5f; /* more than any two cosines differ */
+      if (bend < best) {
+        best = bend;
+        pair[0] = i;
+        pair[1] = k;
       }
     }
+  }
+  return best;
+}
+
+static void pair_small_fan(struct pairing *p, const uint32_t *end,
+                           uint32_t count) {
+  struct node_end fan[SMALL_FAN_MAX];
+  bool alike = true;
+  for (uint32_t i = 0; i < count; i++) {
+    fan[i] = node_end(p, end[i]);
+    alike = alike && fan[i].pen_key == fan[0].pen_key &&
+            fan[i].style_key == fan[0].style_key;
+  }
+  while (count > 1) {
+    uint32_t pair[2] = {0, 0}, kept = 0;
+    float best = alike ? find_straightest(fan, count, true, pair)
+                       : find_straightest(fan, count, false, pair);
     if (best >= NO_PAIR)
       return;
-    pair_ends(p, fan[a].end, fan[b].end);
-    count -= 2;
-    memmove(&fan[b], &fan[b + 1], (count + 1 - b) * sizeof *fan);
-    memmove(&fan[a], &fan[a + 1], (count - a) * sizeof *fan);
+    pair_ends(p, fan[pair[0]].end, fan[pair[1]].end);
+    for (uint32_t i = 0; i < count; i++)
+      if (i != pair[0] && i != pair[1])
+        fan[kept++] = fan[i];
+    count = kept;
   }
 }
 
