@@ -15,25 +15,26 @@ struct ratio {
 /* ratio_compare where some number has more than 64 bits. */
 int ratio_compare_wide(struct ratio a, struct ratio b);
 
-/* Whether a number has 64 bits.  Compared by its halves: from a comparison with
- * itself, cut to 64 bits, compilers conclude that they are the same, and
- * multiply 128 bits where 64 are enough. */
-static inline bool ratio_fits(int128 a) {
-  return (int64_t)(a >> 64) == (int64_t)a >> 63;
+/* Zero where a number has 64 bits: the upper half is the lower one's sign then.
+ * From a comparison with the number cut to 64 bits compilers conclude that both
+ * are the same, and multiply 128 bits where 64 are enough. */
+static inline int64_t ratio_excess(int128 a) {
+  return (int64_t)(a >> 64) ^ (int64_t)a >> 63;
 }
 
 static inline bool ratio_is_narrow(struct ratio a) {
-  return ratio_fits(a.num) && ratio_fits(a.den);
+  return (ratio_excess(a.num) | ratio_excess(a.den)) == 0;
 }
 
 /* The sign of a - b.  Exact: products are formed in 256 bits where 128 are too
  * few. */
 static inline int ratio_compare(struct ratio a, struct ratio b) {
-  if (!ratio_is_narrow(a) || !ratio_is_narrow(b))
+  if ((ratio_excess(a.num) | ratio_excess(a.den) | ratio_excess(b.num) |
+       ratio_excess(b.den)) != 0)
     return ratio_compare_wide(a, b);
-  int128 left = (int128)(int64_t)a.num * (int64_t)b.den,
-         right = (int128)(int64_t)b.num * (int64_t)a.den;
-  return (left > right) - (left < right);
+  int128 more = (int128)(int64_t)a.num * (int64_t)b.den -
+                (int128)(int64_t)b.num * (int64_t)a.den;
+  return (more > 0) - (more < 0);
 }
 
 /* The nearest double (to within two units in the last place), for output and
