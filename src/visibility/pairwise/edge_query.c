@@ -312,16 +312,14 @@ bool edge_query_solve(struct edge_query *query, uint32_t e) {
   const struct triangle_grid *grid = &query->lists->grid;
   if (!begin_edge(query, e))
     return false;
-  if (query->intervals.occluded)
-    return true;
   struct cell_range r = cells_of_rest(query);
   query->several_cells = r.x0 < r.x1 || r.y0 < r.y1;
   if (query->several_cells)
     triangle_grid_query_start(grid, &query->found);
-  for (int y = r.y0; y <= r.y1; y++) {
+  for (int y = r.y0; y <= r.y1 && !query->intervals.occluded; y++) {
     int x0, x1;
     triangle_grid_row(grid, query->p, query->q, r, y, &x0, &x1);
-    for (int x = x0; x <= x1; x++)
+    for (int x = x0; x <= x1 && !query->intervals.occluded; x++)
       if (!test_cell(query, x, y))
         return false;
   }
