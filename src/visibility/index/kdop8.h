@@ -185,14 +185,15 @@ static inline int kdop8_nearest(uint64_t key) {
   return (int)(key >> (8 * KDOP8_LANE)) & KDOP8_MAX;
 }
 
-/* The guard bits of the lanes in which a key is at least a query. */
+/* The guard bits of the lanes in which a key is at least a query.  A key has
+ * none, and in a sum of guards and query loops over keys add those once. */
 static inline uint64_t kdop8_compare(uint64_t key, uint64_t query) {
-  return ((key | KDOP8_GUARDS) - query) & KDOP8_GUARDS;
+  return (key + KDOP8_GUARDS - query) & KDOP8_GUARDS;
 }
 
 /* Is the 8-DOP of a key that was so compared behind all of the query's? */
 static inline bool kdop8_is_behind(uint64_t lanes) {
-  return lanes >> (9 * KDOP8_LANE - 1) == 0;
+  return lanes < UINT64_C(1) << (9 * KDOP8_LANE - 1);
 }
 
 /* What kdop8_compare gives of a key that is so and may overlap the query's
