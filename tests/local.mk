@@ -103,6 +103,8 @@ unit_tests += %D%/test_cubic_fit
 unit_tests += %D%/test_curves
 %C%_test_curves_SOURCES = %D%/test_curves.c %D%/drawing_fixture.c \
   %D%/drawing_fixture.h
+unit_tests += %D%/test_own_crossings
+%C%_test_own_crossings_SOURCES = %D%/test_own_crossings.c
 unit_tests += %D%/test_verify
 %C%_test_verify_SOURCES = %D%/test_verify.c %D%/temporary.c %D%/temporary.h
 %C%_test_verify_LDADD = %D%/scenes/libscenes.la $(LDADD)

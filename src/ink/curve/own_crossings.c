@@ -1,25 +1,18 @@
-/* own_crossings.c - finds where a line crosses itself, by a sweep over its
- * sides. */
+/* own_crossings.c - finds where a line crosses itself, by a tree of bounds of
+ * its sides.
+ *
+ * A node of the tree bounds some sides that follow each other, and its children
+ * one half of them each.  As a line goes on, its sides leave each other, so
+ * that few nodes overlap a side, wherever the line turns. */
 #include "ink/curve/own_crossings.h"
 
 #include <math.h>
 
 #include "base/poll.h"
 
-/* Sides are sorted by multiples of this, mm. */
-#define SWEEP_STEP 0x1p-20
+enum { LEAF_SIDES = 4 };
 
 /* ---- Sides --------------------------------------------------------------- */
-
-static double side_low(const struct own_point *side, int axis) {
-  return axis == 0 ? fmin(side[0].at.x, side[1].at.x)
-                   : fmin(side[0].at.y, side[1].at.y);
-}
-
-static double side_high(const struct own_point *side, int axis) {
-  return axis == 0 ? fmax(side[0].at.x, side[1].at.x)
-                   : fmax(side[0].at.y, side[1].at.y);
-}
 
 /* Twice the area of the triangle of a side and a point. */
 static double area_on_side(const struct own_point *side,
@@ -53,57 +46,100 @@ static bool cross_sides(struct own_crossings *own, const struct own_point *a,
   return ARRAY_PUSH(&own->crossing, made);
 }
 
-/* ---- The sweep ----------------------------------------------------------- */
+/* ---- The tree ------------------------------------------------------------ */
 
-/* The axis along which the line extends farther. */
-static int longer_axis(const struct own_crossings *own) {
-  double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
-  for (size_t i = 0; i + 1 < own->line.count; i++)
-    for (int k = 0; k < 2; k++) {
-      low[k] = fmin(low[k], side_low(&own->line.item[i], k));
-      high[k] = fmax(high[k], side_high(&own->line.item[i], k));
-    }
-  return high[1] - low[1] > high[0] - low[0];
+static void add_point_to_bounds(struct own_bounds *bounds,
+                                struct drawing_point p) {
+  const double at[OWN_DIRECTIONS] = {p.x, p.y, p.x + p.y, p.x - p.y};
+  for (int k = 0; k < OWN_DIRECTIONS; k++) {
+    bounds->least[k] = fmin(bounds->least[k], at[k]);
+    bounds->most[k] = fmax(bounds->most[k], at[k]);
+  }
 }
 
-static bool sort_sides(struct own_crossings *own, int axis) {
-  size_t sides = own->line.count - 1;
-  own->order.count = 0;
-  if (!ARRAY_RESERVE(&own->order, sides))
-    return false;
-  for (uint32_t i = 0; i < sides; i++) {
-    double low = floor(side_low(&own->line.item[i], axis) / SWEEP_STEP);
-    own->order.item[own->order.count++] =
-        (struct sort_key){sort_key_of_int64((int64_t)low), i};
+/* The bounds of the line's points from one to another. */
+static struct own_bounds bounds_of_points(const struct own_crossings *own,
+                                          size_t from, size_t to) {
+  struct own_bounds bounds;
+  for (int k = 0; k < OWN_DIRECTIONS; k++) {
+    bounds.least[k] = INFINITY;
+    bounds.most[k] = -INFINITY;
   }
-  return sort_keys_alone(own->order.item, sides);
+  for (size_t i = from; i <= to && i < own->line.count; i++)
+    add_point_to_bounds(&bounds, own->line.item[i].at);
+  return bounds;
+}
+
+static bool are_apart(const struct own_bounds *a, const struct own_bounds *b) {
+  bool apart = false;
+  for (int k = 0; k < OWN_DIRECTIONS; k++)
+    apart |= a->least[k] > b->most[k] || b->least[k] > a->most[k];
+  return apart;
+}
+
+/* Makes the nodes, of which leaf i has the sides from LEAF_SIDES i on. */
+static bool make_tree(struct own_crossings *own) {
+  size_t leaves = 1;
+  while (leaves * LEAF_SIDES < own->line.count - 1)
+    leaves *= 2;
+  own->node.count = 0;
+  if (!ARRAY_RESERVE(&own->node, 2 * leaves))
+    return false;
+  own->node.count = 2 * leaves;
+  for (size_t i = 0; i < leaves; i++)
+    own->node.item[leaves + i] =
+        bounds_of_points(own, LEAF_SIDES * i, LEAF_SIDES * (i + 1));
+  for (size_t i = leaves; i-- > 1;) {
+    const struct own_bounds *child = &own->node.item[2 * i];
+    for (int k = 0; k < OWN_DIRECTIONS; k++) {
+      own->node.item[i].least[k] = fmin(child[0].least[k], child[1].least[k]);
+      own->node.item[i].most[k] = fmax(child[0].most[k], child[1].most[k]);
+    }
+  }
+  return true;
+}
+
+/* Adds the crossings of a side with later ones of a leaf. */
+static bool cross_leaf(struct own_crossings *own, size_t side, size_t leaf) {
+  const struct own_point *a = &own->line.item[side];
+  size_t from = LEAF_SIDES * leaf, to = from + LEAF_SIDES;
+  for (size_t i = from > side ? from : side + 1;
+       i < to && i + 1 < own->line.count; i++)
+    if (!are_joined(a, a + (i - side)) && !cross_sides(own, a, a + (i - side)))
+      return false;
+  return true;
+}
+
+/* The node after a node and those below it; 1 after the last one. */
+static size_t next_node(size_t node) {
+  while (node % 2 == 1)
+    node /= 2;
+  return node + 1;
+}
+
+/* Adds the crossings of a side with later ones. */
+static bool cross_later(struct own_crossings *own, size_t side) {
+  size_t leaves = own->node.count / 2, node = leaves + side / LEAF_SIDES;
+  struct own_bounds bounds = bounds_of_points(own, side, side + 1);
+  do {
+    bool apart = are_apart(&own->node.item[node], &bounds);
+    if (!poll_at(own->compared++) ||
+        (!apart && node >= leaves && !cross_leaf(own, side, node - leaves)))
+      return false;
+    node = apart || node >= leaves ? next_node(node) : 2 * node;
+  } while (node != 1);
+  return true;
 }
 
 bool own_crossings_find(struct own_crossings *own) {
   own->crossing.count = 0;
+  own->compared = 0;
   if (own->line.count < 4)
     return true;
-  int axis = longer_axis(own);
-  if (!sort_sides(own, axis))
-    return false;
-  const struct sort_key *order = own->order.item;
-  for (size_t i = 0; i < own->order.count; i++) {
-    const struct own_point *a = &own->line.item[order[i].value];
-    double end = side_high(a, axis) + SWEEP_STEP;
-    if (!poll_at(i))
-      return false;
-    for (size_t k = i + 1; k < own->order.count; k++) {
-      const struct own_point *b = &own->line.item[order[k].value];
-      if (side_low(b, axis) > end)
-        break;
-      bool apart = side_low(b, 1 - axis) > side_high(a, 1 - axis) ||
-                   side_high(b, 1 - axis) < side_low(a, 1 - axis);
-      if (!apart && !are_joined(a, b) &&
-          !(a < b ? cross_sides(own, a, b) : cross_sides(own, b, a)))
-        return false;
-    }
-  }
-  return true;
+  bool ok = make_tree(own);
+  for (size_t i = 0; ok && i + 1 < own->line.count; i++)
+    ok = cross_later(own, i);
+  return ok;
 }
 
 bool own_crossings_remove_common(struct own_crossings *a,
@@ -130,5 +166,5 @@ bool own_crossings_remove_common(struct own_crossings *a,
 void own_crossings_fini(struct own_crossings *own) {
   ARRAY_FREE(&own->line);
   ARRAY_FREE(&own->crossing);
-  ARRAY_FREE(&own->order);
+  ARRAY_FREE(&own->node);
 }

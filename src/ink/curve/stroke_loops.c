@@ -4,6 +4,8 @@
 
 #include <math.h>
 
+#include "base/sort.h"
+
 /* The chords of a curve's piece. */
 enum { CHORDS = 32 };
 
