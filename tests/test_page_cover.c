@@ -2,6 +2,7 @@
  * these are found that a search of all triangles finds. */
 #include "visibility/contour/page_cover.h"
 
+#include <limits.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -93,8 +94,9 @@ static void check_points(const struct sheet *sheet, uint64_t *r) {
     assert_true(ok);
     if (expected)
       check_reach(&cover, at[i], at[(i + 1) % POINTS]);
-    assert_int_equal(occluders_count(sheet, &partial.grid, &query, at[i]),
-                     occluders_count(sheet, &all, &query_of_all, at[i]));
+    assert_int_equal(
+        occluders_count(sheet, &partial.grid, &query, at[i], INT_MAX),
+        occluders_count(sheet, &all, &query_of_all, at[i], INT_MAX));
   }
   triangle_grid_query_fini(&query);
   triangle_grid_query_fini(&query_of_all);

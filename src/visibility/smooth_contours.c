@@ -364,7 +364,9 @@ recto_status smooth_contours_add(struct sheet *sheet, struct map *map,
       .occluders = {.sheet = sheet,
                     .grid = &pieces.grid.grid,
                     .query = &pieces.query,
-                    .near = {.scene = sheet->scene, .topology = topology}},
+                    .near = {.scene = sheet->scene, .topology = topology},
+                    /* Their number is asked for by is_too_deep alone. */
+                    .most = options.hidden_max > 0 ? INT_MAX : 1},
       .options = options};
   if (status == RECTO_OK &&
       !(add_pieces(&pieces) && end_at_contours(sheet, map, topology, first)))

@@ -171,8 +171,9 @@ static bool test_samples(struct occluders *occluders,
   double whole = whole_length(piece, sample);
   for (uint32_t i = 0; i < piece->samples; i++) {
     double weight = sample[i].length < whole ? sample[i].length / whole : 1;
-    int count = occluders_count(occluders->sheet, occluders->grid,
-                                occluders->query, sample[i].off);
+    int count =
+        occluders_count(occluders->sheet, occluders->grid, occluders->query,
+                        sample[i].off, occluders->most);
     if (count == 0)
       count = occluders_count_apart(occluders, sample[i].on, sample[i].face);
     if (count < 0)

@@ -25,21 +25,31 @@ static bool add_faces_beside(struct near_faces *near, uint32_t face) {
   return true;
 }
 
+/* Starts a search about a face. */
+static bool start_search(struct near_faces *near, uint32_t face) {
+  for (size_t i = 0; i < near->face.count; i++)
+    near->found[near->face.item[i]] = 0;
+  near->face.count = 0;
+  near->passed = 0;
+  return add_near_face(near, face);
+}
+
 bool near_faces_find(struct near_faces *near, uint32_t face, uint32_t other,
                      bool *is_near) {
   if (near->found == NULL)
     near->found = mem_calloc(scene_face_count(near->scene), 1);
-  if (near->found == NULL)
+  if (near->found == NULL ||
+      ((near->face.count == 0 || near->face.item[0] != face) &&
+       !start_search(near, face)))
     return false;
-  near->face.count = 0;
-  bool ok = add_near_face(near, face);
-  for (size_t i = 0;
-       ok && !near->found[other] && i < near->face.count && i < PASSED_MAX; i++)
-    ok = add_faces_beside(near, near->face.item[i]);
+  while (!near->found[other] && near->passed < near->face.count &&
+         near->passed < PASSED_MAX) {
+    near->searched++;
+    if (!add_faces_beside(near, near->face.item[near->passed++]))
+      return false;
+  }
   *is_near = near->found[other];
-  for (size_t i = 0; i < near->face.count; i++)
-    near->found[near->face.item[i]] = 0;
-  return ok;
+  return true;
 }
 
 void near_faces_fini(struct near_faces *near) {

@@ -5,12 +5,15 @@
 #include "scene/topology/topology.h"
 
 /* What one search after the other needs; zero-initialised but for what is
- * borrowed. */
+ * borrowed.  A search about the same face as the one before it goes on where
+ * that ended. */
 struct near_faces {
   const struct scene *scene;       /* borrowed, not owned */
   const struct topology *topology; /* borrowed, not owned */
-  uint8_t *found;                  /* one a face; all 0 between searches */
-  ARRAY(uint32_t) face;            /* of the current search, so far */
+  uint8_t *found;                  /* one a face: it is in `face` */
+  ARRAY(uint32_t) face;            /* those found about the first of them */
+  size_t passed;                   /* so many of them, with those beside */
+  uint64_t searched;               /* faces that were passed: the work done */
 };
 
 /* Finds whether a face is among the nearest ones of another, which are a

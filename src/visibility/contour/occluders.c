@@ -14,12 +14,13 @@ static bool hides(const struct sheet *sheet, uint32_t t, struct geom_point p) {
 }
 
 int occluders_count(const struct sheet *sheet, const struct triangle_grid *grid,
-                    struct triangle_grid_query *query, struct geom_point p) {
+                    struct triangle_grid_query *query, struct geom_point p,
+                    int most) {
   int count = 0;
   struct triangle_span found;
   if (!triangle_grid_find_at(grid, p, query, &found))
     return -1;
-  for (size_t i = 0; i < found.count; i++)
+  for (size_t i = 0; i < found.count && count < most; i++)
     count += hides(sheet, found.item[i], p);
   return count;
 }
@@ -30,7 +31,7 @@ int occluders_count_apart(struct occluders *o, struct geom_point p,
   struct triangle_span found;
   if (!triangle_grid_find_at(o->grid, p, o->query, &found))
     return -1;
-  for (size_t i = 0; i < found.count; i++) {
+  for (size_t i = 0; i < found.count && count < o->most; i++) {
     uint32_t t = found.item[i];
     bool is_near = true;
     if (hides(o->sheet, t, p) &&

@@ -6,11 +6,12 @@
 #include "visibility/contour/near_faces.h"
 #include "visibility/index/triangle_grid.h"
 
-/* How many triangles hide a point; negative when memory ran out.  One that has
- * the point on a side does not.
+/* How many triangles hide a point, or `most`, at which the search ends; negative
+ * when memory ran out.  One that has the point on a side does not.
  * grid  of the sheet's triangles */
 int occluders_count(const struct sheet *sheet, const struct triangle_grid *grid,
-                    struct triangle_grid_query *query, struct geom_point p);
+                    struct triangle_grid_query *query, struct geom_point p,
+                    int most);
 
 /* What is asked for the triangles that hide points of surfaces. */
 struct occluders {
@@ -18,6 +19,7 @@ struct occluders {
   const struct triangle_grid *grid;  /* of its triangles; the same */
   struct triangle_grid_query *query; /* the same */
   struct near_faces near;
+  int most; /* the search ends at so many */
 };
 
 /* The same, without those that are near a face along the surface. */

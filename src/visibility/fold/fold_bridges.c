@@ -186,7 +186,7 @@ static bool look_beside(const struct fold_bridges *b,
   struct geom_point p = {(int32_t)lrint(s->p.x + t * x),
                          (int32_t)lrint(s->p.y + t * y),
                          s->p.z + (int64_t)(t * (double)(s->q.z - s->p.z))};
-  int count = occluders_count(b->in->sheet, b->in->grid, b->in->query, p);
+  int count = occluders_count(b->in->sheet, b->in->grid, b->in->query, p, 1);
   if (count == 0)
     sides->fold = away;
   return count >= 0;

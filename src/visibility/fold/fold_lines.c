@@ -119,7 +119,7 @@ static bool is_visible(const struct fold_lines *f, const struct fold_sample *s,
   struct geom_point p = {(int32_t)lrint(s->x + BESIDE * s->along[1]),
                          (int32_t)lrint(s->y - BESIDE * s->along[0]),
                          (int64_t)s->z};
-  int count = occluders_count(f->in->sheet, f->in->grid, f->in->query, p);
+  int count = occluders_count(f->in->sheet, f->in->grid, f->in->query, p, 1);
   *ok = *ok && count >= 0;
   return count == 0;
 }
