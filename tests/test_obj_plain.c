@@ -10,7 +10,7 @@
 
 #include "base/line_blocks.h"
 #include "scene/corner_normals.h"
-#include "scene/obj_counted_part.h"
+#include "scene/obj/obj_counted_part.h"
 #include "tests/temporary.h"
 
 #if DIGITS_CHUNKS

@@ -20,7 +20,7 @@ librecto_core_la_SOURCES += \
   %D%/edges/edge_classes.c %D%/edges/edge_classes.h \
   %D%/obj/material.c %D%/obj/material.h \
   %D%/obj/obj_blocks.c %D%/obj/obj_blocks.h \
-  %D%/obj_counted_part.c %D%/obj_counted_part.h \
+  %D%/obj/obj_counted_part.c %D%/obj/obj_counted_part.h \
   %D%/obj/obj_marks.c \
   %D%/obj/obj_parser.c %D%/obj/obj_parser.h \
   %D%/obj/obj_plain.c %D%/obj/obj_plain.h \

@@ -17,7 +17,7 @@
 #include "scene/corner_normals.h"
 #include "scene/diagnostics.h"
 #include "scene/limit.h"
-#include "scene/obj_counted_part.h"
+#include "scene/obj/obj_counted_part.h"
 
 #if DIGITS_CHUNKS
 

@@ -6,8 +6,8 @@
 #include "visibility/contour/near_faces.h"
 #include "visibility/index/triangle_grid.h"
 
-/* How many triangles hide a point, or `most`, at which the search ends; negative
- * when memory ran out.  One that has the point on a side does not.
+/* How many triangles hide a point, or `most`, at which the search ends;
+ * negative when memory ran out.  One that has the point on a side does not.
  * grid  of the sheet's triangles */
 int occluders_count(const struct sheet *sheet, const struct triangle_grid *grid,
                     struct triangle_grid_query *query, struct geom_point p,

@@ -1,8 +1,8 @@
 /* obj_counted_part.h - a part of an OBJ file whose statements are counted
  * before they are parsed, so that their places in the scene are known: several
  * threads read parts that follow one another. */
-#ifndef SCENE_OBJ_COUNTED_PART_H
-#define SCENE_OBJ_COUNTED_PART_H
+#ifndef SCENE_OBJ_OBJ_COUNTED_PART_H
+#define SCENE_OBJ_OBJ_COUNTED_PART_H
 
 #include "scene/obj/obj_plain.h"
 

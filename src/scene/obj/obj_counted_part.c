@@ -1,6 +1,6 @@
 /* obj_counted_part.c - counts and parses the statements of a part of an OBJ
  * file: points, normals, faces, names and smoothing groups that are plain. */
-#include "scene/obj_counted_part.h"
+#include "scene/obj/obj_counted_part.h"
 
 #include <string.h>
 
