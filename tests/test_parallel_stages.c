@@ -92,6 +92,25 @@ static void write_mixed(FILE *to) {
   }
 }
 
+/* Strips without normals, with one a point, and with one a face; and smoothing
+ * groups. */
+static void write_marked(FILE *to) {
+  write_points(to, SIDE, 0.06);
+  for (int n = 0; n < 16; n++)
+    fprintf(to, "vn %d %d 3\n", n % 4 - 1, n / 4 - 1);
+  for (int f = 0; f < FACES; f++) {
+    int c[3], strip = f / (20 * SIDE) % 3;
+    corners_of_face(f, SIDE, c);
+    if (f % 500 == 0)
+      fprintf(to, "s %d\n", f / 500 % 3);
+    if (strip == 0)
+      write_face(to, f, SIDE);
+    for (int k = 0; strip > 0 && k < 3; k++)
+      fprintf(to, "%s%d//%d%s", k == 0 ? "f " : " ", c[k],
+              (strip == 1 ? c[k] : f) % 16 + 1, k == 2 ? "\n" : "");
+  }
+}
+
 /* The squares in two strips of every other one, so that both sides of an edge
  * are used far apart: quadrilaterals that are not planar and fold, pairs of
  * triangles, faces with a repeated corner, and some of many corners. */
@@ -198,7 +217,7 @@ static const struct model {
     {"surface", "lfe", write_surface}, {"shuffled", "lh", write_shuffled},
     {"mixed", "lfhe", write_mixed},    {"polygons", "l", write_polygons},
     {"fins", "l", write_fins},         {"soup", "l", write_soup},
-    {"full", "", write_full}};
+    {"marked", "lh", write_marked},    {"full", "", write_full}};
 
 /* The model as text of OBJ, *length bytes, to be freed by the caller. */
 static char *text_of_model(const struct model *model, size_t *length) {

@@ -10,9 +10,10 @@
 #include "scene/edges/crease_marks.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <string.h>
 
-#include "base/poll.h"
+#include "base/parallel.h"
 #include "base/tolerance.h"
 #include "base/union_find.h"
 #include "scene/angle.h"
@@ -80,19 +81,28 @@ bool crease_marks_exist(const struct scene *scene, recto_crease_marks which,
 
 /* ---- Reading ------------------------------------------------------------- */
 
-/* The normals of a face at the lower and the upper end of an edge; 0: none. */
+/* The normals of two faces, each at the lower and the upper end of their edge;
+ * 0: none. */
 struct end_normals {
-  uint32_t normal[2];
+  uint32_t normal[2][2];
 };
 
 struct mark_search {
   const struct scene *scene;
   const struct topology *topology;
-  struct end_normals *end; /* one an edge: of its first face */
-  uint8_t *flatness; /* one a face: 0, or enum flatness once it is known */
-  uint8_t *mark;     /* one an edge: enum crease_mark */
-  double cosine[2];  /* of the lowest and the highest angle that counts */
+  struct end_normals *end; /* one an edge of two faces; NULL: there are none */
+  atomic_uchar *flatness; /* one a face: 0, or enum flatness once it is known */
+  uint8_t *mark;          /* one an edge: enum crease_mark */
+  double cosine[2];       /* of the lowest and the highest angle that counts */
+  atomic_bool any;        /* an edge has a mark that counts */
 };
+
+/* Does a task for ranges of all edges; false when the caller cancelled. */
+static bool divide_edges(struct mark_search *s, parallel_task *task) {
+  size_t edges = s->topology->edge.count;
+  return parallel_ranges(parallel_workers(edges, PARALLEL_ITEMS), edges,
+                         PARALLEL_ITEMS, task, s);
+}
 
 static bool has_two_faces(const struct topology_edge *edge) {
   return edge->uses == 2 && edge->first != edge->second;
@@ -121,10 +131,15 @@ static uint8_t find_flatness(const struct scene *scene, uint32_t face) {
   return FLATNESS_FLAT;
 }
 
+/* Threads may find it for one face at once, and find the same. */
 static bool is_flat(const struct mark_search *s, uint32_t face) {
-  if (s->flatness[face] == 0)
-    s->flatness[face] = find_flatness(s->scene, face);
-  return s->flatness[face] == FLATNESS_FLAT;
+  uint8_t flatness =
+      atomic_load_explicit(&s->flatness[face], memory_order_relaxed);
+  if (flatness == 0) {
+    flatness = find_flatness(s->scene, face);
+    atomic_store_explicit(&s->flatness[face], flatness, memory_order_relaxed);
+  }
+  return flatness == FLATNESS_FLAT;
 }
 
 static uint8_t mark_by_groups(const struct scene *scene,
@@ -142,14 +157,13 @@ static uint8_t mark_by_groups(const struct scene *scene,
  * end alone say nothing: there a hard line ends, or the apex of a cone is. */
 static uint8_t mark_by_normals(const struct mark_search *s,
                                const struct topology_edge *edge,
-                               const struct end_normals *first,
-                               const struct end_normals *second) {
+                               const struct end_normals *end) {
   int common = 0;
   for (int k = 0; k < 2; k++) {
-    if (first->normal[k] == 0 || second->normal[k] == 0)
+    uint32_t first = end->normal[0][k], second = end->normal[1][k];
+    if (first == 0 || second == 0)
       return mark_by_groups(s->scene, edge);
-    common +=
-        have_one_normal(first->normal[k], second->normal[k], edge->same_way);
+    common += have_one_normal(first, second, edge->same_way);
   }
   if (common > 0)
     return common == 2 ? CREASE_MARK_SOFT : CREASE_MARK_NONE;
@@ -157,42 +171,51 @@ static uint8_t mark_by_normals(const struct mark_search *s,
                                                              : CREASE_MARK_HARD;
 }
 
-static void read_normals(const struct mark_search *s) {
+/* Gives the edges of faces their normals: each side has a place of its own. */
+static bool collect_normals(void *user, struct parallel_range range) {
+  const struct mark_search *s = user;
   const struct scene *scene = s->scene;
-  for (struct side_iterator it = iterate_all_sides(scene, s->topology->weld);
-       next_side(&it) && poll_at(it.corner);) {
+  for (struct side_iterator it =
+           iterate_sides(scene, s->topology->weld, (uint32_t)range.begin,
+                         (uint32_t)range.end);
+       next_side(&it);) {
     uint32_t e = s->topology->corner_edge[it.corner];
     const struct topology_edge *edge = &s->topology->edge.item[e];
+    if (!has_two_faces(edge))
+      continue;
+    uint32_t *own = s->end[e].normal[it.face != edge->first];
     uint32_t next = scene_next_corner(scene, it.face, it.corner);
     int from = it.from != edge->point[0];
-    struct end_normals own;
-    own.normal[from] = corner_normal_of(scene, it.corner);
-    own.normal[1 - from] = corner_normal_of(scene, next);
-    if (it.face == edge->first)
-      s->end[e] = own;
-    else if (has_two_faces(edge))
-      s->mark[e] = mark_by_normals(s, edge, &s->end[e], &own);
+    own[from] = corner_normal_of(scene, it.corner);
+    own[1 - from] = corner_normal_of(scene, next);
   }
+  return true;
 }
 
-static void read_groups(const struct mark_search *s) {
-  for (size_t e = 0; e < s->topology->edge.count && poll_at(e); e++)
-    if (has_two_faces(&s->topology->edge.item[e]))
-      s->mark[e] = mark_by_groups(s->scene, &s->topology->edge.item[e]);
+static bool read_marks_of_range(void *user, struct parallel_range range) {
+  const struct mark_search *s = user;
+  for (size_t e = range.begin; e < range.end; e++) {
+    const struct topology_edge *edge = &s->topology->edge.item[e];
+    if (has_two_faces(edge))
+      s->mark[e] = s->end != NULL ? mark_by_normals(s, edge, &s->end[e])
+                                  : mark_by_groups(s->scene, edge);
+  }
+  return true;
 }
 
 /* Reads all marks.  Returns false when memory ran out. */
 static bool read_marks(struct mark_search *s) {
-  size_t edges = s->topology->edge.count;
-  if (s->scene->point_normal.count == 0) {
-    read_groups(s);
-    return true;
+  enum { FACES = PARALLEL_RANGE(POLL_ITEMS / 4) };
+  size_t edges = s->topology->edge.count, faces = scene_face_count(s->scene);
+  bool ok = true;
+  if (s->scene->point_normal.count > 0) {
+    s->end = mem_calloc(edges, sizeof *s->end);
+    s->flatness = mem_calloc(faces, sizeof *s->flatness);
+    ok = s->end != NULL && s->flatness != NULL &&
+         parallel_ranges(parallel_workers(faces, FACES), faces, FACES,
+                         collect_normals, s);
   }
-  s->end = mem_calloc(edges, sizeof *s->end);
-  s->flatness = mem_calloc(scene_face_count(s->scene), sizeof *s->flatness);
-  bool ok = s->end != NULL && s->flatness != NULL;
-  if (ok)
-    read_normals(s);
+  ok = ok && divide_edges(s, read_marks_of_range);
   mem_free(s->end);
   mem_free(s->flatness);
   return ok;
@@ -230,8 +253,9 @@ static double cosine_of_faces(const struct mark_search *s, size_t e) {
 
 /* Drops the marks of edges that do not bend, and those that do not count at the
  * angle of their edge but for smooth ones, which show that there are such. */
-static void drop_by_angle(const struct mark_search *s) {
-  for (size_t e = 0; e < s->topology->edge.count && poll_at(e); e++) {
+static bool drop_by_angle(void *user, struct parallel_range range) {
+  const struct mark_search *s = user;
+  for (size_t e = range.begin; e < range.end; e++) {
     if (s->mark[e] == CREASE_MARK_NONE)
       continue;
     double cosine = cosine_of_faces(s, e);
@@ -239,6 +263,7 @@ static void drop_by_angle(const struct mark_search *s) {
     if (cosine == 1 || (!is_soft && cosine >= s->cosine[0]))
       s->mark[e] = CREASE_MARK_NONE;
   }
+  return true;
 }
 
 /* Counts the marks of each connected part of the mesh.
@@ -279,18 +304,21 @@ static bool drop_by_part(const struct mark_search *s) {
   return ok;
 }
 
-/* Makes what is left marks that say whether an edge is a crease; returns
+/* Makes what is left marks that say whether an edge is a crease, and notes
  * whether there are any. */
-static bool settle(const struct mark_search *s) {
+static bool settle_marks(void *user, struct parallel_range range) {
+  struct mark_search *s = user;
   bool found = false;
-  for (size_t e = 0; e < s->topology->edge.count && poll_at(e); e++) {
+  for (size_t e = range.begin; e < range.end; e++) {
     if (s->mark[e] == CREASE_MARK_FLAT)
       s->mark[e] = CREASE_MARK_HARD;
     if (s->mark[e] == CREASE_MARK_SOFT && cosine_of_faces(s, e) < s->cosine[1])
       s->mark[e] = CREASE_MARK_NONE;
     found = found || s->mark[e] != CREASE_MARK_NONE;
   }
-  return found;
+  if (found)
+    atomic_store(&s->any, true);
+  return true;
 }
 
 bool crease_marks_find(struct topology *topology, const struct scene *scene,
@@ -315,10 +343,12 @@ bool crease_marks_find(struct topology *topology, const struct scene *scene,
   bool ok = s.mark != NULL && read_marks(&s);
   bool may_be = ok && (!by_parts || has_both_kinds(&s));
   if (may_be)
-    drop_by_angle(&s);
-  if (may_be && by_parts)
+    ok = divide_edges(&s, drop_by_angle);
+  if (may_be && ok && by_parts)
     ok = drop_by_part(&s);
-  if (may_be && ok && settle(&s))
+  if (may_be && ok)
+    ok = divide_edges(&s, settle_marks);
+  if (ok && atomic_load(&s.any))
     topology->crease_mark = s.mark;
   else
     mem_free(s.mark);
