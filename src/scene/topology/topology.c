@@ -94,18 +94,6 @@ static bool find_borders(struct topology *topology) {
   return true;
 }
 
-uint32_t topology_next_border(const struct topology *topology, uint32_t edge) {
-  size_t edges = topology->edge.count;
-  if (edge >= edges)
-    return (uint32_t)edges;
-  size_t w = edge / 64, last = (edges - 1) / 64;
-  uint64_t word = topology->border[w] & ~UINT64_C(0) << edge % 64;
-  while (word == 0 && w < last)
-    word = topology->border[++w];
-  return word != 0 ? (uint32_t)(64 * w) + (uint32_t)__builtin_ctzll(word)
-                   : (uint32_t)edges;
-}
-
 /* Makes room for corner_edge where there is none; false when memory ran out. */
 static bool reserve_corners(struct topology *topology,
                             const struct scene *scene) {

@@ -65,8 +65,23 @@ USE_RESULT bool topology_find_corners(struct topology *topology,
                                       const struct scene *scene);
 
 /* The first edge from `edge` on that one face alone has; the number of edges:
- * there is none.  Few edges of most meshes are such. */
-uint32_t topology_next_border(const struct topology *topology, uint32_t edge);
+ * there is none.  Few edges of most meshes are such, all those of a soup. */
+static inline uint32_t topology_next_border(const struct topology *topology,
+                                            uint32_t edge) {
+  size_t edges = topology->edge.count, w = edge / 64, words = (edges + 63) / 64;
+  if (edge >= edges)
+    return (uint32_t)edges;
+  uint64_t word = topology->border[w] >> edge % 64;
+  if (word & 1)
+    return edge;
+  if (word != 0)
+    return edge + (uint32_t)__builtin_ctzll(word);
+  while (++w < words)
+    if (topology->border[w] != 0)
+      return (uint32_t)(64 * w) +
+             (uint32_t)__builtin_ctzll(topology->border[w]);
+  return (uint32_t)edges;
+}
 
 /* Lists the points of these edges, ascending.
  * points  of the scene
