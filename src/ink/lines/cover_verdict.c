@@ -24,19 +24,24 @@ typedef enum cover_verdict piece_fn(const struct covering *c,
                                     struct last_cover *last);
 
 /* Calls do_piece for the pieces of a path, until one is COVER_NONE; returns
- * that, or COVER_UNDECIDED where one is, or COVER_FOUND. */
+ * that, or COVER_UNDECIDED where one is, or COVER_FOUND.  Begins in the middle
+ * of the path and of each side, as other lines mostly meet it at its ends. */
 static enum cover_verdict for_all_pieces(const struct covering *c,
                                          uint32_t number, piece_fn *do_piece) {
   const struct ink_path *path = &c->paths->path.item[number];
   const struct measured_path *hair = &c->measured[number];
+  const uint32_t sides = path->count - 1, middle = sides / 2;
   enum cover_verdict all = COVER_FOUND;
   struct last_cover last = {NULL};
-  for (uint32_t i = 0; i + 1 < path->count; i++) {
+  for (uint32_t n = 0; n < sides; n++) {
+    uint32_t i = n < sides - middle ? n + middle : n - (sides - middle);
     const struct ink_point *p = &c->paths->point.item[path->point + i];
     double pieces = ceil(covering_distance(p[0], p[1]) / hair->near * 2);
     double dx = ((double)p[1].x - p[0].x) / pieces;
     double dy = ((double)p[1].y - p[0].y) / pieces;
-    for (double k = 0; k < pieces; k++) {
+    double half = floor(pieces / 2);
+    for (double m = 0; m < pieces; m++) {
+      double k = m < pieces - half ? m + half : m - (pieces - half);
       const double at[4] = {p->x + k * dx, p->y + k * dy, p->x + (k + 1) * dx,
                             p->y + (k + 1) * dy};
       enum cover_verdict verdict = do_piece(c, hair, at, &last);
