@@ -172,6 +172,9 @@ static bool judge_range(void *user, struct parallel_range range) {
   const struct covering *c = user;
   for (size_t i = range.begin; i < range.end; i++) {
     uint32_t path = c->hair[i].value;
+    if (i + MEM_PREFETCH_AHEAD < range.end)
+      covering_prefetch(c, c->hair[i + MEM_PREFETCH_AHEAD].value,
+                        c->hair[i + MEM_PREFETCH_AHEAD / 2].value);
     give_verdict(c, path, for_all_pieces(c, path, judge_piece));
   }
   return true;

@@ -177,8 +177,12 @@ static void mark_hair(const struct covering *c, uint32_t number) {
 
 static bool mark_hairs_of_range(void *user, struct parallel_range range) {
   const struct covering *c = user;
-  for (size_t i = range.begin; i < range.end; i++)
+  for (size_t i = range.begin; i < range.end; i++) {
+    if (i + MEM_PREFETCH_AHEAD < range.end)
+      covering_prefetch(c, c->hair[i + MEM_PREFETCH_AHEAD].value,
+                        c->hair[i + MEM_PREFETCH_AHEAD / 2].value);
     mark_hair(c, c->hair[i].value);
+  }
   return true;
 }
 
@@ -218,8 +222,12 @@ static bool list_side(const struct covering *c, struct cover_lists *lists,
 static bool list_sides_of_range(void *user, struct parallel_range range) {
   const struct covering *c = user;
   struct cover_lists *lists = &c->lists[range.begin / PARALLEL_ITEMS];
+  const uint32_t *shortest = c->by_rank + c->paths->path.count - 1;
   for (size_t n = range.begin; n < range.end; n++) {
-    uint32_t i = c->by_rank[c->paths->path.count - 1 - n];
+    uint32_t i = *(shortest - n);
+    if (n + MEM_PREFETCH_AHEAD < range.end)
+      covering_prefetch(c, *(shortest - n - MEM_PREFETCH_AHEAD),
+                        *(shortest - n - MEM_PREFETCH_AHEAD / 2));
     const struct ink_path *path = &c->paths->path.item[i];
     const struct ink_point *p = c->paths->point.item + path->point;
     for (uint32_t k = path->count; c->measured[i].is_drawn && k-- > 0;)

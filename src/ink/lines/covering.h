@@ -39,6 +39,16 @@ struct covering {
   struct number_lists sides;     /* of each cell, the longest path's first */
 };
 
+/* Fetches what is read of a path that comes later, and the points of one that
+ * comes sooner: in the order of ranks, or of cells, they are anywhere in
+ * memory. */
+MEM_PREFETCH_INLINE void covering_prefetch(const struct covering *c,
+                                           uint32_t later, uint32_t sooner) {
+  MEM_PREFETCH(&c->paths->path.item[later]);
+  MEM_PREFETCH(&c->measured[later]);
+  MEM_PREFETCH(&c->paths->point.item[c->paths->path.item[sooner].point]);
+}
+
 static inline double covering_distance(struct ink_point a, struct ink_point b) {
   double dx = (double)b.x - a.x, dy = (double)b.y - a.y;
   return sqrt(dx * dx + dy * dy);
