@@ -245,6 +245,23 @@ static bool is_triangle_hidden(struct band_work *work,
   return true;
 }
 
+/* Fetches a triangle that comes later in a band, and the corners of one that
+ * comes sooner: from near to far they are anywhere in memory. */
+MEM_PREFETCH_INLINE void prefetch_candidates(const struct band_work *work,
+                                             size_t i) {
+  enum { SOONER = MEM_PREFETCH_AHEAD * OCCLUSION_BANDS / 2 };
+  const struct sheet *sheet = work->work->sheet;
+  const struct culling_candidate *candidate = work->work->candidate;
+  if (i + 2 * SOONER >= sheet->triangle.count)
+    return;
+  const struct culling_candidate *sooner = &candidate[i + SOONER],
+                                 *later = &candidate[i + 2 * SOONER];
+  if (meets_band(work, later))
+    MEM_PREFETCH(&sheet->triangle.item[later->triangle]);
+  if (meets_band(work, sooner))
+    sheet_prefetch_corners(sheet, sooner->triangle);
+}
+
 /* Tests all candidates in a band, from near to far. */
 static bool cull_in_band(struct band_work *work) {
   const struct sheet *sheet = work->work->sheet;
@@ -252,6 +269,7 @@ static bool cull_in_band(struct band_work *work) {
     const struct culling_candidate *candidate = &work->work->candidate[i];
     if (!poll_at(i))
       return false;
+    prefetch_candidates(work, i);
     if (!meets_band(work, candidate) || is_triangle_hidden(work, candidate))
       continue;
     set_visible(work, i);
@@ -331,6 +349,7 @@ static bool retest_in_bands(void *user, struct parallel_range range) {
     const struct culling_candidate *candidate = &all->candidate[i];
     if (!poll_at(i))
       return false;
+    prefetch_candidates(&again, i);
     if (meets_band(&again, candidate) && all->culled[candidate->triangle] &&
         !is_triangle_hidden(&again, candidate))
       set_visible(&again, i);
