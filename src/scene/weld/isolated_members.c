@@ -141,16 +141,23 @@ static bool shares_slot(const struct member_visit *visit,
   return false;
 }
 
+/* Fetches the slot of a member or, where it has several, its point. */
+MEM_PREFETCH_INLINE void fetch_member(const struct member_visit *visit,
+                                      const struct cluster_member *member) {
+  if (member->representative != SCENE_NONE)
+    slot_table_fetch(&visit->table, member->representative);
+  else
+    MEM_PREFETCH(&visit->scene->point.item[member->point]);
+}
+
 /* Moves the members of a range that may have a neighbour to its beginning. */
 static bool keep_members(void *user, struct parallel_range range) {
   const struct member_visit *visit = user;
   struct cluster_member *member = visit->member;
   size_t kept = range.begin;
   for (size_t i = range.begin; i < range.end; i++) {
-    if (i + SLOT_TABLE_AHEAD < range.end &&
-        member[i + SLOT_TABLE_AHEAD].representative != SCENE_NONE)
-      slot_table_fetch(&visit->table,
-                       member[i + SLOT_TABLE_AHEAD].representative);
+    if (i + SLOT_TABLE_AHEAD < range.end)
+      fetch_member(visit, &member[i + SLOT_TABLE_AHEAD]);
     if (shares_slot(visit, &member[i]))
       member[kept++] = member[i];
   }
