@@ -202,6 +202,17 @@ static bool sort_paths(struct ink_paths *paths) {
   return ok;
 }
 
+/* Fetches the ends of a path that comes later, and the first segment of one
+ * that comes sooner. */
+MEM_PREFETCH_INLINE void prefetch_path(const struct chain *c, size_t i) {
+  enum { SOONER = MEM_PREFETCH_AHEAD / 2 };
+  if (i + 2 * SOONER >= c->paths->path.count)
+    return;
+  MEM_PREFETCH(&c->end.item[c->from[i + 2 * SOONER]]);
+  uint32_t end = c->end.item[c->from[i + SOONER]];
+  MEM_PREFETCH(&c->graph->segment.item[end >> 1]);
+}
+
 /* Gives the points of a range of paths their positions, by the segments, which
  * are anywhere in memory. */
 static bool place_points_of_range(void *user, struct parallel_range range) {
@@ -214,6 +225,7 @@ static bool place_points_of_range(void *user, struct parallel_range range) {
     struct ink_point *point = paths->point.item + path->point;
     if (!poll_at(i))
       return false;
+    prefetch_path(c, i);
     path->end[0] = end[0];
     path->end[1] = end[path->count - 1];
     for (uint32_t k = 0; k < path->count; k++) {
