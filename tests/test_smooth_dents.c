@@ -19,6 +19,15 @@ static void dented(double u, double v, double p[3]) {
   p[2] = size * s * sin(u);
 }
 
+/* A ring whose tube has three ridges that wind about it. */
+static void twisted(double u, double v, double p[3]) {
+  double radius = 0.35 + 0.12 * cos(3 * v + 2 * u);
+  double away = 1 + radius * cos(v);
+  p[0] = away * cos(u);
+  p[1] = radius * sin(v);
+  p[2] = away * sin(u);
+}
+
 static recto_drawing *draw_from(const recto_scene *scene, double azimuth_deg,
                                 double elevation_deg, recto_contours contours) {
   recto_options options;
@@ -27,6 +36,19 @@ static recto_drawing *draw_from(const recto_scene *scene, double azimuth_deg,
   options.camera.elevation_deg = elevation_deg;
   options.ink.contours = contours;
   options.ink.exact = false;
+  return smooth_draw(scene, &options);
+}
+
+/* Coarse ridges are no creases. */
+static recto_drawing *draw_twisted(const recto_scene *scene,
+                                   const double view[2]) {
+  recto_options options;
+  smooth_view(&options, 0);
+  options.camera.azimuth_deg = view[0];
+  options.camera.elevation_deg = view[1];
+  options.ink.contours = RECTO_CONTOURS_SMOOTH;
+  options.ink.exact = false;
+  options.mesh.crease_deg = 100;
   return smooth_draw(scene, &options);
 }
 
@@ -42,6 +64,24 @@ static double farthest(const recto_drawing *of, const recto_drawing *from) {
                                                stroke.points + 2 * i));
   }
   return most;
+}
+
+/* The length of one drawing's lines that is farther than `away` from the ink of
+ * another one, mm. */
+static double length_beyond(const recto_drawing *of, const recto_drawing *from,
+                            double away) {
+  double sum = 0;
+  for (size_t s = 0; s < recto_drawing_stroke_count(of); s++) {
+    recto_stroke stroke;
+    assert_true(recto_drawing_stroke(of, s, &stroke));
+    for (size_t i = 0; i + 1 < stroke.count; i++) {
+      const double *p = stroke.points + 2 * i;
+      const double at[2] = {(p[0] + p[2]) / 2, (p[1] + p[3]) / 2};
+      if (smooth_distance_to_ink(from, RECTO_EDGES_ALL, at) > away)
+        sum += hypot(p[2] - p[0], p[3] - p[1]);
+    }
+  }
+  return sum;
 }
 
 /* Of folds without a zero set, of three to six outlines, nothing was drawn. */
@@ -61,6 +101,29 @@ static void folds_of_few_outlines_are_drawn(void **state) {
       fail_msg("%g/%g degrees: a line is %g mm from ink", view[i][0],
                view[i][1], most);
     recto_drawing_destroy(mesh);
+    recto_drawing_destroy(drawing);
+  }
+  recto_scene_destroy(fine);
+  recto_scene_destroy(coarse);
+}
+
+/* Across the ridges of such a ring the curvature changes from vertex to vertex
+ * as noise does, but not along them. */
+static void folds_of_long_quads_are_drawn(void **state) {
+  (void)state;
+  static const double view[][2] = {
+      {116.6, -55.9}, {234.3, -68.4}, {225.9, 71.6}};
+  recto_scene *coarse = smooth_scene(twisted, false, 192, 24);
+  recto_scene *fine = smooth_scene(twisted, false, 768, 192);
+  for (size_t i = 0; i < sizeof view / sizeof *view; i++) {
+    recto_drawing *surface = draw_twisted(fine, view[i]);
+    recto_drawing *drawing = draw_twisted(coarse, view[i]);
+    double missing = length_beyond(surface, drawing, 2);
+    /* At their ends: a quad is 5 mm long. */
+    if (!(missing < 10))
+      fail_msg("%g/%g degrees: %g mm of lines are missing", view[i][0],
+               view[i][1], missing);
+    recto_drawing_destroy(surface);
     recto_drawing_destroy(drawing);
   }
   recto_scene_destroy(fine);
@@ -95,6 +158,7 @@ static void a_fold_of_several_outlines_is_one_line(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(folds_of_few_outlines_are_drawn),
+      cmocka_unit_test(folds_of_long_quads_are_drawn),
       cmocka_unit_test(thin_swallowtails_are_drawn),
       cmocka_unit_test(a_fold_of_several_outlines_is_one_line),
   };

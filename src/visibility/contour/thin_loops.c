@@ -145,7 +145,7 @@ static struct page_loop measure_loop(const struct thin_loops *l, size_t from,
   double x0 = first.p.x + s * ((double)first.q.x - first.p.x);
   double y0 = first.p.y + s * ((double)first.q.y - first.p.y);
   double x = 0, y = 0, area = 0, length = 0, heights = 0;
-  struct curvature_squares curvature = {0, 0};
+  struct curvature_squares curvature = {{0}, {0}, 0, 0};
   for (size_t i = from + 1; i <= to; i++) {
     struct geom_point p = stack_node(l, i)->page;
     curvature_squares_add(

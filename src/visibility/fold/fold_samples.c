@@ -108,7 +108,7 @@ struct run_measure {
 
 static struct run_measure measure_run(struct fold_run run) {
   double sum = 0, on_creases = 0;
-  struct run_measure made = {0, 0, 0, {0, 0}, false};
+  struct run_measure made = {0, 0, 0, {{0}, {0}, 0, 0}, false};
   for (size_t i = 0; i < run.count; i++) {
     const struct fold_sample *s = &run.sample[i];
     made.length += s->step;

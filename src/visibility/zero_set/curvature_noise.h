@@ -7,7 +7,15 @@
  * curvature differs from the mean of that of the neighbours, and is compared
  * with the same operator of the components' sizes, which those of opposite sign
  * do not cancel.  The median ratio of their squares is 0.36 on a scan, and 0.04
- * and 0.008 on meshes of smooth surfaces. */
+ * and 0.008 on meshes of smooth surfaces.
+ *
+ * Where edges are much longer one way than another, the curvature of a smooth
+ * surface changes along the long ones as noise does.  There the short ones tell
+ * noise, as it gives all neighbours its own curvature: what a smooth curvature
+ * differs from the mean of those about it grows with the squared distance, and
+ * its square with the fourth power, by whose inverse edges are weighted.  Few
+ * edges tell less, so that this counts only where most vertices' curvatures are
+ * known. */
 #ifndef VISIBILITY_ZERO_SET_CURVATURE_NOISE_H
 #define VISIBILITY_ZERO_SET_CURVATURE_NOISE_H
 
@@ -16,10 +24,15 @@
 /* The ratio from which on noise may be seen. */
 #define CURVATURE_NOISE_MAX 0.05
 
+/* How edges are weighted: all alike, and by the inverse of the fourth power of
+ * their length. */
+enum { CURVATURE_WEIGHTS = 2 };
+
 /* Sums of squares over vertices, 1 / scene unit^2. */
 struct curvature_squares {
-  double noise;
-  double curvature; /* by the sizes of the components */
+  double noise[CURVATURE_WEIGHTS];
+  double curvature[CURVATURE_WEIGHTS]; /* by the sizes of the components */
+  int known, unknown; /* vertices with and without a curvature */
 };
 
 struct curvature_noise {
@@ -43,13 +56,19 @@ curvature_noise_sum(const struct curvature_noise *noise,
 /* Adds b to a. */
 static inline void curvature_squares_add(struct curvature_squares *a,
                                          struct curvature_squares b) {
-  a->noise += b.noise;
-  a->curvature += b.curvature;
+  for (int i = 0; i < CURVATURE_WEIGHTS; i++) {
+    a->noise[i] += b.noise[i];
+    a->curvature[i] += b.curvature[i];
+  }
+  a->known += b.known;
+  a->unknown += b.unknown;
 }
 
 /* Whether a mesh samples a smooth surface there: not at creases. */
 static inline bool curvature_is_smooth(struct curvature_squares sum) {
-  return sum.noise < CURVATURE_NOISE_MAX * sum.curvature;
+  return sum.noise[0] < CURVATURE_NOISE_MAX * sum.curvature[0] ||
+         (sum.known > sum.unknown &&
+          sum.noise[1] < CURVATURE_NOISE_MAX * sum.curvature[1]);
 }
 
 #endif
