@@ -91,6 +91,9 @@ unit_tests += %D%/test_smooth_borders
 unit_tests += %D%/test_smooth_intersections
 %C%_test_smooth_intersections_SOURCES = %D%/test_smooth_intersections.c \
   %D%/smooth_surfaces.c %D%/smooth_surfaces.h
+unit_tests += %D%/test_smooth_creases
+%C%_test_smooth_creases_SOURCES = %D%/test_smooth_creases.c \
+  %D%/smooth_surfaces.c %D%/smooth_surfaces.h
 unit_tests += %D%/test_smooth_dents
 %C%_test_smooth_dents_SOURCES = %D%/test_smooth_dents.c \
   %D%/smooth_surfaces.c %D%/smooth_surfaces.h

@@ -1,4 +1,5 @@
-/* border_ends.c - follows borders from the ends of contours on them. */
+/* border_ends.c - follows borders, and then creases in the same way, from the
+ * ends of contours on them. */
 #include "visibility/fit/border_ends.h"
 
 #include <math.h>
@@ -40,6 +41,7 @@ struct border_pair {
 
 struct border_ends {
   const struct outline_gaps_input *in;
+  unsigned edge_class;      /* of the edges that are called borders here */
   struct segment_grid grid; /* contours that end, and hidden borders */
   uint8_t *degree; /* one a point of contours: visible ones there, at most 2 */
   ARRAY(struct contour_end) end;
@@ -93,7 +95,7 @@ static bool list_ends_and_borders(struct border_ends *b) {
   b->grid.contours = b->grid.segment.count;
   for (uint32_t e = 0; b->grid.contours > 0 && e < b->in->first; e++)
     if (state[e] == MAP_HIDDEN &&
-        border_edge(b, e)->edge_class == RECTO_EDGE_BORDER &&
+        border_edge(b, e)->edge_class == b->edge_class &&
         sheet_edge_is_drawn(sheet, e) &&
         !segment_grid_add(&b->grid, sheet_ends(sheet, border_edge(b, e)->point),
                           e))
@@ -153,7 +155,7 @@ static bool pair_borders(struct border_ends *b) {
   for (size_t i = 0; b->pair != NULL && i < points; i++)
     b->pair[i] = (struct border_pair){{SHEET_NONE, SHEET_NONE}, false};
   for (uint32_t e = 0; b->pair != NULL && e < b->in->first; e++)
-    for (int k = 0; border_edge(b, e)->edge_class == RECTO_EDGE_BORDER && k < 2;
+    for (int k = 0; border_edge(b, e)->edge_class == b->edge_class && k < 2;
          k++) {
       struct border_pair *pair = &b->pair[border_edge(b, e)->point[k]];
       if (pair->edge[0] == SHEET_NONE)
@@ -305,8 +307,9 @@ static bool show_all(struct border_ends *b) {
   return map_sort_mixed(b->in->map);
 }
 
-bool border_ends_show(const struct outline_gaps_input *input) {
-  struct border_ends b = {.in = input};
+static bool show_of_class(const struct outline_gaps_input *input,
+                          unsigned edge_class) {
+  struct border_ends b = {.in = input, .edge_class = edge_class};
   bool ok = count_visible_degrees(&b) && list_ends_and_borders(&b) &&
             (b.grid.contours == 0 ||
              (segment_grid_make(&b.grid) &&
@@ -317,4 +320,9 @@ bool border_ends_show(const struct outline_gaps_input *input) {
   ARRAY_FREE(&b.end);
   ARRAY_FREE(&b.way);
   return ok;
+}
+
+bool border_ends_show(const struct outline_gaps_input *input) {
+  return show_of_class(input, RECTO_EDGE_BORDER) &&
+         show_of_class(input, RECTO_EDGE_CREASE);
 }

@@ -111,6 +111,49 @@ static bool add_end_on_border(struct line_ends *l,
   return ok;
 }
 
+/* Where a point is along a line: t, its distance from the line of it in *away,
+ * grid units. */
+static double place_on_line(const struct page_segment *line,
+                            struct geom_point at, double *away) {
+  double x = (double)line->q.x - line->p.x, y = (double)line->q.y - line->p.y;
+  double px = (double)at.x - line->p.x, py = (double)at.y - line->p.y;
+  *away = fabs(x * py - y * px) / hypot(x, y);
+  return (px * x + py * y) / (x * x + y * y);
+}
+
+/* Whether a contour turns into a crease of its surface, and then leads on along
+ * it.  The crease is cut off from there on: the images of both are nearly
+ * tangent, since the surface is seen edge-on, so that on which side of the
+ * contour a part of the crease lies does not tell. */
+static bool turns_into_line(const struct line_ends *l,
+                            const struct page_segment *contour,
+                            const struct page_segment *line,
+                            struct line_crossing *made) {
+  const struct sheet *sheet = l->sheet;
+  const uint32_t *ends = sheet->edge.item[contour->owner].point;
+  for (int k = 0; k < 2; k++) {
+    double away, off, on;
+    double t = place_on_line(line, sheet->point.item[ends[k]], &away);
+    (void)place_on_line(line, sheet->point.item[ends[1 - k]], &off);
+    uint32_t next =
+        away > TOLERANCE_COINCIDENT_UNITS || off <= TOLERANCE_COINCIDENT_UNITS
+            ? SHEET_NONE
+            : curve_next_edge(sheet, l->first, SHEET_NONE, contour->owner,
+                              ends[k]);
+    if (next == SHEET_NONE)
+      continue;
+    const uint32_t *beyond = sheet->edge.item[next].point;
+    uint32_t to = beyond[beyond[0] == ends[k]];
+    double u = place_on_line(line, sheet->point.item[to], &on);
+    if (on > TOLERANCE_COINCIDENT_UNITS || u == t)
+      continue;
+    made->t = t;
+    made->leaves = u > t;
+    return true;
+  }
+  return false;
+}
+
 static bool add_line_crossing(void *user, const struct page_segment *contour,
                               const struct page_segment *line) {
   struct line_ends *l = user;
@@ -127,11 +170,13 @@ static bool add_line_crossing(void *user, const struct page_segment *contour,
       made.own && (edge->triangle[1] == SHEET_NONE || has_more_faces(edge));
   if (made.at_end)
     return add_end_on_border(l, contour, line, made);
+  made.bound = bound_on_line(l, contour, line);
+  if (made.own && turns_into_line(l, contour, line, &made))
+    return ARRAY_PUSH(&l->crossing, made);
   if (!page_segments_cross(contour, line, &s, &t))
     return true;
   made.t = t;
   made.leaves = geom_orient2d(contour->p, contour->q, line->p) >= 0;
-  made.bound = bound_on_line(l, contour, line);
   return (!made.own &&
           page_segment_depth(contour, s) <= page_segment_depth(line, t)) ||
          ARRAY_PUSH(&l->crossing, made);

@@ -9,7 +9,8 @@
  * visible contour.
  *   A line that passes behind a contour ends at it: the mesh's outline, which
  *   hides it, lies a little before or beyond.
- *   A line of the contour's own surface is cut off at it.
+ *   A line of the contour's own surface is cut off at it; a crease into which
+ *   the contour turns, on the side on which it leads along the crease.
  * Bound  no end moves farther on the page than the image of the contour's
  *        triangle there is wide
  * first  of the sheet's edges: the first one of a contour.  The surface is on
