@@ -191,14 +191,22 @@ static void other_statements_are_found_where_they_are(void **state) {
     assert_same_in_parallel((uint64_t)seed, rarities[seed % 4]);
 }
 
-/* The text with other blanks, and mostly carriage returns at the ends of
- * lines, as other programs write it. */
+/* The text with other blanks, colours of points, and mostly carriage returns at
+ * the ends of lines, as other programs write it. */
 static struct text dress(const struct text *text, struct random *random) {
+  enum { SHORTEST = 10 }; /* so that it has three coordinates */
   struct text dressed = {malloc(3 * text->count), 0};
+  const char *line = text->bytes;
   assert_non_null(dressed.bytes);
   for (size_t i = 0; i < text->count; i++) {
     char c = text->bytes[i];
-    bool may_have_space = i > 0 && text->bytes[i - 1] != '\\';
+    const char *at = &text->bytes[i];
+    bool may_have_space = i > 0 && at[-1] != '\\';
+    if (c == '\n' && may_have_space && at - line > SHORTEST &&
+        memcmp(line, "v ", 2) == 0 && random_below(random, 4) > 0)
+      put(&dressed, " 0.25 0 1");
+    if (c == '\n')
+      line = at + 1;
     if (c == '\n' && may_have_space && random_below(random, 8) == 0)
       put(&dressed, " ");
     if (c == '\n' && random_below(random, 8) > 0)
@@ -235,6 +243,9 @@ static void blanks_and_carriage_returns_change_nothing(void **state) {
     read_alone(&plain, &text);
     read_alone(&other, &dressed);
     assert_true(reading_same(&plain.scene, &other.scene));
+    const struct precision *p = &plain.scene.precision.item->precision,
+                           *q = &other.scene.precision.item->precision;
+    assert_true(p->absolute == q->absolute && p->relative == q->relative);
     assert_int_equal(plain.warnings, other.warnings);
     reading_fini(&plain);
     reading_fini(&other);
@@ -407,7 +418,7 @@ static void assemblies_are_read_alike(void **state) {
 }
 
 /* A polyline took the first group, so the first face has another; all points
- * of the first block have colours, which are not plain, so nothing before the
+ * of the first block have tabs, which are not plain, so nothing before the
  * first face is a run. */
 static void first_face_may_be_in_a_second_group(void **state) {
   enum { BLOCK = 1 << 18, BYTES = 1 << 20, ROOM = 1 << 14 };
@@ -417,7 +428,7 @@ static void first_face_may_be_in_a_second_group(void **state) {
   assert_non_null(text.bytes);
   put(&text, "o wire\nv 0 0 0\nv 1 0 0\nl 1 2\n");
   for (; text.count < BLOCK - 60; points++)
-    put(&text, "v 1 2 3 0.5 0.5 0.5\n");
+    put(&text, "v\t1 2 3 0.5 0.5 0.5\n");
   while (text.count < BLOCK + BYTES) {
     put(&text, "o part\n");
     put_prism(&text, &random, 3, points + 3, "");

@@ -69,9 +69,14 @@ static void tear_down(struct obj_parser *p, struct scene *scene) {
 }
 
 static void points_may_have_spaces_and_carriage_returns(void **state) {
-  static const char *const plain[] = {
-      "v 1 -2.5 3e2\n",  "v 1 -2.5 3e2\r\n",     "v  1 -2.5 3e2\n",
-      "v 1 -2.5 3e2 \n", "v 1  -2.5   3e2 \r\n", "v 1 -2.5 3e2\t\n"};
+  static const char *const plain[] = {"v 1 -2.5 3e2\n",
+                                      "v 1 -2.5 3e2\r\n",
+                                      "v  1 -2.5 3e2\n",
+                                      "v 1 -2.5 3e2 \n",
+                                      "v 1  -2.5   3e2 \r\n",
+                                      "v 1 -2.5 3e2\t\n",
+                                      "v 1 -2.5 3e2 0.5 0.5 1\r\n",
+                                      "v 1 -2.5 3e2 # text\n"};
   (void)state;
   for (size_t i = 0; i < sizeof plain / sizeof *plain; i++) {
     struct scene scene;

@@ -36,6 +36,17 @@ const char *obj_read_finite(const struct obj_run *run, const char *at,
   return at != NULL && isfinite(*value) ? at : NULL;
 }
 
+const char *obj_pass_rest_of_line(const struct obj_run *run, const char *at) {
+  const char *past = obj_pass_end_of_line(at);
+  if (past != NULL || !is_blank(*at))
+    return past;
+  const char *stop = memchr(at, '\n', (size_t)(run->limit - at));
+  if (stop == NULL)
+    return NULL;
+  const char *last = stop - (stop[-1] == '\r');
+  return last[-1] == '\\' ? NULL : stop + 1;
+}
+
 /* Reads "v x y z" to its end; NULL where it is something else. */
 static inline const char *read_plain_point(const struct obj_run *run,
                                            struct scene_point *point) {
@@ -78,8 +89,10 @@ static bool read_points(const struct obj_parser *p, struct obj_run *run) {
 }
 
 /* Looks at the numbers of the line "v x y z", which are plain; returns where it
- * ends. */
+ * ends.
+ * end  of all such lines */
 static const char *sample_point(struct obj_parser *p, const char *at,
+                                const char *end,
                                 const struct scene_point *point) {
   const double xyz[3] = {point->x, point->y, point->z};
   at++;
@@ -91,7 +104,7 @@ static const char *sample_point(struct obj_parser *p, const char *at,
       at++;
     precision_add_literal(&p->sample, start, at, xyz[k]);
   }
-  return obj_pass_end_of_line(at);
+  return (const char *)memchr(at, '\n', (size_t)(end - at)) + 1;
 }
 
 static bool add_points(struct obj_parser *p, const struct obj_run *run) {
@@ -101,7 +114,7 @@ static bool add_points(struct obj_parser *p, const struct obj_run *run) {
   while (at < end) {
     size_t number = next_sampled(p, p->seen);
     (void)precision_is_sampled(&p->sample, number);
-    at = sample_point(p, at, &point[number - p->seen]);
+    at = sample_point(p, at, end, &point[number - p->seen]);
   }
   p->seen += run->count;
   p->scene->point.count += run->count;

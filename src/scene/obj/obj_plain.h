@@ -66,8 +66,12 @@ static inline const char *obj_read_coordinate(const struct obj_run *run,
   return past != NULL && *past <= ' ' ? past : obj_read_finite(run, at, value);
 }
 
-/* Reads the three numbers behind a keyword, which ends at `at`, and the end of
- * the line; NULL where there is something else. */
+/* Passes over the rest of a line behind a word, whatever it is, such as a
+ * colour; NULL where the word or the line goes on. */
+const char *obj_pass_rest_of_line(const struct obj_run *run, const char *at);
+
+/* Reads the three numbers behind a keyword, which ends at `at`, and passes over
+ * the rest of the line; NULL where there is something else. */
 static inline const char *obj_read_three_numbers(const struct obj_run *run,
                                                  const char *at,
                                                  double value[3]) {
@@ -76,7 +80,7 @@ static inline const char *obj_read_three_numbers(const struct obj_run *run,
     if (at == NULL)
       return NULL;
   }
-  return obj_pass_end_of_line(at);
+  return *at == '\n' ? at + 1 : obj_pass_rest_of_line(run, at);
 }
 #endif
 
