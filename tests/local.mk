@@ -94,6 +94,9 @@ unit_tests += %D%/test_smooth_intersections
 unit_tests += %D%/test_smooth_creases
 %C%_test_smooth_creases_SOURCES = %D%/test_smooth_creases.c \
   %D%/smooth_surfaces.c %D%/smooth_surfaces.h
+unit_tests += %D%/test_smooth_plate
+%C%_test_smooth_plate_SOURCES = %D%/test_smooth_plate.c \
+  %D%/smooth_surfaces.c %D%/smooth_surfaces.h
 unit_tests += %D%/test_smooth_dents
 %C%_test_smooth_dents_SOURCES = %D%/test_smooth_dents.c \
   %D%/smooth_surfaces.c %D%/smooth_surfaces.h

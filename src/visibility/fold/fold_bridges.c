@@ -20,6 +20,12 @@
 #define FACING_COSINE 0.8
 #define BESIDE_COSINE 0.5
 
+/* How far along a gap of more than a height its samples are from the folds
+ * beside them, on average and as a share of its length, at most.  Where folds
+ * end where the gap begins and ends, and none is beside it, that is a
+ * quarter. */
+#define BESIDE_SHARE 0.175
+
 /* The samples of a gap for each height of its triangles. */
 enum { SAMPLES_A_HEIGHT = 4 };
 
@@ -161,6 +167,7 @@ static bool make_grid(struct fold_bridges *b) {
 /* What runs beside a place of a gap. */
 struct bridge_sides {
   double fold;    /* how far a visible fold is, grid units; INFINITY: none */
+  double along;   /* how far that is in the direction of the gap */
   double contour; /* how far a visible contour is, not only an end of it */
 };
 
@@ -187,8 +194,10 @@ static bool look_beside(const struct fold_bridges *b,
                          (int32_t)lrint(s->p.y + t * y),
                          s->p.z + (int64_t)(t * (double)(s->q.z - s->p.z))};
   int count = occluders_count(b->in->sheet, b->in->grid, b->in->query, p, 1);
-  if (count == 0)
+  if (count == 0) {
     sides->fold = away;
+    sides->along = fabs((px - t * x) * along[0] + (py - t * y) * along[1]);
+  }
   return count >= 0;
 }
 
@@ -222,19 +231,20 @@ static bool is_along_folds(struct fold_bridges *b,
   double x = to->x - from->x, y = to->y - from->y, length = hypot(x, y);
   const double along[2] = {x / length, y / length};
   int samples = (int)ceil(SAMPLES_A_HEIGHT * length / height);
-  struct bridge_sides all = {0, INFINITY};
+  struct bridge_sides all = {0, 0, INFINITY};
   *ok = make_grid(b);
   for (int i = 0; *ok && i < samples; i++) {
     double t = (i + 0.5) / samples;
     const double at[2] = {from->x + t * x, from->y + t * y};
-    struct bridge_sides sides = {INFINITY, INFINITY};
+    struct bridge_sides sides = {INFINITY, 0, INFINITY};
     *ok = look_all_beside(b, at, along, height, &sides);
     all.fold = fmax(all.fold, sides.fold);
+    all.along += sides.along / samples;
     all.contour = fmin(all.contour, sides.contour);
     if (all.fold == INFINITY || 2 * all.fold >= all.contour)
       return false;
   }
-  return *ok;
+  return *ok && (length <= height || all.along <= BESIDE_SHARE * length);
 }
 
 static bool add_bridge(const struct fold_bridges *b,
