@@ -130,6 +130,24 @@ static void folds_of_long_quads_are_drawn(void **state) {
   recto_scene_destroy(coarse);
 }
 
+/* The chain of such a fold runs along a long side of a triangle, and back
+ * hidden to the next one. */
+static void folds_that_double_back_are_drawn(void **state) {
+  (void)state;
+  static const double view[2] = {44.6, -44.3};
+  recto_scene *coarse = smooth_scene(twisted, false, 384, 48);
+  recto_scene *fine = smooth_scene(twisted, false, 768, 192);
+  recto_drawing *surface = draw_twisted(fine, view);
+  recto_drawing *drawing = draw_twisted(coarse, view);
+  double missing = length_beyond(surface, drawing, 2);
+  if (!(missing < 6))
+    fail_msg("%g mm of lines are missing", missing);
+  recto_drawing_destroy(surface);
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(fine);
+  recto_scene_destroy(coarse);
+}
+
 /* The line that leads on from a crossing to a cusp is one side of a loop
  * thinner than triangles, and has a gap where the mesh alone folds over. */
 static void thin_swallowtails_are_drawn(void **state) {
@@ -159,6 +177,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(folds_of_few_outlines_are_drawn),
       cmocka_unit_test(folds_of_long_quads_are_drawn),
+      cmocka_unit_test(folds_that_double_back_are_drawn),
       cmocka_unit_test(thin_swallowtails_are_drawn),
       cmocka_unit_test(a_fold_of_several_outlines_is_one_line),
   };

@@ -29,6 +29,9 @@ static const double smooth_heights[] = {INFINITY, 2, 0.5};
  * page. */
 #define PICTURE_SHARE (1.0 / 14)
 
+/* How much of a chain may be hidden where it doubles back, in heights. */
+#define DOUBLED_HEIGHTS 4
+
 /* How far beside an outline nothing must hide it, grid units. */
 #define BESIDE 8
 
@@ -247,8 +250,21 @@ static bool add_lines_of_run(struct fold_lines *f, size_t from, size_t to) {
   return true;
 }
 
+/* Whether a line leads on at a sample from an earlier one, as what is between
+ * is hidden because the chain doubles back: it is no farther along, within a
+ * height.  Folds along long thin triangles are such zigzags. */
+static bool is_doubled_back(const struct fold_sample *s,
+                            const struct fold_sample *earlier, double height) {
+  double x = s->x - earlier->x, y = s->y - earlier->y;
+  return hypot(x, y) <= height &&
+         x * earlier->along[0] + y * earlier->along[1] <= 0 &&
+         s->along[0] * earlier->along[0] + s->along[1] * earlier->along[1] >=
+             FOLD_BESIDE_COSINE;
+}
+
 /* Adds the lines of samples beside which no line is drawn.  What is hidden over
- * less than a height does not end a line. */
+ * less than a height does not end a line; nor, where the mesh samples a smooth
+ * surface, what is hidden until the chain has doubled back. */
 static bool add_visible_lines(struct fold_lines *f, size_t from, size_t to) {
   const struct fold_sample *sample = f->sample.item;
   double height;
@@ -256,6 +272,7 @@ static bool add_visible_lines(struct fold_lines *f, size_t from, size_t to) {
   struct fold_run whole = {sample + from, to - from, false};
   if (!fold_run_is_long(whole, f->long_on_page, &height) && !may_be_line(whole))
     return true;
+  double most = (fold_run_is_smooth(whole) ? DOUBLED_HEIGHTS : 1) * height;
   for (size_t i = from; ok && i < to;) {
     if (!is_visible(f, &sample[i], &ok)) {
       i++;
@@ -263,12 +280,15 @@ static bool add_visible_lines(struct fold_lines *f, size_t from, size_t to) {
     }
     size_t last = i, k = i + 1;
     double gap = 0;
-    for (; ok && k < to && gap <= height; k++)
-      if (is_visible(f, &sample[k], &ok)) {
+    for (; ok && k < to && gap <= most; k++)
+      if (!is_visible(f, &sample[k], &ok)) {
+        gap += sample[k].step;
+      } else if (gap <= height ||
+                 is_doubled_back(&sample[k], &sample[last], height)) {
         last = k;
         gap = 0;
       } else {
-        gap += sample[k].step;
+        break;
       }
     ok = ok && add_lines_of_run(f, i, last + 1);
     i = k;
