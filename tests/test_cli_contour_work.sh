@@ -51,6 +51,28 @@ make_needles() {
   }' >"needles$1.obj"
 }
 
+# make_balls N - spheres in a row, each nearly in the place of the one before.
+make_balls() {
+  awk -v n="$1" 'BEGIN {
+    turn = 2 * atan2(0, -1)
+    for (s = 0; s < n; s++) {
+      for (k = 0; k <= 8; k++)
+        for (i = 0; i < 16; i++) {
+          r = k % 8 ? sin(turn * k / 16) : 0
+          print "v", r * cos(turn * i / 16), r * sin(turn * i / 16) + s / 100, \
+            -cos(turn * k / 16)
+        }
+      for (k = 0; k < 8; k++)
+        for (i = 0; i < 16; i++) {
+          a = 144 * s + 16 * k + i + 1
+          b = 144 * s + 16 * k + (i + 1) % 16 + 1
+          if (k < 7) print "f", a, b + 16, a + 16
+          if (k > 0) print "f", a, b, b + 16
+        }
+    }
+  }' >"balls$1.obj"
+}
+
 # compares_at_most MODEL COUNT OPTION...
 compares_at_most() {
   run 0 "$1.obj" -o out.svg -q --contours smooth --stats=stats.json "${@:3}" &&
@@ -67,6 +89,10 @@ claim "of four times as many hardly more than four times as much" \
 make_wide_fan 120
 claim "of contours within a pen of each other the nearest are compared" \
   compares_at_most wide120 25000000 --up z --elevation 0
+make_balls 40
+claim "what is near along a surface is searched once for a place, not for each \
+surface that hides it" \
+  compares_at_most balls40 6000000 --up z --hidden dashed,3
 make_needles 300
 claim "of needles that intersect each one is compared once with an end" \
   compares_at_most needles300 500000 --up z --elevation 20

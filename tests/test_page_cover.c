@@ -94,9 +94,11 @@ static void check_points(const struct sheet *sheet, uint64_t *r) {
     assert_true(ok);
     if (expected)
       check_reach(&cover, at[i], at[(i + 1) % POINTS]);
+    int count = occluders_count(sheet, &all, &query_of_all, at[i], INT_MAX);
     assert_int_equal(
-        occluders_count(sheet, &partial.grid, &query, at[i], INT_MAX),
-        occluders_count(sheet, &all, &query_of_all, at[i], INT_MAX));
+        occluders_count(sheet, &partial.grid, &query, at[i], INT_MAX), count);
+    assert_int_equal(occluders_count(sheet, &partial.grid, &query, at[i], 1),
+                     count > 0);
   }
   triangle_grid_query_fini(&query);
   triangle_grid_query_fini(&query_of_all);
@@ -115,9 +117,55 @@ static void what_lies_over_points_is_found(void **state) {
   }
 }
 
+/* Slivers about a point, all around it. */
+static void make_fan(struct sheet *sheet, uint32_t slivers) {
+  exact_sheet_init(sheet);
+  sheet->triangle_flags = mem_calloc(slivers, 1);
+  assert_non_null(sheet->triangle_flags);
+  assert_true(ARRAY_PUSH(&sheet->point, ((struct geom_point){0, 0, 0})));
+  for (uint32_t i = 0; i < slivers; i++) {
+    double angle = 2 * M_PI * i / slivers;
+    struct geom_point p = {(int32_t)lrint(SPAN * cos(angle)),
+                           (int32_t)lrint(SPAN * sin(angle)), 0};
+    struct sheet_triangle made = {{0, i + 1, i + 1 < slivers ? i + 2 : 1}, i};
+    assert_true(ARRAY_PUSH(&sheet->point, p));
+    assert_true(ARRAY_PUSH(&sheet->triangle, made));
+  }
+}
+
+/* The longest list of the cells at a fan's rim. */
+static size_t longest_list_at_rim(uint32_t slivers) {
+  struct sheet sheet;
+  struct partial_grid partial = {.wanted = NULL};
+  size_t longest = 0;
+  make_fan(&sheet, slivers);
+  assert_true(partial_grid_shape(&partial, &sheet));
+  for (size_t i = 1; i < sheet.point.count; i++) {
+    struct geom_point p = sheet.point.item[i];
+    partial_grid_want(&partial, (struct box2){p.x, p.y, p.x, p.y});
+  }
+  assert_true(partial_grid_fill(&partial, &sheet));
+  const uint32_t *start = partial.grid.lists.start;
+  size_t cells = triangle_grid_cell_count(&partial.grid);
+  for (size_t c = 0; c < cells; c++)
+    if (start[c + 1] - start[c] > longest)
+      longest = start[c + 1] - start[c];
+  assert_in_range(start[cells], slivers, 33 * slivers);
+  partial_grid_fini(&partial);
+  exact_sheet_fini(&sheet);
+  return longest;
+}
+
+static void few_slivers_are_listed_at_a_rim(void **state) {
+  (void)state;
+  for (uint32_t slivers = 1024; slivers <= 16384; slivers *= 4)
+    assert_in_range(longest_list_at_rim(slivers), 1, slivers / 10);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(what_lies_over_points_is_found),
+      cmocka_unit_test(few_slivers_are_listed_at_a_rim),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -69,6 +69,7 @@ librecto_core_la_SOURCES += \
   %D%/index/kdop8.h \
   %D%/index/partial_grid.c %D%/index/partial_grid.h \
   %D%/index/triangle_grid.c %D%/index/triangle_grid.h \
+  %D%/index/triangle_grid_row.c \
   %D%/index/upper_plane.c %D%/index/upper_plane.h \
   %D%/intersection/candidate_pairs.c %D%/intersection/candidate_pairs.h \
   %D%/intersection/edge_crossing.c %D%/intersection/edge_crossing.h \

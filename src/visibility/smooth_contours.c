@@ -199,6 +199,10 @@ static bool add_all_curves(struct contour_pieces *c) {
 /* Lists the triangles where points are tested: at the samples of the curves,
  * and beside the mesh's outlines. */
 static bool list_triangles_about(struct contour_pieces *c) {
+  /* How many triangles hide a point may depend on which ones are duplicates of
+   * others in any list. */
+  if (c->options.hidden_max > 0)
+    return triangle_grid_init(&c->grid.grid, c->sheet);
   if (!partial_grid_shape(&c->grid, c->sheet))
     return false;
   for (size_t i = 0; i < c->divided.sample.count; i++) {
@@ -210,10 +214,6 @@ static bool list_triangles_about(struct contour_pieces *c) {
   }
   for (size_t i = 0; i < c->set->outline.count; i++)
     partial_grid_want(&c->grid, outline_gaps_box(&c->set->outline.item[i]));
-  /* How many triangles hide a point may depend on which ones are duplicates of
-   * others in any list. */
-  if (c->options.hidden_max > 0)
-    partial_grid_want(&c->grid, box2_of_sheet(c->sheet));
   return partial_grid_fill(&c->grid, c->sheet);
 }
 
@@ -375,7 +375,7 @@ recto_status smooth_contours_add(struct sheet *sheet, struct map *map,
     forget_intersections(sheet);
   *counts = (struct smooth_contours_counts){
       set.segment.count, curves.curve.count, pieces.divided.piece.count,
-      curves.compared};
+      curves.compared + pieces.occluders.near.searched};
   fini_pieces(&pieces);
   contour_curves_fini(&curves);
   zero_set_fini(&set);

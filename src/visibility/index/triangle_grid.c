@@ -125,17 +125,22 @@ static void fill_triangle(const struct filling *filling,
       filling->subset != NULL ? filling->subset[index] : (uint32_t)index;
   const struct triangle_grid *grid = filling->grid;
   const struct sheet *sheet = filling->sheet;
+  bool tight = filling->by_subset && filling->wanted != NULL;
   struct cell_range r =
       filling->footprint != NULL
           ? footprint_cells(grid, sheet, t,
                             filling->footprint[filling->by_subset ? index : t])
           : triangle_grid_cells(grid, box2_of_triangle(sheet, t));
-  for (int y = r.y0; y <= r.y1; y++)
-    for (int x = r.x0; x <= r.x1; x++) {
+  for (int y = r.y0; y <= r.y1; y++) {
+    int x0 = r.x0, x1 = r.x1;
+    if (tight)
+      triangle_grid_row_of_triangle(grid, t, r, y, &x0, &x1);
+    for (int x = x0; x <= x1; x++) {
       size_t cell = triangle_grid_index(grid, x, y);
       if (filling->wanted == NULL || filling->wanted[cell])
         number_lists_put(lists, cell, t);
     }
+  }
 }
 
 /* A pass over a range of the triangles, from the last to the first. */
@@ -216,10 +221,10 @@ static int filling_workers(const struct filling *filling, size_t cells) {
 static bool fill(struct filling *filling) {
   struct triangle_grid *grid = filling->grid;
   size_t cells = triangle_grid_cell_count(grid);
+  grid->sheet = filling->sheet;
   bool ok =
       number_lists_make(&grid->lists, cells, filling_workers(filling, cells),
                         filling->count, fill_cells, filling);
-  grid->sheet = filling->sheet;
   ok = ok && leave_out_duplicates(grid);
   if (!ok)
     triangle_grid_fini(grid);
@@ -401,36 +406,6 @@ bool triangle_grid_find_overlapping(const struct triangle_grid *grid,
                                   .box =
                                       box2_of_triangle(grid->sheet, triangle)};
   return find_in_box(grid, &shape, query);
-}
-
-void triangle_grid_row(const struct triangle_grid *grid, struct geom_point p,
-                       struct geom_point q, struct cell_range range, int y,
-                       int *x0, int *x1) {
-  int64_t dx = (int64_t)q.x - p.x, dy = (int64_t)q.y - p.y, low, high;
-  double a, b, from, to;
-  *x0 = range.x0;
-  *x1 = range.x1;
-  if (range.y0 == range.y1 || range.x0 == range.x1)
-    return;
-  /* The x at which the segment enters and leaves the row, rounded outwards. */
-  low = grid->y0 + ((int64_t)y << grid->shift) - p.y;
-  high = low + (INT64_C(1) << grid->shift);
-  a = (double)p.x + (double)dx * ((double)low / (double)dy);
-  b = (double)p.x + (double)dx * ((double)high / (double)dy);
-  from = (a < b ? a : b) - 1;
-  to = (a < b ? b : a) + 1;
-  if (from > -0x1p30) {
-    int x = triangle_grid_cell((int32_t)from - 1, grid->x0, grid->shift,
-                               grid->columns);
-    if (x > *x0)
-      *x0 = x;
-  }
-  if (to < 0x1p30) {
-    int x = triangle_grid_cell((int32_t)to + 1, grid->x0, grid->shift,
-                               grid->columns);
-    if (x < *x1)
-      *x1 = x;
-  }
 }
 
 bool triangle_grid_find_along(const struct triangle_grid *grid,

@@ -75,7 +75,9 @@ USE_RESULT bool triangle_grid_enlarge(struct triangle_grid *grid,
 
 /* Makes the lists of a subset of the triangles, ascending.
  * footprint  one an item of the subset; NULL: they are computed
- * wanted     as of triangle_grid_fill; NULL: all cells get lists
+ * wanted     as of triangle_grid_fill, and wide triangles are listed only in
+ *            those of these cells that they may meet themselves; NULL: all
+ *            cells get lists of all triangles whose boxes meet them
  * False when memory ran out, or the caller cancelled. */
 USE_RESULT bool triangle_grid_fill_some(struct triangle_grid *grid,
                                         const struct sheet *sheet,
@@ -141,6 +143,17 @@ triangle_grid_cells(const struct triangle_grid *grid, struct box2 box) {
 void triangle_grid_row(const struct triangle_grid *grid, struct geom_point p,
                        struct geom_point q, struct cell_range range, int y,
                        int *x0, int *x1);
+
+/* Does a box meet so many cells that few of them may meet the triangle? */
+static inline bool triangle_grid_is_wide(struct cell_range r) {
+  return r.x1 - r.x0 >= 4 && r.y1 - r.y0 >= 4;
+}
+
+/* The same for a triangle of the grid's sheet, whose box meets the cells of
+ * `range`: all of the row where these are not wide. */
+void triangle_grid_row_of_triangle(const struct triangle_grid *grid,
+                                   uint32_t triangle, struct cell_range range,
+                                   int y, int *x0, int *x1);
 
 /* The cells that a triangle's box meets, in few bytes, so that passes over all
  * triangles need not load their points; and two numbers for the caller's
