@@ -56,6 +56,7 @@ void crease_lines_fini(struct crease_lines *lines) {
   mem_free(lines->cosine);
   mem_free((void *)lines->at);
   mem_free(lines->line);
+  mem_free(lines->number);
   *lines = (struct crease_lines){.sheet = lines->sheet};
 }
 
@@ -160,8 +161,21 @@ bool crease_lines_find_ends(struct crease_lines *lines) {
   return lines->at != NULL && crease_ends_count(sheet, NULL, lines->at);
 }
 
+/* Numbers the lines in the order of their first edges. */
+static bool number_crease_lines(struct crease_lines *lines) {
+  const struct sheet *sheet = lines->sheet;
+  lines->number = mem_calloc(sheet->point.count, sizeof *lines->number);
+  for (size_t i = 0; lines->number != NULL && i < 2 * lines->count; i++) {
+    uint32_t point = sheet->edge.item[lines->edge[i / 2]].point[i % 2];
+    uint32_t *number = &lines->number[union_find_root(lines->line, point)];
+    if (*number == 0)
+      *number = (uint32_t)++lines->line_count;
+  }
+  return lines->number != NULL;
+}
+
 bool crease_lines_join(struct crease_lines *lines, double crease_deg) {
-  if (lines->line != NULL)
+  if (lines->number != NULL)
     return true;
   if (!crease_lines_measure(lines))
     return false;
@@ -175,5 +189,5 @@ bool crease_lines_join(struct crease_lines *lines, double crease_deg) {
       union_find_join(line, edge->point[0], edge->point[1]);
   }
   lines->line = line;
-  return line != NULL;
+  return line != NULL && number_crease_lines(lines);
 }

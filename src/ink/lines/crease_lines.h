@@ -6,6 +6,7 @@
 #include <stdatomic.h>
 
 #include "base/memory.h"
+#include "base/union_find.h"
 #include "scene/topology/large_faces.h"
 #include "view/sheet.h"
 
@@ -39,6 +40,9 @@ struct crease_lines {
                        only drawable edge; NULL: not yet found */
   uint32_t *line;   /* the lines as a union-find of the sheet's points; NULL:
                        not yet joined */
+  uint32_t *number; /* one a point: of a root of that, the line's number from 1
+                       to line_count */
+  size_t line_count;
 };
 
 enum { CREASE_END = 1, CREASE_END_ALONE = 3, CREASE_END_SHARED = 7 };
@@ -64,5 +68,12 @@ USE_RESULT bool crease_lines_measure(struct crease_lines *lines);
 USE_RESULT bool crease_lines_find_ends(struct crease_lines *lines);
 USE_RESULT bool crease_lines_join(struct crease_lines *lines,
                                   double crease_deg);
+
+/* The number of a point's line, when they are joined; 0: no crease is there.
+ * What is kept of each line takes little memory by it. */
+static inline uint32_t crease_line_of_point(const struct crease_lines *lines,
+                                            uint32_t point) {
+  return lines->number[union_find_root(lines->line, point)];
+}
 
 #endif

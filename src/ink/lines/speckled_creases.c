@@ -61,7 +61,7 @@ struct speckle_search {
   struct speckle_corner *corner; /* one a vertex */
   uint32_t *piece;               /* a union-find of the listed edges */
   double *piece_mm;              /* one of these: of a piece's root */
-  struct speckle_line *lines;    /* one a point: of a line's root */
+  struct speckle_line *lines;    /* by number of the line; 0: none */
 };
 
 /* ---- Vertices ------------------------------------------------------------ */
@@ -214,7 +214,7 @@ static void measure_lines(const struct speckle_search *s) {
                                 sheet_edge_group(s->sheet, edge));
     uint32_t piece = union_find_root(s->piece, e);
     struct speckle_line *of =
-        &s->lines[union_find_root(s->creases->line, edge->point[0])];
+        &s->lines[crease_line_of_point(s->creases, edge->point[0])];
     double length = length_mm(s, e);
     of->length += length;
     of->bend += length * acos(fmax(-1, fmin(1, cosine))) / degree;
@@ -227,7 +227,7 @@ static void measure_lines(const struct speckle_search *s) {
   }
   for (uint32_t p = 0; p < s->sheet->vertex_count; p++)
     if (is_free_corner(s, p))
-      s->lines[union_find_root(s->creases->line, p)].free_ends++;
+      s->lines[crease_line_of_point(s->creases, p)].free_ends++;
 }
 
 /* Whether a line is that of a solid rather than one that ends free, or goes
@@ -260,7 +260,7 @@ static void mark_speckled(const struct speckle_search *s,
     const struct sheet_edge *edge = &s->sheet->edge.item[segment->edge];
     if (is_crease_segment(segment))
       drop[i] = is_speckled(
-          &s->lines[union_find_root(s->creases->line, edge->point[0])],
+          &s->lines[crease_line_of_point(s->creases, edge->point[0])],
           sharp_deg);
   }
 }
@@ -282,11 +282,12 @@ static bool find_and_mark(struct speckle_search *s,
     return false;
   if (!has_candidates(s))
     return true;
+  if (!crease_lines_join(creases, angles->crease_deg))
+    return false;
   s->piece = union_find_create(creases->count);
   s->piece_mm = mem_calloc(creases->count, sizeof *s->piece_mm);
-  s->lines = mem_calloc(s->sheet->point.count, sizeof *s->lines);
-  if (s->piece == NULL || s->piece_mm == NULL || s->lines == NULL ||
-      !crease_lines_join(creases, angles->crease_deg))
+  s->lines = mem_calloc(creases->line_count + 1, sizeof *s->lines);
+  if (s->piece == NULL || s->piece_mm == NULL || s->lines == NULL)
     return false;
   join_pieces(s);
   measure_pieces(s);

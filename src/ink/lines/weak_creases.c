@@ -11,7 +11,6 @@
 #include <math.h>
 
 #include "base/poll.h"
-#include "base/union_find.h"
 #include "ink/lines/crease_lines.h"
 #include "scene/angle.h"
 #include "view/project.h"
@@ -74,7 +73,7 @@ static void look_at_edges(const struct crease_lines *creases,
     const uint32_t *point = edge->point;
     double cosine = creases->cosine[i];
     (void)poll_at(i);
-    struct crease_line *of = &lines[union_find_root(creases->line, point[0])];
+    struct crease_line *of = &lines[crease_line_of_point(creases, point[0])];
     of->is_sharp = of->is_sharp || cosine < start;
     of->is_very_sharp = of->is_very_sharp || cosine < very;
     if (crease_is_joined(edge, cosine, crease) && ++of->edges > 0 &&
@@ -85,15 +84,16 @@ static void look_at_edges(const struct crease_lines *creases,
   }
 }
 
-static void look_at_points(const struct sheet *sheet, uint32_t *line,
+static void look_at_points(const struct crease_lines *creases,
                            struct crease_line *lines,
                            const struct line_neighbours *next) {
+  const struct sheet *sheet = creases->sheet;
   const struct projection projection = projection_of(&sheet->camera);
   const struct geom_point *at = sheet->point.item;
   for (uint32_t p = 0; p < sheet->vertex_count; p++)
     if (next[p].count == 2 && turns_back(&projection, at[next[p].point[0]],
                                          at[p], at[next[p].point[1]]))
-      lines[union_find_root(line, p)].turns++;
+      lines[crease_line_of_point(creases, p)].turns++;
 }
 
 static bool is_weak_line(const struct crease_line *line) {
@@ -115,21 +115,23 @@ bool paths_find_weak(struct ink_paths *paths, const struct segment_graph *graph,
   }
   if (candidates == 0)
     return true;
-  struct crease_line *lines = mem_calloc(sheet->point.count, sizeof *lines);
+  if (!crease_lines_join(creases, angles->crease_deg))
+    return false;
+  struct crease_line *lines =
+      mem_calloc(creases->line_count + 1, sizeof *lines);
   struct line_neighbours *next = mem_calloc(sheet->vertex_count, sizeof *next);
-  bool ok = lines != NULL && next != NULL &&
-            crease_lines_join(creases, angles->crease_deg);
-  uint32_t *line = creases->line;
+  bool ok = lines != NULL && next != NULL;
   if (ok) {
     look_at_edges(creases, angles, lines, next);
-    look_at_points(sheet, line, lines, next);
+    look_at_points(creases, lines, next);
   }
   for (size_t i = 0; ok && i < paths->path.count; i++) {
     struct ink_path *path = &paths->path.item[i];
     for (int k = 0; k < 2 && path->is_weak; k++) {
       uint32_t edge = graph->segment.item[path->end[k] >> 1].edge;
       uint32_t point = sheet->edge.item[edge].point[0];
-      path->is_weak = is_weak_line(&lines[union_find_root(line, point)]);
+      path->is_weak =
+          is_weak_line(&lines[crease_line_of_point(creases, point)]);
     }
   }
   mem_free(lines);
