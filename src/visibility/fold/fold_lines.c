@@ -263,8 +263,8 @@ static bool is_doubled_back(const struct fold_sample *s,
 }
 
 /* Adds the lines of samples beside which no line is drawn.  What is hidden over
- * less than a height does not end a line; nor, where the mesh samples a smooth
- * surface, what is hidden until the chain has doubled back. */
+ * less than a height does not end a line; nor, where the mesh may sample a
+ * smooth surface, what is hidden until the chain has doubled back. */
 static bool add_visible_lines(struct fold_lines *f, size_t from, size_t to) {
   const struct fold_sample *sample = f->sample.item;
   double height;
@@ -272,7 +272,7 @@ static bool add_visible_lines(struct fold_lines *f, size_t from, size_t to) {
   struct fold_run whole = {sample + from, to - from, false};
   if (!fold_run_is_long(whole, f->long_on_page, &height) && !may_be_line(whole))
     return true;
-  double most = (fold_run_is_smooth(whole) ? DOUBLED_HEIGHTS : 1) * height;
+  double most = (fold_run_may_be_smooth(whole) ? DOUBLED_HEIGHTS : 1) * height;
   for (size_t i = from; ok && i < to;) {
     if (!is_visible(f, &sample[i], &ok)) {
       i++;

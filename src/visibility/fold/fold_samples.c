@@ -150,6 +150,11 @@ bool fold_run_is_smooth(struct fold_run run) {
   return curvature_is_smooth(measure_run(run).curvature);
 }
 
+bool fold_run_may_be_smooth(struct fold_run run) {
+  struct curvature_squares of = measure_run(run).curvature;
+  return of.known == 0 || curvature_is_smooth(of);
+}
+
 /* The mean of the samples about one, as far to either side as there are such of
  * the run. */
 static struct fold_place mean_about(struct fold_run run, size_t i,

@@ -69,6 +69,10 @@ bool fold_run_is_line(struct fold_run run, double heights);
  * its folds from noise. */
 bool fold_run_is_smooth(struct fold_run run);
 
+/* The same, or that the curvature of none of its vertices is known, as it is
+ * at borders or creases. */
+bool fold_run_may_be_smooth(struct fold_run run);
+
 /* Finds the places of a smooth line along a run: means of the samples about
  * some of them.  The first and the last sample are places themselves, but of a
  * ring.
