@@ -151,6 +151,14 @@ static void find_distances(const recto_drawing *drawing, const struct body *b,
   }
 }
 
+/* The outline is one closed line. */
+static void check_outline(const recto_drawing *drawing) {
+  recto_stroke stroke;
+  assert_int_equal(recto_drawing_stroke_count(drawing), 1);
+  assert_true(recto_drawing_stroke(drawing, 0, &stroke));
+  assert_true(stroke.closed);
+}
+
 static void check_body(struct shape shape) {
   static struct body body;
   make_body(&body, &shape);
@@ -167,9 +175,10 @@ static void check_body(struct shape shape) {
     double ink, own;
     smooth_view(&options, view);
     options.camera.scale = SCALE_MM;
+    options.ink.exact = !shape.halves;
     struct smooth_axes axes = smooth_axes_of(&options);
     recto_drawing *drawing = smooth_draw(scene, &options);
-    assert_int_equal(recto_drawing_stroke_count(drawing), 1);
+    check_outline(drawing);
     find_distances(drawing, &body, shape.reach, &axes, &ink, &own);
     if (!(ink <= (shape.halves ? 2 * own : own)))
       fail_msg("%d strips, view %d: off by %g mm, the mesh by %g", shape.strips,
