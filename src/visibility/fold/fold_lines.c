@@ -263,16 +263,12 @@ static bool is_doubled_back(const struct fold_sample *s,
 }
 
 /* Adds the lines of samples beside which no line is drawn.  What is hidden over
- * less than a height does not end a line; nor, where the mesh may sample a
- * smooth surface, what is hidden until the chain has doubled back. */
-static bool add_visible_lines(struct fold_lines *f, size_t from, size_t to) {
+ * less than a height does not end a line; nor what is hidden over up to `most`
+ * until the chain has doubled back. */
+static bool add_fold_runs(struct fold_lines *f, size_t from, size_t to,
+                          double height, double most) {
   const struct fold_sample *sample = f->sample.item;
-  double height;
   bool ok = true;
-  struct fold_run whole = {sample + from, to - from, false};
-  if (!fold_run_is_long(whole, f->long_on_page, &height) && !may_be_line(whole))
-    return true;
-  double most = (fold_run_may_be_smooth(whole) ? DOUBLED_HEIGHTS : 1) * height;
   for (size_t i = from; ok && i < to;) {
     if (!is_visible(f, &sample[i], &ok)) {
       i++;
@@ -294,6 +290,19 @@ static bool add_visible_lines(struct fold_lines *f, size_t from, size_t to) {
     i = k;
   }
   return ok;
+}
+
+/* Adds the lines of a part of the chain.  Where the mesh may sample a smooth
+ * surface, lines that double back are added after the others, beside which they
+ * may be. */
+static bool add_visible_lines(struct fold_lines *f, size_t from, size_t to) {
+  double height;
+  struct fold_run whole = {f->sample.item + from, to - from, false};
+  if (!fold_run_is_long(whole, f->long_on_page, &height) && !may_be_line(whole))
+    return true;
+  return add_fold_runs(f, from, to, height, height) &&
+         (!fold_run_may_be_smooth(whole) ||
+          add_fold_runs(f, from, to, height, DOUBLED_HEIGHTS * height));
 }
 
 /* Lets the samples of a closed chain begin where there is no line, and none is
