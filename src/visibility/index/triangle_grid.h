@@ -214,8 +214,9 @@ static inline bool triangle_grid_query_first(struct triangle_grid_query *query,
   return first;
 }
 
-/* Finds every triangle whose box meets `box`, and maybe others, each once, in
- * an order that depends on the grid alone.  False when memory ran out. */
+/* Finds every triangle that meets `box`, and maybe others, each once, in an
+ * order that depends on the grid alone; of a grid that is not partial, every
+ * triangle whose own box does.  False when memory ran out. */
 USE_RESULT bool triangle_grid_find(const struct triangle_grid *grid,
                                    struct box2 box,
                                    struct triangle_grid_query *query);
@@ -226,8 +227,8 @@ struct triangle_span {
   size_t count;
 };
 
-/* Finds every triangle whose box holds the point p, and maybe others, each
- * once.
+/* Finds every triangle that holds the point p, and maybe others, each once; of
+ * a grid that is not partial, every triangle whose box does.
  * found  gets a list of the grid or of the query, until the next query
  * Returns false when memory ran out. */
 USE_RESULT static inline bool
