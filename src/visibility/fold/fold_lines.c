@@ -293,15 +293,16 @@ static bool add_fold_runs(struct fold_lines *f, size_t from, size_t to,
 }
 
 /* Adds the lines of a part of the chain.  Where the mesh may sample a smooth
- * surface, lines that double back are added after the others, beside which they
- * may be. */
+ * surface, those that double back are added if there are no others, beside
+ * which they may be. */
 static bool add_visible_lines(struct fold_lines *f, size_t from, size_t to) {
   double height;
   struct fold_run whole = {f->sample.item + from, to - from, false};
   if (!fold_run_is_long(whole, f->long_on_page, &height) && !may_be_line(whole))
     return true;
+  size_t edges = f->in->map->edge_count;
   return add_fold_runs(f, from, to, height, height) &&
-         (!fold_run_may_be_smooth(whole) ||
+         (f->in->map->edge_count > edges || !fold_run_may_be_smooth(whole) ||
           add_fold_runs(f, from, to, height, DOUBLED_HEIGHTS * height));
 }
 
