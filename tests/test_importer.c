@@ -19,8 +19,8 @@
 #include <cmocka.h>
 
 #include "scene/corner_normals.h"
-#include "scene/readers/import_format.h"
 #include "scene/read.h"
+#include "scene/readers/import_format.h"
 #include "tests/polled.h"
 #include "tests/reading.h"
 #include "tests/scenes/random.h"

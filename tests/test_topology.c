@@ -10,8 +10,8 @@
 
 #include "scene/angle.h"
 #include "scene/edges/edge_classes.h"
-#include "scene/topology/edge_range.h"
 #include "scene/face_normal.h"
+#include "scene/topology/edge_range.h"
 #include "scene/topology/repeated_part.h"
 #include "scene/topology/topology.h"
 #include "tests/memory_faults.h"

@@ -11,11 +11,11 @@
 #include <cmocka.h>
 
 #include "recto.h"
-#include "scene/weld/cluster.h"
 #include "scene/edges/edge_classes.h"
-#include "scene/weld/isolated_members.h"
 #include "scene/read.h"
 #include "scene/topology/weld_equal.h"
+#include "scene/weld/cluster.h"
+#include "scene/weld/isolated_members.h"
 #include "scene/weld/weld_near.h"
 #include "tests/memory_faults.h"
 #include "tests/scenes/build.h"

@@ -11,8 +11,8 @@
 #include "base/input.h"
 #include "base/path.h"
 #include "base/word.h"
-#include "scene/readers/conversion.h"
 #include "scene/obj/obj_blocks.h"
+#include "scene/readers/conversion.h"
 
 /* ---- The reader ---------------------------------------------------------- */
 

@@ -24,8 +24,8 @@
 
 #include "base/child.h"
 #include "base/input.h"
-#include "scene/readers/import_format.h"
 #include "scene/read.h"
+#include "scene/readers/import_format.h"
 
 /* Where it is installed; configure's prefix says so. */
 #ifndef RECTO_IMPORT_PATH

@@ -16,8 +16,8 @@
 
 #include "base/number.h"
 #include "scene/limit.h"
-#include "scene/readers/positions.h"
 #include "scene/read.h"
+#include "scene/readers/positions.h"
 
 enum { HEADER_SIZE = 84, RECORD_SIZE = 50, BATCH = 64 };
 

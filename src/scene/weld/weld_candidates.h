@@ -2,8 +2,8 @@
 #ifndef SCENE_WELD_WELD_CANDIDATES_H
 #define SCENE_WELD_WELD_CANDIDATES_H
 
-#include "scene/weld/cluster.h"
 #include "scene/topology/topology.h"
+#include "scene/weld/cluster.h"
 
 /* A longer length is taken as WELD_LENGTH_MAX; at one below WELD_LENGTH_LEAST
  * nothing is joined.  Their squares neither overflow nor vanish. */

@@ -7,9 +7,9 @@
 #include "base/sort.h"
 #include "base/tolerance.h"
 #include "geom/nearest.h"
-#include "visibility/fit/border_sides.h"
 #include "visibility/contour/curve_ends.h"
 #include "visibility/contour/segment_grid.h"
+#include "visibility/fit/border_sides.h"
 
 /* The fractional bits of where a border is shown. */
 enum { SHOWN_BITS = 40 };

@@ -5,9 +5,9 @@
 
 #include "base/sort.h"
 #include "base/tolerance.h"
-#include "visibility/fit/border_sides.h"
 #include "visibility/contour/curve_ends.h"
 #include "visibility/contour/segment_grid.h"
+#include "visibility/fit/border_sides.h"
 
 /* Where an edge crosses a contour. */
 struct line_crossing {

@@ -2,9 +2,9 @@
 #ifndef VISIBILITY_FOLD_FOLD_JOINTS_H
 #define VISIBILITY_FOLD_FOLD_JOINTS_H
 
+#include "visibility/contour/segment_grid.h"
 #include "visibility/fold/fold_samples.h"
 #include "visibility/fold/outline_gaps.h"
-#include "visibility/contour/segment_grid.h"
 
 /* Where a contour only ends. */
 struct joint_end {

@@ -8,9 +8,9 @@
 #include "base/poll.h"
 #include "base/tolerance.h"
 #include "geom/nearest.h"
+#include "visibility/contour/occluders.h"
 #include "visibility/fold/added_folds.h"
 #include "visibility/fold/fold_joints.h"
-#include "visibility/contour/occluders.h"
 #include "visibility/fold/outline_chains.h"
 
 /* The heights of a line that is not of many outlines, at least, if a contour

@@ -9,8 +9,8 @@
 
 #include "base/poll.h"
 #include "base/tolerance.h"
-#include "visibility/fold/nearest_contours.h"
 #include "visibility/contour/page_cover.h"
+#include "visibility/fold/nearest_contours.h"
 
 /* A place between an outline's samples and its ends, as a share of the distance
  * between two, and how far beside it nothing must be seen, in grid units. */

@@ -3,9 +3,9 @@
 #ifndef VISIBILITY_FOLD_OUTLINE_GAPS_H
 #define VISIBILITY_FOLD_OUTLINE_GAPS_H
 
-#include "visibility/zero_set/zero_segments.h"
 #include "visibility/index/triangle_grid.h"
 #include "visibility/map.h"
+#include "visibility/zero_set/zero_segments.h"
 
 /* What is completed. */
 struct outline_gaps_input {
