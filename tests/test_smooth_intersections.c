@@ -187,12 +187,84 @@ static void contours_that_cross_at_one_depth_both_end(void **state) {
   recto_scene_destroy(scene);
 }
 
+/* Spheres along a helix, each of which intersects the next one. */
+enum { SPHERES = 6 };
+
+static int sphere_of_helix;
+
+static void helix_sphere(double u, double v, double p[3]) {
+  smooth_sphere(u, v, p);
+  const double at = 1.1 * sphere_of_helix;
+  const double centre_of[3] = {0.7 * cos(at), 0.7 * sin(at),
+                               0.3 * (sphere_of_helix - 2.5)};
+  for (int k = 0; k < 3; k++)
+    p[k] = 0.55 * p[k] + centre_of[k];
+}
+
+/* The distance from a point to all strokes but one, mm. */
+static double distance_to_others(const recto_drawing *drawing, size_t but,
+                                 const double at[2]) {
+  double least = 1e9;
+  for (size_t s = 0; s < recto_drawing_stroke_count(drawing); s++) {
+    recto_stroke stroke;
+    assert_true(recto_drawing_stroke(drawing, s, &stroke));
+    for (size_t i = 0; s != but && i + 1 < stroke.count + stroke.closed; i++)
+      least = fmin(least, smooth_distance_to_segment(
+                              at, stroke.points + 2 * i,
+                              stroke.points + 2 * ((i + 1) % stroke.count)));
+  }
+  return least;
+}
+
+/* How many ends of intersections no other line is near. */
+static int loose_intersections(const recto_drawing *drawing) {
+  int count = 0;
+  for (size_t s = 0; s < recto_drawing_stroke_count(drawing); s++) {
+    recto_stroke stroke;
+    assert_true(recto_drawing_stroke(drawing, s, &stroke));
+    if (stroke.closed || stroke.edge_class != RECTO_EDGE_INTERSECTION)
+      continue;
+    const double *last = stroke.points + 2 * (stroke.count - 1);
+    count += distance_to_others(drawing, s, stroke.points) > 0.35;
+    count += distance_to_others(drawing, s, last) > 0.35;
+  }
+  return count;
+}
+
+/* Of a mesh, an intersection winds about the outline of the nearer surface,
+ * ends there and begins again, and the contour of the surface ends elsewhere:
+ * 38 ends lay open. */
+static void intersections_lead_on_to_contours(void **state) {
+  (void)state;
+  int loose = 0;
+  for (int n = 24; n <= 48; n *= 2) {
+    recto_scene *scene = NULL;
+    for (sphere_of_helix = 0; sphere_of_helix < SPHERES; sphere_of_helix++)
+      if (scene == NULL)
+        scene = smooth_scene(helix_sphere, true, n, n / 2);
+      else
+        smooth_add(scene, helix_sphere, true, n, n / 2);
+    for (int view = 0; view < SMOOTH_VIEWS; view++) {
+      recto_options options;
+      smooth_view(&options, view);
+      options.ink.edges = RECTO_EDGE_SILHOUETTE | RECTO_EDGE_INTERSECTION;
+      options.ink.exact = false;
+      recto_drawing *drawing = smooth_draw(scene, &options);
+      loose += loose_intersections(drawing);
+      recto_drawing_destroy(drawing);
+    }
+    recto_scene_destroy(scene);
+  }
+  assert_true(loose <= 8);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(contours_end_where_surfaces_intersect),
       cmocka_unit_test(they_end_where_intersections_are_not_drawn),
       cmocka_unit_test(it_does_not_matter_which_way_faces_are_turned),
       cmocka_unit_test(contours_that_cross_at_one_depth_both_end),
+      cmocka_unit_test(intersections_lead_on_to_contours),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

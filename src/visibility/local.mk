@@ -20,6 +20,7 @@ librecto_core_la_SOURCES += \
   %D%/contour/doubled_contours.c %D%/contour/doubled_contours.h \
   %D%/contour/end_zigzags.c %D%/contour/end_zigzags.h \
   %D%/contour/intersection_cuts.c %D%/contour/intersection_cuts.h \
+  %D%/contour/intersection_ends.c %D%/contour/intersection_ends.h \
   %D%/contour/near_faces.c %D%/contour/near_faces.h \
   %D%/contour/occluders.c %D%/contour/occluders.h \
   %D%/contour/page_cover.c %D%/contour/page_cover.h \
@@ -45,13 +46,16 @@ librecto_core_la_SOURCES += \
   %D%/fit/fit_outline.c %D%/fit/fit_outline.h \
   %D%/fit/line_ends.c %D%/fit/line_ends.h \
   %D%/fit/loop_changes.c %D%/fit/loop_changes.h \
+  %D%/fold/added_edges.c %D%/fold/added_edges.h \
   %D%/fold/added_folds.c %D%/fold/added_folds.h \
   %D%/fold/fold_bridges.c %D%/fold/fold_bridges.h \
   %D%/fold/fold_joints.c %D%/fold/fold_joints.h \
   %D%/fold/fold_lines.c %D%/fold/fold_lines.h \
   %D%/fold/fold_samples.c %D%/fold/fold_samples.h \
+  %D%/fold/intersection_gaps.c %D%/fold/intersection_gaps.h \
   %D%/fold/nearest_contours.c %D%/fold/nearest_contours.h \
   %D%/fold/outline_chains.c %D%/fold/outline_chains.h \
+  %D%/fold/outline_ends.c %D%/fold/outline_ends.h \
   %D%/fold/outline_gaps.c %D%/fold/outline_gaps.h \
   %D%/fragments/face_union.c %D%/fragments/face_union.h \
   %D%/fragments/fragments.c %D%/fragments/fragments.h \

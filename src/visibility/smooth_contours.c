@@ -26,6 +26,7 @@
 #include "visibility/fit/line_ends.h"
 #include "visibility/fold/fold_bridges.h"
 #include "visibility/fold/fold_lines.h"
+#include "visibility/fold/intersection_gaps.h"
 #include "visibility/fold/outline_gaps.h"
 #include "visibility/index/partial_grid.h"
 #include "visibility/zero_set/folded_faces.h"
@@ -268,7 +269,8 @@ static bool close_gaps(struct contour_pieces *c, uint32_t first,
                                            .compared = &c->curves->compared,
                                            .exact = c->options.exact};
   return fold_bridges_add(&input, c->height.item) && border_ends_show(&input) &&
-         outline_gaps_close(&input) && fold_lines_add(&input);
+         outline_gaps_close(&input) && fold_lines_add(&input) &&
+         (!c->options.intersections || intersection_gaps_close(&input));
 }
 
 static bool add_pieces(struct contour_pieces *c) {

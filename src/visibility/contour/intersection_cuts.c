@@ -12,16 +12,10 @@
 #include <math.h>
 
 #include "base/poll.h"
-#include "base/sort.h"
 #include "geom/nearest.h"
 #include "view/project.h"
+#include "visibility/contour/intersection_ends.h"
 #include "visibility/contour/segment_grid.h"
-
-/* An end of what is visible of an intersection. */
-struct intersection_end {
-  struct geom_point at;
-  uint32_t edge;
-};
 
 /* The place of a curve that is nearest to an end. */
 struct nearest_place {
@@ -32,90 +26,16 @@ struct nearest_place {
 
 struct intersection_cuts {
   const struct sheet *sheet;
-  const struct map *map;
   struct contour_curves *curves;
   struct projection projection;
-  ARRAY(struct intersection_end) end; /* that no other intersection continues */
-  struct segment_grid grid;           /* of the curves' images on the mesh */
-  ARRAY(struct nearest_place) near;   /* of the current end: one a curve */
+  struct intersection_ends end;     /* of the intersections */
+  struct segment_grid grid;         /* of the curves' images on the mesh */
+  ARRAY(struct nearest_place) near; /* of the current end: one a curve */
   uint32_t *place; /* one a curve: where it is in `near`, if it is there */
   uint32_t
       *seen_by; /* one a segment: the last end, from 1 on, that it was looked
                         at for, as it lies in several cells */
 };
-
-/* ---- Ends ---------------------------------------------------------------- */
-
-static bool is_intersection_edge(const struct sheet *sheet, uint32_t edge) {
-  return sheet->edge.item[edge].edge_class == RECTO_EDGE_INTERSECTION;
-}
-
-static bool add_ends(struct intersection_cuts *c, uint32_t edge, double t0,
-                     double t1) {
-  struct geom_segment s = sheet_ends(c->sheet, c->sheet->edge.item[edge].point);
-  const double t[2] = {t0, t1};
-  for (int k = 0; k < 2; k++) {
-    struct intersection_end end = {
-        {(int32_t)snap(s.p.x + t[k] * ((double)s.q.x - s.p.x)),
-         (int32_t)snap(s.p.y + t[k] * ((double)s.q.y - s.p.y)),
-         s.p.z + (int64_t)(t[k] * (double)(s.q.z - s.p.z))},
-        edge};
-    if (t[k] == 0 || t[k] == 1)
-      end.at = t[k] == 0 ? s.p : s.q;
-    if (!ARRAY_PUSH(&c->end, end))
-      return false;
-  }
-  return true;
-}
-
-/* Lists the ends of all visible parts of intersections, which are the last
- * edges of the sheet. */
-static bool list_visible_ends(struct intersection_cuts *c) {
-  const struct map *map = c->map;
-  for (size_t i = c->sheet->edge.count;
-       i > 0 && is_intersection_edge(c->sheet, (uint32_t)(i - 1)); i--)
-    if (!poll_at(i) || (map->edge_state[i - 1] == MAP_VISIBLE &&
-                        !add_ends(c, (uint32_t)(i - 1), 0, 1)))
-      return false;
-  for (size_t m = 0; m < map->mixed.count; m++) {
-    const struct map_mixed *mixed = &map->mixed.item[m];
-    for (uint32_t i = 0;
-         i < mixed->count && is_intersection_edge(c->sheet, mixed->edge); i++) {
-      const struct map_interval *t = &map->interval.item[mixed->interval + i];
-      if (!add_ends(c, mixed->edge, ratio_to_double(t->t0),
-                    ratio_to_double(t->t1)))
-        return false;
-    }
-  }
-  return true;
-}
-
-static int compare_intersection_ends(const void *a, const void *b, void *user) {
-  const struct intersection_end *p = a, *q = b;
-  (void)user;
-  if (p->at.x != q->at.x)
-    return p->at.x < q->at.x ? -1 : 1;
-  if (p->at.y != q->at.y)
-    return p->at.y < q->at.y ? -1 : 1;
-  return (p->at.z > q->at.z) - (p->at.z < q->at.z);
-}
-
-/* Removes the ends that are those of several parts. */
-static bool keep_loose_ends(struct intersection_cuts *c) {
-  struct intersection_end *end = c->end.item;
-  size_t count = c->end.count, kept = 0;
-  if (!sort_stable(end, count, sizeof *end, compare_intersection_ends, NULL))
-    return false;
-  for (size_t i = 0, j; i < count; i = j) {
-    for (j = i + 1;
-         j < count && compare_intersection_ends(&end[i], &end[j], NULL) == 0;)
-      j++;
-    if (j == i + 1)
-      end[kept++] = end[i];
-  }
-  c->end.count = kept;
-  return true;
-}
 
 /* ---- The nearest place --------------------------------------------------- */
 
@@ -259,11 +179,11 @@ static bool cut_curves_near(struct intersection_cuts *c,
 bool intersection_cuts_add(struct contour_curves *curves,
                            const struct sheet *sheet, const struct map *map) {
   struct intersection_cuts c = {.sheet = sheet,
-                                .map = map,
                                 .curves = curves,
                                 .projection = projection_of(&sheet->camera)};
-  bool ok = list_visible_ends(&c) && keep_loose_ends(&c) &&
-            (c.end.count == 0 || add_curves(&c));
+  bool ok =
+      intersection_ends_list(&c.end, sheet, map, (uint32_t)sheet->edge.count) &&
+      (c.end.count == 0 || add_curves(&c));
   for (size_t i = 0; ok && i < c.end.count && c.grid.contours > 0; i++)
     ok = poll_at(i) && cut_curves_near(&c, &c.end.item[i]);
   ARRAY_FREE(&c.end);

@@ -9,6 +9,7 @@
 #include "base/tolerance.h"
 #include "geom/nearest.h"
 #include "visibility/contour/occluders.h"
+#include "visibility/fold/added_edges.h"
 #include "visibility/fold/added_folds.h"
 #include "visibility/fold/fold_joints.h"
 #include "visibility/fold/outline_chains.h"
@@ -140,36 +141,24 @@ static bool fold_place_point(struct fold_lines *f, const struct fold_place *at,
     f->joints.ends[joint - f->in->first_point] = 2;
     return true;
   }
-  *point = (uint32_t)sheet->point.count;
-  return ARRAY_PUSH(&sheet->point, p);
+  return added_edges_point(sheet, p, point);
 }
 
 static bool add_place_edge(struct fold_lines *f, const struct fold_place *at,
                            uint32_t from, uint32_t to, double height) {
   struct sheet *sheet = f->in->sheet;
-  struct map *map = f->in->map;
-  struct sheet_edge edge = {
-      .point = {from, to},
-      .triangle = {first_triangle_of_face(sheet, at->face), SHEET_NONE},
-      .source = SHEET_NONE,
-      .edge_class = RECTO_EDGE_SILHOUETTE};
-  if (!ARRAY_PUSH(&sheet->edge, edge))
-    return false;
-  map->edge_state[map->edge_count++] = MAP_VISIBLE;
-  return added_folds_add(&f->added, sheet_ends(sheet, edge.point), height);
+  const uint32_t point[2] = {from, to};
+  return added_edges_push(sheet, f->in->map, at->face, point) &&
+         added_folds_add(&f->added, sheet_ends(sheet, point), height);
 }
 
 /* Adds the edges along the places of a line. */
 static bool add_place_edges(struct fold_lines *f, bool is_ring,
                             const uint32_t joint[2], double height) {
-  struct map *map = f->in->map;
-  size_t count = f->place.count, most = f->in->sheet->edge.count + count + 1;
+  size_t count = f->place.count;
   uint32_t first, point;
-  uint8_t *state = mem_resize(map->edge_state, most, 1);
-  if (state == NULL)
-    return false;
-  map->edge_state = state;
-  if (!fold_place_point(f, &f->place.item[0], joint[0], &first))
+  if (!added_edges_reserve(f->in->map, count + 1) ||
+      !fold_place_point(f, &f->place.item[0], joint[0], &first))
     return false;
   point = first;
   for (size_t i = 1; i < count; i++) {

@@ -10,6 +10,7 @@
 #include "base/poll.h"
 #include "base/tolerance.h"
 #include "visibility/contour/page_cover.h"
+#include "visibility/fold/added_edges.h"
 #include "visibility/fold/nearest_contours.h"
 
 /* A place between an outline's samples and its ends, as a share of the distance
@@ -205,30 +206,20 @@ static bool add_open_parts(struct outline_gaps *g,
 static bool point_of(struct sheet *sheet, const struct outline_sample *sample,
                      uint32_t *point) {
   *point = sample->point;
-  if (*point != SHEET_NONE)
-    return true;
-  *point = (uint32_t)sheet->point.count;
-  return ARRAY_PUSH(&sheet->point, sample->at);
+  return *point != SHEET_NONE || added_edges_point(sheet, sample->at, point);
 }
 
 static bool add_part_edges(struct outline_gaps *g, struct map *map) {
   struct sheet *sheet = g->in->sheet;
-  uint8_t *state =
-      mem_resize(map->edge_state, sheet->edge.count + g->part.count, 1);
-  if (state == NULL)
+  if (!added_edges_reserve(map, g->part.count))
     return false;
-  map->edge_state = state;
   for (size_t i = 0; i < g->part.count; i++) {
     const struct outline_part *part = &g->part.item[i];
-    struct sheet_edge edge = {
-        .triangle = {first_triangle_of_face(sheet, part->face), SHEET_NONE},
-        .source = SHEET_NONE,
-        .edge_class = RECTO_EDGE_SILHOUETTE};
-    if (!point_of(sheet, &part->end[0], &edge.point[0]) ||
-        !point_of(sheet, &part->end[1], &edge.point[1]) ||
-        !ARRAY_PUSH(&sheet->edge, edge))
+    uint32_t point[2];
+    if (!point_of(sheet, &part->end[0], &point[0]) ||
+        !point_of(sheet, &part->end[1], &point[1]) ||
+        !added_edges_push(sheet, map, part->face, point))
       return false;
-    map->edge_state[map->edge_count++] = MAP_VISIBLE;
   }
   return true;
 }
