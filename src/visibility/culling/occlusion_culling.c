@@ -16,6 +16,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
+#include "geom/vector.h"
 #include "visibility/culling/culling_bands.h"
 #include "visibility/predicate/contact.h"
 
@@ -218,14 +219,17 @@ void occlusion_culling_fini(struct occlusion_culling *culling) {
 }
 
 /* A segment to be tested, from its farther to its nearer end, and how far what
- * is to be hidden may be off it. */
+ * is to be hidden may be off it.  Its x are relative to the first column. */
 struct tested_segment {
-  double x, y, z, dz, xy_off, z_off;
+  double x, z, dz, xy_off, z_off;
   double per_x, per_y;  /* the parameter's changes: 1 / dx, 1 / dy, or 0 */
   double low_x, high_x; /* of its ends */
-  double start_x, slope, run; /* its line is at start_x + slope (y - s.y), and
+  double start_x, slope, run; /* its line is at start_x, and at start_x +
+                                 slope dy farther up by dy; it
                                  runs that far along x beside a row of cells */
+  double low_y;               /* how far row 0 begins above s.y, less xy_off */
   double side, per_side;      /* that of a cell, and 1 / side, which is exact */
+  double first, last;         /* the columns of its box */
   int32_t nearest, farthest;  /* of its depths, with the margin, in steps */
 };
 
@@ -238,37 +242,41 @@ static inline double leaves_at(double from, double per, double low,
 }
 
 /* The nearest depth of a segment in a cell, rounded up, with the margin. */
-static int32_t nearest_of_segment(const struct occlusion_culling *culling,
-                                  const struct tested_segment *s, int x,
+static int32_t nearest_of_segment(const struct tested_segment *s, int x,
                                   int y) {
-  const struct triangle_grid *cells = &culling->buffer.cells;
-  double side = s->side, left = cells->x0 + x * side,
-         low = cells->y0 + y * side, off = s->xy_off,
+  double side = s->side, left = x * side, off = s->xy_off,
+         low = y * side + s->low_y,
          at_x = leaves_at(s->x, s->per_x, left - off, left + side + off),
-         at_y = leaves_at(s->y, s->per_y, low - off, low + side + off),
+         at_y = leaves_at(0, s->per_y, low, low + side + 2 * off),
          t = at_x < at_y ? at_x : at_y, z = t > 0 ? s->z + t * s->dz : s->z;
   return occlusion_steps_up(z + 1 + s->z_off);
 }
 
+/* r  the cells that its box meets */
 static struct tested_segment
 begin_segment(const struct occlusion_culling *culling, struct geom_point p,
-              struct geom_point q, double xy_off, double z_off) {
+              struct geom_point q, struct cell_range r, double xy_off,
+              double z_off) {
+  const struct triangle_grid *cells = &culling->buffer.cells;
   struct geom_point far = p.z < q.z ? p : q, near = p.z < q.z ? q : p;
   double dx = (double)near.x - far.x, dy = (double)near.y - far.y,
-         side = (double)(INT64_C(1) << culling->buffer.cells.shift);
+         x = (double)far.x - cells->x0, near_x = x + dx,
+         side = (double)(INT64_C(1) << cells->shift);
   struct tested_segment s = {
-      .x = far.x,
-      .y = far.y,
+      .x = x,
       .z = (double)far.z,
       .dz = (double)(near.z - far.z),
       .xy_off = xy_off,
       .z_off = z_off,
       .per_x = dx != 0 ? 1 / dx : 0,
       .per_y = dy != 0 ? 1 / dy : 0,
-      .low_x = dx < 0 ? near.x : far.x,
-      .high_x = dx < 0 ? far.x : near.x,
+      .low_x = min_number(near_x, x),
+      .high_x = max_number(near_x, x),
+      .low_y = (double)cells->y0 - far.y - xy_off,
       .side = side,
       .per_side = 1 / side,
+      .first = r.x0,
+      .last = r.x1,
       .nearest = occlusion_steps_up((double)near.z + z_off),
       .farthest = occlusion_steps_up((double)far.z + z_off)};
   s.slope = dx * s.per_y;
@@ -277,58 +285,63 @@ begin_segment(const struct occlusion_culling *culling, struct geom_point p,
   return s;
 }
 
-static bool is_hidden_in_cell(const struct occlusion_culling *culling,
-                              const struct tested_segment *s, int32_t bound,
-                              int x, int y) {
+static inline bool is_hidden_in_cell(const struct tested_segment *s,
+                                     int32_t bound, int x, int y) {
   return bound > s->nearest ||
-         (bound > s->farthest && bound > nearest_of_segment(culling, s, x, y));
+         (bound > s->farthest && bound > nearest_of_segment(s, x, y));
 }
 
-/* The column of an x, within a range. */
-static inline int column_of(const struct triangle_grid *cells,
-                            const struct tested_segment *s, struct cell_range r,
-                            double x) {
-  double column = (x - cells->x0) * s->per_side;
-  return column < r.x0 ? r.x0 : column > r.x1 ? r.x1 : (int)column;
+/* The column of an x, of those of the segment's box. */
+static inline int column_of(const struct tested_segment *s, double x) {
+  return (int)min_number(s->last, max_number(s->first, x * s->per_side));
 }
 
-/* The columns x0 to x1 of row y, within a range, that the segment may come as
- * close to as it may be off.  Where its line is within its ends, it is rounded
- * by far less than the unit that is added. */
-static void columns_near(const struct triangle_grid *cells,
-                         const struct tested_segment *s, struct cell_range r,
-                         int y, int *x0, int *x1) {
-  double low = cells->y0 + y * s->side - s->xy_off, off = s->xy_off + 1,
-         a = s->start_x + s->slope * (low - s->y), b = a + s->run,
-         left = a < b ? a : b, right = a < b ? b : a;
-  left = left < s->low_x ? s->low_x : left > s->high_x ? s->high_x : left;
-  right = right < s->low_x ? s->low_x : right > s->high_x ? s->high_x : right;
-  *x0 = column_of(cells, s, r, left - off);
-  *x1 = column_of(cells, s, r, right + off);
+/* The columns of a row. */
+struct column_range {
+  int x0, x1;
+};
+
+/* The columns of row y that the segment may come as close to as it may be off.
+ * Where its line is within its ends, it is rounded by far less than the unit
+ * that is added. */
+static inline struct column_range columns_near(const struct tested_segment *s,
+                                               int y) {
+  double off = s->xy_off + 1,
+         a = s->start_x + s->slope * (y * s->side + s->low_y), b = a + s->run,
+         left = max_number(s->low_x, min_number(b, a)),
+         right = max_number(s->low_x, max_number(b, a));
+  return (struct column_range){
+      column_of(s, min_number(s->high_x, left) - off),
+      column_of(s, min_number(s->high_x, right) + off)};
+}
+
+static const int32_t *bounds_of_row(const struct occlusion_culling *culling,
+                                    int y) {
+  return culling->buffer.bound +
+         (size_t)y * (size_t)culling->buffer.cells.columns;
 }
 
 bool occlusion_culling_hides_near(const struct occlusion_culling *culling,
                                   struct geom_point p, struct geom_point q,
                                   double xy, double z) {
-  const struct triangle_grid *cells = &culling->buffer.cells;
   if (culling->culled == NULL || !(xy < SHEET_XY_MAX / 2))
     return false;
-  struct tested_segment s =
-      begin_segment(culling, p, q, xy, z + culling->margin);
   struct box2 box = box2_of_segment(p, q);
   int32_t off = (int32_t)ceil(xy);
-  struct cell_range r =
-      triangle_grid_cells(cells, (struct box2){box.x0 - off, box.y0 - off,
-                                               box.x1 + off, box.y1 + off});
-  if (occlusion_buffer_hides_in_blocks(&culling->buffer, r, s.nearest))
+  struct cell_range r = triangle_grid_cells(
+      &culling->buffer.cells,
+      (struct box2){box.x0 - off, box.y0 - off, box.x1 + off, box.y1 + off});
+  z += culling->margin;
+  int64_t nearest = p.z < q.z ? q.z : p.z;
+  if (occlusion_buffer_hides_in_blocks(&culling->buffer, r,
+                                       occlusion_steps_up((double)nearest + z)))
     return true;
+  struct tested_segment s = begin_segment(culling, p, q, r, xy, z);
   for (int y = r.y0; y <= r.y1; y++) {
-    const int32_t *bound =
-        culling->buffer.bound + (size_t)y * (size_t)cells->columns;
-    int x0, x1;
-    columns_near(cells, &s, r, y, &x0, &x1);
-    for (int x = x0; x <= x1; x++)
-      if (!is_hidden_in_cell(culling, &s, bound[x], x, y))
+    const int32_t *bound = bounds_of_row(culling, y);
+    struct column_range columns = columns_near(&s, y);
+    for (int x = columns.x0; x <= columns.x1; x++)
+      if (!is_hidden_in_cell(&s, bound[x], x, y))
         return false;
   }
   return true;
@@ -369,18 +382,17 @@ static void add_part_in_cell(const struct triangle_grid *cells,
  * visible; returns whether anything is. */
 static bool add_part_in_row(const struct occlusion_culling *culling,
                             const struct tested_segment *s, struct geom_point p,
-                            struct geom_point q, struct cell_range r, int y,
+                            struct geom_point q, int y,
                             struct segment_part *part) {
   const struct triangle_grid *cells = &culling->buffer.cells;
-  const int32_t *bound =
-      culling->buffer.bound + (size_t)y * (size_t)cells->columns;
-  int x0, x1;
-  columns_near(cells, s, r, y, &x0, &x1);
-  while (x0 <= x1 && is_hidden_in_cell(culling, s, bound[x0], x0, y))
+  const int32_t *bound = bounds_of_row(culling, y);
+  struct column_range columns = columns_near(s, y);
+  int x0 = columns.x0, x1 = columns.x1;
+  while (x0 <= x1 && is_hidden_in_cell(s, bound[x0], x0, y))
     x0++;
   if (x0 > x1)
     return false;
-  while (x0 < x1 && is_hidden_in_cell(culling, s, bound[x1], x1, y))
+  while (x0 < x1 && is_hidden_in_cell(s, bound[x1], x1, y))
     x1--;
   add_part_in_cell(cells, p, q, x0, y, part);
   if (x0 < x1)
@@ -394,13 +406,13 @@ occlusion_culling_rest(const struct occlusion_culling *culling,
   struct segment_part rest = {OCCLUSION_PARTS, 0};
   if (culling->culled == NULL)
     return (struct segment_part){0, OCCLUSION_PARTS};
-  struct tested_segment s = begin_segment(culling, p, q, 0, culling->margin);
   struct cell_range r =
       triangle_grid_cells(&culling->buffer.cells, box2_of_segment(p, q));
+  struct tested_segment s = begin_segment(culling, p, q, r, 0, culling->margin);
   int y0 = r.y0, y1 = r.y1;
-  while (y0 <= y1 && !add_part_in_row(culling, &s, p, q, r, y0, &rest))
+  while (y0 <= y1 && !add_part_in_row(culling, &s, p, q, y0, &rest))
     y0++;
-  while (y0 < y1 && !add_part_in_row(culling, &s, p, q, r, y1, &rest))
+  while (y0 < y1 && !add_part_in_row(culling, &s, p, q, y1, &rest))
     y1--;
   rest.from = rest.from > 0 ? rest.from : 0;
   rest.to = rest.to < OCCLUSION_PARTS ? rest.to : OCCLUSION_PARTS;
