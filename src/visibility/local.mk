@@ -34,6 +34,7 @@ librecto_core_la_SOURCES += \
   %D%/culling/face_samples.c %D%/culling/face_samples.h \
   %D%/culling/occlusion_buffer.c %D%/culling/occlusion_buffer.h \
   %D%/culling/occlusion_culling.c %D%/culling/occlusion_culling.h \
+  %D%/culling/occlusion_raising.c \
   %D%/culling/potentially_visible.c %D%/culling/potentially_visible.h \
   %D%/culling/potentially_visible_restore.c \
   %D%/culling/space_box.c %D%/culling/space_box.h \

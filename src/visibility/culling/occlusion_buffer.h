@@ -63,6 +63,10 @@ void occlusion_buffer_raise(struct occlusion_buffer *buffer,
 void occlusion_buffer_raise_cell(struct occlusion_buffer *buffer, int x, int y,
                                  int32_t bound);
 
+/* Computes a block's bound from those of its cells. */
+void occlusion_buffer_update_block(struct occlusion_buffer *buffer, int bx,
+                                   int by);
+
 /* Lowers the bounds of a band.
  * steps  one per cell of the buffer */
 void occlusion_buffer_lower(struct occlusion_buffer *buffer,
