@@ -15,8 +15,8 @@ enum {
 /* The edge functions of a triangle's sides, which are positive inside it, less
  * 1: their least values over a cell, negative where it is not wholly inside,
  * and their increments per cell to the right and up.  Within the page box they
- * are below 2^62, as are the products of which they are differences; one step
- * outside they may wrap around, but are not read there. */
+ * are below 2^62, as are the products of which they are differences; steps may
+ * wrap around, but come to what they are where they are read. */
 struct edge_functions {
   uint64_t at[3], right[3], up[3];
 };
@@ -38,10 +38,23 @@ edge_functions_at(const struct geom_triangle *corners, int64_t x, int64_t y,
   return functions;
 }
 
+/* Those of the cell so many columns and rows on. */
+static inline struct edge_functions
+move_edge_functions(struct edge_functions functions, int columns, int rows) {
+  for (int k = 0; k < 3; k++)
+    functions.at[k] += (uint64_t)columns * functions.right[k] +
+                       (uint64_t)rows * functions.up[k];
+  return functions;
+}
+
 static inline void step_edge_functions(uint64_t at[3], const uint64_t by[3]) {
   at[0] += by[0];
   at[1] += by[1];
   at[2] += by[2];
+}
+
+static inline bool is_any_negative(const uint64_t at[3]) {
+  return (at[0] | at[1] | at[2]) >> 63 != 0;
 }
 
 /* Which of the three values are negative, as bits. */
@@ -61,32 +74,35 @@ static int side_between(const struct sheet *sheet, uint32_t n, uint32_t p,
 
 /* A triangle that continues another one beyond a side. */
 struct neighbour {
-  bool found;
+  uint32_t triangle; /* SHEET_NONE: there is none */
+  int side;          /* the corner where the common side starts */
+  bool has_plane;    /* what follows is known, once it is needed */
   struct geom_triangle corners;
   struct surrounder_plane plane;
-  int side; /* the corner where the common side starts */
 };
 
 /* Finds the triangle beyond side k, across an edge or a diagonal: one that has
  * the same side the other way round, so that it lies beyond it on the page. */
-static struct neighbour find_neighbour(const struct sheet *sheet, uint32_t t,
-                                       int k) {
+static void find_neighbour(struct neighbour *neighbour,
+                           const struct sheet *sheet, uint32_t t, int k) {
   const struct sheet_triangle *triangle = &sheet->triangle.item[t];
   uint32_t p = triangle->point[k], q = triangle->point[geom_next_corner(k)],
            edge = sheet_triangle_sides(sheet, t)[k];
   uint32_t candidate[2] = {t - 1, t + 1}; /* a face's triangles follow */
   if (edge != SHEET_NONE)
     memcpy(candidate, sheet->edge.item[edge].triangle, sizeof candidate);
+  neighbour->triangle = SHEET_NONE;
+  neighbour->has_plane = false;
   for (int i = 0; i < 2; i++) {
     uint32_t n = candidate[i];
     if (n >= sheet->triangle.count || n == t || sheet_is_edge_on(sheet, n))
       continue;
-    int side = side_between(sheet, n, p, q);
-    if (side >= 0)
-      return (struct neighbour){true, sheet_corners(sheet, n),
-                                surrounder_plane_of(sheet, n), side};
+    neighbour->side = side_between(sheet, n, p, q);
+    if (neighbour->side < 0)
+      continue;
+    neighbour->triangle = n;
+    return;
   }
-  return (struct neighbour){.found = false};
 }
 
 /* Does the triangle surround the window but for its own side? */
@@ -104,25 +120,35 @@ struct raising {
   uint32_t triangle;
   struct geom_triangle corners;
   struct box2 box;
+  struct cell_range cells;         /* that it may raise */
+  struct edge_functions functions; /* of the first of them */
   struct surrounder_plane plane;
   struct neighbour neighbour[3];
-  int searched; /* bit k: the neighbour beyond side k was looked for */
-  int open;     /* bit k: and there is none */
+  bool searched; /* for neighbours, once a block is raised */
+  int open;      /* bit k: there is none beyond side k */
 };
 
+static void find_neighbours(struct raising *raising) {
+  for (int k = 0; k < 3; k++) {
+    struct neighbour *neighbour = &raising->neighbour[k];
+    find_neighbour(neighbour, raising->sheet, raising->triangle, k);
+    raising->open |= (neighbour->triangle == SHEET_NONE) << k;
+  }
+  raising->searched = true;
+}
+
 /* The bound of a cell that the triangle surrounds together with its neighbour
- * beyond one side; -1: they do not.
+ * beyond one side, which there is; -1: they do not.
  * k  the side that is not beyond the cell */
 static int32_t bound_with_neighbour(struct raising *raising, int k,
                                     const struct box2 *window) {
   struct neighbour *neighbour = &raising->neighbour[k];
-  if ((raising->searched >> k & 1) == 0)
-    *neighbour = find_neighbour(raising->sheet, raising->triangle, k);
-  raising->searched |= 1 << k;
-  if (!neighbour->found)
-    raising->open |= 1 << k;
-  if (!neighbour->found ||
-      !surrounds_beyond(neighbour, window, raising->buffer->cells.shift))
+  if (!neighbour->has_plane) {
+    neighbour->corners = sheet_corners(raising->sheet, neighbour->triangle);
+    neighbour->plane = surrounder_plane_of(raising->sheet, neighbour->triangle);
+    neighbour->has_plane = true;
+  }
+  if (!surrounds_beyond(neighbour, window, raising->buffer->cells.shift))
     return -1;
   return occlusion_steps_down(
       min_number(surrounder_farthest_z(&neighbour->plane, window),
@@ -225,7 +251,8 @@ static void raise_beyond(struct block_raise *block, int cx, int cy, int out) {
              bound_with_neighbour(raising, out >> 1, &window)); /* 1, 2, 4 */
 }
 
-/* Raises the bounds of a row of cells.
+/* Raises the bounds of a row of cells, where the triangle surrounds some alone
+ * or with others.
  * row    the edge functions of the first
  * depth  the farthest depth over the first */
 static void raise_row(struct block_raise *block, struct cell_range r, int cy,
@@ -236,11 +263,26 @@ static void raise_row(struct block_raise *block, struct cell_range r, int cy,
                    triangle_grid_index(&raising->buffer->cells, r.x0, cy);
   uint64_t at[3] = {row->at[0], row->at[1], row->at[2]};
   for (int i = 0; i <= r.x1 - r.x0; i++, step_edge_functions(at, row->right)) {
-    if ((at[0] | at[1] | at[2]) >> 63 == 0)
+    if (!is_any_negative(at))
       raise_cell(block, &bound[i],
                  occlusion_steps_down(depth + i * per_column));
     else if (raising->open != ALL_SIDES)
       raise_beyond(block, r.x0 + i, cy, outside_mask(at));
+  }
+}
+
+/* The same of a triangle that nothing continues: the cells that it surrounds
+ * follow one another. */
+static void raise_row_alone(struct block_raise *block, int32_t *bound,
+                            int count, const struct edge_functions *row,
+                            double depth, double per_column) {
+  uint64_t at[3] = {row->at[0], row->at[1], row->at[2]};
+  int i = 0;
+  for (; i < count && is_any_negative(at); i++)
+    step_edge_functions(at, row->right);
+  for (; i < count && !is_any_negative(at); i++) {
+    raise_cell(block, &bound[i], occlusion_steps_down(depth + i * per_column));
+    step_edge_functions(at, row->right);
   }
 }
 
@@ -251,26 +293,34 @@ static void raise_block(struct raising *raising, struct cell_range r, int bx,
   const struct triangle_grid *cells = &buffer->cells;
   int64_t side = INT64_C(1) << cells->shift, x = cells->x0 + r.x0 * side,
           y = cells->y0 + r.y0 * side;
+  if (!raising->searched)
+    find_neighbours(raising);
   struct block_raise block = {
       raising,
       buffer->farthest[(size_t)by * (size_t)buffer->blocks + (size_t)bx],
       nearest, false};
-  struct edge_functions row =
-      edge_functions_at(&raising->corners, x, y, cells->shift);
+  struct edge_functions row = move_edge_functions(
+      raising->functions, r.x0 - raising->cells.x0, r.y0 - raising->cells.y0);
   struct block_depths depths = depths_of_block(&raising->plane, x, y, side);
+  int32_t *bound = buffer->bound + triangle_grid_index(cells, r.x0, r.y0);
   uint64_t last[3]; /* the edge functions of the row's last cell */
   for (int k = 0; k < 3; k++)
     last[k] = row.at[k] + (uint64_t)(r.x1 - r.x0) * row.right[k];
-  for (int cy = r.y0; cy <= r.y1; cy++, step_edge_functions(row.at, row.up),
-           step_edge_functions(last, row.up)) {
+  for (int cy = r.y0; cy <= r.y1; cy++, bound += cells->columns) {
     /* What is beyond a side at both ends of the row is so everywhere. */
     const uint64_t both[3] = {row.at[0] & last[0], row.at[1] & last[1],
                               row.at[2] & last[2]};
-    if ((both[0] | both[1] | both[2]) >> 63 != 0 &&
-        is_outside(raising, outside_mask(both)))
-      continue;
-    raise_row(&block, r, cy, &row, depths.first + (cy - r.y0) * depths.per_row,
-              depths.per_column);
+    double depth = depths.first + (cy - r.y0) * depths.per_row;
+    if (raising->open == ALL_SIDES) {
+      if (!is_any_negative(both))
+        raise_row_alone(&block, bound, r.x1 - r.x0 + 1, &row, depth,
+                        depths.per_column);
+    } else if (!is_any_negative(both) ||
+               !is_outside(raising, outside_mask(both))) {
+      raise_row(&block, r, cy, &row, depth, depths.per_column);
+    }
+    step_edge_functions(row.at, row.up);
+    step_edge_functions(last, row.up);
   }
   if (block.least_raised)
     occlusion_buffer_update_block(buffer, bx, by);
@@ -305,7 +355,12 @@ void occlusion_buffer_raise(struct occlusion_buffer *buffer,
                             .triangle = t,
                             .corners = sheet_corners(sheet, t),
                             .box = box,
+                            .cells = r,
                             .plane = surrounder_plane_of(sheet, t)};
+  int64_t side = INT64_C(1) << buffer->cells.shift;
+  raising.functions =
+      edge_functions_at(&raising.corners, buffer->cells.x0 + r.x0 * side,
+                        buffer->cells.y0 + r.y0 * side, buffer->cells.shift);
   enum { LAST = (1 << OCCLUSION_BLOCK_SHIFT) - 1 };
   for (int by = r.y0 >> OCCLUSION_BLOCK_SHIFT;
        by <= r.y1 >> OCCLUSION_BLOCK_SHIFT; by++)
