@@ -29,15 +29,23 @@ static double largest_face_size(const struct scene *scene,
   return size;
 }
 
-/* Whether a point lies in a block of space that is in the sample: one block in
- * `one_in` is.
- * side  of the blocks */
-static bool is_in_sample(const struct scene_point *p, double side,
-                         size_t one_in) {
-  uint64_t hash = hash_add_double(0, floor(p->x / side));
-  hash = hash_add_double(hash, floor(p->y / side));
-  hash = hash_add_double(hash, floor(p->z / side));
-  return hash % one_in == 0;
+/* Adds the block that a coordinate is in to a hash: the nearest whole number of
+ * sides, which the sum is rounded to; far away, a multiple of a power of two. */
+static inline uint64_t hash_add_block(uint64_t hash, double coordinate,
+                                      double per_side) {
+  const double rounds_to_whole = 0x1.8p52;
+  return hash_add_double(hash, coordinate * per_side + rounds_to_whole);
+}
+
+/* Whether a point lies in a block of space that is in the sample, as those are
+ * whose hash is below a limit.
+ * per_side  1 / the side of the blocks */
+static inline bool is_in_sample(const struct scene_point *p, double per_side,
+                                uint64_t limit) {
+  uint64_t hash = hash_add_block(0, p->x, per_side);
+  hash = hash_add_block(hash, p->y, per_side);
+  hash = hash_add_block(hash, p->z, per_side);
+  return hash * HASH_GOLDEN < limit;
 }
 
 /* Lists as candidates a sample of the points: those of some blocks of space, so
@@ -48,12 +56,14 @@ static bool is_in_sample(const struct scene_point *p, double side,
 static bool list_sample(struct weld_candidates *candidates,
                         const struct scene *scene, double length,
                         const uint32_t *point, size_t count) {
-  enum { SAMPLE = 1 << 15, SAMPLE_MIN = SAMPLE / 8, RADII = 64 };
+  enum { SAMPLE = 1 << 13, SAMPLE_MIN = SAMPLE / 8, RADII = 64 };
   size_t one_in = count / SAMPLE;
+  double per_side = 1 / (RADII * length);
   ARRAY(uint32_t) kept = {.item = NULL};
   bool ok = true;
   for (size_t i = 0; ok && one_in >= 2 && i < count; i++)
-    if (is_in_sample(&scene->point.item[point[i]], RADII * length, one_in))
+    if (is_in_sample(&scene->point.item[point[i]], per_side,
+                     UINT64_MAX / one_in))
       ok = ARRAY_PUSH(&kept, point[i]);
   bool is_sample = kept.count >= SAMPLE_MIN;
   ok = ok && weld_candidates_set(candidates, is_sample ? kept.item : point,
