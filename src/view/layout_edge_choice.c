@@ -152,7 +152,8 @@ static inline void choose_class(const struct edge_choice *c, uint32_t e,
       unsigned still = c->filter.direction != NULL
                            ? crease_filter_class_mask(&c->filter, &c->edge[e])
                            : c->class_masks[e];
-      edge_class = requested_class(layout, e, still, sides_of_edge(layout, e));
+      uint8_t sides = c->edge[e].uses == 2 ? sides_of_edge(layout, e) : 0;
+      edge_class = requested_class(layout, e, still, sides);
     }
     c->class_masks[e] = (uint8_t)edge_class;
     made |= edge_class != 0;

@@ -321,6 +321,17 @@ static const int32_t *bounds_of_row(const struct occlusion_culling *culling,
          (size_t)y * (size_t)culling->buffer.cells.columns;
 }
 
+/* Is all that is as near as the segment p-q hidden in its blocks of cells?
+ * r      the cells that it meets
+ * z_off  how far it may be off in depth, in front */
+static bool is_hidden_in_blocks(const struct occlusion_culling *culling,
+                                struct geom_point p, struct geom_point q,
+                                struct cell_range r, double z_off) {
+  double nearest = (double)(p.z < q.z ? q.z : p.z) + z_off;
+  return occlusion_buffer_hides_in_blocks(&culling->buffer, r,
+                                          occlusion_steps_up(nearest));
+}
+
 bool occlusion_culling_hides_near(const struct occlusion_culling *culling,
                                   struct geom_point p, struct geom_point q,
                                   double xy, double z) {
@@ -332,9 +343,7 @@ bool occlusion_culling_hides_near(const struct occlusion_culling *culling,
       &culling->buffer.cells,
       (struct box2){box.x0 - off, box.y0 - off, box.x1 + off, box.y1 + off});
   z += culling->margin;
-  int64_t nearest = p.z < q.z ? q.z : p.z;
-  if (occlusion_buffer_hides_in_blocks(&culling->buffer, r,
-                                       occlusion_steps_up((double)nearest + z)))
+  if (is_hidden_in_blocks(culling, p, q, r, z))
     return true;
   struct tested_segment s = begin_segment(culling, p, q, r, xy, z);
   for (int y = r.y0; y <= r.y1; y++) {
@@ -408,6 +417,8 @@ occlusion_culling_rest(const struct occlusion_culling *culling,
     return (struct segment_part){0, OCCLUSION_PARTS};
   struct cell_range r =
       triangle_grid_cells(&culling->buffer.cells, box2_of_segment(p, q));
+  if (is_hidden_in_blocks(culling, p, q, r, culling->margin))
+    return rest;
   struct tested_segment s = begin_segment(culling, p, q, r, 0, culling->margin);
   int y0 = r.y0, y1 = r.y1;
   while (y0 <= y1 && !add_part_in_row(culling, &s, p, q, y0, &rest))

@@ -260,10 +260,7 @@ static bool classify_edge_range(void *user, struct parallel_range range) {
     if (!poll_at(e))
       return false;
     if (edge->edge_class != 0 && (p->x != q->x || p->y != q->y))
-      states[e] =
-          from > 0 && occlusion_culling_hides(work->states->culling, *p, *q)
-              ? MAP_HIDDEN
-              : (uint8_t)state_of_edge(work->states, &loop, p, q, wire);
+      states[e] = (uint8_t)state_of_edge(work->states, &loop, p, q, wire);
     deferred += states[e] == MAP_MIXED;
   }
   work->deferred[range.begin / PARALLEL_ITEMS] = deferred;
