@@ -3,15 +3,17 @@
 #include "visibility/culling/culling_bands.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/parallel.h"
 #include "geom/vector.h"
 #include "visibility/predicate/depth_plane.h"
 
 enum {
-  TYPICAL_SLOPE = 8,      /* in the scene; few triangles are steeper */
-  TESTS_PER_TRIANGLE = 64 /* of rows and blocks, for a triangle, on average, in
+  TYPICAL_SLOPE = 8,       /* in the scene; few triangles are steeper */
+  TESTS_PER_TRIANGLE = 64, /* of rows and blocks, for a triangle, on average, in
                              a band */
+  CANDIDATES_AT_ONCE = 256 /* are compared with a band */
 };
 
 /* The work in one band. */
@@ -40,9 +42,72 @@ static struct band_work begin_band(const struct culling_work *work, size_t k) {
                                      (int64_t)work->sheet->triangle.count};
 }
 
-static bool meets_band(const struct band_work *work,
-                       const struct culling_candidate *candidate) {
-  return candidate->y0 <= work->band.y1 && candidate->y1 >= work->band.y0;
+static inline bool meets_band(const struct band_work *work,
+                              const struct culling_candidate *candidate) {
+  return (candidate->y0 <= work->band.y1) & (candidate->y1 >= work->band.y0);
+}
+
+/* The candidates that meet a band, from near to far, some at once: without a
+ * jump for each, as no processor predicts which do, and fetched ahead, as they
+ * are anywhere in memory. */
+struct band_members {
+  const struct band_work *work;
+  size_t listed;    /* candidates that have been compared */
+  size_t at, count; /* of the first list; that of the second one */
+  size_t ahead;
+  bool cancelled;
+  uint32_t item[2][CANDIDATES_AT_ONCE];
+};
+
+/* Lists what follows of the candidates, and fetches their triangles. */
+static void list_ahead(struct band_members *members) {
+  const struct culling_work *work = members->work->work;
+  const struct sheet *sheet = work->sheet;
+  size_t begin = members->listed, n = sheet->triangle.count - begin, count = 0;
+  uint32_t *item = members->item[1];
+  n = n < CANDIDATES_AT_ONCE ? n : CANDIDATES_AT_ONCE;
+  for (size_t i = begin; i < begin + n; i++) {
+    item[count] = (uint32_t)i;
+    count += meets_band(members->work, &work->candidate[i]);
+  }
+  for (size_t k = 0; k < count; k++)
+    MEM_PREFETCH(&sheet->triangle.item[work->candidate[item[k]].triangle]);
+  members->listed += n;
+  members->ahead = count;
+}
+
+static struct band_members members_of_band(const struct band_work *work) {
+  struct band_members members = {.work = work};
+  list_ahead(&members);
+  return members;
+}
+
+/* Goes on to the list ahead, and fetches its corners.  Returns false after the
+ * last one, and when the caller cancelled. */
+static bool begin_members(struct band_members *members) {
+  const struct culling_work *work = members->work->work;
+  size_t last = members->listed - 1; /* more than in the list before */
+  if (members->ahead == 0 && members->listed == work->sheet->triangle.count)
+    return false;
+  members->cancelled = !poll_at(last - last % CANDIDATES_AT_ONCE);
+  memcpy(members->item[0], members->item[1],
+         members->ahead * sizeof *members->item[0]);
+  members->count = members->ahead;
+  members->at = 0;
+  for (size_t k = 0; k < members->count; k++)
+    sheet_prefetch_corners(work->sheet,
+                           work->candidate[members->item[0][k]].triangle);
+  list_ahead(members);
+  return !members->cancelled;
+}
+
+/* Sets *i to the next candidate; returns false as begin_members does. */
+static inline bool next_member(struct band_members *members, size_t *i) {
+  while (members->at == members->count)
+    if (!begin_members(members))
+      return false;
+  *i = members->item[0][members->at++];
+  return true;
 }
 
 static void set_visible(struct band_work *work, size_t candidate) {
@@ -245,39 +310,19 @@ static bool is_triangle_hidden(struct band_work *work,
   return true;
 }
 
-/* Fetches a triangle that comes later in a band, and the corners of one that
- * comes sooner: from near to far they are anywhere in memory. */
-MEM_PREFETCH_INLINE void prefetch_candidates(const struct band_work *work,
-                                             size_t i) {
-  enum { SOONER = MEM_PREFETCH_AHEAD * OCCLUSION_BANDS / 2 };
-  const struct sheet *sheet = work->work->sheet;
-  const struct culling_candidate *candidate = work->work->candidate;
-  if (i + 2 * SOONER >= sheet->triangle.count)
-    return;
-  const struct culling_candidate *sooner = &candidate[i + SOONER],
-                                 *later = &candidate[i + 2 * SOONER];
-  if (meets_band(work, later))
-    MEM_PREFETCH(&sheet->triangle.item[later->triangle]);
-  if (meets_band(work, sooner))
-    sheet_prefetch_corners(sheet, sooner->triangle);
-}
-
 /* Tests all candidates in a band, from near to far. */
 static bool cull_in_band(struct band_work *work) {
-  const struct sheet *sheet = work->work->sheet;
-  for (size_t i = 0; i < sheet->triangle.count; i++) {
+  struct band_members members = members_of_band(work);
+  for (size_t i; next_member(&members, &i);) {
     const struct culling_candidate *candidate = &work->work->candidate[i];
-    if (!poll_at(i))
-      return false;
-    prefetch_candidates(work, i);
-    if (!meets_band(work, candidate) || is_triangle_hidden(work, candidate))
+    if (is_triangle_hidden(work, candidate))
       continue;
     set_visible(work, i);
     if (work->band.visits > 0)
-      occlusion_buffer_raise(work->buffer, &work->band, sheet,
+      occlusion_buffer_raise(work->buffer, &work->band, work->work->sheet,
                              candidate->triangle);
   }
-  return true;
+  return !members.cancelled;
 }
 
 static bool cull_in_bands(void *user, struct parallel_range range) {
@@ -324,13 +369,12 @@ static bool lower_in_band(struct band_work *work) {
          end = (size_t)(band->y1 + 1) * columns;
   for (size_t i = begin; i < end; i++)
     all->thickness[i] = all->thickness_min;
-  for (size_t i = 0; i < all->sheet->triangle.count; i++) {
-    const struct culling_candidate *candidate = &all->candidate[i];
-    if (!poll_at(i))
-      return false;
-    if (meets_band(work, candidate) && !all->culled[candidate->triangle])
-      add_thickness(work, candidate);
-  }
+  struct band_members members = members_of_band(work);
+  for (size_t i; next_member(&members, &i);)
+    if (!all->culled[all->candidate[i].triangle])
+      add_thickness(work, &all->candidate[i]);
+  if (members.cancelled)
+    return false;
   for (size_t i = begin; i < end && work->tests < 0; i++)
     all->thickness[i] = INT32_MAX; /* too many to tell: nothing stays culled */
   occlusion_buffer_lower(work->buffer, band, all->thickness);
@@ -345,16 +389,12 @@ static bool retest_in_bands(void *user, struct parallel_range range) {
   const struct culling_work *all = user;
   if (!lower_in_band(&work))
     return false;
-  for (size_t i = 0; i < all->sheet->triangle.count; i++) {
-    const struct culling_candidate *candidate = &all->candidate[i];
-    if (!poll_at(i))
-      return false;
-    prefetch_candidates(&again, i);
-    if (meets_band(&again, candidate) && all->culled[candidate->triangle] &&
-        !is_triangle_hidden(&again, candidate))
+  struct band_members members = members_of_band(&again);
+  for (size_t i; next_member(&members, &i);)
+    if (all->culled[all->candidate[i].triangle] &&
+        !is_triangle_hidden(&again, &all->candidate[i]))
       set_visible(&again, i);
-  }
-  return true;
+  return !members.cancelled;
 }
 
 /* Finds where the contact tolerances start.  Returns false when memory ran

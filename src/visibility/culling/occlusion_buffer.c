@@ -66,15 +66,19 @@ occlusion_buffer_band(const struct occlusion_buffer *buffer, int k) {
 
 bool occlusion_buffer_hides_in_blocks(const struct occlusion_buffer *buffer,
                                       struct cell_range r, int32_t nearest) {
-  for (int y = r.y0 >> OCCLUSION_BLOCK_SHIFT;
-       y <= r.y1 >> OCCLUSION_BLOCK_SHIFT; y++) {
-    const int32_t *farthest =
-        buffer->farthest + (size_t)y * (size_t)buffer->blocks;
-    for (int x = r.x0 >> OCCLUSION_BLOCK_SHIFT;
-         x <= r.x1 >> OCCLUSION_BLOCK_SHIFT; x++)
-      if (farthest[x] <= nearest)
+  int x0 = r.x0 >> OCCLUSION_BLOCK_SHIFT, x1 = r.x1 >> OCCLUSION_BLOCK_SHIFT,
+      y0 = r.y0 >> OCCLUSION_BLOCK_SHIFT, y1 = r.y1 >> OCCLUSION_BLOCK_SHIFT;
+  const int32_t *row = buffer->farthest + (size_t)y0 * (size_t)buffer->blocks,
+                *last = buffer->farthest + (size_t)y1 * (size_t)buffer->blocks;
+  /* All blocks of a small range are at its corners: one jump for all. */
+  bool hidden = (row[x0] > nearest) & (row[x1] > nearest) &
+                (last[x0] > nearest) & (last[x1] > nearest);
+  if (!hidden || (x1 - x0 <= 1 && y1 - y0 <= 1))
+    return hidden;
+  for (; row <= last; row += buffer->blocks)
+    for (int x = x0; x <= x1; x++)
+      if (row[x] <= nearest)
         return false;
-  }
   return true;
 }
 

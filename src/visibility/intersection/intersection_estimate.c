@@ -25,34 +25,41 @@ static double parameter_error(const struct coarse_plane *plane,
                                               : INFINITY;
 }
 
-/* Finds the part of the plane within a triangle that straddles it. */
+/* Where the line from a to b meets the plane, whose values there are these. */
+static inline void meet_plane(double end[3], const struct geom_point *a,
+                              const struct geom_point *b, double at_a,
+                              double at_b) {
+  double t = at_a / (at_a - at_b);
+  end[0] = a->x + t * ((double)b->x - a->x);
+  end[1] = a->y + t * ((double)b->y - a->y);
+  end[2] = (double)a->z + t * (double)(b->z - a->z);
+}
+
+/* Finds the part of the plane within a triangle that straddles it: the two
+ * sides meet it that end in the corner which is alone on its side of it. */
 static bool cut_triangle(struct line_part *part,
                          const struct coarse_plane *plane,
                          const struct geom_point p[3],
                          const struct occlusion_bound *all) {
-  double error = parameter_error(plane, all), value[3];
-  int count = 0;
-  if (!(error < 1))
+  double error = parameter_error(plane, all),
+         v0 = coarse_plane_value(plane, p[0]),
+         v1 = coarse_plane_value(plane, p[1]),
+         v2 = coarse_plane_value(plane, p[2]);
+  bool first = (v0 > 0) != (v1 > 0), last = (v0 > 0) != (v2 > 0);
+  if (!(error < 1) || !(first | last))
     return false;
-  for (int k = 0; k < 3; k++)
-    value[k] = coarse_plane_value(plane, p[k]);
-  for (int k = 0; k < 3; k++) {
-    int next = geom_next_corner(k);
-    if ((value[k] > 0) == (value[next] > 0) || count == 2)
-      continue;
-    struct geom_point a = p[k], b = p[next];
-    double t = value[k] / (value[k] - value[next]);
-    double *end = part->end[count++];
-    end[0] = a.x + t * ((double)b.x - a.x);
-    end[1] = a.y + t * ((double)b.y - a.y);
-    end[2] = (double)a.z + t * (double)(b.z - a.z);
-  }
+  const double value[5] = {v0, v1, v2, v0, v1};
+  int alone = 2 - first - (first & last), /* 0 by both, 1 by the first side */
+      next = geom_next_corner(alone), before = geom_next_corner(next);
+  meet_plane(part->end[0], &p[alone], &p[next], value[alone], value[alone + 1]);
+  meet_plane(part->end[1], &p[alone], &p[before], value[alone],
+             value[alone + 2]);
   part->xy_error =
       2 + error * max_number(range_of_three(p[0].x, p[1].x, p[2].x),
                              range_of_three(p[0].y, p[1].y, p[2].y));
   part->z_error = 2 + error * range_of_three((double)p[0].z, (double)p[1].z,
                                              (double)p[2].z);
-  return count == 2;
+  return true;
 }
 
 /* The parameters on the first part of what it has in common with the second;
