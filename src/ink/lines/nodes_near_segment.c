@@ -3,8 +3,6 @@
  * Cost  A segment of average length meets a node or two besides its own. */
 #include "ink/lines/nodes_near_segment.h"
 
-#include "base/sort.h"
-
 #include <stdlib.h>
 
 /* The current segment, from the node in the lower row to the other. */
@@ -64,6 +62,19 @@ static bool scan_from(const struct node_search *w, const struct probe *probe,
          scan_up(w, probe, node + 1, end, high);
 }
 
+/* The first of the nodes from `start` to before `end`, in order of x, that is
+ * not left of an x; no jump depends on them, as none could be predicted. */
+static uint32_t first_node_from(const struct ink_point *at, uint32_t start,
+                                uint32_t end, double x) {
+  uint32_t count = end - start;
+  while (count > 0) {
+    uint32_t half = count / 2, left = -(uint32_t)(at[start + half].x < x);
+    start += left & (half + 1);
+    count = (left & (count - half - 1)) | (~left & half);
+  }
+  return start;
+}
+
 /* A row without an end of the probe. */
 static bool scan_row(const struct node_search *w, const struct probe *probe,
                      uint32_t r) {
@@ -79,9 +90,8 @@ static bool scan_row(const struct node_search *w, const struct probe *probe,
 
   const struct ink_point *at = w->graph->node.item;
   uint32_t end = w->rows->start[r + 1];
-  size_t i;
-  LOWER_BOUND(i, w->rows->start[r], end, at[i].x < left);
-  return scan_up(w, probe, (uint32_t)i, end, right);
+  uint32_t first = first_node_from(at, w->rows->start[r], end, left);
+  return scan_up(w, probe, first, end, right);
 }
 
 /* The rows within the tolerance of the probe beyond its ends, and those between
