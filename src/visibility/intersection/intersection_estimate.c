@@ -11,8 +11,9 @@ struct line_part {
   double xy_error, z_error;
 };
 
-static double range_of_three(double a, double b, double c) {
-  return max_number(a, max_number(b, c)) - min_number(a, min_number(b, c));
+/* At least the range of three numbers, and at most twice it. */
+static inline double spread_of_three(double a, double b, double c) {
+  return fabs(b - a) + fabs(c - a);
 }
 
 /* An upper bound of the error of the parameters at which sides of a triangle
@@ -55,10 +56,10 @@ static bool cut_triangle(struct line_part *part,
   meet_plane(part->end[1], &p[alone], &p[before], value[alone],
              value[alone + 2]);
   part->xy_error =
-      2 + error * max_number(range_of_three(p[0].x, p[1].x, p[2].x),
-                             range_of_three(p[0].y, p[1].y, p[2].y));
-  part->z_error = 2 + error * range_of_three((double)p[0].z, (double)p[1].z,
-                                             (double)p[2].z);
+      2 + error * max_number(spread_of_three(p[0].x, p[1].x, p[2].x),
+                             spread_of_three(p[0].y, p[1].y, p[2].y));
+  part->z_error = 2 + error * spread_of_three((double)p[0].z, (double)p[1].z,
+                                              (double)p[2].z);
   return true;
 }
 
