@@ -34,7 +34,7 @@ enum {
 #endif
   PARTS_MAX = 256, /* at once */
   TIMES_SO_FAR = 4,
-  AHEAD_BYTES = 1 << 24, /* a file of more is large */
+  AHEAD_BYTES = 1 << 20, /* a file of more is large */
   STATEMENT_BYTES = 8,   /* of the shortest one: "v 0 0 0", "f 1 2 3" */
   ROOM_BYTES = 2 * OBJ_PLAIN_ROOM, /* behind a part that may be looked at */
 };

@@ -35,6 +35,9 @@ static inline int64_t number_of_cell(double quotient) {
   return whole - ((double)whole > quotient);
 }
 
+/* Unrolls the loop over axes that follows. */
+#define UNROLL_AXES _Pragma("GCC unroll 3")
+
 /* The cells that lie within the radius of a member: at most two along each
  * axis, as cells are wide. */
 struct near_cells {
@@ -51,6 +54,7 @@ cells_of_member(const struct member_visit *visit,
   const double per_side = visit->per_side, shift = 0.375 * visit->round;
   double low[3], high[3];
   struct near_cells cells = {.are_several = false};
+  UNROLL_AXES
   for (int k = 0; k < 3; k++) {
     low[k] = (at[k] - radius) * per_side + shift;
     high[k] = (at[k] + radius) * per_side + shift;
