@@ -30,7 +30,8 @@ static double largest_face_size(const struct scene *scene,
 }
 
 /* Adds the block that a coordinate is in to a hash: the nearest whole number of
- * sides, which the sum is rounded to; far away, a multiple of a power of two. */
+ * sides, which the sum is rounded to; far away, a multiple of a power of
+ * two. */
 static inline uint64_t hash_add_block(uint64_t hash, double coordinate,
                                       double per_side) {
   const double rounds_to_whole = 0x1.8p52;

@@ -128,7 +128,7 @@ struct raising {
   int open;      /* bit k: there is none beyond side k */
 };
 
-static void find_neighbours(struct raising *raising) {
+static void find_all_neighbours(struct raising *raising) {
   for (int k = 0; k < 3; k++) {
     struct neighbour *neighbour = &raising->neighbour[k];
     find_neighbour(neighbour, raising->sheet, raising->triangle, k);
@@ -294,7 +294,7 @@ static void raise_block(struct raising *raising, struct cell_range r, int bx,
   int64_t side = INT64_C(1) << cells->shift, x = cells->x0 + r.x0 * side,
           y = cells->y0 + r.y0 * side;
   if (!raising->searched)
-    find_neighbours(raising);
+    find_all_neighbours(raising);
   struct block_raise block = {
       raising,
       buffer->farthest[(size_t)by * (size_t)buffer->blocks + (size_t)bx],
