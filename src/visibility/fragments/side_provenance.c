@@ -141,9 +141,21 @@ static bool is_nearer(const struct sheet *sheet, uint32_t f, uint32_t g,
          has_corner_right_of(sheet, g, s);
 }
 
+/* Are the planes of f and g certainly not at one depth at an end of the
+ * segment? */
+static bool filtered_is_apart(const struct sheet *sheet, uint32_t f, uint32_t g,
+                              const struct boundary_segment *s) {
+  struct plane_filter sf = plane_filter_without_contact(sheet, f),
+                      sg = plane_filter_without_contact(sheet, g);
+  return plane_filter_compare(&sf, &sg, s->low->x, s->low->y) != 0 ||
+         plane_filter_compare(&sf, &sg, s->high->x, s->high->y) != 0;
+}
+
 /* Returns whether the planes of f and g intersect along the segment. */
 static bool crosses_along(const struct sheet *sheet, uint32_t f, uint32_t g,
                           const struct boundary_segment *s) {
+  if (filtered_is_apart(sheet, f, g, s))
+    return false;
   struct triangle_plane tf = triangle_plane_of(sheet, f),
                         tg = triangle_plane_of(sheet, g);
   struct geom_line line, reversed;
@@ -209,9 +221,10 @@ static uint32_t edge_found(const struct provenance_query *q, bool own) {
   return id;
 }
 
-/* The lowest face that intersects the face's plane along the segment. */
-static uint32_t crossing_face(const struct provenance_query *q) {
-  uint32_t face = SHEET_NONE;
+/* The lowest face below a number that intersects the face's plane along the
+ * segment; that number if none does. */
+static uint32_t crossing_face(const struct provenance_query *q, uint32_t past) {
+  uint32_t face = past;
   for (size_t i = 0; i < q->found_count; i++) {
     uint32_t g = q->found[i], other = q->sheet->triangle.item[g].face;
     if (other < face && may_bound_segment(q, g) && own_crosses_along(q, g))
@@ -220,13 +233,31 @@ static uint32_t crossing_face(const struct provenance_query *q) {
   return face;
 }
 
-/* The label that other faces give the segment. */
-static uint8_t label_by_others(const struct provenance_query *q, uint32_t *id) {
-  *id = edge_found(q, false);
-  if (*id != SHEET_NONE)
-    return MAP_SIDE_OCCLUDER;
-  *id = crossing_face(q);
-  return *id != SHEET_NONE ? MAP_SIDE_INTERSECTION : MAP_SIDE_CLIP;
+/* A label of a segment. */
+struct side_label {
+  uint8_t side; /* enum map_side */
+  uint32_t id;
+};
+
+static bool is_better_label(struct side_label a, struct side_label b) {
+  return a.side < b.side || (a.side == b.side && a.id < b.id);
+}
+
+/* The label that other faces give the segment, or any that is not better than
+ * `best`. */
+static struct side_label label_by_others(const struct provenance_query *q,
+                                         struct side_label best) {
+  struct side_label label = {MAP_SIDE_OCCLUDER, SHEET_NONE};
+  if (best.side >= MAP_SIDE_OCCLUDER)
+    label.id = edge_found(q, false);
+  if (label.id != SHEET_NONE || best.side < MAP_SIDE_INTERSECTION)
+    return label;
+  label.side = MAP_SIDE_INTERSECTION;
+  label.id = crossing_face(q, best.side == MAP_SIDE_INTERSECTION ? best.id
+                                                                 : SHEET_NONE);
+  if (label.id == SHEET_NONE)
+    label.side = MAP_SIDE_CLIP;
+  return label;
 }
 
 /* Returns whether f is a later triangle in contact with one of the face's
@@ -243,26 +274,22 @@ static bool touches_own(const struct provenance_query *q, uint32_t f) {
 /* The label that later triangles in contact with the face give the segment:
  * their visible pieces were passed on to the face (fragments.h) together with
  * the boundaries of these pieces. */
-static uint8_t label_by_contacts(const struct provenance_query *q,
-                                 uint32_t *id) {
-  uint8_t best = MAP_SIDE_CLIP;
-  *id = SHEET_NONE;
+static struct side_label label_by_contacts(const struct provenance_query *q) {
+  struct side_label best = {MAP_SIDE_CLIP, SHEET_NONE};
   for (size_t i = 0; i < q->found_count; i++) {
     struct provenance_query other = *q;
-    uint32_t f = q->found[i], other_id;
-    uint8_t side = MAP_SIDE_OCCLUDER;
+    uint32_t f = q->found[i];
+    struct side_label label = {MAP_SIDE_EDGE, SHEET_NONE};
     if (!touches_own(q, f))
       continue;
     other.own = &f;
     other.own_count = 1;
     other.face = q->sheet->triangle.item[f].face;
-    other_id = edge_along(q->sheet, f, &q->segment);
-    if (other_id == SHEET_NONE)
-      side = label_by_others(&other, &other_id);
-    if (side < best || (side == best && other_id < *id)) {
-      best = side;
-      *id = other_id;
-    }
+    label.id = edge_along(q->sheet, f, &q->segment);
+    if (label.id == SHEET_NONE)
+      label = label_by_others(&other, best);
+    if (is_better_label(label, best))
+      best = label;
   }
   return best;
 }
@@ -355,8 +382,11 @@ bool side_provenance_find(struct side_provenance *provenance,
   if (!keep_own_beside(provenance, &query))
     return false;
   *side = MAP_SIDE_INTERSECTION;
-  *id = crossing_face(&query);
-  if (*id == SHEET_NONE)
-    *side = label_by_contacts(&query, id);
+  *id = crossing_face(&query, SHEET_NONE);
+  if (*id != SHEET_NONE)
+    return true;
+  struct side_label label = label_by_contacts(&query);
+  *side = label.side;
+  *id = label.id;
   return true;
 }
