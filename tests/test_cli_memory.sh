@@ -44,6 +44,36 @@ too_many_points() {
     test ! -e many.svg
 }
 
+# faults_of_a_run [KB] - how many pages a run had to be given; KB is what ulimit
+# -d says before it.
+faults_of_a_run() {
+  (
+    me=$BASHPID
+    test -z "${1-}" || ulimit -S -d "$1"
+    "$recto" bumps.obj --threads 1 -e all -o bumps.svg || exit
+    sed 's/.*) //' "/proc/$me/stat" | cut -d' ' -f9
+  )
+}
+# Memory of 45 MB.  With a limit of some hundred megabytes the C library's own
+# rules hold: large blocks are given back when they are freed.
+freed_memory_is_used_again() {
+  local kept given_back
+  awk 'BEGIN {
+    n = 300
+    for (i = 0; i < n; i++)
+      for (k = 0; k < n; k++)
+        print "v", i, k, i * k % 3
+    for (i = 1; i < n; i++)
+      for (k = 1; k < n; k++) {
+        a = i * n + k + 1
+        print "f", a - n - 1, a - n, a
+        print "f", a - n - 1, a, a - 1
+      }
+  }' >bumps.obj
+  kept=$(faults_of_a_run) && given_back=$(faults_of_a_run 1000000) &&
+    test "$kept" -gt 0 && test "$kept" -lt "$((given_back * 3 / 4))"
+}
+
 if ! test -r /proc/self/limits; then
   skip "memory is limited" "no /proc/self/limits"
 elif grep -qa __asan_init "$recto"; then
@@ -53,5 +83,10 @@ else
     limit_is_the_machine
   claim "a limit that is set already stays" limit_is_kept
   claim "a model that needs more than its limit is an error" too_many_points
+  if getconf GNU_LIBC_VERSION >libc 2>&1; then
+    claim "what was freed is used again" freed_memory_is_used_again
+  else
+    skip "what was freed is used again" "another C library"
+  fi
 fi
 finish

@@ -3,12 +3,20 @@
 #include <stdalign.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
 
 #include "base/memory.h"
+#include "base/sanitizer.h"
+#include "tests/valgrind.h"
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 typedef ARRAY(int) int_array;
 
@@ -50,6 +58,54 @@ static void cleared_memory_is_clear(void **state) {
   for (int i = 0; i < 3000; i++)
     assert_int_equal(block[i], 0);
   mem_free(block);
+}
+
+#ifdef __GLIBC__
+/* Whether large pages were requested for the mapping that has an address; -1:
+ * the system does not say. */
+static int has_large_pages(const void *at) {
+  FILE *file = fopen("/proc/self/smaps", "re");
+  char line[512];
+  bool is_here = false;
+  int found = -1;
+  while (file != NULL && found < 0 && fgets(line, sizeof line, file) != NULL) {
+    unsigned long long from, end;
+    if (sscanf(line, "%llx-%llx ", &from, &end) == 2)
+      is_here = from <= (uintptr_t)at && (uintptr_t)at < end;
+    else if (is_here && strncmp(line, "VmFlags:", 8) == 0)
+      found = strstr(line, " hg") != NULL;
+  }
+  if (file != NULL)
+    fclose(file);
+  return found;
+}
+#endif
+
+/* Blocks of the heap follow each other in one mapping; what comes after one of
+ * them will be the next one's. */
+static void blocks_of_the_heap_are_in_large_pages(void **state) {
+  (void)state;
+#ifdef __GLIBC__
+  enum { MB = 1 << 20, COUNT = 8 };
+  char *block[COUNT];
+  FILE *file = fopen("/sys/kernel/mm/transparent_hugepage/enabled", "re");
+  if (file == NULL || is_under_valgrind() || SANITIZER_OF_ADDRESSES ||
+      SANITIZER_OF_THREADS)
+    skip();
+  fclose(file);
+  assert_true(mallopt(M_MMAP_THRESHOLD, 64 * MB) &&
+              mallopt(M_TOP_PAD, 32 * MB));
+  for (int i = 0; i < COUNT; i++) {
+    block[i] = mem_alloc(MB, 1);
+    assert_non_null(block[i]);
+    assert_int_not_equal(has_large_pages(block[i] + MB - 1), 0);
+    assert_int_not_equal(has_large_pages(block[i] + 4 * MB), 0);
+  }
+  for (int i = 0; i < COUNT; i++)
+    mem_free(block[i]);
+#else
+  skip();
+#endif
 }
 
 static void the_nth_allocation_fails_and_no_other(void **state) {
@@ -221,6 +277,7 @@ int main(void) {
       cmocka_unit_test(a_size_that_overflows_is_refused),
       cmocka_unit_test(nothing_has_an_address_too),
       cmocka_unit_test(cleared_memory_is_clear),
+      cmocka_unit_test(blocks_of_the_heap_are_in_large_pages),
       cmocka_unit_test(the_nth_allocation_fails_and_no_other),
       cmocka_unit_test(the_peak_rises_with_what_is_held),
       cmocka_unit_test(an_array_keeps_what_was_pushed),

@@ -37,6 +37,27 @@ static bool block_size(size_t count, size_t size, size_t *bytes) {
   return true;
 }
 
+#ifdef MADV_HUGEPAGE
+/* The least bytes of a block for which large pages are requested: of one that
+ * is a mapping of its own, and of one of the heap. */
+enum { LARGE_MAPPING = 1 << 22, LARGE_IN_HEAP = 1 << 17 };
+
+/* The same for a block of the heap: for all that the heap has grown by since
+ * the last request, as the mapping goes on past the block.  What comes later
+ * there is not written to yet. */
+static void request_of_heap(uintptr_t start, uintptr_t end,
+                            uintptr_t heap_end) {
+  static _Atomic uintptr_t requested;
+  uintptr_t from = atomic_load_explicit(&requested, memory_order_relaxed);
+  if (end <= from)
+    return;
+  if (from == 0)
+    from = start;
+  (void)madvise((void *)from, heap_end - from, MADV_HUGEPAGE);
+  atomic_store_explicit(&requested, heap_end, memory_order_relaxed);
+}
+#endif
+
 /* Requests that the system hold a large block in large pages: of the time of a
  * drawing of a million triangles an eighth went into the faults of small ones
  * (doc/decisions/0080).  The request is for whole small pages, all that the
@@ -45,13 +66,15 @@ static bool block_size(size_t count, size_t size, size_t *bytes) {
  * resized in place.  Where the system has no large pages, nothing changes. */
 static void *request_large_pages(void *block, size_t bytes) {
 #ifdef MADV_HUGEPAGE
-  enum { LARGE_BLOCK = 1 << 22 };
-  if (block != NULL && bytes >= LARGE_BLOCK) {
-    uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE),
-              start = (uintptr_t)block & ~(page - 1);
-    (void)madvise((void *)start, (uintptr_t)block + bytes - start,
-                  MADV_HUGEPAGE);
-  }
+  if (block == NULL || bytes < LARGE_IN_HEAP)
+    return block;
+  uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE),
+            start = (uintptr_t)block & ~(page - 1),
+            end = (uintptr_t)block + bytes, heap_end = (uintptr_t)sbrk(0);
+  if (start < heap_end)
+    request_of_heap(start, end, heap_end);
+  else if (bytes >= LARGE_MAPPING)
+    (void)madvise((void *)start, end - start, MADV_HUGEPAGE);
 #else
   (void)bytes;
 #endif

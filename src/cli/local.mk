@@ -4,6 +4,7 @@ recto_SOURCES += \
   %D%/completion.c %D%/completion.h \
   %D%/descriptors.c %D%/descriptors.h \
   %D%/frames.c %D%/frames.h \
+  %D%/heap.c %D%/heap.h \
   %D%/help.c %D%/help.h \
   %D%/lists.c %D%/lists.h \
   %D%/main.c \

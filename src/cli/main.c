@@ -3,6 +3,7 @@
 
 #include "cli/completion.h"
 #include "cli/descriptors.h"
+#include "cli/heap.h"
 #include "cli/help.h"
 #include "cli/memory_limit.h"
 #include "cli/message.h"
@@ -35,6 +36,7 @@ int main(int argc, char **argv) {
   if (!descriptors_reserve())
     return EXIT_FAILED; /* and there is nowhere to say so */
   memory_limit_set();
+  heap_keep_blocks();
   int code = run_program(&arguments, argc, argv);
   arguments_fini(&arguments);
   return code;

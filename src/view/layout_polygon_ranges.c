@@ -84,6 +84,10 @@ static bool add_faces_of_range(void *user, struct parallel_range faces) {
     ok = face == end || layout_face(own, face) == RECTO_OK;
   }
   own->error = NULL;
+  if (own->late.count == 0)
+    ARRAY_FREE(&own->late); /* most room was not needed */
+  else
+    ARRAY_TRIM(&own->late);
   layout_free_face(own);
   ARRAY_FREE(&own->clipped);
   return ok;
