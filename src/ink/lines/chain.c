@@ -213,31 +213,52 @@ MEM_PREFETCH_INLINE void prefetch_path(const struct chain *c, size_t i) {
   MEM_PREFETCH(&c->graph->segment.item[end >> 1]);
 }
 
-/* Gives the points of a range of paths their positions, by the segments, which
- * are anywhere in memory. */
+/* Fetches the segment of an end that comes later, and the node of one that
+ * comes sooner.
+ * left  how many ends there are from this one on */
+MEM_PREFETCH_INLINE void prefetch_node(const struct segment_graph *graph,
+                                       const uint32_t *end, uint32_t left) {
+  const struct graph_segment *segment = graph->segment.item;
+  if (left > 2 * MEM_PREFETCH_AHEAD)
+    MEM_PREFETCH(&segment[end[2 * MEM_PREFETCH_AHEAD] >> 1]);
+  if (left <= MEM_PREFETCH_AHEAD)
+    return;
+  uint32_t later = end[MEM_PREFETCH_AHEAD];
+  MEM_PREFETCH(&graph->node.item[segment[later >> 1].node[later & 1]]);
+}
+
+/* Gives the points of a path their positions, by the segments, which are
+ * anywhere in memory. */
+static void place_points_of_path(const struct chain *c, struct ink_path *path,
+                                 const uint32_t *end) {
+  const struct segment_graph graph = *c->graph;
+  uint32_t count = path->count;
+  struct ink_point *point = c->paths->point.item + path->point;
+  uint8_t *approximate = c->paths->approximate;
+  unsigned classes = 0;
+  for (uint32_t k = 0; k < count; k++) {
+    prefetch_node(&graph, end + k, count - k);
+    const struct graph_segment *s = &graph.segment.item[end[k] >> 1];
+    uint32_t node = s->node[end[k] & 1];
+    point[k] = graph.node.item[node];
+    classes |= s->style_key;
+    if (approximate != NULL)
+      approximate[path->point + k] = graph.approximate[node];
+  }
+  path->classes = (uint8_t)(classes & RECTO_EDGES_ALL);
+  path->end[0] = end[0];
+  path->end[1] = end[count - 1];
+}
+
 static bool place_points_of_range(void *user, struct parallel_range range) {
   const struct chain *c = user;
-  const struct graph_segment *segment = c->graph->segment.item;
-  struct ink_paths *paths = c->paths;
   for (size_t i = range.begin; i < range.end; i++) {
-    struct ink_path *path = &paths->path.item[i];
+    struct ink_path *path = &c->paths->path.item[i];
     const uint32_t *end = c->end.item + c->from[i];
-    struct ink_point *point = paths->point.item + path->point;
     if (!poll_at(i))
       return false;
     prefetch_path(c, i);
-    path->end[0] = end[0];
-    path->end[1] = end[path->count - 1];
-    for (uint32_t k = 0; k < path->count; k++) {
-      if (k + MEM_PREFETCH_AHEAD < path->count)
-        MEM_PREFETCH(&segment[end[k + MEM_PREFETCH_AHEAD] >> 1]);
-      const struct graph_segment *s = &segment[end[k] >> 1];
-      uint32_t node = s->node[end[k] & 1];
-      point[k] = c->graph->node.item[node];
-      path->classes |= (uint8_t)(s->style_key & RECTO_EDGES_ALL);
-      if (paths->approximate != NULL)
-        paths->approximate[path->point + k] = c->graph->approximate[node];
-    }
+    place_points_of_path(c, path, end);
     for (uint32_t k = 0; c->path_of_segment != NULL && k < path->count; k++)
       c->path_of_segment[end[k] >> 1] = (uint32_t)i;
   }
