@@ -24,22 +24,26 @@ enum { NEAR_MARGIN = 4 * TOLERANCE_COINCIDENT_UNITS };
 
 /* What a search finds. */
 struct node_marks {
-  atomic_uchar *near_segment;
+  struct segment_graph *graph;
   bool found;
 };
 
 static bool mark_node(void *user, uint32_t segment, uint32_t node) {
   struct node_marks *marks = user;
+  atomic_uchar *mark = &marks->graph->near_segment[node];
   (void)segment;
-  atomic_store_explicit(&marks->near_segment[node], 1, memory_order_relaxed);
   marks->found = true;
+  if (atomic_load_explicit(mark, memory_order_relaxed) != 0)
+    return true;
+  atomic_store_explicit(mark, 1, memory_order_relaxed);
+  atomic_store_explicit(&marks->graph->near_is_new, true, memory_order_relaxed);
   return true;
 }
 
 bool segment_graph_mark_near_nodes(struct segment_graph *graph,
                                    const struct node_rows *rows, int32_t near,
                                    uint32_t segment) {
-  struct node_marks marks = {graph->near_segment, false};
+  struct node_marks marks = {graph, false};
   const struct node_search search = {graph, rows, near, mark_node, &marks};
   return nodes_near_segment_visit(&search, segment) && marks.found;
 }
@@ -124,6 +128,7 @@ recto_status segment_graph_separate_isolated(struct segment_graph *graph,
     ok = set_apart(&work);
   else
     mem_free(work.found);
+  graph->near_is_new = false;
   mem_free(work.is_other);
   return ok ? RECTO_OK : error_memory(error);
 }
@@ -153,6 +158,9 @@ static bool find_taken_of_range(void *user, struct parallel_range range) {
 bool segment_graph_take_isolated(struct segment_graph *graph,
                                  struct graph_segments *taken) {
   size_t count = graph->isolated.count;
+  if (!graph->near_is_new)
+    return true;
+  graph->near_is_new = false;
   struct isolated_search search = {graph, mem_alloc(count, 1), false};
   bool ok = search.is_taken != NULL &&
             parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,

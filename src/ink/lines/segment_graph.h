@@ -70,6 +70,8 @@ struct segment_graph {
   struct graph_segments isolated;
   /* One a node: it is near a segment that does not end there; NULL: unknown. */
   atomic_uchar *near_segment;
+  /* Whether some were marked so since isolated segments were looked through. */
+  atomic_bool near_is_new;
   /* One a segment: whether a search by segment_graph_separate_isolated found
    * nodes near it; NULL: unknown, since segments have changed. */
   uint8_t *has_near;
@@ -142,7 +144,8 @@ bool segment_graph_mark_near_nodes(struct segment_graph *graph,
 
 /* Moves isolated segments to the end of `taken`: those with an end that is
  * marked in near_segment.  Returns false when memory ran out.
- * Cost  linear in the isolated segments, in parallel */
+ * Cost  linear in the isolated segments, in parallel; none where no node was
+ *       marked since the last time */
 USE_RESULT bool segment_graph_take_isolated(struct segment_graph *graph,
                                             struct graph_segments *taken);
 
