@@ -19,7 +19,7 @@
 enum {
   /* Larger blocks stay mappings of their own where the heap has no room: these
    * grow without being copied. */
-  HEAP_BLOCK = 8 << 20,
+  HEAP_BLOCK = 20 << 20,
   /* What the heap grows by, besides what was asked for. */
   HEAP_STEP = 32 << 20
 };
