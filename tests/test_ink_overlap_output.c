@@ -311,11 +311,10 @@ static void add_hay(struct ink_fixture *k, struct random *random, int count) {
   }
 }
 
-/* The graph of the drawing's lines without overlaps.
- * apart  isolated segments are set apart meanwhile */
-static struct segment_graph make_graph(struct ink_fixture *k, bool apart) {
+/* The graph of the drawing's lines, with its nodes in rows. */
+static struct segment_graph collect_lines(struct ink_fixture *k,
+                                          struct node_rows *rows) {
   struct segment_graph graph;
-  struct node_rows rows = {0};
   struct pens pens;
   segment_graph_init(&graph);
   k->map.edge_state = k->state.item;
@@ -324,7 +323,17 @@ static struct segment_graph make_graph(struct ink_fixture *k, bool apart) {
   assert_int_equal(segment_graph_collect(&graph, &k->sheet, &k->map, &pens,
                                          &k->options, NULL),
                    RECTO_OK);
-  assert_int_equal(segment_graph_unite(&graph, &rows, NULL), RECTO_OK);
+  k->map.edge_state = NULL;
+  pens_fini(&pens);
+  assert_int_equal(segment_graph_unite(&graph, rows, NULL), RECTO_OK);
+  return graph;
+}
+
+/* The same without overlaps.
+ * apart  isolated segments are set apart meanwhile */
+static struct segment_graph make_graph(struct ink_fixture *k, bool apart) {
+  struct node_rows rows = {0};
+  struct segment_graph graph = collect_lines(k, &rows);
   if (apart)
     assert_int_equal(segment_graph_separate_isolated(&graph, &rows, UNIT, NULL),
                      RECTO_OK);
@@ -336,10 +345,39 @@ static struct segment_graph make_graph(struct ink_fixture *k, bool apart) {
       segment_graph_drop_output_overlaps(&graph, &rows, UNIT, NULL), RECTO_OK);
   assert_true(apart || graph.isolated.count == 0);
   assert_int_equal(segment_graph_merge_isolated(&graph, NULL), RECTO_OK);
-  k->map.edge_state = NULL;
-  pens_fini(&pens);
   node_rows_fini(&rows);
   return graph;
+}
+
+/* A new line from one end of the first of three to one of the last passes an
+ * end of the second; each is looked through once. */
+static void isolated_segments_are_taken_when_a_line_comes_near(void **state) {
+  (void)state;
+  struct ink_fixture k;
+  struct node_rows rows = {0};
+  start(&k);
+  for (int i = -1; i <= 1; i++)
+    ink_fixture_line_at(&k, 0, i * BIG / 2, BIG, i * BIG / 2, CREASE);
+  struct segment_graph graph = collect_lines(&k, &rows);
+  assert_int_equal(segment_graph_separate_isolated(&graph, &rows, UNIT, NULL),
+                   RECTO_OK);
+  assert_int_equal(graph.isolated.count, 3);
+  assert_true(segment_graph_take_isolated(&graph, &graph.segment));
+  assert_int_equal(graph.segment.count, 0);
+  struct graph_segment added = graph.isolated.item[0],
+                       second = graph.isolated.item[1];
+  added.node[1] = graph.isolated.item[2].node[0];
+  assert_true(ARRAY_PUSH(&graph.segment, added));
+  assert_true(segment_graph_mark_near_nodes(&graph, &rows, UNIT, 0));
+  for (int time = 0; time < 2; time++) {
+    assert_true(segment_graph_take_isolated(&graph, &graph.segment));
+    assert_int_equal(graph.segment.count, 2);
+    assert_int_equal(graph.isolated.count, 2);
+    assert_memory_equal(&graph.segment.item[1], &second, sizeof second);
+  }
+  node_rows_fini(&rows);
+  segment_graph_fini(&graph);
+  ink_fixture_end(&k);
 }
 
 /* Whatever the share of those that overlap others: what is left is the same. */
@@ -500,6 +538,7 @@ int main(void) {
       cmocka_unit_test(what_is_beyond_a_near_line_goes_on_from_it),
       cmocka_unit_test(outlines_near_each_other_are_one_closed_one),
       cmocka_unit_test(with_ids_the_higher_priority_stays),
+      cmocka_unit_test(isolated_segments_are_taken_when_a_line_comes_near),
       cmocka_unit_test(isolated_segments_overlap_nothing),
       cmocka_unit_test(no_two_sides_of_random_drawings_share_more_than_a_unit),
       cmocka_unit_test(no_ink_is_lost_by_more_than_two_units),
