@@ -55,7 +55,6 @@ void crease_lines_fini(struct crease_lines *lines) {
   mem_free(lines->edge);
   mem_free(lines->cosine);
   mem_free((void *)lines->at);
-  mem_free(lines->line);
   mem_free(lines->number);
   *lines = (struct crease_lines){.sheet = lines->sheet};
 }
@@ -161,17 +160,36 @@ bool crease_lines_find_ends(struct crease_lines *lines) {
   return lines->at != NULL && crease_ends_count(sheet, NULL, lines->at);
 }
 
+/* An end of a listed edge, of two each. */
+static uint32_t end_of_listed(const struct crease_lines *lines, size_t i) {
+  return lines->sheet->edge.item[lines->edge[i / 2]].point[i % 2];
+}
+
+/* Joins the ends of the edges that are of lines.
+ * line  a union-find of the sheet's points, of which only the ends of listed
+ *       edges are set */
+static void join_listed_ends(const struct crease_lines *lines,
+                             double crease_deg, uint32_t *line) {
+  double crease = angle_of_degrees(crease_deg).cosine;
+  for (size_t i = 0; i < 2 * lines->count; i++)
+    line[end_of_listed(lines, i)] = end_of_listed(lines, i);
+  for (size_t i = 0; i < lines->count; i++) {
+    const struct sheet_edge *edge = &lines->sheet->edge.item[lines->edge[i]];
+    (void)poll_at(i);
+    if (crease_is_joined(edge, lines->cosine[i], crease))
+      union_find_join(line, edge->point[0], edge->point[1]);
+  }
+}
+
 /* Numbers the lines in the order of their first edges. */
-static bool number_crease_lines(struct crease_lines *lines) {
-  const struct sheet *sheet = lines->sheet;
-  lines->number = mem_calloc(sheet->point.count, sizeof *lines->number);
-  for (size_t i = 0; lines->number != NULL && i < 2 * lines->count; i++) {
-    uint32_t point = sheet->edge.item[lines->edge[i / 2]].point[i % 2];
-    uint32_t *number = &lines->number[union_find_root(lines->line, point)];
+static void number_crease_lines(struct crease_lines *lines, uint32_t *line) {
+  for (size_t i = 0; i < 2 * lines->count; i++) {
+    uint32_t point = end_of_listed(lines, i);
+    uint32_t *number = &lines->number[union_find_root(line, point)];
     if (*number == 0)
       *number = (uint32_t)++lines->line_count;
+    lines->number[point] = *number;
   }
-  return lines->number != NULL;
 }
 
 bool crease_lines_join(struct crease_lines *lines, double crease_deg) {
@@ -179,15 +197,14 @@ bool crease_lines_join(struct crease_lines *lines, double crease_deg) {
     return true;
   if (!crease_lines_measure(lines))
     return false;
-  const struct sheet *sheet = lines->sheet;
-  uint32_t *line = union_find_create(sheet->point.count);
-  double crease = angle_of_degrees(crease_deg).cosine;
-  for (size_t i = 0; line != NULL && i < lines->count; i++) {
-    const struct sheet_edge *edge = &sheet->edge.item[lines->edge[i]];
-    (void)poll_at(i);
-    if (crease_is_joined(edge, lines->cosine[i], crease))
-      union_find_join(line, edge->point[0], edge->point[1]);
+  size_t points = lines->sheet->point.count;
+  uint32_t *line = mem_alloc(points, sizeof *line);
+  lines->number = mem_calloc(points, sizeof *lines->number);
+  bool ok = line != NULL && lines->number != NULL;
+  if (ok) {
+    join_listed_ends(lines, crease_deg, line);
+    number_crease_lines(lines, line);
   }
-  lines->line = line;
-  return line != NULL && number_crease_lines(lines);
+  mem_free(line);
+  return ok;
 }

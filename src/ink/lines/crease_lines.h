@@ -6,7 +6,6 @@
 #include <stdatomic.h>
 
 #include "base/memory.h"
-#include "base/union_find.h"
 #include "scene/topology/large_faces.h"
 #include "view/sheet.h"
 
@@ -38,10 +37,8 @@ struct crease_lines {
   double *cosine;   /* one a listed edge: crease_cosine; NULL: not yet found */
   atomic_uchar *at; /* one a point: CREASE_END_ALONE where one of these is the
                        only drawable edge; NULL: not yet found */
-  uint32_t *line;   /* the lines as a union-find of the sheet's points; NULL:
-                       not yet joined */
-  uint32_t *number; /* one a point: of a root of that, the line's number from 1
-                       to line_count */
+  uint32_t *number; /* one a point: its line's, from 1 to line_count, 0: no
+                       such edge ends there; NULL: not yet joined */
   size_t line_count;
 };
 
@@ -73,7 +70,7 @@ USE_RESULT bool crease_lines_join(struct crease_lines *lines,
  * What is kept of each line takes little memory by it. */
 static inline uint32_t crease_line_of_point(const struct crease_lines *lines,
                                             uint32_t point) {
-  return lines->number[union_find_root(lines->line, point)];
+  return lines->number[point];
 }
 
 #endif

@@ -11,7 +11,6 @@
 
 #include "base/parallel.h"
 #include "base/sort.h"
-#include "base/union_find.h"
 #include "ink/lines/crease_lines.h"
 #include "ink/pens.h"
 
@@ -48,17 +47,17 @@ static bool has_free_ends(const struct crease_lines *creases) {
   return false;
 }
 
-/* Sets of the roots of lines whether a crease ends free there.  Returns NULL
+/* One a line, by its number: whether a crease ends free there.  Returns NULL
  * when memory ran out. */
 static uint8_t *find_free_lines(const struct crease_lines *creases) {
   const struct sheet *sheet = creases->sheet;
-  uint8_t *is_free = mem_calloc(sheet->point.count, 1);
+  uint8_t *is_free = mem_calloc(creases->line_count + 1, 1);
   for (size_t i = 0; is_free != NULL && i < creases->count; i++) {
     (void)poll_at(i);
     for (int k = 0; k < 2; k++)
       if (ends_free(creases, i, k))
-        is_free[union_find_root(
-            creases->line, sheet->edge.item[creases->edge[i]].point[k])] = 1;
+        is_free[crease_line_of_point(
+            creases, sheet->edge.item[creases->edge[i]].point[k])] = 1;
   }
   return is_free;
 }
@@ -99,7 +98,7 @@ static bool list_creases_of_lines(struct cycle_search *c,
     const struct sheet_edge *edge =
         &sheet->edge.item[graph->segment.item[i].edge];
     if (!is_short_crease(graph, sheet, pens, i) ||
-        !is_free[union_find_root(creases->line, edge->point[0])])
+        !is_free[crease_line_of_point(creases, edge->point[0])])
       continue;
     uint32_t pen =
         pens_of_line(pens, edge->edge_class, sheet_edge_group(sheet, edge));

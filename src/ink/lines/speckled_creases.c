@@ -58,7 +58,8 @@ struct speckle_search {
   struct projection projection;
   double crease, sharp; /* the cosines of the crease angle, that of zigzags */
   uint8_t *is_of_line;  /* one a listed edge */
-  struct speckle_corner *corner; /* one a vertex */
+  struct speckle_corner *corner; /* one a vertex; set where edges of lines
+                                    end */
   uint32_t *piece;               /* a union-find of the listed edges */
   double *piece_mm;              /* one of these: of a piece's root */
   struct speckle_line *lines;    /* by number of the line; 0: none */
@@ -80,25 +81,37 @@ static bool find_edges_of_range(void *user, struct parallel_range range) {
   return true;
 }
 
+/* The vertex at an end of a listed edge, of two each; SHEET_NONE: the edge is
+ * of no line, or the end is no vertex.  Few vertices are such, so that no loop
+ * is over all. */
+static uint32_t vertex_of_line(const struct speckle_search *s, size_t end) {
+  if (!s->is_of_line[end / 2])
+    return SHEET_NONE;
+  uint32_t point = listed_edge(s, end / 2)->point[end % 2];
+  return point < s->sheet->vertex_count ? point : SHEET_NONE;
+}
+
 static void list_corners(const struct speckle_search *s) {
-  for (size_t i = 0; i < s->creases->count; i++) {
-    const struct sheet_edge *edge = listed_edge(s, i);
+  uint32_t point;
+  size_t ends = 2 * s->creases->count;
+  for (size_t i = 0; i < ends; i++)
+    if ((point = vertex_of_line(s, i)) != SHEET_NONE)
+      s->corner[point].creases = 0;
+  for (size_t i = 0; i < ends; i++) {
     (void)poll_at(i);
-    for (int k = 0; k < 2 && s->is_of_line[i]; k++) {
-      if (edge->point[k] >= s->sheet->vertex_count)
-        continue;
-      struct speckle_corner *at = &s->corner[edge->point[k]];
-      if (at->creases < 2)
-        at->edge[at->creases] = (uint32_t)i;
-      at->creases++;
-    }
+    if ((point = vertex_of_line(s, i)) == SHEET_NONE)
+      continue;
+    struct speckle_corner *at = &s->corner[point];
+    if (at->creases < 2)
+      at->edge[at->creases] = (uint32_t)(i / 2);
+    at->creases++;
   }
 }
 
 static bool find_line_corners(struct speckle_search *s) {
   size_t count = s->creases->count;
   s->is_of_line = mem_alloc(count, sizeof *s->is_of_line);
-  s->corner = mem_calloc(s->sheet->vertex_count, sizeof *s->corner);
+  s->corner = mem_alloc(s->sheet->vertex_count, sizeof *s->corner);
   if (s->is_of_line == NULL || s->corner == NULL ||
       !parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
                        PARALLEL_ITEMS, find_edges_of_range, s))
@@ -136,12 +149,11 @@ static bool is_on_triangle(const struct speckle_search *s, uint32_t point) {
 
 /* Whether any line may be noise: none of a solid is. */
 static bool has_candidates(const struct speckle_search *s) {
-  for (size_t i = 0; i < s->creases->count; i++) {
-    const uint32_t *point = listed_edge(s, i)->point;
-    for (int k = 0; k < 2 && s->is_of_line[i]; k++)
-      if (point[k] < s->sheet->vertex_count &&
-          (is_free_corner(s, point[k]) || is_on_triangle(s, point[k])))
-        return true;
+  for (size_t i = 0; i < 2 * s->creases->count; i++) {
+    uint32_t point = vertex_of_line(s, i);
+    if (point != SHEET_NONE &&
+        (is_free_corner(s, point) || is_on_triangle(s, point)))
+      return true;
   }
   return false;
 }
@@ -178,9 +190,14 @@ static bool goes_on(const struct speckle_search *s, uint32_t point) {
 }
 
 static void join_pieces(const struct speckle_search *s) {
-  for (uint32_t p = 0; p < s->sheet->vertex_count; p++)
-    if (s->corner[p].creases == 2 && goes_on(s, p))
-      union_find_join(s->piece, s->corner[p].edge[0], s->corner[p].edge[1]);
+  for (size_t i = 0; i < 2 * s->creases->count; i++) {
+    uint32_t point = vertex_of_line(s, i);
+    if (point == SHEET_NONE)
+      continue;
+    const struct speckle_corner *at = &s->corner[point];
+    if (at->creases == 2 && at->edge[0] == i / 2 && goes_on(s, point))
+      union_find_join(s->piece, at->edge[0], at->edge[1]);
+  }
 }
 
 /* The length of an edge in space at the scale that it is drawn at. */
@@ -225,9 +242,11 @@ static void measure_lines(const struct speckle_search *s) {
     if (s->piece_mm[piece] < pens_shortest_crease_mm(s->pens, pen))
       of->in_short += length;
   }
-  for (uint32_t p = 0; p < s->sheet->vertex_count; p++)
-    if (is_free_corner(s, p))
-      s->lines[crease_line_of_point(s->creases, p)].free_ends++;
+  for (size_t i = 0; i < 2 * s->creases->count; i++) {
+    uint32_t point = vertex_of_line(s, i);
+    if (point != SHEET_NONE && is_free_corner(s, point))
+      s->lines[crease_line_of_point(s->creases, point)].free_ends++;
+  }
 }
 
 /* Whether a line is that of a solid rather than one that ends free, or goes

@@ -33,6 +33,16 @@ struct line_neighbours {
   uint32_t point[2], count;
 };
 
+/* Whether a listed edge is of a line, and neighbours are listed at its ends. */
+static bool joins_vertices(const struct crease_lines *creases, size_t i,
+                           double crease) {
+  const struct sheet *sheet = creases->sheet;
+  const struct sheet_edge *edge = &sheet->edge.item[creases->edge[i]];
+  return crease_is_joined(edge, creases->cosine[i], crease) &&
+         edge->point[0] < sheet->vertex_count &&
+         edge->point[1] < sheet->vertex_count;
+}
+
 static void add_neighbour(struct line_neighbours *of, uint32_t point) {
   if (of->count < 2)
     of->point[of->count] = point;
@@ -59,7 +69,8 @@ static bool turns_back(const struct projection *projection,
 }
 
 /* Finds out how the edges of the lines bend, and lists the neighbours of their
- * points on the mesh. */
+ * points on the mesh.
+ * next  one a vertex; those on lines are set */
 static void look_at_edges(const struct crease_lines *creases,
                           const struct crease_angles *angles,
                           struct crease_line *lines,
@@ -69,6 +80,11 @@ static void look_at_edges(const struct crease_lines *creases,
   double start = angle_of_degrees(angles->start_deg).cosine;
   double very = angle_of_degrees(angles->zigzag_deg).cosine;
   for (size_t i = 0; i < creases->count; i++) {
+    const uint32_t *point = sheet->edge.item[creases->edge[i]].point;
+    for (int k = 0; k < 2 && joins_vertices(creases, i, crease); k++)
+      next[point[k]].count = 0;
+  }
+  for (size_t i = 0; i < creases->count; i++) {
     const struct sheet_edge *edge = &sheet->edge.item[creases->edge[i]];
     const uint32_t *point = edge->point;
     double cosine = creases->cosine[i];
@@ -76,24 +92,30 @@ static void look_at_edges(const struct crease_lines *creases,
     struct crease_line *of = &lines[crease_line_of_point(creases, point[0])];
     of->is_sharp = of->is_sharp || cosine < start;
     of->is_very_sharp = of->is_very_sharp || cosine < very;
-    if (crease_is_joined(edge, cosine, crease) && ++of->edges > 0 &&
-        point[0] < sheet->vertex_count && point[1] < sheet->vertex_count) {
+    of->edges += crease_is_joined(edge, cosine, crease);
+    if (joins_vertices(creases, i, crease)) {
       add_neighbour(&next[point[0]], point[1]);
       add_neighbour(&next[point[1]], point[0]);
     }
   }
 }
 
+/* Counts where lines turn back. */
 static void look_at_points(const struct crease_lines *creases,
-                           struct crease_line *lines,
-                           const struct line_neighbours *next) {
+                           double crease_deg, struct crease_line *lines,
+                           struct line_neighbours *next) {
   const struct sheet *sheet = creases->sheet;
   const struct projection projection = projection_of(&sheet->camera);
   const struct geom_point *at = sheet->point.item;
-  for (uint32_t p = 0; p < sheet->vertex_count; p++)
-    if (next[p].count == 2 && turns_back(&projection, at[next[p].point[0]],
-                                         at[p], at[next[p].point[1]]))
-      lines[crease_line_of_point(creases, p)].turns++;
+  double crease = angle_of_degrees(crease_deg).cosine;
+  for (size_t i = 0; i < creases->count; i++)
+    for (int k = 0; k < 2 && joins_vertices(creases, i, crease); k++) {
+      uint32_t p = sheet->edge.item[creases->edge[i]].point[k];
+      if (next[p].count == 2 && turns_back(&projection, at[next[p].point[0]],
+                                           at[p], at[next[p].point[1]]))
+        lines[crease_line_of_point(creases, p)].turns++;
+      next[p].count = 0; /* not again from the other edge */
+    }
 }
 
 static bool is_weak_line(const struct crease_line *line) {
@@ -119,11 +141,11 @@ bool paths_find_weak(struct ink_paths *paths, const struct segment_graph *graph,
     return false;
   struct crease_line *lines =
       mem_calloc(creases->line_count + 1, sizeof *lines);
-  struct line_neighbours *next = mem_calloc(sheet->vertex_count, sizeof *next);
+  struct line_neighbours *next = mem_alloc(sheet->vertex_count, sizeof *next);
   bool ok = lines != NULL && next != NULL;
   if (ok) {
     look_at_edges(creases, angles, lines, next);
-    look_at_points(creases, lines, next);
+    look_at_points(creases, angles->crease_deg, lines, next);
   }
   for (size_t i = 0; ok && i < paths->path.count; i++) {
     struct ink_path *path = &paths->path.item[i];
