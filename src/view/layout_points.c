@@ -17,106 +17,150 @@ static recto_status out_of_points(const struct layout *layout) {
                    "the drawing has more than 2^31 points");
 }
 
-static size_t count_used(const uint8_t *used, size_t count) {
-  size_t sum = 0;
-  for (size_t p = 0; p < count; p++)
-    sum += used[p];
-  return sum;
-}
-
+/* What the ranges of scene points have in common. */
 struct projection_work {
   struct layout *layout;
-  const uint8_t *used;
-  atomic_bool found_other;   /* a point is not used, or outside */
-  atomic_bool found_outside; /* one that is used is */
+  const uint8_t *used; /* one a scene point */
+  size_t *first;       /* one a range: how many it uses; then the number of
+                                its first used point among all used ones */
+  atomic_bool found_outside; /* a point that is used is */
 };
 
-/* Projects the points of a range, each to the place of its own number. */
+static bool count_used_of_range(void *user, struct parallel_range range) {
+  const struct projection_work *work = user;
+  size_t sum = 0;
+  for (size_t p = range.begin; p < range.end; p++)
+    sum += work->used[p];
+  work->first[range.begin / PARALLEL_ITEMS] = sum;
+  return true;
+}
+
+/* Counts the points that are used, and numbers the first of each range; false
+ * when the caller cancelled. */
+static bool number_used_points(struct projection_work *work, int workers,
+                               size_t *used) {
+  size_t points = work->layout->scene->point.count, sum = 0;
+  if (!parallel_ranges(workers, points, PARALLEL_ITEMS, count_used_of_range,
+                       work))
+    return false;
+  for (size_t r = 0; r < parallel_range_count(points, PARALLEL_ITEMS); r++) {
+    size_t count = work->first[r];
+    work->first[r] = sum;
+    sum += count;
+  }
+  *used = sum;
+  return true;
+}
+
+/* Projects the used points of a range, each to the place of its number among
+ * these, to which it maps those of the scene where not all are used. */
 static bool project_range(void *user, struct parallel_range range) {
   struct projection_work *work = user;
   struct layout *layout = work->layout;
   const struct projection projection = layout->projection;
-  struct geom_point *point = layout->sheet->point.item;
-  bool all = true, outside = false;
+  struct geom_point *point =
+      layout->sheet->point.item + work->first[range.begin / PARALLEL_ITEMS];
+  uint32_t *map = layout->point_map;
+  bool outside = false;
   for (size_t p = range.begin; p < range.end; p++) {
-    all = all && work->used[p];
+    if (map != NULL)
+      map[p] = work->used[p] ? (uint32_t)(point - layout->sheet->point.item)
+                             : SHEET_NONE;
     if (!work->used[p])
       continue;
     struct view_point at = layout_view(layout, (uint32_t)p);
     uint8_t outcode = clip_outcode(&projection, at);
-    all = all && outcode == 0;
     outside = outside || outcode != 0;
     if (outcode == 0)
-      point[p] = project_point(&projection, at);
+      *point = project_point(&projection, at);
     else
       layout->outcode[p] = outcode;
+    point++;
   }
-  if (!all)
-    atomic_store(&work->found_other, true);
   if (outside)
     atomic_store(&work->found_outside, true);
   return true;
 }
 
-/* Moves the points that are used and inside to the front, and maps those of the
- * scene to them; returns how many there are. */
-static size_t compact_points(struct layout *layout, const uint8_t *used) {
+static bool make_point_map(struct layout *layout) {
+  layout->point_map =
+      mem_alloc(layout->scene->point.count, sizeof *layout->point_map);
+  return layout->point_map != NULL;
+}
+
+/* Moves the points that are inside to the front; returns how many there are.
+ * is_new  the map is not made yet: all points are used */
+static size_t leave_outside_out(struct layout *layout, bool is_new) {
   struct geom_point *point = layout->sheet->point.item;
+  uint32_t *map = layout->point_map;
   size_t points = layout->scene->point.count, count = 0;
   for (size_t p = 0; p < points; p++) {
-    bool inside = used[p] && layout->outcode[p] == 0;
-    layout->point_map[p] = inside ? (uint32_t)count : SHEET_NONE;
+    uint32_t from = is_new ? (uint32_t)p : map[p];
+    bool inside = from != SHEET_NONE && layout->outcode[p] == 0;
+    map[p] = inside ? (uint32_t)count : SHEET_NONE;
     if (inside)
-      point[count++] = point[p];
+      point[count++] = point[from];
   }
   return count;
 }
 
-/* Makes points of the sheet of those that are used and inside.
- * used  one a scene point; the sheet has room for all of these */
-static recto_status project_points(struct layout *layout, const uint8_t *used) {
-  struct projection_work work = {.layout = layout, .used = used};
-  size_t points = layout->scene->point.count, count = points;
-  if (!parallel_ranges(parallel_workers(points, PARALLEL_ITEMS), points,
-                       PARALLEL_ITEMS, project_range, &work))
+/* Makes points of the sheet of those that are used and inside. */
+static recto_status project_points(struct projection_work *work, int workers,
+                                   size_t used) {
+  struct layout *layout = work->layout;
+  size_t points = layout->scene->point.count, count = used;
+  if (used < points && !make_point_map(layout))
+    return error_memory(layout->error);
+  if (!parallel_ranges(workers, points, PARALLEL_ITEMS, project_range, work))
     return error_cancelled(layout->error);
-  layout->is_clipped = atomic_load(&work.found_outside);
-  if (atomic_load(&work.found_other)) {
-    layout->point_map = mem_alloc(points, sizeof *layout->point_map);
-    if (layout->point_map == NULL)
+  layout->is_clipped = atomic_load(&work->found_outside);
+  bool is_new = layout->point_map == NULL;
+  if (layout->is_clipped || (!is_new && !layout->sheet->camera.all_on_page)) {
+    if (is_new && !make_point_map(layout))
       return error_memory(layout->error);
-    count = compact_points(layout, used);
+    count = leave_outside_out(layout, is_new);
   }
   layout->sheet->point.count = layout->sheet->vertex_count = count;
   return RECTO_OK;
 }
 
+/* Makes the points of the sheet. */
+static recto_status make_points(struct projection_work *work) {
+  struct layout *layout = work->layout;
+  struct sheet *sheet = layout->sheet;
+  size_t points = layout->scene->point.count, used;
+  int workers = parallel_workers(points, PARALLEL_ITEMS);
+  work->first = mem_alloc(parallel_range_count(points, PARALLEL_ITEMS),
+                          sizeof *work->first);
+  if (work->first == NULL)
+    return error_memory(layout->error);
+  if (!number_used_points(work, workers, &used))
+    return error_cancelled(layout->error);
+  if (used > point_limit)
+    return out_of_points(layout);
+  if (!ARRAY_RESERVE(&sheet->point, points))
+    return error_memory(layout->error);
+  recto_status status = layout_range(layout, work->used);
+  if (status != RECTO_OK)
+    return status;
+  sheet->z_scale = layout->projection.z_scale;
+  sheet->units_per_view = layout->projection.units;
+  return project_points(work, workers, used);
+}
+
 recto_status layout_points(struct layout *layout) {
   size_t points = layout->scene->point.count;
-  recto_status status = RECTO_OK;
   struct topology *topology = layout->topology;
   uint8_t *own = NULL;
   if (topology->used == NULL)
     own = used_points(layout->scene, topology->weld);
-  const uint8_t *used = own != NULL ? own : topology->used;
+  struct projection_work work = {.layout = layout,
+                                 .used = own != NULL ? own : topology->used};
   layout->outcode = mem_calloc(points, sizeof *layout->outcode);
-  if (used == NULL || layout->outcode == NULL) {
-    status = error_memory(layout->error);
-    goto end;
-  }
-  size_t count = count_used(used, points);
-  if (count > point_limit)
-    status = out_of_points(layout);
-  else if (!ARRAY_RESERVE(&layout->sheet->point, points))
-    status = error_memory(layout->error);
-  else
-    status = layout_range(layout, used);
-  if (status == RECTO_OK) {
-    layout->sheet->z_scale = layout->projection.z_scale;
-    layout->sheet->units_per_view = layout->projection.units;
-    status = project_points(layout, used);
-  }
-end:
+  recto_status status = work.used != NULL && layout->outcode != NULL
+                            ? make_points(&work)
+                            : error_memory(layout->error);
+  mem_free(work.first);
   mem_free(own);
   if (topology->drop_edges) {
     mem_free(topology->used);
