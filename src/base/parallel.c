@@ -73,30 +73,61 @@ int parallel_threads(void) {
 /* With fewer for each a thread is not worth while. */
 enum { RANGES_PER_THREAD = 4 };
 
+/* With more workers than that several of them begin with one share. */
+enum { SHARES_MAX = 16 };
+
+/* Consecutive ranges. */
+struct share {
+  atomic_size_t next; /* the first that no worker has taken; */
+  size_t end;         /* not less: none is left */
+  char apart[PARALLEL_APART];
+};
+
 struct ranges {
   size_t count, items;
   parallel_task *task;
   void *user;
-  atomic_size_t next; /* the first range that no worker has taken */
   atomic_int workers; /* that have begun, beside the caller */
   atomic_bool ended;
+  size_t shares;
+  struct share share[SHARES_MAX];
 };
 
-static void do_ranges(void *user, bool is_caller) {
-  struct ranges *ranges = user;
-  size_t count = parallel_range_count(ranges->count, ranges->items), i;
-  int worker = is_caller ? 0 : 1 + atomic_fetch_add(&ranges->workers, 1);
-  if (!is_caller)
-    poll_follow(&ranges->ended);
-  while ((i = atomic_fetch_add(&ranges->next, 1)) < count && poll_now()) {
+static void make_shares(struct ranges *ranges, int shares) {
+  size_t count = parallel_range_count(ranges->count, ranges->items);
+  size_t most = count < SHARES_MAX ? count : (size_t)SHARES_MAX;
+  ranges->shares = (size_t)shares < most ? (size_t)shares : most;
+  for (size_t s = 0; s < ranges->shares; s++) {
+    atomic_init(&ranges->share[s].next, count * s / ranges->shares);
+    ranges->share[s].end = count * (s + 1) / ranges->shares;
+  }
+}
+
+/* Does the ranges of a share that are left; false when the work is to end. */
+static bool do_share(struct ranges *ranges, struct share *share, int worker) {
+  size_t i;
+  while ((i = atomic_fetch_add(&share->next, 1)) < share->end) {
     struct parallel_range range = {i * ranges->items, (i + 1) * ranges->items,
                                    worker};
     if (range.end > ranges->count)
       range.end = ranges->count;
-    if (!ranges->task(ranges->user, range))
-      break;
+    if (!poll_now() || !ranges->task(ranges->user, range))
+      return false;
   }
-  if (i < count)
+  return true;
+}
+
+/* Does the worker's own share, and what is left of the others. */
+static void do_ranges(void *user, bool is_caller) {
+  struct ranges *ranges = user;
+  int worker = is_caller ? 0 : 1 + atomic_fetch_add(&ranges->workers, 1);
+  bool ok = true;
+  if (!is_caller)
+    poll_follow(&ranges->ended);
+  for (size_t k = 0; ok && k < ranges->shares; k++)
+    ok = do_share(ranges, &ranges->share[((size_t)worker + k) % ranges->shares],
+                  worker);
+  if (!ok)
     atomic_store(&ranges->ended, true);
   if (!is_caller)
     poll_follow(NULL);
@@ -110,12 +141,28 @@ int parallel_workers(size_t count, size_t items) {
   return worthwhile < (size_t)threads ? (int)worthwhile : threads;
 }
 
-bool parallel_ranges(int workers, size_t count, size_t items,
-                     parallel_task *task, void *user) {
-  struct ranges ranges = {
-      .count = count, .items = items, .task = task, .user = user};
+static bool run_ranges(int workers, int shares, size_t count, size_t items,
+                       parallel_task *task, void *user) {
+  struct ranges ranges;
+  ranges.count = count;
+  ranges.items = items;
+  ranges.task = task;
+  ranges.user = user;
+  atomic_init(&ranges.workers, 0);
+  atomic_init(&ranges.ended, false);
+  make_shares(&ranges, shares);
   parallel_run(workers, do_ranges, &ranges);
   return !atomic_load(&ranges.ended);
+}
+
+bool parallel_ranges(int workers, size_t count, size_t items,
+                     parallel_task *task, void *user) {
+  return run_ranges(workers, workers, count, items, task, user);
+}
+
+bool parallel_ranges_ascending(int workers, size_t count, size_t items,
+                               parallel_task *task, void *user) {
+  return run_ranges(workers, 1, count, items, task, user);
 }
 
 size_t parallel_gather(void *item, size_t size, size_t count, size_t items,

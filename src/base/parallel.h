@@ -68,11 +68,19 @@ int parallel_workers(size_t count, size_t items);
  * shorter, and does them in at most `workers` threads, each range in one of
  * them.  Ranges begin at the same items for any number of threads, so a task
  * whose result depends on its range alone gives the same bytes.
+ * Each worker begins with a share of consecutive ranges, and then takes what is
+ * left of the other shares: so threads do not write to memory side by side,
+ * where both of them would clear a large page that neither has written to.
  * workers  as from parallel_workers; the caller is one of them
  * Returns false when a task did, or the caller cancelled; the others may then
  * not have been run. */
 bool parallel_ranges(int workers, size_t count, size_t items,
                      parallel_task *task, void *user);
+
+/* The same, where ranges are begun in ascending order: for tasks that take less
+ * time by what is known of those before. */
+bool parallel_ranges_ascending(int workers, size_t count, size_t items,
+                               parallel_task *task, void *user);
 
 /* The number of these ranges. */
 static inline size_t parallel_range_count(size_t count, size_t items) {

@@ -206,13 +206,13 @@ static bool list_undecided(struct covering *c) {
 }
 
 bool covering_decide(struct covering *c) {
-  if (!parallel_ranges(parallel_workers(c->hairs, PATHS_IN_RANGE), c->hairs,
-                       PATHS_IN_RANGE, judge_range, c) ||
+  if (!parallel_ranges_ascending(parallel_workers(c->hairs, PATHS_IN_RANGE),
+                                 c->hairs, PATHS_IN_RANGE, judge_range, c) ||
       !list_undecided(c))
     return false;
   size_t count = c->undecided.count;
-  if (!parallel_ranges(parallel_workers(count, PATHS_IN_RANGE), count,
-                       PATHS_IN_RANGE, decide_range, c))
+  if (!parallel_ranges_ascending(parallel_workers(count, PATHS_IN_RANGE), count,
+                                 PATHS_IN_RANGE, decide_range, c))
     return false;
   for (size_t i = 0; i < count; i++)
     if (verdict_of(c, c->undecided.item[i]) == COVER_UNDECIDED)
