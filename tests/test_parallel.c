@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 #include <errno.h>
 #include <pthread.h>
+#include <sched.h>
 #include <setjmp.h>
 #include <signal.h>
 #include <stdarg.h>
@@ -312,6 +313,39 @@ static void a_process_forked_in_a_call_goes_on(void **state) {
   assert_int_equal(started, 2);
 }
 
+/* Which range each of some workers begins with; none goes on before all have
+ * begun. */
+enum { BEGINNERS = 3 };
+
+struct beginnings {
+  atomic_int begun;
+  bool has[BEGINNERS];
+  size_t first[BEGINNERS];
+};
+
+static bool note_first(void *user, struct parallel_range range) {
+  struct beginnings *of = user;
+  if (of->has[range.worker])
+    return true;
+  of->has[range.worker] = true;
+  of->first[range.worker] = range.begin;
+  atomic_fetch_add(&of->begun, 1);
+  while (atomic_load(&of->begun) < BEGINNERS)
+    (void)sched_yield();
+  return true;
+}
+
+static void workers_begin_with_shares_or_in_order(void **state) {
+  struct beginnings of = {.begun = 0}, up = {.begun = 0};
+  (void)state;
+  assert_true(parallel_ranges(BEGINNERS, 30, 1, note_first, &of));
+  assert_true(parallel_ranges_ascending(BEGINNERS, 30, 1, note_first, &up));
+  for (size_t w = 0; w < BEGINNERS; w++) {
+    assert_int_equal(of.first[w], 10 * w);
+    assert_in_range(up.first[w], 0, BEGINNERS - 1);
+  }
+}
+
 static void few_items_and_no_call_have_one_worker(void **state) {
   static struct items items;
   struct poll poll;
@@ -406,6 +440,7 @@ int main(void) {
       cmocka_unit_test_setup(a_process_forked_in_a_call_goes_on, reset),
       cmocka_unit_test(what_ranges_keep_is_gathered_in_order),
       cmocka_unit_test_setup(few_items_and_no_call_have_one_worker, reset),
+      cmocka_unit_test_setup(workers_begin_with_shares_or_in_order, reset),
       cmocka_unit_test_setup(lines_do_not_depend_on_what_threads_there_are,
                              reset),
   };
