@@ -18,30 +18,42 @@ static const int tessellation[][2] = {{32, 16}, {64, 32}, {256, 128}};
 
 /* ---- One convex outline -------------------------------------------------- */
 
-/* How far the one stroke is from the contour of an ellipsoid, at most, mm: on
- * the page the contour is where the support function has its supports. */
-static double distance_to_outline(const recto_drawing *drawing,
+/* How far a point of the page is from the contour of an ellipsoid, mm: on the
+ * page the contour is where the support function has its supports. */
+static double distance_to_contour(const double at[2],
                                   const struct smooth_axes *axes,
                                   const double radius[3]) {
+  double inside = 1e9;
+  for (int k = 0; k < SAMPLES; k++) {
+    double angle = 2 * M_PI * k / SAMPLES, d[3];
+    for (int c = 0; c < 3; c++)
+      d[c] =
+          radius[c] * (cos(angle) * axes->right[c] + sin(angle) * axes->up[c]);
+    double support = SMOOTH_SCALE_MM * sqrt(smooth_dot(d, d));
+    inside = fmin(inside, support - (cos(angle) * at[0] + sin(angle) * at[1]));
+  }
+  return fabs(inside);
+}
+
+/* How far the one stroke is from that contour, at most, mm: most[0] its
+ * points, most[1] the middles of its sides. */
+static void distances_to_outline(const recto_drawing *drawing,
+                                 const struct smooth_axes *axes,
+                                 const double radius[3], double most[2]) {
   recto_stroke stroke;
-  double most = 0;
+  most[0] = most[1] = 0;
   assert_true(recto_drawing_stroke(drawing, 0, &stroke));
   assert_true(stroke.closed);
   for (size_t i = 0; i < stroke.count; i++) {
-    double x = stroke.points[2 * i] - SMOOTH_PAGE_MM / 2;
-    double y = stroke.points[2 * i + 1] - SMOOTH_PAGE_MM / 2;
-    double inside = 1e9;
-    for (int k = 0; k < SAMPLES; k++) {
-      double angle = 2 * M_PI * k / SAMPLES, d[3];
-      for (int c = 0; c < 3; c++)
-        d[c] = radius[c] *
-               (cos(angle) * axes->right[c] + sin(angle) * axes->up[c]);
-      double support = SMOOTH_SCALE_MM * sqrt(smooth_dot(d, d));
-      inside = fmin(inside, support - (cos(angle) * x + sin(angle) * y));
+    const double *p = stroke.points + 2 * i,
+                 *q = stroke.points + 2 * ((i + 1) % stroke.count);
+    for (int k = 0; k < 2; k++) {
+      double at[2];
+      for (int c = 0; c < 2; c++)
+        at[c] = (k == 0 ? p[c] : (p[c] + q[c]) / 2) - SMOOTH_PAGE_MM / 2;
+      most[k] = fmax(most[k], distance_to_contour(at, axes, radius));
     }
-    most = fmax(most, fabs(inside));
   }
-  return most;
 }
 
 static void check_outlines(smooth_surface *at, const double radius[3]) {
@@ -52,14 +64,19 @@ static void check_outlines(smooth_surface *at, const double radius[3]) {
     double sagitta = SMOOTH_SCALE_MM * 2 * (1 - cos(M_PI / n));
     for (int view = 0; view < SMOOTH_VIEWS; view++) {
       recto_options options;
+      double most[2];
       smooth_view(&options, view);
       struct smooth_axes axes = smooth_axes_of(&options);
       recto_drawing *drawing = smooth_draw(scene, &options);
       assert_int_equal(recto_drawing_stroke_count(drawing), 1);
-      double distance = distance_to_outline(drawing, &axes, radius);
-      if (!(distance <= fmin(sagitta, 0.05)))
+      distances_to_outline(drawing, &axes, radius, most);
+      if (!(most[0] <= fmin(sagitta, 0.05)))
         fail_msg("%d x %d, view %d: off by %g mm, %g are the mesh's", n, m,
-                 view, distance, sagitta);
+                 view, most[0], sagitta);
+      /* A side is a chord within one triangle, whose arc is along one side. */
+      if (!(most[1] <= sagitta / 2))
+        fail_msg("%d x %d, view %d: sides are off by %g mm", n, m, view,
+                 most[1]);
       recto_drawing_destroy(drawing);
     }
     recto_scene_destroy(scene);
