@@ -23,9 +23,6 @@
 /* Ranges are looked up in all those before them: more would cost more. */
 enum { RANGES_MAX = 8 };
 
-/* So many of the edges of a point are fetched ahead. */
-enum { PREFETCHED = 3 };
-
 /* The edges of a range that earlier ones have too. */
 struct shared_edges {
   uint32_t *edge; /* ascending; the second face of each, which is not needed
@@ -146,30 +143,16 @@ static size_t list_common_points(const struct edge_join *join,
   return count;
 }
 
-/* Fetches of the edges of a point the one after so many others, which were
- * fetched sooner. */
+/* Fetches the first edges of a point. */
 MEM_PREFETCH_INLINE void prefetch_edges(const struct edge_join *join,
-                                        uint32_t point, int others) {
+                                        uint32_t point) {
   for (size_t r = 0; r <= join->at; r++) {
     const struct edge_range *range = &join->range[r];
     uint32_t e = range->head[point];
-    for (int k = 0; k < others && e != SCENE_NONE; k++)
-      e = range->next[e];
     if (e == SCENE_NONE)
       continue;
     MEM_PREFETCH(&range->edge.item[e]);
     MEM_PREFETCH(&range->next[e]);
-  }
-}
-
-/* Fetches what is looked at of the points that follow the first of these: of
- * those that come later the first edges, of those that come sooner the next. */
-static inline void prefetch_points(const struct edge_join *join,
-                                   const uint32_t *point, size_t count) {
-  for (int others = 0; others < PREFETCHED; others++) {
-    size_t at = (size_t)(PREFETCHED - others) * MEM_PREFETCH_AHEAD;
-    if (at < count)
-      prefetch_edges(join, point[at], others);
   }
 }
 
@@ -178,7 +161,8 @@ static bool mark_shared_of_points(void *user, struct parallel_range points) {
   uint32_t point[PARALLEL_ITEMS];
   size_t count = list_common_points(join, points, point);
   for (size_t i = 0; i < count; i++) {
-    prefetch_points(join, point + i, count - i);
+    if (i + MEM_PREFETCH_AHEAD < count)
+      prefetch_edges(join, point[i + MEM_PREFETCH_AHEAD]);
     mark_shared_at(join, point[i]);
   }
   return true;
