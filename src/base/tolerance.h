@@ -68,7 +68,7 @@
  *             width: a gap that ink fills.
  * Users       visibility/fit/border_ends.c,
  *             visibility/contour/doubled_contours.c,
- *             visibility/contour/thin_loops.c, visibility/fold/fold_lines.c,
+ *             visibility/contour/page_loop.h, visibility/fold/fold_lines.c,
  *             visibility/fold/intersection_gaps.c,
  *             visibility/fold/nearest_contours.c,
  *             visibility/fold/outline_gaps.c, visibility/smooth_contours.c

@@ -25,6 +25,7 @@ librecto_core_la_SOURCES += \
   %D%/contour/occluders.c %D%/contour/occluders.h \
   %D%/contour/page_cover.c %D%/contour/page_cover.h \
   %D%/contour/page_crossings.c %D%/contour/page_crossings.h \
+  %D%/contour/page_loop.c %D%/contour/page_loop.h \
   %D%/contour/part_size.c %D%/contour/part_size.h \
   %D%/contour/segment_grid.c %D%/contour/segment_grid.h \
   %D%/contour/thin_loops.c %D%/contour/thin_loops.h \

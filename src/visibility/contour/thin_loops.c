@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "base/poll.h"
-#include "base/tolerance.h"
+#include "visibility/contour/page_loop.h"
 #include "visibility/contour/segment_grid.h"
 
 /* The segments of a loop, at most. */
@@ -21,30 +21,6 @@ enum { LOOP_SEGMENTS_MAX = 160 };
  * a multiple of the triangles' mean height. */
 enum { FOLD_SEGMENTS_MAX = 32 };
 #define FOLD_HEIGHTS 2
-
-/* A loop is thin if its mean width is less than this share of the mean height
- * of the triangles on its way.  Loops that meshes of known surfaces add have
- * 0.15 at most, those of the surfaces 0.23 at least; on an uneven mesh one that
- * is as large as a triangle is a fold from the former on. */
-#define THIN_SHARE 0.2
-#define NOISE_SHARE 0.15
-
-/* A thin loop that goes so far to and fro, as a multiple of that height, over
- * so many segments is a fold of the surface: noise makes short ones.  Where a
- * loop is a part of a curve its ends alone are lost, which are spurs.  One over
- * so many segments whose area is about a triangle's, in squares of that height,
- * and whose sides ink does not join, or which is wider than noise makes loops,
- * is a fold, too: what noise makes is either short or narrow. */
-#define LONG_CURVE_HEIGHTS 8
-#define LONG_LOOP_HEIGHTS 16
-#define FOLD_AREA 0.5
-enum { LONG_SEGMENTS_MIN = 24 };
-
-/* The same of a loop where the mesh samples a smooth surface. */
-#define SMOOTH_LOOP_HEIGHTS 1.5
-
-/* What is narrower is one line in ink: common pens are wider, grid units. */
-#define VISIBLE_WIDTH (2.0 * TOLERANCE_OUTLINE_UNITS)
 
 /* The faces of a body for each segment of a loop that is none of its
  * contours. */
@@ -129,14 +105,6 @@ static bool measure_segment(struct thin_loops *l, size_t i) {
 
 /* ---- Thin loops ---------------------------------------------------------- */
 
-/* A loop on the page, grid units. */
-struct page_loop {
-  double area, length; /* twice its area */
-  double height;       /* the mean of its triangles' */
-  struct curvature_squares curvature;
-  size_t segments;
-};
-
 /* Measures the loop that begins on segment `from`, at `s` of it, and ends on
  * segment `to` there. */
 static struct page_loop measure_loop(const struct thin_loops *l, size_t from,
@@ -144,43 +112,24 @@ static struct page_loop measure_loop(const struct thin_loops *l, size_t from,
   struct page_segment first = stack_image(l, from);
   double x0 = first.p.x + s * ((double)first.q.x - first.p.x);
   double y0 = first.p.y + s * ((double)first.q.y - first.p.y);
-  double x = 0, y = 0, area = 0, length = 0, heights = 0;
-  struct curvature_squares curvature = {{0}, {0}, 0, 0};
+  double x = 0, y = 0, area = 0;
+  struct page_loop loop = {.segments = to - from};
   for (size_t i = from + 1; i <= to; i++) {
     struct geom_point p = stack_node(l, i)->page;
-    curvature_squares_add(
-        &curvature, l->set->segment.item[l->step.item[i].segment].curvature);
+    const struct contour_segment *of =
+        &l->set->segment.item[l->step.item[i].segment];
+    curvature_squares_add(&loop.curvature, of->curvature);
     double next_x = p.x - x0, next_y = p.y - y0;
     area += x * next_y - y * next_x;
-    length += hypot(next_x - x, next_y - y);
-    heights += measure_of(l, i)->height;
+    loop.length += hypot(next_x - x, next_y - y);
+    loop.height += measure_of(l, i)->height;
     x = next_x;
     y = next_y;
   }
-  length += hypot(x, y);
-  return (struct page_loop){fabs(area), length, heights / (double)(to - from),
-                            curvature, to - from};
-}
-
-/* Whether a loop is thin: its area over half of its length is its mean
- * width. */
-static bool is_thin(const struct page_loop *loop) {
-  return loop->area < THIN_SHARE * loop->length * loop->height;
-}
-
-/* Whether a loop is a fold however thin it is: it is long, or long and wide,
- * and something can be drawn between its two sides.  Where the mesh samples a
- * smooth surface it is no noise. */
-static bool is_long(const struct page_loop *loop, double heights) {
-  if (loop->area < RECTO_FINEST_MM * SHEET_UNITS_PER_MM * loop->length)
-    return false;
-  if (curvature_is_smooth(loop->curvature))
-    return loop->length >= 2 * SMOOTH_LOOP_HEIGHTS * loop->height;
-  return loop->segments >= LONG_SEGMENTS_MIN &&
-         (loop->length >= 2 * heights * loop->height ||
-          (loop->area >= 2 * FOLD_AREA * loop->height * loop->height &&
-           (loop->area >= VISIBLE_WIDTH * loop->length ||
-            loop->area >= NOISE_SHARE * loop->length * loop->height)));
+  loop.area = fabs(area);
+  loop.length += hypot(x, y);
+  loop.height /= (double)loop.segments;
+  return loop;
 }
 
 /* ---- The stack ----------------------------------------------------------- */
@@ -254,7 +203,8 @@ static bool take_off_loops(struct thin_loops *l) {
         !page_segments_cross(&a, &b, &s, &t))
       continue;
     struct page_loop loop = measure_loop(l, i, last, s);
-    if (!is_thin(&loop) || is_long(&loop, LONG_LOOP_HEIGHTS)) {
+    if (!page_loop_is_thin(&loop) ||
+        page_loop_is_fold(&loop, LONG_LOOP_HEIGHTS)) {
       l->lowest = i + 1;
       return true;
     }
@@ -408,7 +358,7 @@ static bool take_off_curve(struct thin_loops *l) {
       step[last].node != step[l->first].node)
     return true;
   struct page_loop loop = measure_loop(l, l->first, last - 1, 0);
-  if (!is_thin(&loop) || is_long(&loop, LONG_CURVE_HEIGHTS))
+  if (!page_loop_is_thin(&loop) || page_loop_is_fold(&loop, LONG_CURVE_HEIGHTS))
     return true;
   uint32_t face = l->set->segment.item[step[l->first].segment].face;
   if (!part_size_count(&l->part, face, BODY_FACES * segments, &faces))
