@@ -146,6 +146,7 @@ librecto_core_la_SOURCES += \
   %D%/zbuffer/raster_small.c %D%/zbuffer/raster_small.h \
   %D%/zbuffer/zbuffer.c %D%/zbuffer/zbuffer.h \
   %D%/zero_set/arc_normals.c \
+  %D%/zero_set/crease_networks.c \
   %D%/zero_set/curvature_noise.c %D%/zero_set/curvature_noise.h \
   %D%/zero_set/curved_triangle.c %D%/zero_set/curved_triangle.h \
   %D%/zero_set/facing.c %D%/zero_set/facing.h \

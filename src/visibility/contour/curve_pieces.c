@@ -103,6 +103,28 @@ static double long_heights(const struct contour_piece *from,
                                                 : SHORT_HEIGHTS;
 }
 
+/* Whether one of two pieces runs along a crease of the object. */
+static bool is_at_crease(const struct curve_pieces *pieces, size_t i,
+                         size_t j) {
+  const struct contour_piece *piece = pieces->piece;
+  return contour_curves_segment(pieces->curves, piece[i].from.step)
+             ->in_network ||
+         contour_curves_segment(pieces->curves, piece[j].from.step)->in_network;
+}
+
+/* Whether it is known where a run begins and ends: at a crossing, and at
+ * another one or a crease of the object.
+ * from, to  its pieces; those beside it are there */
+static bool is_known_run(const struct curve_pieces *pieces, size_t from,
+                         size_t to) {
+  size_t count = pieces->count;
+  bool begins = pieces->piece[from].from.crossing;
+  bool ends = pieces->piece[to].to.crossing;
+  return (begins && ends) ||
+         (begins && is_at_crease(pieces, to, (to + 1) % count)) ||
+         (ends && is_at_crease(pieces, from, (from + count - 1) % count));
+}
+
 /* Absorbs the short runs that are visible, or hidden. */
 static void absorb(struct curve_pieces *pieces, const struct camera *camera,
                    bool visible) {
@@ -127,7 +149,7 @@ static void absorb(struct curve_pieces *pieces, const struct camera *camera,
     const struct contour_piece *to = &piece[(first + end - 1) % count];
     if (from->is_visible != visible || length >= long_heights(from, to) ||
         (!closed && (i == 0 || end == count)) ||
-        (from->from.crossing && to->to.crossing))
+        is_known_run(pieces, (first + i) % count, (first + end - 1) % count))
       continue;
     for (size_t k = i; k < end; k++)
       piece[(first + k) % count].is_visible = !visible;

@@ -13,6 +13,10 @@ enum { LONG_SEGMENTS_MIN = 24 };
 /* The length of a fold, in heights, where the mesh samples a smooth surface. */
 #define SMOOTH_LOOP_HEIGHTS 1.5
 
+/* How far a fold along a crease of the object goes to and fro, grid units: a
+ * shorter one is no more than a tick of ink at the crease. */
+#define CREASE_LOOP_LENGTH (16 * VISIBLE_WIDTH)
+
 bool page_loop_is_thin(const struct page_loop *loop) {
   return loop->area < THIN_SHARE * loop->length * loop->height;
 }
@@ -20,6 +24,8 @@ bool page_loop_is_thin(const struct page_loop *loop) {
 bool page_loop_is_fold(const struct page_loop *loop, double heights) {
   if (loop->area < RECTO_FINEST_MM * SHEET_UNITS_PER_MM * loop->length)
     return false;
+  if (loop->has_crease && loop->length >= CREASE_LOOP_LENGTH)
+    return true;
   if (curvature_is_smooth(loop->curvature))
     return loop->length >= 2 * SMOOTH_LOOP_HEIGHTS * loop->height;
   return loop->segments >= LONG_SEGMENTS_MIN &&

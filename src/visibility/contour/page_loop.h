@@ -25,6 +25,7 @@ struct page_loop {
   double height;       /* the mean of its triangles' */
   struct curvature_squares curvature;
   size_t segments;
+  bool has_crease; /* a part of it runs along one that is no noise */
 };
 
 /* Whether a loop is thin: its area over half of its length is its mean
@@ -33,7 +34,8 @@ bool page_loop_is_thin(const struct page_loop *loop);
 
 /* Whether a loop is a fold however thin it is: it is long, or long and wide,
  * and something can be drawn between its two sides.  Where the mesh samples a
- * smooth surface it is no noise.
+ * smooth surface, or a part of the loop is a crease of the object, it is no
+ * noise.
  * heights  how long it is then at least, as a multiple of its triangles'
  *          height */
 bool page_loop_is_fold(const struct page_loop *loop, double heights);

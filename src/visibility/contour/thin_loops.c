@@ -119,6 +119,7 @@ static struct page_loop measure_loop(const struct thin_loops *l, size_t from,
     const struct contour_segment *of =
         &l->set->segment.item[l->step.item[i].segment];
     curvature_squares_add(&loop.curvature, of->curvature);
+    loop.has_crease = loop.has_crease || of->in_network;
     double next_x = p.x - x0, next_y = p.y - y0;
     area += x * next_y - y * next_x;
     loop.length += hypot(next_x - x, next_y - y);

@@ -346,7 +346,8 @@ recto_status facing_init(struct facing *f, const struct sheet *sheet,
       f->class_masks != NULL && f->coarse != NULL && f->large != NULL &&
       topology_class_masks(topology, f->scene, crease_deg, f->class_masks) &&
       topology_coarse_parts(topology, f->scene, f->class_masks, f->coarse) &&
-      find_face_signs(f) && find_near_faces(f) && find_facings(f, crease_deg);
+      find_face_signs(f) && find_near_faces(f) && facing_mark_networks(f) &&
+      find_facings(f, crease_deg);
   return ok ? RECTO_OK : error_memory(error);
 }
 

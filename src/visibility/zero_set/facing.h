@@ -71,10 +71,12 @@ static inline void facing_face_normal(const struct facing *f, uint32_t face,
 enum {
   FACING_FRONT = 1,
   FACING_BACK = 2,
-  FACING_MIXED = 3,  /* the two above */
-  FACING_NEEDED = 4, /* a point of a crossed face */
-  FACING_SPLIT = 8,  /* a point on a crease or border */
-  FACING_APEX = 16   /* no normal stands for all faces about the point */
+  FACING_MIXED = 3,   /* the two above */
+  FACING_NEEDED = 4,  /* a point of a crossed face */
+  FACING_SPLIT = 8,   /* a point on a crease or border */
+  FACING_APEX = 16,   /* no normal stands for all faces about the point */
+  FACING_NETWORK = 32 /* a point of creases or borders that are joined to no
+                         other one that ends freely */
 };
 
 /* Finds the facing of all slots.
@@ -93,6 +95,11 @@ void facing_fini(struct facing *facing);
 USE_RESULT bool facing_find_normals(struct facing *facing);
 void facing_find_value(struct facing *facing, uint32_t face, uint32_t corner);
 USE_RESULT bool facing_find_values(struct facing *facing);
+
+/* Marks the points of creases and borders that are closed, or lead on from each
+ * other, so that none of those that are joined ends freely: they are no noise.
+ * Returns false when memory ran out. */
+USE_RESULT bool facing_mark_networks(struct facing *facing);
 
 /* Marks the points about which a face bends away from the mean normal by more
  * than the crease angle: at the apex of a cone no normal is near those of its

@@ -83,7 +83,10 @@ static bool add_along_crease(struct zero_finder *z, uint32_t edge,
   const struct facing *f = z->facing;
   const struct topology_edge *e = &f->topology->edge.item[edge];
   struct contour_segment s = {
-      .node = {node[0], node[1]}, .face = e->first, .along_crease = true};
+      .node = {node[0], node[1]},
+      .face = e->first,
+      .along_crease = true,
+      .in_network = (f->point_flags[e->point[0]] & FACING_NETWORK) != 0};
   double first[3], second[3], at[3], beyond[3], along[3];
   uint32_t c = facing_corner_of_edge(f, e->second, edge);
   facing_face_normal(f, e->first, first);

@@ -30,6 +30,7 @@ struct contour_segment {
                           g along the view; negative where the surface's normal
                           curves into the line of sight */
   bool along_crease;
+  bool in_network; /* a crease that is joined to none that ends freely */
   struct curvature_squares curvature; /* at the triangle's corners */
   double height; /* the triangle's least, scene units; of a crease, over that
                     or twice the least, whichever is less */
