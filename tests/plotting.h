@@ -4,8 +4,8 @@
 #define TESTS_PLOTTING_H
 
 #include "backends/writer.h"
-#include "tests/hpgl_reader.h"
 #include "tests/drawing_fixture.h"
+#include "tests/hpgl_reader.h"
 
 struct plotting {
   struct drawing drawing;

@@ -10,9 +10,9 @@
 #include <cmocka.h>
 
 #include "geom/predicate.h"
+#include "tests/sheet_fixture.h"
 #include "view/camera_aim.h"
 #include "view/layout.h"
-#include "tests/sheet_fixture.h"
 
 void sheet_fixture_start(struct sheet_fixture *fixture) {
   memset(fixture, 0, sizeof *fixture);

@@ -15,9 +15,9 @@
 
 #include "exact_fixture/sheet.h"
 #include "scene/read.h"
+#include "tests/memory_peak.h"
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/solver_named.h"
-#include "tests/memory_peak.h"
 
 /* Methods with a number of lines or a pitch; those there are are tried. */
 static const char *const by_line[] = {"zbuffer", "scanline-zbuffer", "watkins",

@@ -1,7 +1,7 @@
 /* test_bvh.c - a BVH finds every triangle that hides a part of an edge, and few
  * others where all share an edge or are almost the same. */
-#include "visibility/index/bvh.h"
 #include "exact_fixture/sheet.h"
+#include "visibility/index/bvh.h"
 #include "visibility/predicate/occlusion.h"
 
 #include <setjmp.h>

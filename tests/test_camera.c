@@ -10,9 +10,9 @@
 #include <cmocka.h>
 
 #include "base/poll.h"
+#include "tests/near.h"
 #include "tests/scenes/random.h"
 #include "tests/scenes/scenes.h"
-#include "tests/near.h"
 #include "view/camera_aim.h"
 #include "view/camera_axes.h"
 #include "view/project.h"

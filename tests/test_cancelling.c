@@ -9,9 +9,9 @@
 
 #include "base/clock.h"
 #include "tests/polled.h"
+#include "tests/scenes/solver_named.h"
 #include "tests/sheet_fixture.h"
 #include "tests/temporary.h"
-#include "tests/scenes/solver_named.h"
 #include "tests/valgrind.h"
 #include "visibility/solver.h"
 

@@ -1,6 +1,6 @@
 /* test_edge_intervals.c - from occluded intervals to visible ones. */
-#include "visibility/predicate/edge_intervals.h"
 #include "exact_fixture/sheet.h"
+#include "visibility/predicate/edge_intervals.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

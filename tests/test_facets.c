@@ -8,8 +8,8 @@
 
 #include <cmocka.h>
 
-#include "visibility/scan/facets.h"
 #include "tests/memory_faults.h"
+#include "visibility/scan/facets.h"
 
 enum { SCALE = 1000 };
 

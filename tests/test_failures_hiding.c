@@ -9,8 +9,8 @@
 
 #include <cmocka.h>
 
-#include "tests/judged.h"
 #include "tests/judge/raster.h"
+#include "tests/judged.h"
 #include "tests/scenes/random.h"
 
 static void run(struct pipeline *pipeline, const struct scene *scene,

@@ -11,8 +11,8 @@
 #include "base/sanitizer.h"
 #include "tests/comma_locale.h"
 #include "tests/judged.h"
-#include "tests/valgrind.h"
 #include "tests/memory_peak.h"
+#include "tests/valgrind.h"
 
 static char *draw(const struct scene *scene, const recto_options *options) {
   size_t length;

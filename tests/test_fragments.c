@@ -1,10 +1,10 @@
 /* test_fragments.c - visible fragments tile the page, and their sides have the
  * right provenance. */
-#include "visibility/fragments/fragments.h"
 #include "exact_fixture/oracle.h"
 #include "exact_fixture/scene.h"
-#include "visibility/fragments/occluder_subtraction.h"
 #include "tests/scenes/solver_named.h"
+#include "visibility/fragments/fragments.h"
+#include "visibility/fragments/occluder_subtraction.h"
 
 #include <math.h>
 #include <setjmp.h>

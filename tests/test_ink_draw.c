@@ -1,17 +1,17 @@
 /* test_ink_draw.c - the ink stage as a whole: on every scene of the stability
  * list, and with failing allocations. */
+#include <cmocka.h>
+#include <math.h>
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <setjmp.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "tests/ink_fixture.h"
+#include "tests/memory_faults.h"
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/random.h"
-#include "tests/memory_faults.h"
 
 #define NANOMETRE (1.0 / 1048576)
 

@@ -1,20 +1,20 @@
 /* test_ink_merge.c - fragments of one style become one fill, and no point
  * changes its colour. */
+#include <cmocka.h>
+#include <math.h>
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <setjmp.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "scene/read.h"
 #include "scene/scene.h"
+#include "tests/ink_faults.h"
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/random.h"
 #include "tests/scenes/solver_named.h"
-#include "tests/ink_faults.h"
 
 /* ---- Merged against not merged ------------------------------------------- */
 

@@ -1,17 +1,17 @@
 /* test_ink_tone_hatch.c - tone hatching: where lines are, how much they cover,
  * and that they continue from face to face. */
+#include <cmocka.h>
+#include <math.h>
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <setjmp.h>
-#include <math.h>
 #include <string.h>
-#include <cmocka.h>
 
 #include "ink/hatch/hatch_runs.h"
 #include "ink/tone.h"
+#include "tests/ink_faults.h"
 #include "tests/ink_fixture.h"
 #include "tests/scenes/pipeline.h"
-#include "tests/ink_faults.h"
 
 static double pi(void) { return acos(-1); }
 

@@ -1,8 +1,8 @@
 /* test_intersection.c - where faces pierce each other, and where they only
  * touch. */
-#include "visibility/intersection/intersection.h"
 #include "exact_fixture/rational.h"
 #include "exact_fixture/scene.h"
+#include "visibility/intersection/intersection.h"
 #include "visibility/predicate/contact.h"
 #include "visibility/predicate/occlusion.h"
 

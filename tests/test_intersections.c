@@ -10,8 +10,8 @@
 #include <cmocka.h>
 
 #include "tests/scenes/random.h"
-#include "tests/sheet_fixture.h"
 #include "tests/scenes/scenes.h"
+#include "tests/sheet_fixture.h"
 #include "visibility/solver.h"
 
 /* The ends of the lines of intersection, in order of the edges. */

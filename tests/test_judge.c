@@ -16,10 +16,10 @@
 #include "judge/grid.h"
 #include "judge/judge.h"
 #include "judge/svg/svg.h"
+#include "tests/memory_faults.h"
 #include "tests/polled.h"
 #include "tests/scenes/judge_camera.h"
 #include "tests/scenes/scenes.h"
-#include "tests/memory_faults.h"
 
 /* An SVG file that is being written. */
 struct page {

@@ -11,9 +11,9 @@
 
 #include <cmocka.h>
 
+#include "judge/svg/svg.h"
 #include "scene/read.h"
 #include "tests/judged.h"
-#include "judge/svg/svg.h"
 #include "tests/scenes/judge_camera.h"
 #include "tests/temporary.h"
 #include "tests/valgrind.h"

@@ -1,8 +1,8 @@
 /* test_line_index.c - a query finds every side that runs along a segment, and
  * few others. */
-#include "visibility/fragments/line_index.h"
 #include "exact_fixture/scene.h"
 #include "tests/memory_faults.h"
+#include "visibility/fragments/line_index.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

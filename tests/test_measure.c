@@ -10,8 +10,8 @@
 
 #include <cmocka.h>
 
-#include "tests/scenes/pipeline.h"
 #include "tests/near.h"
+#include "tests/scenes/pipeline.h"
 
 static const double unit = SHEET_UNITS_PER_MM;
 

@@ -14,8 +14,8 @@
 
 #include "api/captions.h"
 #include "recto.h"
-#include "tests/svg_text.h"
 #include "tests/memory_faults.h"
+#include "tests/svg_text.h"
 #include "view/preferred_scale.h"
 
 /* A crooked tetrahedron, so that no two corners share a coordinate. */

@@ -1,10 +1,10 @@
 /* test_occluder_subtraction.c - a triangle less its subtraction, in any order,
  * is what the brute-force solver leaves of it. */
-#include "visibility/fragments/occluder_subtraction.h"
-#include "geom/region.h"
 #include "exact_fixture/scene.h"
-#include "visibility/brute/brute.h"
+#include "geom/region.h"
 #include "tests/memory_faults.h"
+#include "visibility/brute/brute.h"
+#include "visibility/fragments/occluder_subtraction.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -10,13 +10,13 @@
 #include <cmocka.h>
 
 #include "base/sanitizer.h"
+#include "tests/memory_faults.h"
+#include "tests/memory_peak.h"
 #include "tests/polled.h"
-#include "tests/sheet_fixture.h"
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/random.h"
 #include "tests/scenes/solver_named.h"
-#include "tests/memory_faults.h"
-#include "tests/memory_peak.h"
+#include "tests/sheet_fixture.h"
 
 static const struct solver *const bounded[] = {
     &solver_tiles, &solver_newell, &solver_warnock, &solver_watkins, NULL};

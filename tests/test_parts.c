@@ -11,10 +11,10 @@
 
 #include "api/handle.h"
 #include "parts/byte_codec.h"
+#include "tests/memory_faults.h"
 #include "tests/scenes/scenes.h"
 #include "tests/svg_text.h"
 #include "tests/temporary.h"
-#include "tests/memory_faults.h"
 
 enum { PARTS_MOST = 16 };
 

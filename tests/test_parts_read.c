@@ -15,10 +15,10 @@
 
 #include "api/handle.h"
 #include "base/sanitizer.h"
+#include "tests/memory_peak.h"
 #include "tests/svg_text.h"
 #include "tests/temporary.h"
 #include "tests/valgrind.h"
-#include "tests/memory_peak.h"
 
 /* ---- Models -------------------------------------------------------------- */
 

@@ -1,10 +1,10 @@
 /* test_plane_filter.c - planes in doubles, and 8-DOP keys, only decide what the
  * exact answers say, and their error bounds hold. */
-#include "visibility/predicate/plane_cache.h"
-#include "visibility/predicate/depth_plane.h"
 #include "exact_fixture/sheet.h"
-#include "visibility/predicate/occlusion.h"
 #include "visibility/index/kdop8.h"
+#include "visibility/predicate/depth_plane.h"
+#include "visibility/predicate/occlusion.h"
+#include "visibility/predicate/plane_cache.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

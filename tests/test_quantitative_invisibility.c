@@ -11,8 +11,8 @@
 #include "tests/memory_faults.h"
 #include "tests/polled.h"
 #include "tests/scenes/pipeline.h"
-#include "visibility/quantitative_invisibility.h"
 #include "visibility/predicate/occlusion.h"
+#include "visibility/quantitative_invisibility.h"
 
 static void find(struct map *map, const struct sheet *sheet, int most) {
   map->over_limit.count = map->over_limit_interval.count = 0;

@@ -1,8 +1,8 @@
 /* test_region.c - the union of pieces has a canonical form, independent of the
  * pieces. */
-#include "geom/region.h"
 #include "exact_fixture/rational.h"
 #include "exact_fixture/sheet.h"
+#include "geom/region.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

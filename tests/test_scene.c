@@ -10,10 +10,10 @@
 #include <cmocka.h>
 
 #include "base/stream.h"
-#include "scene/triangulation/self_intersection.h"
+#include "scene/name.h"
 #include "scene/read.h"
 #include "scene/scene.h"
-#include "scene/name.h"
+#include "scene/triangulation/self_intersection.h"
 #include "tests/memory_faults.h"
 #include "tests/reading.h"
 #include "tests/scenes/random.h"

@@ -7,9 +7,9 @@
 
 #include <cmocka.h>
 
+#include "tests/near.h"
 #include "tests/scenes/random.h"
 #include "tests/scenes/scenes.h"
-#include "tests/near.h"
 
 /* Fills a scene of the list; the caller ends it with scene_fini. */
 static void fill(struct scene *scene, const struct scenes_entry *entry) {

@@ -9,11 +9,11 @@
 #include <cmocka.h>
 
 #include "geom/predicate.h"
+#include "tests/memory_faults.h"
+#include "tests/scenes/random.h"
+#include "tests/sheet_fixture.h"
 #include "view/camera_aim.h"
 #include "view/layout.h"
-#include "tests/memory_faults.h"
-#include "tests/sheet_fixture.h"
-#include "tests/scenes/random.h"
 
 /* ---- Invariants ---------------------------------------------------------- */
 

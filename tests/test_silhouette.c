@@ -7,8 +7,8 @@
 
 #include <cmocka.h>
 
-#include "tests/sheet_fixture.h"
 #include "tests/scenes/random.h"
+#include "tests/sheet_fixture.h"
 
 /* A camera in front: x right, y up, z towards the viewer. */
 static void start_in_front(struct sheet_fixture *fixture) {

@@ -11,9 +11,9 @@
 #include <cmocka.h>
 
 #include "base/report.h"
-#include "visibility/solver.h"
-#include "visibility/raster/subpixels.h"
 #include "tests/scenes/solver_named.h"
+#include "visibility/raster/subpixels.h"
+#include "visibility/solver.h"
 
 static const struct solver *const both[] = {&solver_zbuffer,
                                             &solver_scanline_zbuffer};

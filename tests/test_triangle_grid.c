@@ -1,7 +1,7 @@
 /* test_triangle_grid.c - a query of the grid finds what a search of all
  * triangles finds. */
-#include "visibility/index/triangle_grid.h"
 #include "exact_fixture/scene.h"
+#include "visibility/index/triangle_grid.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -14,10 +14,10 @@
 #include <cmocka.h>
 
 #include "scene/exact.h"
-#include "tests/memory_faults.h"
-#include "tests/scenes/random.h"
 #include "scene/triangulation/reflex_tree.h"
 #include "scene/triangulation/triangulate.h"
+#include "tests/memory_faults.h"
+#include "tests/scenes/random.h"
 
 enum { MOST = 2048 };
 

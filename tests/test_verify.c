@@ -15,10 +15,10 @@
 #include "api/verify.h"
 #include "ink/ink.h"
 #include "scene/read.h"
+#include "tests/memory_faults.h"
 #include "tests/scenes/catmull_clark.h"
 #include "tests/scenes/pipeline.h"
 #include "tests/temporary.h"
-#include "tests/memory_faults.h"
 #include "tests/valgrind.h"
 #include "view/camera_aim.h"
 

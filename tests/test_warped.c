@@ -13,11 +13,11 @@
 
 #include "api/verify.h"
 #include "judge/triangulation.h"
+#include "scene/triangulation/triangulate.h"
 #include "tests/scenes/pipeline.h"
 #include "tests/scenes/random.h"
 #include "tests/scenes/solver_named.h"
 #include "tests/valgrind.h"
-#include "scene/triangulation/triangulate.h"
 
 /* ---- Scenes -------------------------------------------------------------- */
 

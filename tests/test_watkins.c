@@ -10,8 +10,8 @@
 
 #include <cmocka.h>
 
-#include "visibility/watkins/pitch/watkins.h"
 #include "tests/near.h"
+#include "visibility/watkins/pitch/watkins.h"
 
 /* The lists of a sheet, line by line. */
 struct scanned {

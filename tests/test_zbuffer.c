@@ -10,9 +10,9 @@
 
 #include <cmocka.h>
 
+#include "tests/near.h"
 #include "visibility/scanline_zbuffer/scanline_zbuffer.h"
 #include "visibility/zbuffer/zbuffer.h"
-#include "tests/near.h"
 
 enum { FINE = 2048 }; /* lines where the answer should be nearly exact */
 

@@ -9,7 +9,6 @@
 #include "api/judge_input.h"
 #include "api/multiview.h"
 #include "api/options.h"
-#include "view/camera_aim.h"
 #include "api/sized.h"
 #include "base/input.h"
 #include "base/poll.h"
@@ -18,6 +17,7 @@
 #include "ink/pens.h"
 #include "judge/svg/svg.h"
 #include "scene/weld/weld_near.h"
+#include "view/camera_aim.h"
 
 /* The number of samples of the drawing, and of the edges. */
 enum { SAMPLES = 200000 };

@@ -6,12 +6,12 @@
 
 #include "base/parallel.h"
 #include "base/poll.h"
+#include "geom/vector.h"
 #include "ink/planar_regions.h"
 #include "scene/edges/crease_marks.h"
 #include "scene/edges/edge_classes.h"
 #include "scene/newell_normal.h"
 #include "scene/topology/topology.h"
-#include "geom/vector.h"
 
 /* So many times larger than the mean is a large face; facets of a curved
  * surface are about as large as each other. */

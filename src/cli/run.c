@@ -16,10 +16,10 @@
 
 #include "cli/frames.h"
 #include "cli/message.h"
-#include "cli/progress_bar.h"
-#include "cli/signals.h"
 #include "cli/option_scope.h"
 #include "cli/parse.h"
+#include "cli/progress_bar.h"
+#include "cli/signals.h"
 
 /* ---- Callbacks ----------------------------------------------------------- */
 

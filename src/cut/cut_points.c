@@ -9,8 +9,8 @@
 #include "base/poll.h"
 #include "base/tolerance.h"
 #include "cut/section.h"
-#include "view/used.h"
 #include "geom/vector.h"
+#include "view/used.h"
 
 /* Of an edge and a plane. */
 struct cut_point_slot {

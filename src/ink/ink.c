@@ -6,8 +6,8 @@
 
 #include "base/tolerance.h"
 #include "ink/curve/curves.h"
-#include "ink/fill/fill.h"
 #include "ink/cut_hatch.h"
+#include "ink/fill/fill.h"
 #include "ink/hatch/hatch.h"
 #include "ink/hatch/tone_hatch.h"
 #include "ink/ink_lines.h"

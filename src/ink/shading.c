@@ -1,9 +1,9 @@
 /* shading.c - the colour and the brightness of a face where it is filled. */
 #include "ink/shading.h"
 
+#include "geom/vector.h"
 #include "ink/fill/light.h"
 #include "scene/newell_normal.h"
-#include "geom/vector.h"
 
 /* Colours of low saturation, so that the lines dominate the picture; any two
  * differ in hue or in lightness. */

@@ -16,13 +16,13 @@
 #include <string.h>
 
 #include "base/poll.h"
-#include "base/union_find.h"
 #include "base/tolerance.h"
+#include "base/union_find.h"
+#include "geom/vector.h"
 #include "ink/fill/light.h"
 #include "ink/planar_regions.h"
 #include "scene/edges/edge_classes.h"
 #include "scene/newell_normal.h"
-#include "geom/vector.h"
 
 /* The side of a square, in pens, in which one sees whether hatching is even. */
 #define EVEN_PENS 16

@@ -2,8 +2,8 @@
 #ifndef JUDGE_FOLDS_H
 #define JUDGE_FOLDS_H
 
-#include "judge/edge_list.h"
 #include "judge/edge_classes.h"
+#include "judge/edge_list.h"
 
 /* Adds the diagonals of faces that are not planar whose two triangles lie, or
  * may lie, on one side of it on the page: these are silhouettes.

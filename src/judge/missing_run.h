@@ -3,8 +3,8 @@
 #ifndef JUDGE_MISSING_RUN_H
 #define JUDGE_MISSING_RUN_H
 
-#include "judge/sampler.h"
 #include "judge/grid.h"
+#include "judge/sampler.h"
 
 /* The inputs; all pointers are borrowed, not owned. */
 struct judge_missing_run {

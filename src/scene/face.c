@@ -8,10 +8,10 @@
 #include "scene/scene.h"
 
 #include "base/sort.h"
-#include "scene/triangulation/self_intersection.h"
 #include "scene/diagnostics.h"
 #include "scene/exact.h"
 #include "scene/limit.h"
+#include "scene/triangulation/self_intersection.h"
 
 static bool same_position(const struct scene *scene, uint32_t a, uint32_t b) {
   const struct scene_point *p = &scene->point.item[a];

@@ -22,13 +22,13 @@
 #include <string.h>
 
 #include "base/tolerance.h"
+#include "geom/vector.h"
 #include "scene/angle.h"
-#include "view/coordinate_error.h"
 #include "view/camera_axes.h"
 #include "view/camera_phases.h"
+#include "view/coordinate_error.h"
 #include "view/used.h"
 #include "view/used_box.h"
-#include "geom/vector.h"
 
 /* The largest page that fits on the page grid. */
 static const double page_limit_mm = 2000;

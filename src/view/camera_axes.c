@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/tolerance.h"
-#include "scene/angle.h"
 #include "geom/vector.h"
+#include "scene/angle.h"
 
 /* The right axis of the front view: +X less its component along `up`.  Where
  * that is zero it is -Y or +Y, by the shortest rotation of +Y onto `up`.  No

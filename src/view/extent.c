@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-#include "view/project.h"
 #include "geom/vector.h"
+#include "view/project.h"
 
 static void grow_extent(struct extent *extent, const struct camera *camera,
                         struct view_point v) {

@@ -26,9 +26,9 @@
 #define VIEW_LAYOUT_PHASES_H
 
 #include "scene/edges/edge_classes.h"
+#include "scene/triangulation/triangulate.h"
 #include "view/clip.h"
 #include "view/sheet.h"
-#include "scene/triangulation/triangulate.h"
 
 /* What clipping leaves of an edge or a diagonal. */
 struct layout_clipped {

@@ -21,8 +21,8 @@
  * of ending on it.
  */
 #include "base/poll.h"
-#include "view/layout_phases.h"
 #include "geom/vector.h"
+#include "view/layout_phases.h"
 
 /* Whether a default near plane clips anything visible is tested by clipping to
  * a near plane at this fraction of its distance. */

@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "base/poll.h"
+#include "geom/vector.h"
 #include "scene/edges/edge_classes.h"
 #include "view/project.h"
-#include "geom/vector.h"
 
 struct measure {
   struct page_overflow *overflow;

@@ -6,8 +6,8 @@
 
 #include "api/handle.h"
 #include "scene/triangulation/self_intersection.h"
-#include "tests/scenes/box.h"
 #include "scene/triangulation/triangulate.h"
+#include "tests/scenes/box.h"
 
 /* Corners of a face at one position have one index. */
 static bool has_corner_twice(const uint32_t *corner, size_t count) {

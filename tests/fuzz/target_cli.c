@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "cli/parse.h"
 #include "cli/option_scope.h"
+#include "cli/parse.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/render.h"
 

@@ -14,8 +14,8 @@
 
 #include "base/parallel.h"
 #include "base/poll.h"
-#include "base/union_find.h"
 #include "base/sort.h"
+#include "base/union_find.h"
 #include "ink/fill/outline.h"
 #include "scene/edges/edge_classes.h"
 

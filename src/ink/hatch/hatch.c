@@ -15,14 +15,14 @@
  *               pen, so that it cannot be seen */
 #include <math.h>
 
+#include "base/number_lists.h"
 #include "base/poll.h"
 #include "base/sort.h"
-#include "base/number_lists.h"
 #include "ink/cut_hatch.h"
 #include "ink/hatch/hatch.h"
-#include "ink/hatch/inset.h"
-#include "ink/hatch/hatch_regions.h"
 #include "ink/hatch/hatch_lines.h"
+#include "ink/hatch/hatch_regions.h"
+#include "ink/hatch/inset.h"
 #include "ink/lines/stroke.h"
 
 struct hatch {

@@ -3,8 +3,8 @@
 #ifndef INK_HATCH_HATCH_LINES_H
 #define INK_HATCH_HATCH_LINES_H
 
-#include "geom/scanfill.h"
 #include "drawing/drawing.h"
+#include "geom/scanfill.h"
 #include "visibility/map.h"
 
 /* A point of the rotated page, on which the hatch lines are horizontal: u is

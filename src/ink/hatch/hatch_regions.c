@@ -3,8 +3,8 @@
 #include "ink/hatch/hatch_regions.h"
 
 #include "base/poll.h"
-#include "base/union_find.h"
 #include "base/sort.h"
+#include "base/union_find.h"
 
 bool hatch_regions_side_is_inked(const struct hatch_regions *regions,
                                  const struct map_corner *corner) {

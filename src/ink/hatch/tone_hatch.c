@@ -42,10 +42,10 @@
 
 #include "base/poll.h"
 #include "base/tolerance.h"
-#include "ink/hatch/tone_hatch.h"
 #include "ink/fill/light.h"
 #include "ink/hatch/hatch_lines.h"
 #include "ink/hatch/hatch_runs.h"
+#include "ink/hatch/tone_hatch.h"
 #include "ink/lines/stroke.h"
 #include "ink/tone.h"
 

@@ -17,8 +17,8 @@
 
 #include "base/sort.h"
 #include "base/tolerance.h"
-#include "ink/lines/overlap.h"
 #include "ink/lines/nodes_near_segment.h"
+#include "ink/lines/overlap.h"
 
 struct overlap_pair {
   uint32_t segment, other;

@@ -25,11 +25,11 @@
 
 #include "base/sort.h"
 #include "base/tolerance.h"
-#include "ink/lines/vertex_snapping.h"
 #include "ink/lines/changed_cells.h"
+#include "ink/lines/nodes_near_segment.h"
 #include "ink/lines/overlap.h"
 #include "ink/lines/overlap_cover.h"
-#include "ink/lines/nodes_near_segment.h"
+#include "ink/lines/vertex_snapping.h"
 
 enum { SEGMENTS_IN_RANGE = PARALLEL_RANGE(1 << 10) };
 

@@ -5,9 +5,9 @@
 #include <string.h>
 
 #include "base/tolerance.h"
+#include "geom/vector.h"
 #include "scene/exact.h"
 #include "scene/newell_normal.h"
-#include "geom/vector.h"
 
 /* Unrolls a loop over coordinates, for quadrilaterals a third of the time. */
 #define UNROLL_AXES _Pragma("GCC unroll 3")

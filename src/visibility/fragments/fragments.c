@@ -6,8 +6,8 @@
 
 #include "base/sort.h"
 #include "visibility/predicate/coarse_plane.h"
-#include "visibility/predicate/triangle_pair.h"
 #include "visibility/predicate/plane_filter.h"
+#include "visibility/predicate/triangle_pair.h"
 
 bool fragments_init(struct fragments *fragments, const struct sheet *sheet,
                     const struct triangle_grid *grid, bool contact) {

@@ -25,8 +25,8 @@
 
 #include "base/report.h"
 #include "geom/convex.h"
-#include "visibility/map.h"
 #include "visibility/index/triangle_grid.h"
+#include "visibility/map.h"
 #include "visibility/progress.h"
 
 struct fragment_piece {

@@ -11,10 +11,10 @@
 
 #include "base/report.h"
 #include "base/sort.h"
-#include "visibility/predicate/triangle_pair.h"
 #include "visibility/fragments/fragments.h"
 #include "visibility/index/bsp.h"
 #include "visibility/predicate/plane_filter.h"
+#include "visibility/predicate/triangle_pair.h"
 
 /* A triangle that is nearer than the current one, somewhere or everywhere
  * within their overlap; or a convex part of it. */

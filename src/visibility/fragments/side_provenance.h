@@ -5,10 +5,10 @@
 #ifndef VISIBILITY_FRAGMENTS_SIDE_PROVENANCE_H
 #define VISIBILITY_FRAGMENTS_SIDE_PROVENANCE_H
 
-#include "visibility/predicate/triangle_pair.h"
-#include "visibility/map.h"
-#include "visibility/index/triangle_grid.h"
 #include "visibility/fragments/line_index.h"
+#include "visibility/index/triangle_grid.h"
+#include "visibility/map.h"
+#include "visibility/predicate/triangle_pair.h"
 
 /* The indices, the current face and the scratch lists of a labelling. */
 struct side_provenance {

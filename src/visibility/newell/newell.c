@@ -16,12 +16,12 @@
  * Source  [Newell1972].
  */
 #include "visibility/fragments/occluder_subtraction.h"
+#include "visibility/intersection/intersection.h"
 #include "visibility/newell/newell_order.h"
 #include "visibility/newell/painter.h"
-#include "visibility/intersection/intersection.h"
-#include "visibility/solver.h"
-#include "visibility/predicate/edge_intervals.h"
 #include "visibility/pairwise/pairwise_fallback.h"
+#include "visibility/predicate/edge_intervals.h"
+#include "visibility/solver.h"
 
 /* ---- Edges --------------------------------------------------------------- */
 

@@ -8,10 +8,10 @@
 #define VISIBILITY_NEWELL_NEWELL_PIECE_H
 
 #include "geom/convex.h"
-#include "visibility/predicate/triangle_pair.h"
 #include "visibility/index/triangle_grid.h"
-#include "visibility/progress.h"
 #include "visibility/predicate/plane_filter.h"
+#include "visibility/predicate/triangle_pair.h"
+#include "visibility/progress.h"
 
 #define NEWELL_NONE UINT32_MAX
 

@@ -12,9 +12,9 @@
 
 #include "base/sort.h"
 #include "visibility/fragments/occluder_subtraction.h"
+#include "visibility/predicate/edge_intervals.h"
 #include "visibility/progress.h"
 #include "visibility/solver.h"
-#include "visibility/predicate/edge_intervals.h"
 
 struct painting {
   const struct sheet *sheet;

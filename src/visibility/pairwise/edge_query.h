@@ -17,8 +17,8 @@
 
 #include "base/parallel.h"
 #include "visibility/culling/occlusion_culling.h"
-#include "visibility/predicate/edge_intervals.h"
 #include "visibility/pairwise/tile_candidates.h"
+#include "visibility/predicate/edge_intervals.h"
 
 enum { EDGE_QUERY_RECENT = 16 };
 

@@ -12,8 +12,8 @@
 #ifndef VISIBILITY_PAIRWISE_PAIRWISE_FALLBACK_H
 #define VISIBILITY_PAIRWISE_PAIRWISE_FALLBACK_H
 
-#include "visibility/pairwise/edge_query.h"
 #include "visibility/pairwise/deferred_triangles.h"
+#include "visibility/pairwise/edge_query.h"
 #include "visibility/progress.h"
 
 struct pairwise_fallback {

@@ -11,10 +11,10 @@
 #ifndef VISIBILITY_PAIRWISE_TILE_CANDIDATES_H
 #define VISIBILITY_PAIRWISE_TILE_CANDIDATES_H
 
-#include "visibility/predicate/occlusion.h"
 #include "visibility/index/bvh.h"
 #include "visibility/index/kdop8.h"
 #include "visibility/pairwise/tile_classification.h"
+#include "visibility/predicate/occlusion.h"
 
 struct tile_candidates {
   struct triangle_grid grid;

@@ -2,8 +2,8 @@
  *
  * Fragments: neighbouring pixels of one scene face make a span; its sides are
  * borders of pixels, cuts of the method (MAP_SIDE_CLIP). */
-#include "visibility/raster/pixels.h"
 #include "visibility/intersection/intersection.h"
+#include "visibility/raster/pixels.h"
 
 #include <math.h>
 #include <string.h>

@@ -5,10 +5,10 @@
 #include "base/sort.h"
 #include "visibility/progress.h"
 #include "visibility/raster/raster.h"
-#include "visibility/solver.h"
-#include "visibility/scan/trapezoids.h"
 #include "visibility/raster/subpixels.h"
 #include "visibility/scan/edge_sampling.h"
+#include "visibility/scan/trapezoids.h"
+#include "visibility/solver.h"
 
 /* The lines so far, and what they make of edges and faces. */
 struct pixels {

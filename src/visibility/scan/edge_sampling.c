@@ -8,8 +8,8 @@
 #include "base/sort.h"
 #include "view/coordinate_error.h"
 #include "visibility/intersection/intersection.h"
-#include "visibility/scan/facets.h"
 #include "visibility/predicate/edge_intervals.h"
+#include "visibility/scan/facets.h"
 
 #define EDGE_SAMPLING_HIDDEN UINT32_MAX /* no visible run is open */
 

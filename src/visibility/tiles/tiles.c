@@ -19,15 +19,15 @@
 #include "base/parallel.h"
 #include "base/poll.h"
 #include "base/sort.h"
-#include "visibility/dense_edges.h"
 #include "visibility/culling/potentially_visible.h"
-#include "visibility/pairwise/edge_query.h"
-#include "visibility/pairwise/deferred_triangles.h"
+#include "visibility/dense_edges.h"
 #include "visibility/intersection/intersection.h"
-#include "visibility/solver.h"
-#include "visibility/predicate/surrounder.h"
-#include "visibility/tiles/tile_states.h"
+#include "visibility/pairwise/deferred_triangles.h"
+#include "visibility/pairwise/edge_query.h"
 #include "visibility/pairwise/tile_candidates.h"
+#include "visibility/predicate/surrounder.h"
+#include "visibility/solver.h"
+#include "visibility/tiles/tile_states.h"
 
 struct tiles_work {
   struct sheet *sheet; /* what is left after culling */

@@ -1,10 +1,10 @@
 /* warnock_frame.c - the frame of Warnock's method in pixels, and its solver. */
 #include <string.h>
 
+#include "visibility/intersection/intersection.h"
 #include "visibility/raster/pixels.h"
 #include "visibility/raster/subpixels.h"
 #include "visibility/warnock/warnock_raster.h"
-#include "visibility/intersection/intersection.h"
 
 /* ---- The frame ----------------------------------------------------------- */
 

@@ -16,8 +16,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "visibility/raster/pixels.h"
 #include "visibility/progress.h"
+#include "visibility/raster/pixels.h"
 #include "visibility/raster/subpixels.h"
 #include "visibility/warnock/warnock_sample.h"
 #include "visibility/warnock/warnock_windows.h"

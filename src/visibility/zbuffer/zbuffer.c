@@ -15,10 +15,10 @@
  */
 #include "visibility/zbuffer/zbuffer.h"
 
-#include "visibility/raster/active_edge_pair.h"
-#include "visibility/zbuffer/draw_order.h"
 #include "visibility/progress.h"
+#include "visibility/raster/active_edge_pair.h"
 #include "visibility/raster/span_fill.h"
+#include "visibility/zbuffer/draw_order.h"
 #include "visibility/zbuffer/raster_small.h"
 
 static void draw_facet(struct raster *raster, const struct facets *facets,

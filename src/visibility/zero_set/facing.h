@@ -20,9 +20,9 @@
 
 #include "base/tolerance.h"
 #include "base/union_find.h"
+#include "geom/vector.h"
 #include "scene/topology/large_faces.h"
 #include "view/sheet.h"
-#include "geom/vector.h"
 
 struct facing_faces {
   uint32_t *item;

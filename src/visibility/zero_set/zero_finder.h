@@ -2,8 +2,8 @@
 #ifndef VISIBILITY_ZERO_SET_ZERO_FINDER_H
 #define VISIBILITY_ZERO_SET_ZERO_FINDER_H
 
-#include "view/clip.h"
 #include "scene/triangulation/triangulate.h"
+#include "view/clip.h"
 #include "visibility/zero_set/folded_faces.h"
 #include "visibility/zero_set/zero_segments.h"
 

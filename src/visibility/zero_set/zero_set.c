@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "base/poll.h"
-#include "visibility/zero_set/zero_finder.h"
-#include "view/clip.h"
 #include "scene/triangulation/triangulate.h"
+#include "view/clip.h"
+#include "visibility/zero_set/zero_finder.h"
 
 void zero_set_fini(struct zero_set *set) {
   ARRAY_FREE(&set->node);

@@ -13,9 +13,9 @@
 #include <string.h>
 
 #include "visibility/intersection/intersection.h"
-#include "visibility/progress.h"
-#include "visibility/predicate/edge_intervals.h"
 #include "visibility/pairwise/pairwise_fallback.h"
+#include "visibility/predicate/edge_intervals.h"
+#include "visibility/progress.h"
 #include "visibility/watkins/exact/visible_trapezoids.h"
 
 /* Limit of the pairs of an edge and a triangle that may occlude it. */

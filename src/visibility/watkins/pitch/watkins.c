@@ -18,8 +18,8 @@
  * Source   [Watkins1970]; [Romney1969] for coherence; [Archuleta1972] for
  *          edges from the ends of sample intervals; [Rogers1985] ch. 4.
  */
-#include "visibility/watkins/pitch/watkins.h"
 #include "visibility/intersection/intersection.h"
+#include "visibility/watkins/pitch/watkins.h"
 
 #include <math.h>
 #include <string.h>

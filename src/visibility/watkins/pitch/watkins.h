@@ -21,11 +21,11 @@
 #define VISIBILITY_WATKINS_PITCH_WATKINS_H
 
 #include "geom/scanfill.h"
-#include "visibility/scan/facets.h"
 #include "visibility/progress.h"
-#include "visibility/solver.h"
-#include "visibility/scan/trapezoids.h"
 #include "visibility/scan/edge_sampling.h"
+#include "visibility/scan/facets.h"
+#include "visibility/scan/trapezoids.h"
+#include "visibility/solver.h"
 
 #define WATKINS_LINES_MAX (1 << 20)
 #define WATKINS_NONE UINT32_MAX
