@@ -282,14 +282,14 @@ static bool add_walk(struct intersection_gaps *g, struct outline_walk *walk) {
                              ? sheet->point.item[joint[walk->k]]
                              : walk->contour.at;
   const struct geom_point from = g->end.item[walk->from].at;
-  const struct fold_sample *last = &run->item[run->count - 1];
+  const struct fold_sample last = run->item[run->count - 1];
   if ((walk->to != SIZE_MAX || joint[walk->k] != SHEET_NONE) &&
       hypot((double)to.x - from.x, (double)to.y - from.y) <=
           TOLERANCE_OUTLINE_UNITS)
     return true;
   if ((walk->to != SIZE_MAX || joint[walk->k] != SHEET_NONE ||
        walk->contour.away < walk->contour.end_away) &&
-      !ARRAY_PUSH(run, sample_at(to, last)))
+      !ARRAY_PUSH(run, sample_at(to, &last)))
     return false;
   if (walk->k == 0)
     turn_over(run);
