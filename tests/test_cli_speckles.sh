@@ -162,6 +162,11 @@ started() {
       "$(strokes joined.svg crease | wc -l)" &&
     run 0 --check started.svg --crease=30,80 "$model" &&
     run 1 --check started.svg "$model" &&
+    run 0 "$model" -q -o plain.svg &&
+    run 0 "$model" -q --crease=30,45 -o started.svg --verify=2000 &&
+    run 0 --check started.svg --crease=30,45 "$model" &&
+    test "$(strokes started.svg crease | wc -l)" -le \
+      "$(strokes plain.svg crease | wc -l)" &&
     for model in "$models"/{castle,gears}.obj "$RECTO_MODELS/fandisk.obj"; do
       run 0 "$model" -q -o plain.svg &&
         run 0 "$model" -q --crease=30,35 -o started.svg &&

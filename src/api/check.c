@@ -4,6 +4,7 @@
  * of the pen's width, which is invisible, and by what the options allow ink to
  * move them (ink_deviation_mm). */
 #include <float.h>
+#include <math.h>
 
 #include "api/handle.h"
 #include "api/judge_input.h"
@@ -115,8 +116,8 @@ static recto_status judge_file_drawing(const struct preparation *prepared,
       o->ink.pen_mm / 4 + ink_deviation_mm(o);
   if (!o->ink.exact) /* half a pen, as of lines that others cover */
     options.ink_distance_mm += o->ink.pen_mm / 4;
-  if (options.crease_start_deg == 0)
-    options.crease_start_deg = pens_zigzag_start_deg(o);
+  options.crease_start_deg =
+      fmax(options.crease_start_deg, pens_zigzag_start_deg(o));
   if (prepared->topology.crease_mark != NULL)
     judge_input_allow_marks(&options, o);
   status = find_shortest(&options, scene, o, error);

@@ -181,21 +181,24 @@ double pens_shortest_line_mm(const struct pens *pens, uint32_t pen) {
   return fmin(pens_shortest_hatch_mm(pens, pen), pens_width_mm(pens, pen) / 2);
 }
 
-/* So many crease angles; 0 where all creases are drawn, or the caller said
- * where they start. */
+/* So many crease angles; 0 where all creases are drawn. */
 static double start_deg(const recto_options *options, double angles) {
   bool exact = options->ink.exact || options->ink.min_stroke_mm == 0;
-  return exact || options->mesh.crease_start_deg > 0
-             ? 0
-             : fmin(angles * options->mesh.crease_deg, 180);
+  return exact ? 0 : fmin(angles * options->mesh.crease_deg, 180);
 }
 
 double pens_crease_start_deg(const recto_options *options) {
-  return start_deg(options, CREASE_START);
+  return options->mesh.crease_start_deg > 0 ? 0
+                                            : start_deg(options, CREASE_START);
 }
 
+/* That the caller said where creases start says nothing about their shape,
+ * unless all of them do. */
 double pens_zigzag_start_deg(const recto_options *options) {
-  return start_deg(options, ZIGZAG_START);
+  double start = options->mesh.crease_start_deg;
+  return start > 0 && start <= options->mesh.crease_deg
+             ? 0
+             : start_deg(options, ZIGZAG_START);
 }
 
 double pens_short_cycle_mm(const struct pens *pens, uint32_t pen) {
