@@ -2,12 +2,13 @@
  * drawing. */
 #include "tests/ink_fixture.h"
 
-#include <cmocka.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <string.h>
+
+#include <cmocka.h>
 
 #include "geom/line_key.h"
 #include "visibility/fragments/planar_subdivision.h"

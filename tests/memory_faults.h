@@ -14,10 +14,11 @@
 #ifndef TESTS_MEMORY_FAULTS_H
 #define TESTS_MEMORY_FAULTS_H
 
-#include <cmocka.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+
+#include <cmocka.h>
 
 #include "base/memory.h"
 

@@ -1,11 +1,12 @@
 /* test_dashes.c - patterns of dashes: how they are read, which lines they are
  * for, and how they are fitted to these. */
-#include <cmocka.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <string.h>
+
+#include <cmocka.h>
 
 #include "tests/ink_fixture.h"
 

@@ -357,7 +357,7 @@ static void memory_may_run_out(void **state) {
   recto_scene *scene;
   char *text;
   size_t length;
-  long left_out, failures = 0;
+  long left_out = 0, failures = 0;
   FILE *to = open_memstream(&text, &length);
   (void)state;
   assert_non_null(to);

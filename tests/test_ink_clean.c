@@ -1,12 +1,13 @@
 /* test_ink_clean.c - redundant points and short strokes are removed, dashes are
  * spread evenly. */
-#include <cmocka.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <cmocka.h>
 
 #include "base/clock.h"
 #include "base/tolerance.h"

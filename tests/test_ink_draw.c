@@ -1,12 +1,13 @@
 /* test_ink_draw.c - the ink stage as a whole: on every scene of the stability
  * list, and with failing allocations. */
-#include <cmocka.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <cmocka.h>
 
 #include "tests/ink_fixture.h"
 #include "tests/memory_faults.h"

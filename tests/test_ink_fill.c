@@ -1,12 +1,13 @@
 /* test_ink_fill.c - layers and their labels, fills and their colours, and
  * hatching that stays inside. */
-#include <cmocka.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <cmocka.h>
 
 #include "tests/ink_fixture.h"
 #include "tests/scenes/random.h"

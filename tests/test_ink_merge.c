@@ -1,6 +1,5 @@
 /* test_ink_merge.c - fragments of one style become one fill, and no point
  * changes its colour. */
-#include <cmocka.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -8,6 +7,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <cmocka.h>
 
 #include "scene/read.h"
 #include "scene/scene.h"

@@ -1,12 +1,13 @@
 /* test_ink_segment_graph.c - intervals become lines, and every line is drawn
  * once. */
-#include <cmocka.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <cmocka.h>
 
 #include "base/clock.h"
 #include "tests/ink_fixture.h"

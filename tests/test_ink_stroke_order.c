@@ -1,12 +1,13 @@
 /* test_ink_stroke_order.c - strokes are ordered for short pen-up travel, and
  * keep their shape. */
-#include <cmocka.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <cmocka.h>
 
 #include "base/clock.h"
 #include "base/poll.h"

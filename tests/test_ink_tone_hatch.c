@@ -1,11 +1,12 @@
 /* test_ink_tone_hatch.c - tone hatching: where lines are, how much they cover,
  * and that they continue from face to face. */
-#include <cmocka.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <string.h>
+
+#include <cmocka.h>
 
 #include "ink/hatch/hatch_runs.h"
 #include "ink/tone.h"

@@ -1,12 +1,13 @@
 /* test_lists.c - lists of pens, widths, colours and weights on the command
  * line. */
-#include <cmocka.h>
 #include <getopt.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
+
+#include <cmocka.h>
 
 #include "cli/parse.h"
 

@@ -13,7 +13,7 @@
 
 static void add_outline(struct zero_set *set, struct geom_point p,
                         struct geom_point q) {
-  struct contour_outline made = {{p, q}, 0};
+  struct contour_outline made = {.image = {p, q}};
   assert_true(ARRAY_PUSH(&set->outline, made));
 }
 

@@ -1,10 +1,11 @@
 /* test_pens.c - which pen draws what, by the options. */
-#include <cmocka.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
+
+#include <cmocka.h>
 
 #include "ink/pens.h"
 #include "tests/ink_fixture.h"

@@ -1,11 +1,12 @@
 /* test_planar_subdivision.c - the half-edges of every visible map are a planar
  * subdivision. */
-#include <cmocka.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdlib.h>
+
+#include <cmocka.h>
 
 #include "base/union_find.h"
 #include "exact_fixture/sheet.h"

@@ -1,12 +1,13 @@
 /* test_scanfill.c - the scan-line fill, compared pixel by pixel with a count of
  * crossings in integers. */
-#include <cmocka.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <cmocka.h>
 
 #include "geom/scanfill.h"
 #include "tests/memory_faults.h"

@@ -1,9 +1,10 @@
 /* test_short_spurs.c - short silhouettes that lead nowhere are not drawn, and
  * what may be part of an outline is. */
-#include <cmocka.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+
+#include <cmocka.h>
 
 #include "tests/ink_fixture.h"
 

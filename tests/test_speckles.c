@@ -1,11 +1,12 @@
 /* test_speckles.c - short creases that lead nowhere are not drawn, and nothing
  * else is left out with them. */
-#include <cmocka.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <time.h>
+
+#include <cmocka.h>
 
 #include "tests/ink_fixture.h"
 
