@@ -179,18 +179,39 @@ double smooth_distance_to_segment(const double at[2], const double p[2],
   return sqrt(dx * dx + dy * dy); /* most of the time of these tests */
 }
 
-double smooth_distance_to_ink(const recto_drawing *drawing, unsigned classes,
-                              const double at[2]) {
+/* The distance from a point to the strokes of these classes but one, mm. */
+static double distance_to_others(const recto_drawing *drawing, size_t but,
+                                 unsigned classes, const double at[2]) {
   double least = 1e9;
   for (size_t s = 0; s < recto_drawing_stroke_count(drawing); s++) {
     recto_stroke stroke;
     assert_true(recto_drawing_stroke(drawing, s, &stroke));
-    for (size_t i = 0;
-         (stroke.edge_class & classes) && i + 1 < stroke.count + stroke.closed;
+    for (size_t i = 0; s != but && (stroke.edge_class & classes) &&
+                       i + 1 < stroke.count + stroke.closed;
          i++)
       least = fmin(least, smooth_distance_to_segment(
                               at, stroke.points + 2 * i,
                               stroke.points + 2 * ((i + 1) % stroke.count)));
   }
   return least;
+}
+
+double smooth_distance_to_ink(const recto_drawing *drawing, unsigned classes,
+                              const double at[2]) {
+  return distance_to_others(drawing, SIZE_MAX, classes, at);
+}
+
+int smooth_loose_ends(const recto_drawing *drawing, unsigned classes,
+                      unsigned others, double mm) {
+  int count = 0;
+  for (size_t s = 0; s < recto_drawing_stroke_count(drawing); s++) {
+    recto_stroke stroke;
+    assert_true(recto_drawing_stroke(drawing, s, &stroke));
+    if (stroke.closed || !(stroke.edge_class & classes))
+      continue;
+    const double *last = stroke.points + 2 * (stroke.count - 1);
+    count += distance_to_others(drawing, s, others, stroke.points) > mm;
+    count += distance_to_others(drawing, s, others, last) > mm;
+  }
+  return count;
 }

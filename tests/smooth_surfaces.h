@@ -62,4 +62,9 @@ double smooth_distance_to_segment(const double at[2], const double p[2],
 double smooth_distance_to_ink(const recto_drawing *drawing, unsigned classes,
                               const double at[2]);
 
+/* How many ends of strokes of some classes no other stroke of `others` is
+ * within `mm` of. */
+int smooth_loose_ends(const recto_drawing *drawing, unsigned classes,
+                      unsigned others, double mm);
+
 #endif

@@ -77,36 +77,6 @@ static recto_scene *make_turned(const struct turned_body *body,
   return scene;
 }
 
-/* How far a place is from all strokes but one, mm. */
-static double distance_to_others(const recto_drawing *drawing, size_t stroke,
-                                 const double at[2]) {
-  double least = 1e9;
-  for (size_t s = 0; s < recto_drawing_stroke_count(drawing); s++) {
-    recto_stroke other;
-    assert_true(recto_drawing_stroke(drawing, s, &other));
-    for (size_t i = 0; s != stroke && i < other.count - !other.closed; i++)
-      least = fmin(least, smooth_distance_to_segment(
-                              at, other.points + 2 * i,
-                              other.points + 2 * ((i + 1) % other.count)));
-  }
-  return least;
-}
-
-/* How many ends of creases are farther than 0.3 mm from other lines. */
-static int count_loose_creases(const recto_drawing *drawing) {
-  int loose = 0;
-  for (size_t s = 0; s < recto_drawing_stroke_count(drawing); s++) {
-    recto_stroke own;
-    assert_true(recto_drawing_stroke(drawing, s, &own));
-    for (int k = 0; own.edge_class == RECTO_EDGE_CREASE && !own.closed && k < 2;
-         k++)
-      loose +=
-          distance_to_others(
-              drawing, s, own.points + 2 * (k == 0 ? 0 : own.count - 1)) > 0.3;
-  }
-  return loose;
-}
-
 static int count_in_views(const struct turned_body *body, uint32_t sides) {
   recto_scene *scene = make_turned(body, sides);
   int loose = 0;
@@ -116,7 +86,7 @@ static int count_in_views(const struct turned_body *body, uint32_t sides) {
     options.ink.edges = RECTO_EDGE_SILHOUETTE | RECTO_EDGE_CREASE;
     options.ink.exact = false;
     recto_drawing *drawing = smooth_draw(scene, &options);
-    loose += count_loose_creases(drawing);
+    loose += smooth_loose_ends(drawing, RECTO_EDGE_CREASE, ~0u, 0.3);
     recto_drawing_destroy(drawing);
   }
   recto_scene_destroy(scene);

@@ -201,36 +201,6 @@ static void helix_sphere(double u, double v, double p[3]) {
     p[k] = 0.55 * p[k] + centre_of[k];
 }
 
-/* The distance from a point to all strokes but one, mm. */
-static double distance_to_others(const recto_drawing *drawing, size_t but,
-                                 const double at[2]) {
-  double least = 1e9;
-  for (size_t s = 0; s < recto_drawing_stroke_count(drawing); s++) {
-    recto_stroke stroke;
-    assert_true(recto_drawing_stroke(drawing, s, &stroke));
-    for (size_t i = 0; s != but && i + 1 < stroke.count + stroke.closed; i++)
-      least = fmin(least, smooth_distance_to_segment(
-                              at, stroke.points + 2 * i,
-                              stroke.points + 2 * ((i + 1) % stroke.count)));
-  }
-  return least;
-}
-
-/* How many ends of intersections no other line is near. */
-static int loose_intersections(const recto_drawing *drawing) {
-  int count = 0;
-  for (size_t s = 0; s < recto_drawing_stroke_count(drawing); s++) {
-    recto_stroke stroke;
-    assert_true(recto_drawing_stroke(drawing, s, &stroke));
-    if (stroke.closed || stroke.edge_class != RECTO_EDGE_INTERSECTION)
-      continue;
-    const double *last = stroke.points + 2 * (stroke.count - 1);
-    count += distance_to_others(drawing, s, stroke.points) > 0.35;
-    count += distance_to_others(drawing, s, last) > 0.35;
-  }
-  return count;
-}
-
 /* Of a mesh, an intersection winds about the outline of the nearer surface,
  * ends there and begins again, and the contour of the surface ends elsewhere:
  * 38 ends lay open. */
@@ -250,7 +220,7 @@ static void intersections_lead_on_to_contours(void **state) {
       options.ink.edges = RECTO_EDGE_SILHOUETTE | RECTO_EDGE_INTERSECTION;
       options.ink.exact = false;
       recto_drawing *drawing = smooth_draw(scene, &options);
-      loose += loose_intersections(drawing);
+      loose += smooth_loose_ends(drawing, RECTO_EDGE_INTERSECTION, ~0u, 0.35);
       recto_drawing_destroy(drawing);
     }
     recto_scene_destroy(scene);
