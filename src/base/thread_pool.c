@@ -3,9 +3,13 @@
  * A thread that is created for a loop is often put on its creator's processor
  * first, and runs when the system next balances its load: later than a short
  * loop takes (doc/decisions/0119).  One that slept wakes where it last ran. */
+#ifdef __linux__
+#define _GNU_SOURCE /* pthread_attr_setaffinity_np, sched_getcpu */
+#endif
 #include "base/thread_pool.h"
 
 #include <pthread.h>
+#include <sched.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -22,10 +26,61 @@ struct thread_pool {
   pid_t process; /* in which the threads are */
   size_t threads;
   pthread_t thread[THREAD_POOL_MAX];
+#ifdef HAVE_PTHREAD_ATTR_SETAFFINITY_NP
+  cpu_set_t processors; /* on which they may run; none: as the system says */
+#endif
 };
+
+/* ---- Processors ---------------------------------------------------------- */
+
+#ifdef HAVE_PTHREAD_ATTR_SETAFFINITY_NP
+
+/* Lets the threads of a pool run where the caller may. */
+static void set_processors(struct thread_pool *pool) {
+  if (pthread_getaffinity_np(pthread_self(), sizeof pool->processors,
+                             &pool->processors) != 0)
+    CPU_ZERO(&pool->processors);
+}
+
+/* Lets a thread begin on another processor than the caller's, where there is
+ * one. */
+static void start_elsewhere(const struct thread_pool *pool,
+                            pthread_attr_t *attributes) {
+  cpu_set_t others = pool->processors;
+  int own = sched_getcpu();
+  if (own < 0 || own >= CPU_SETSIZE)
+    return;
+  CPU_CLR((size_t)own, &others);
+  if (CPU_COUNT(&others) > 0)
+    (void)pthread_attr_setaffinity_np(attributes, sizeof others, &others);
+}
+
+/* Lets the thread that calls this, and has begun, go where the pool's may. */
+static void allow_all_processors(const struct thread_pool *pool) {
+  if (CPU_COUNT(&pool->processors) > 0)
+    (void)pthread_setaffinity_np(pthread_self(), sizeof pool->processors,
+                                 &pool->processors);
+}
+
+#else
+
+static void set_processors(struct thread_pool *pool) { (void)pool; }
+
+static void start_elsewhere(const struct thread_pool *pool,
+                            pthread_attr_t *attributes) {
+  (void)pool;
+  (void)attributes;
+}
+
+static void allow_all_processors(const struct thread_pool *pool) { (void)pool; }
+
+#endif
+
+/* ---- Threads ------------------------------------------------------------- */
 
 static void *serve(void *argument) {
   struct thread_pool *pool = argument;
+  allow_all_processors(pool);
   (void)pthread_mutex_lock(&pool->lock);
   for (;;) {
     while (pool->places == 0 && !pool->ends)
@@ -54,6 +109,7 @@ static struct thread_pool *create_pool(void) {
   (void)pthread_cond_init(&pool->wake, NULL);
   (void)pthread_cond_init(&pool->is_idle, NULL);
   pool->process = getpid();
+  set_processors(pool);
   return pool;
 }
 
@@ -62,14 +118,22 @@ static struct thread_pool *create_pool(void) {
  * own threads. */
 static void start_threads(struct thread_pool *pool, size_t wanted) {
   sigset_t all, before;
+  pthread_attr_t attributes;
   if (pool->threads >= wanted || sigfillset(&all) != 0 ||
-      pthread_sigmask(SIG_SETMASK, &all, &before) != 0)
+      pthread_attr_init(&attributes) != 0)
     return;
-  while (pool->threads < wanted &&
-         pthread_create(&pool->thread[pool->threads], NULL, serve, pool) == 0)
-    pool->threads++;
-  (void)pthread_sigmask(SIG_SETMASK, &before, NULL);
+  start_elsewhere(pool, &attributes);
+  if (pthread_sigmask(SIG_SETMASK, &all, &before) == 0) {
+    while (pool->threads < wanted &&
+           pthread_create(&pool->thread[pool->threads], &attributes, serve,
+                          pool) == 0)
+      pool->threads++;
+    (void)pthread_sigmask(SIG_SETMASK, &before, NULL);
+  }
+  (void)pthread_attr_destroy(&attributes);
 }
+
+/* ---- Work ---------------------------------------------------------------- */
 
 bool thread_pool_offer(struct thread_pool **kept, int threads,
                        thread_pool_work *work, void *user) {
