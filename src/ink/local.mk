@@ -25,6 +25,7 @@ librecto_core_la_SOURCES += \
   %D%/cut_hatch.c %D%/cut_hatch.h \
   %D%/hatch/hatch.c %D%/hatch/hatch.h \
   %D%/hatch/hatch_lines.c %D%/hatch/hatch_lines.h \
+  %D%/hatch/hatch_region.c %D%/hatch/hatch_region.h \
   %D%/hatch/hatch_regions.c %D%/hatch/hatch_regions.h \
   %D%/hatch/hatch_runs.c %D%/hatch/hatch_runs.h \
   %D%/hatch/inset.c %D%/hatch/inset.h \

@@ -2,7 +2,7 @@
  * that are hatched as one (base/union_find.h). */
 #include "ink/hatch/hatch_regions.h"
 
-#include "base/poll.h"
+#include "base/parallel.h"
 #include "base/sort.h"
 #include "base/union_find.h"
 
@@ -89,47 +89,67 @@ static bool is_within_region(const struct hatch_regions *regions,
              pens_of_hatch(pens, scene_face_group(scene, other));
 }
 
-static void set_crossable(const struct hatch_regions *regions,
-                          const struct map *map, uint32_t h) {
-  regions->crossable[h] = 1;
-  regions->crossable[map->half_edge.item[h].twin] = 1;
+/* What threads read, and write: each pair of twins is decided, and marked, at
+ * the lower of the two. */
+struct region_sides {
+  const struct hatch_regions *regions;
+  const struct scene *scene;
+  const struct map *map;
+  const struct pens *pens;
+};
+
+static void set_crossable(const struct region_sides *sides, size_t h) {
+  sides->regions->crossable[h] = 1;
+  sides->regions->crossable[sides->map->half_edge.item[h].twin] = 1;
 }
 
-/* Joins the fragments of regions.  No line is drawn where two of them meet. */
-static void join_fragments(const struct hatch_regions *regions,
-                           const struct scene *scene, const struct map *map,
-                           const struct pens *pens) {
-  const struct map_half_edge *half = map->half_edge.item;
-  for (uint32_t h = 0; h < map->half_edge.count; h++) {
-    (void)poll_at(h);
-    if (half[h].twin == SHEET_NONE || half[h].twin < h ||
-        !is_within_region(regions, scene, map, pens, &half[h],
-                          &half[half[h].twin]))
-      continue;
-    union_find_join(regions->root, half[h].fragment,
-                    half[half[h].twin].fragment);
-    set_crossable(regions, map, h);
-  }
+/* Marks the half-edges between fragments that are to be joined: no line is
+ * drawn where two of them meet. */
+static bool mark_joints(void *user, struct parallel_range range) {
+  const struct region_sides *sides = user;
+  const struct map_half_edge *half = sides->map->half_edge.item;
+  for (size_t h = range.begin; h < range.end; h++)
+    if (half[h].twin != SHEET_NONE && half[h].twin > h &&
+        is_within_region(sides->regions, sides->scene, sides->map, sides->pens,
+                         &half[h], &half[half[h].twin]))
+      set_crossable(sides, h);
+  return true;
+}
+
+/* Joins the fragments of regions. */
+static bool join_fragments(const struct region_sides *sides) {
+  const struct map_half_edge *half = sides->map->half_edge.item;
+  size_t count = sides->map->half_edge.count;
+  if (!parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
+                       PARALLEL_ITEMS, mark_joints, (void *)sides))
+    return false;
+  for (size_t h = 0; h < count; h++)
+    if (sides->regions->crossable[h] && half[h].twin > h)
+      union_find_join(sides->regions->root, half[h].fragment,
+                      half[half[h].twin].fragment);
+  return true;
 }
 
 /* Finds the other half-edges within the regions along which no line is drawn:
  * those of fragments that are joined elsewhere. */
-static void find_crossable(const struct hatch_regions *regions,
-                           const struct scene *scene, const struct map *map) {
+static bool find_crossable(void *user, struct parallel_range range) {
+  const struct region_sides *sides = user;
+  const struct hatch_regions *regions = sides->regions;
+  const struct map *map = sides->map;
   const struct map_half_edge *half = map->half_edge.item;
-  for (uint32_t h = 0; h < map->half_edge.count; h++) {
-    (void)poll_at(h);
-    if (regions->crossable[h] || half[h].twin == SHEET_NONE || half[h].twin < h)
+  for (size_t h = range.begin; h < range.end; h++) {
+    if (half[h].twin == SHEET_NONE || half[h].twin < h || regions->crossable[h])
       continue;
     const struct map_half_edge *twin = &half[half[h].twin];
     if (regions->root[half[h].fragment] == regions->root[twin->fragment] &&
-        (is_within_cut_face(regions, scene, map, &half[h], twin) ||
+        (is_within_cut_face(regions, sides->scene, map, &half[h], twin) ||
          (!hatch_regions_side_is_inked(regions,
                                        &map->corner.item[half[h].side]) &&
           !hatch_regions_side_is_inked(regions,
                                        &map->corner.item[twin->side]))))
-      set_crossable(regions, map, h);
+      set_crossable(sides, h);
   }
+  return true;
 }
 
 /* Lists the fragments by region.  False when memory ran out. */
@@ -159,14 +179,15 @@ bool hatch_regions_init(struct hatch_regions *regions,
   regions->root = union_find_create(regions->count);
   regions->fragment = mem_alloc(regions->count, sizeof *regions->fragment);
   regions->crossable = mem_calloc(map->half_edge.count, 1);
+  const struct region_sides sides = {regions, scene, map, pens};
+  size_t count = map->half_edge.count;
   bool ok = regions->root != NULL && regions->fragment != NULL &&
-            regions->crossable != NULL;
-  if (ok && !options->ink.ids)
-    join_fragments(regions, scene, map, pens);
-  ok = ok && list_by_region(regions);
-  if (ok)
-    find_crossable(regions, scene, map);
-  else
+            regions->crossable != NULL &&
+            (options->ink.ids || join_fragments(&sides)) &&
+            list_by_region(regions) &&
+            parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
+                            PARALLEL_ITEMS, find_crossable, (void *)&sides);
+  if (!ok)
     hatch_regions_fini(regions);
   return ok;
 }
@@ -176,6 +197,11 @@ void hatch_regions_fini(struct hatch_regions *regions) {
   mem_free(regions->fragment);
   mem_free(regions->crossable);
   *regions = (struct hatch_regions){0};
+}
+
+bool hatch_regions_begins(const struct hatch_regions *regions, size_t index) {
+  return index == 0 || regions->root[regions->fragment[index]] !=
+                           regions->root[regions->fragment[index - 1]];
 }
 
 size_t hatch_regions_end(const struct hatch_regions *regions, size_t begin) {

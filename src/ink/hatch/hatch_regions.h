@@ -27,6 +27,9 @@ hatch_regions_init(struct hatch_regions *regions, const struct sheet *sheet,
                    const struct pens *pens, const recto_options *options);
 void hatch_regions_fini(struct hatch_regions *regions);
 
+/* Whether a region begins at this index of `fragment`. */
+bool hatch_regions_begins(const struct hatch_regions *regions, size_t index);
+
 /* The region whose first index in `fragment` is `begin` has the indices
  * [begin, hatch_regions_end()). */
 size_t hatch_regions_end(const struct hatch_regions *regions, size_t begin);

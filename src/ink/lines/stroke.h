@@ -28,6 +28,10 @@ USE_RESULT bool stroke_add(struct drawing *drawing,
                            const struct drawing_point *point, size_t count,
                            bool closed);
 
+/* Moves the strokes of another drawing, which has nothing else, to the end of
+ * those of this one. */
+USE_RESULT bool stroke_move_all(struct drawing *drawing, struct drawing *from);
+
 /* Appends the line as dashes.  They begin and end at the ends of the line and
  * at every corner, with the first dash of the pattern; around a loop without
  * corners they are spread evenly.  At an end where the line is continued a gap
