@@ -40,7 +40,7 @@
  */
 #include <math.h>
 
-#include "base/poll.h"
+#include "base/parallel.h"
 #include "base/tolerance.h"
 #include "ink/fill/light.h"
 #include "ink/hatch/hatch_lines.h"
@@ -55,12 +55,12 @@ enum { DIRECTIONS = 3, DIRECTION_DEG = 60, THRESHOLD_BITS = 8 };
  * brighter light does not thicken the hatching of what is in the light. */
 #define LEAST_GREATEST_TONE 0.7
 
-/* Hatching in progress. */
+/* Hatching in progress, by one thread. */
 struct tone_hatching {
   struct drawing *drawing;
   const recto_options *options;
   const struct pens *pens;
-  struct tones tones;
+  const struct tones *tones;
   struct hatch_lines lines[DIRECTIONS];
   /* The coverage of a direction of a curved region with all its lines, and the
    * tone of directions 0 to k - 1 with all their lines. */
@@ -265,7 +265,7 @@ static bool add_tone_stroke(struct tone_hatching *h,
       .layer = piece->pen,
       .face = piece->face,
       .edge = DRAWING_NONE,
-      .group = scene_face_group(h->tones.scene, piece->face)};
+      .group = scene_face_group(h->tones->scene, piece->face)};
   return stroke_add(h->drawing, &attributes, point, 2, false);
 }
 
@@ -296,44 +296,112 @@ static bool add_runs(struct tone_hatching *h) {
 
 /* ---- All ----------------------------------------------------------------- */
 
-static bool add_curved_fragments(struct tone_hatching *h,
-                                 const struct map *map) {
-  for (size_t i = 0; i < map->fragment.count; i++) {
-    const struct map_fragment *fragment = &map->fragment.item[i];
-    uint32_t group = scene_face_group(h->tones.scene, fragment->face);
-    if (scene_is_cut_face(h->tones.scene, fragment->face))
-      continue;
-    h->face = fragment->face;
-    h->pen = pens_of_hatch(h->pens, group);
-    h->pen_mm = pens_width_mm(h->pens, h->pen);
-    h->tone = tones_of_face(&h->tones, fragment->face);
-    if (!poll_at(i) ||
-        !(h->tone.uniform ? add_uniform : add_curved)(h, map, fragment))
-      return false;
+enum { FRAGMENTS_IN_RANGE = PARALLEL_RANGE(1024) };
+
+/* The fragments, of which threads find the pieces. */
+struct tone_fragments {
+  const struct map *map;
+  struct tone_hatching *worker;
+  struct hatch_runs *range; /* the pieces of each range of fragments */
+};
+
+static bool add_fragment(struct tone_hatching *h, const struct map *map,
+                         const struct map_fragment *fragment) {
+  uint32_t group = scene_face_group(h->tones->scene, fragment->face);
+  if (scene_is_cut_face(h->tones->scene, fragment->face))
+    return true;
+  h->face = fragment->face;
+  h->pen = pens_of_hatch(h->pens, group);
+  h->pen_mm = pens_width_mm(h->pens, h->pen);
+  h->tone = tones_of_face(h->tones, fragment->face);
+  return (h->tone.uniform ? add_uniform : add_curved)(h, map, fragment);
+}
+
+static bool add_fragments_of_range(void *user, struct parallel_range range) {
+  const struct tone_fragments *all = user;
+  struct tone_hatching *h = &all->worker[range.worker];
+  struct hatch_runs *runs = &all->range[range.begin / FRAGMENTS_IN_RANGE];
+  bool ok = true;
+  for (size_t i = range.begin; ok && i < range.end; i++)
+    ok = poll_at(i) && add_fragment(h, all->map, &all->map->fragment.item[i]);
+  *runs = h->runs;
+  h->runs = (struct hatch_runs){.next = 0};
+  return ok;
+}
+
+/* Moves the pieces of all ranges to one array, unless `ok` is false, and frees
+ * them. */
+static bool join_ranges_of_pieces(struct hatch_runs *runs,
+                                  struct hatch_runs *range, size_t ranges,
+                                  bool ok) {
+  size_t count = 0;
+  for (size_t r = 0; r < ranges; r++)
+    count += range[r].piece.count;
+  ok = ok && ARRAY_RESERVE(&runs->piece, count);
+  for (size_t r = 0; r < ranges; r++) {
+    for (size_t i = 0; ok && i < range[r].piece.count; i++)
+      runs->piece.item[runs->piece.count++] = range[r].piece.item[i];
+    ARRAY_FREE(&range[r].piece);
   }
-  return true;
+  return ok;
+}
+
+static void init_lines(struct tone_hatching *h, const struct sheet *sheet) {
+  for (int k = 0; k < DIRECTIONS; k++)
+    hatch_lines_init(&h->lines[k], sheet, h->options->ink.pen_mm,
+                     h->options->ink.hatch_angle_deg + DIRECTION_DEG * k);
+}
+
+static void free_lines(struct tone_hatching *h) {
+  for (int k = 0; k < DIRECTIONS; k++)
+    hatch_lines_fini(&h->lines[k]);
+}
+
+/* Adds the pieces of all fragments. */
+static bool add_fragments(struct tone_hatching *h, const struct sheet *sheet,
+                          const struct map *map) {
+  size_t count = map->fragment.count;
+  size_t ranges = parallel_range_count(count, FRAGMENTS_IN_RANGE);
+  int workers = parallel_workers(count, FRAGMENTS_IN_RANGE);
+  struct tone_fragments all = {
+      .map = map,
+      .worker = mem_calloc((size_t)workers, sizeof *all.worker),
+      .range = mem_calloc(ranges, sizeof *all.range)};
+  bool ok = all.worker != NULL && all.range != NULL;
+  for (int w = 0; ok && w < workers; w++) {
+    all.worker[w] = *h;
+    init_lines(&all.worker[w], sheet);
+  }
+  ok = ok && parallel_ranges(workers, count, FRAGMENTS_IN_RANGE,
+                             add_fragments_of_range, &all);
+  for (int w = 0; all.worker != NULL && w < workers; w++)
+    free_lines(&all.worker[w]);
+  if (all.range != NULL)
+    ok = join_ranges_of_pieces(&h->runs, all.range, ranges, ok);
+  mem_free(all.worker);
+  mem_free(all.range);
+  return ok;
 }
 
 bool tone_hatch_add(struct drawing *drawing, const struct sheet *sheet,
                     const struct scene *scene, const struct map *map,
                     const struct pens *pens, const recto_options *options) {
+  struct tones tones;
   struct tone_hatching h = {
-      .drawing = drawing, .options = options, .pens = pens};
+      .drawing = drawing, .options = options, .pens = pens, .tones = &tones};
   set_coverage(&h, light_ambient(options));
+  init_lines(&h, sheet);
+  bool ok = (map->corner_tone != NULL
+                 ? tones_copy(&tones, sheet, scene, map->corner_tone,
+                              map->face_uniform)
+                 : tones_init(&tones, sheet, scene, options)) &&
+            add_fragments(&h, sheet, map);
   /* Gaps below an eighth of the pen width would be closed by the ink. */
   h.runs.max_gap = 1.0 / 8;
   h.runs.min_length = TOLERANCE_TONE_PENS;
-  for (int k = 0; k < DIRECTIONS; k++)
-    hatch_lines_init(&h.lines[k], sheet, options->ink.pen_mm,
-                     options->ink.hatch_angle_deg + DIRECTION_DEG * k);
-  bool ok = (map->corner_tone != NULL
-                 ? tones_copy(&h.tones, sheet, scene, map->corner_tone,
-                              map->face_uniform)
-                 : tones_init(&h.tones, sheet, scene, options)) &&
-            add_curved_fragments(&h, map) && add_runs(&h);
-  tones_fini(&h.tones);
-  for (int k = 0; k < DIRECTIONS; k++)
-    hatch_lines_fini(&h.lines[k]);
+  ok = ok && add_runs(&h);
+  tones_fini(&tones);
+  free_lines(&h);
   ARRAY_FREE(&h.runs.piece);
   return ok;
 }
