@@ -74,7 +74,7 @@ static bool hatch_range(void *user, struct parallel_range range) {
 
 /* Moves the strokes of all ranges to the drawing, unless `ok` is false, and
  * frees them. */
-static bool join_parts(const struct hatching *all, size_t ranges, bool ok) {
+static bool join_strokes(const struct hatching *all, size_t ranges, bool ok) {
   for (size_t r = 0; all->part != NULL && r < ranges; r++) {
     ok = ok && stroke_move_all(all->drawing, &all->part[r]);
     drawing_fini(&all->part[r]);
@@ -98,7 +98,7 @@ static bool hatch_regions(struct hatching *all, double pitch_mm,
   }
   ok = ok &&
        parallel_ranges(workers, count, FRAGMENTS_IN_RANGE, hatch_range, all);
-  ok = join_parts(all, ranges, ok);
+  ok = join_strokes(all, ranges, ok);
   for (int w = 0; all->worker != NULL && w < workers; w++)
     hatch_fini(&all->worker[w]);
   mem_free(all->worker);
