@@ -143,12 +143,15 @@ static size_t list_common_points(const struct edge_join *join,
   return count;
 }
 
-/* Fetches the first edges of a point. */
+/* Fetches the edges of a point that follow so many others in the lists of the
+ * ranges, which are to be there by then. */
 MEM_PREFETCH_INLINE void prefetch_edges(const struct edge_join *join,
-                                        uint32_t point) {
+                                        uint32_t point, int after) {
   for (size_t r = 0; r <= join->at; r++) {
     const struct edge_range *range = &join->range[r];
     uint32_t e = range->head[point];
+    for (int k = 0; k < after && e != SCENE_NONE; k++)
+      e = range->next[e];
     if (e == SCENE_NONE)
       continue;
     MEM_PREFETCH(&range->edge.item[e]);
@@ -157,12 +160,16 @@ MEM_PREFETCH_INLINE void prefetch_edges(const struct edge_join *join,
 }
 
 static bool mark_shared_of_points(void *user, struct parallel_range points) {
+  enum { FIRST = 3 }; /* edges of each list that are fetched ahead */
   const struct edge_join *join = user;
   uint32_t point[PARALLEL_ITEMS];
   size_t count = list_common_points(join, points, point);
   for (size_t i = 0; i < count; i++) {
-    if (i + MEM_PREFETCH_AHEAD < count)
-      prefetch_edges(join, point[i + MEM_PREFETCH_AHEAD]);
+    for (int k = 0; k < FIRST; k++) {
+      size_t ahead = i + (size_t)(FIRST - k) * MEM_PREFETCH_AHEAD;
+      if (ahead < count)
+        prefetch_edges(join, point[ahead], k);
+    }
     mark_shared_at(join, point[i]);
   }
   return true;
