@@ -1,6 +1,8 @@
 # backends/local.mk - one writer per format.
 librecto_core_la_SOURCES += \
   %D%/device.c %D%/device.h \
+  %D%/hpgl_batch.c %D%/hpgl_batch.h \
+  %D%/hpgl_strokes.c %D%/hpgl_strokes.h \
   %D%/svg_batch.c %D%/svg_batch.h \
   %D%/svg_elements.c %D%/svg_elements.h \
   %D%/svg_text.c %D%/svg_text.h \

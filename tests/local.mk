@@ -179,7 +179,7 @@ unit_tests += %D%/test_parallel_stages
 %C%_test_parallel_stages_SOURCES = %D%/test_parallel_stages.c %D%/sheet_fixture.c %D%/sheet_fixture.h
 %C%_test_parallel_stages_LDADD = %D%/scenes/libscenes.la $(LDADD)
 unit_tests += %D%/test_thread_pool
-unit_tests += %D%/test_parallel_hatching
+unit_tests += %D%/test_parallel_plots
 
 unit_tests += %D%/test_memory
 %C%_test_memory_SOURCES = %D%/test_memory.c

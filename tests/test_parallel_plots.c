@@ -1,5 +1,6 @@
-/* test_parallel_hatching.c - the number of threads changes no byte of a hatched
- * drawing: of many small regions, and of a surface that is one. */
+/* test_parallel_plots.c - the number of threads changes no byte of a hatched
+ * drawing, of many small regions and of a surface that is one, nor of one for a
+ * plotter. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -33,14 +34,19 @@ static void write_squares(FILE *to, bool apart) {
     }
 }
 
-static void assert_hatched_alike(bool apart, const char *name,
-                                 recto_options *options) {
+static char *text_of_squares(bool apart, size_t *length) {
   char *text;
-  size_t length;
-  FILE *to = open_memstream(&text, &length);
+  FILE *to = open_memstream(&text, length);
   assert_non_null(to);
   write_squares(to, apart);
   assert_int_equal(fclose(to), 0);
+  return text;
+}
+
+static void assert_hatched_alike(bool apart, const char *name,
+                                 recto_options *options) {
+  size_t length;
+  char *text = text_of_squares(apart, &length);
   options->solver.threads = 1;
   char *one = obj_drawing_svg(text, length, options, NULL, NULL);
   options->solver.threads = 2;
@@ -76,9 +82,44 @@ static void threads_change_no_hatching(void **state) {
   }
 }
 
+/* The HPGL of the squares, all edges; the caller's to free. */
+static char *plot_squares(const char *squares, size_t length, int threads) {
+  recto_options options;
+  recto_drawing *drawing;
+  struct svg_text text = {NULL, 0};
+  recto_options_init(&options);
+  options.ink.edges = RECTO_EDGES_ALL;
+  options.solver.threads = threads;
+  recto_scene *scene = obj_drawing_scene(squares, length, &options);
+  assert_int_equal(recto_scene_render(scene, &options, &drawing, NULL),
+                   RECTO_OK);
+  assert_int_equal(recto_drawing_write_to(drawing, "hpgl", &options, append_svg,
+                                          &text, NULL),
+                   RECTO_OK);
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(scene);
+  return text.bytes;
+}
+
+static void threads_change_no_plot(void **state) {
+  size_t length;
+  (void)state;
+  if (parallel_processors() < 2)
+    skip();
+  char *squares = text_of_squares(true, &length);
+  char *one = plot_squares(squares, length, 1);
+  char *two = plot_squares(squares, length, 2);
+  assert_true(strlen(one) > 100000);
+  assert_string_equal(one, two);
+  free(one);
+  free(two);
+  free(squares);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(threads_change_no_hatching),
+      cmocka_unit_test(threads_change_no_plot),
   };
-  return cmocka_run_group_tests_name("parallel hatching", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("parallel plots", tests, NULL, NULL);
 }

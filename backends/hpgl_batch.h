@@ -1,0 +1,39 @@
+/* hpgl_batch.h - the strokes of a layer as HPGL, written by all threads.
+ *
+ * Strokes are divided into chunks by the drawing alone.  Where there are
+ * several threads each chunk is written to memory of its own, and copied to the
+ * output in order. */
+#ifndef BACKENDS_HPGL_BATCH_H
+#define BACKENDS_HPGL_BATCH_H
+
+#include "backends/hpgl_strokes.h"
+
+enum { HPGL_CHUNKS_MAX = 64 };
+
+/* The strokes from `begin` to before `end`. */
+struct hpgl_chunk {
+  uint32_t begin, end;
+  struct stream *text;
+  uint64_t clipped;
+  double lost;
+};
+
+/* Zero-initialised but for the place and the stream of `strokes`. */
+struct hpgl_batch {
+  struct hpgl_strokes strokes; /* of all: what is clipped, and the output */
+  /* private */
+  const struct drawing *drawing;
+  uint32_t layer;
+  struct hpgl_chunk chunk[HPGL_CHUNKS_MAX];
+  size_t chunks;
+  ARRAY(struct hpgl_strokes) worker; /* each with arrays of its own */
+};
+
+/* Writes the strokes of a layer.  Returns false when memory ran out, or the
+ * caller cancelled. */
+USE_RESULT bool hpgl_batch_write(struct hpgl_batch *batch,
+                                 const struct drawing *drawing, uint32_t layer);
+
+void hpgl_batch_fini(struct hpgl_batch *batch);
+
+#endif
