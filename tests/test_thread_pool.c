@@ -6,6 +6,7 @@
 #include "base/thread_pool.h"
 
 #include <dlfcn.h>
+#include <errno.h>
 #include <pthread.h>
 #include <sched.h>
 #include <setjmp.h>
@@ -20,6 +21,7 @@ enum { THREADS = 3 };
 
 static cpu_set_t first[THREADS]; /* where each thread may begin */
 static int started;
+static bool refuses_choice; /* where a thread begins may not be chosen */
 
 typedef int creator(pthread_t *thread, const pthread_attr_t *attributes,
                     void *(*start)(void *), void *argument);
@@ -29,6 +31,8 @@ int pthread_create(pthread_t *thread, const pthread_attr_t *attributes,
                    void *(*start)(void *), void *argument) {
   creator *real;
   *(void **)&real = dlsym(RTLD_NEXT, "pthread_create");
+  if (refuses_choice)
+    return attributes == NULL ? real(thread, NULL, start, argument) : EPERM;
   if (started < THREADS)
     assert_int_equal(
         pthread_attr_getaffinity_np(attributes, sizeof *first, &first[started]),
@@ -91,10 +95,21 @@ static void a_single_processor_is_shared(void **state) {
   assert_int_equal(pthread_setaffinity_np(pthread_self(), sizeof own, &own), 0);
 }
 
+static void threads_begin_where_no_processor_can_be_chosen(void **state) {
+  struct places places;
+  cpu_set_t own;
+  (void)state;
+  assert_int_equal(pthread_getaffinity_np(pthread_self(), sizeof own, &own), 0);
+  refuses_choice = true;
+  run_pool(&places, &own);
+  refuses_choice = false;
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(threads_begin_elsewhere_and_may_run_anywhere),
       cmocka_unit_test(a_single_processor_is_shared),
+      cmocka_unit_test(threads_begin_where_no_processor_can_be_chosen),
   };
   return cmocka_run_group_tests_name("thread_pool", tests, NULL, NULL);
 }

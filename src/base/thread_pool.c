@@ -113,6 +113,15 @@ static struct thread_pool *create_pool(void) {
   return pool;
 }
 
+/* Starts a thread, wherever the system likes where it may not be elsewhere: a
+ * sandbox may refuse that processors are chosen. */
+static bool start_thread(struct thread_pool *pool,
+                         const pthread_attr_t *attributes) {
+  pthread_t *thread = &pool->thread[pool->threads];
+  return pthread_create(thread, attributes, serve, pool) == 0 ||
+         pthread_create(thread, NULL, serve, pool) == 0;
+}
+
 /* Starts threads until there are so many, or no more can be had.  They inherit
  * a mask that blocks all signals, so that the host's handlers run in the host's
  * own threads. */
@@ -124,9 +133,7 @@ static void start_threads(struct thread_pool *pool, size_t wanted) {
     return;
   start_elsewhere(pool, &attributes);
   if (pthread_sigmask(SIG_SETMASK, &all, &before) == 0) {
-    while (pool->threads < wanted &&
-           pthread_create(&pool->thread[pool->threads], &attributes, serve,
-                          pool) == 0)
+    while (pool->threads < wanted && start_thread(pool, &attributes))
       pool->threads++;
     (void)pthread_sigmask(SIG_SETMASK, &before, NULL);
   }
