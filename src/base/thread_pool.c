@@ -115,8 +115,8 @@ static struct thread_pool *create_pool(void) {
 
 /* Starts a thread, wherever the system likes where it may not be elsewhere: a
  * sandbox may refuse that processors are chosen. */
-static bool start_thread(struct thread_pool *pool,
-                         const pthread_attr_t *attributes) {
+static bool start_one_thread(struct thread_pool *pool,
+                             const pthread_attr_t *attributes) {
   pthread_t *thread = &pool->thread[pool->threads];
   return pthread_create(thread, attributes, serve, pool) == 0 ||
          pthread_create(thread, NULL, serve, pool) == 0;
@@ -133,7 +133,7 @@ static void start_threads(struct thread_pool *pool, size_t wanted) {
     return;
   start_elsewhere(pool, &attributes);
   if (pthread_sigmask(SIG_SETMASK, &all, &before) == 0) {
-    while (pool->threads < wanted && start_thread(pool, &attributes))
+    while (pool->threads < wanted && start_one_thread(pool, &attributes))
       pool->threads++;
     (void)pthread_sigmask(SIG_SETMASK, &before, NULL);
   }
