@@ -63,25 +63,11 @@ static double distance_to_segment(const struct page_segment *s,
 /* Whether a visible contour is within reach of a point of the page. */
 static bool is_near_contour(const struct contour_creases *c,
                             struct geom_point p, double reach) {
-  const struct triangle_grid *cell = &c->grid.cell;
-  double x0 = fmax(floor(p.x - reach), INT32_MIN);
-  double y0 = fmax(floor(p.y - reach), INT32_MIN);
-  double x1 = fmin(ceil(p.x + reach), INT32_MAX);
-  double y1 = fmin(ceil(p.y + reach), INT32_MAX);
-  struct cell_range range =
-      triangle_grid_cells(cell, (struct box2){.x0 = (int32_t)x0,
-                                              .y0 = (int32_t)y0,
-                                              .x1 = (int32_t)x1,
-                                              .y1 = (int32_t)y1});
-  for (int y = range.y0; y <= range.y1; y++)
-    for (int x = range.x0; x <= range.x1; x++) {
-      size_t at = triangle_grid_index(cell, x, y);
-      for (uint32_t i = cell->lists.start[at]; i < cell->lists.start[at + 1];
-           i++)
-        if (distance_to_segment(&c->grid.segment.item[cell->lists.item[i]],
-                                p) <= reach)
-          return true;
-    }
+  struct segment_walk walk = segment_grid_near(&c->grid, p.x, p.y, reach);
+  const struct page_segment *s;
+  while ((s = segment_walk_next(&walk)) != NULL)
+    if (distance_to_segment(s, p) <= reach)
+      return true;
   return false;
 }
 

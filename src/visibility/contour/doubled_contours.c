@@ -163,35 +163,25 @@ static bool covers(const struct doubled_contours *d,
  * far, so what covers nothing is met only before what does. */
 static uint32_t find_covering_contour(struct doubled_contours *d,
                                       const struct doubled_place *at) {
-  const struct triangle_grid *cell = &d->grid.cell;
-  double reach = at->reach;
-  struct cell_range range =
-      triangle_grid_cells(cell, (struct box2){(int32_t)floor(at->x - reach),
-                                              (int32_t)floor(at->y - reach),
-                                              (int32_t)ceil(at->x + reach),
-                                              (int32_t)ceil(at->y + reach)});
+  struct segment_walk walk =
+      segment_grid_near(&d->grid, at->x, at->y, at->reach);
+  const struct page_segment *s;
   uint32_t best = SHEET_NONE;
   int64_t nearest = 0;
-  for (int y = range.y0; y <= range.y1; y++)
-    for (int x = range.x0; x <= range.x1; x++) {
-      size_t i = triangle_grid_index(cell, x, y);
-      for (uint32_t k = cell->lists.start[i]; k < cell->lists.start[i + 1];
-           k++) {
-        const struct page_segment *s =
-            &d->grid.segment.item[cell->lists.item[k]];
-        int64_t z = page_segment_nearest(s);
-        if ((double)z <= at->z || (best != SHEET_NONE && z <= nearest))
-          break;
-        if (page_segment_is_off(s, at->x, at->y, at->reach) ||
-            s->owner == at->edge)
-          continue;
-        d->compared++;
-        if (!covers(d, s, at))
-          continue;
-        best = s->owner;
-        nearest = z;
-      }
+  while ((s = segment_walk_next(&walk)) != NULL) {
+    int64_t z = page_segment_nearest(s);
+    if ((double)z <= at->z || (best != SHEET_NONE && z <= nearest)) {
+      segment_walk_leave_cell(&walk);
+      continue;
     }
+    if (page_segment_is_off(s, at->x, at->y, at->reach) || s->owner == at->edge)
+      continue;
+    d->compared++;
+    if (!covers(d, s, at))
+      continue;
+    best = s->owner;
+    nearest = z;
+  }
   return best;
 }
 

@@ -131,22 +131,17 @@ static bool look_at(struct intersection_cuts *c, const struct page_segment *s,
                                 hypot(px - t * dx, py - t * dy)});
 }
 
-/* The square about an end that its reach covers on the page. */
-static struct box2 box_about(const struct intersection_cuts *c,
-                             const struct intersection_end *end, double reach) {
+/* How far the reach of an end goes on the page. */
+static double units_about(const struct intersection_cuts *c,
+                          const struct intersection_end *end, double reach) {
   const struct projection *projection = &c->projection;
-  double d = unproject_point(projection, end->at).d;
   double units = reach * projection->units;
-  if (projection->perspective)
-    units /= d;
-  double x = end->at.x, y = end->at.y, most = SHEET_XY_MAX;
-  return (struct box2){(int32_t)clamp(x - units, -most, most),
-                       (int32_t)clamp(y - units, -most, most),
-                       (int32_t)clamp(x + units, -most, most),
-                       (int32_t)clamp(y + units, -most, most)};
+  return projection->perspective
+             ? units / unproject_point(projection, end->at).d
+             : units;
 }
 
-static bool is_first_look(struct intersection_cuts *c, uint32_t segment,
+static bool is_first_look(struct intersection_cuts *c, size_t segment,
                           const struct intersection_end *end) {
   uint32_t number = (uint32_t)(end - c->end.item) + 1;
   bool is_first = c->seen_by[segment] != number;
@@ -157,19 +152,15 @@ static bool is_first_look(struct intersection_cuts *c, uint32_t segment,
 /* Cuts the curves that are near an end. */
 static bool cut_curves_near(struct intersection_cuts *c,
                             const struct intersection_end *end) {
-  const struct triangle_grid *cell = &c->grid.cell;
-  const uint32_t *start = cell->lists.start;
   double reach = reach_of(c, end->edge);
-  struct cell_range range = triangle_grid_cells(cell, box_about(c, end, reach));
+  struct segment_walk walk = segment_grid_near(&c->grid, end->at.x, end->at.y,
+                                               units_about(c, end, reach));
+  const struct page_segment *s;
   c->near.count = 0;
-  for (int y = range.y0; y <= range.y1; y++)
-    for (int x = range.x0; x <= range.x1; x++) {
-      size_t at = triangle_grid_index(cell, x, y);
-      for (uint32_t i = start[at]; i < start[at + 1]; i++)
-        if (is_first_look(c, cell->lists.item[i], end) &&
-            !look_at(c, &c->grid.segment.item[cell->lists.item[i]], end, reach))
-          return false;
-    }
+  while ((s = segment_walk_next(&walk)) != NULL)
+    if (is_first_look(c, (size_t)(s - c->grid.segment.item), end) &&
+        !look_at(c, s, end, reach))
+      return false;
   for (size_t i = 0; i < c->near.count; i++)
     if (!ARRAY_PUSH(&c->curves->cut, c->near.item[i].cut))
       return false;

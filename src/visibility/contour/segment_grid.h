@@ -3,6 +3,8 @@
 #ifndef VISIBILITY_CONTOUR_SEGMENT_GRID_H
 #define VISIBILITY_CONTOUR_SEGMENT_GRID_H
 
+#include <math.h>
+
 #include "visibility/index/triangle_grid.h"
 
 struct page_segment {
@@ -41,6 +43,58 @@ typedef bool meet_segments(void *user, const struct page_segment *contour,
  * false when the caller cancelled, or `meet` returned it. */
 USE_RESULT bool segment_grid_meet(const struct segment_grid *grid,
                                   meet_segments *meet, void *user);
+
+/* The segments of all cells that a box may meet, cell by cell from the lower
+ * left, as their lists have them: one that may meet several of them comes up as
+ * often. */
+struct segment_walk {
+  const struct segment_grid *grid;
+  struct cell_range range;
+  int x, y;         /* the next cell */
+  uint32_t at, end; /* what is left of the list of this one */
+};
+
+/* Begins before the first of the segments of the cells about a place of the
+ * page.  There may be none. */
+static inline struct segment_walk
+segment_grid_near(const struct segment_grid *grid, double x, double y,
+                  double reach) {
+  struct segment_walk walk = {.grid = grid, .y = 1};
+  const double most = SHEET_XY_MAX;
+  if (grid->contours == 0)
+    return walk; /* there are no cells */
+  walk.range = triangle_grid_cells(
+      &grid->cell, (struct box2){(int32_t)fmax(floor(x - reach), -most),
+                                 (int32_t)fmax(floor(y - reach), -most),
+                                 (int32_t)fmin(ceil(x + reach), most),
+                                 (int32_t)fmin(ceil(y + reach), most)});
+  walk.x = walk.range.x0;
+  walk.y = walk.range.y0;
+  return walk;
+}
+
+/* The next segment; NULL: there is no more. */
+static inline const struct page_segment *
+segment_walk_next(struct segment_walk *walk) {
+  const struct triangle_grid *cell = &walk->grid->cell;
+  while (walk->at == walk->end) {
+    if (walk->y > walk->range.y1)
+      return NULL;
+    size_t i = triangle_grid_index(cell, walk->x, walk->y);
+    walk->at = cell->lists.start[i];
+    walk->end = cell->lists.start[i + 1];
+    if (walk->x++ < walk->range.x1)
+      continue;
+    walk->x = walk->range.x0;
+    walk->y++;
+  }
+  return &walk->grid->segment.item[cell->lists.item[walk->at++]];
+}
+
+/* Goes on with the next cell. */
+static inline void segment_walk_leave_cell(struct segment_walk *walk) {
+  walk->at = walk->end;
+}
 
 /* Whether two segments cross, and at which parameters of each; exactly, but for
  * where.  A point on a line counts as left of it, and segments that share an

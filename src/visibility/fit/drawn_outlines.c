@@ -61,18 +61,10 @@ static void try_drawn(const struct drawn_outlines *d,
 static void try_cells(const struct drawn_outlines *d, const double p[2],
                       double by, const double along[2],
                       struct drawn_place *best) {
-  const struct triangle_grid *cell = &d->grid.cell;
-  struct cell_range range = triangle_grid_cells(
-      cell, (struct box2){(int32_t)floor(p[0] - by), (int32_t)floor(p[1] - by),
-                          (int32_t)ceil(p[0] + by), (int32_t)ceil(p[1] + by)});
-  for (int y = range.y0; y <= range.y1; y++)
-    for (int x = range.x0; x <= range.x1; x++) {
-      size_t at = triangle_grid_index(cell, x, y);
-      for (uint32_t i = cell->lists.start[at]; i < cell->lists.start[at + 1];
-           i++)
-        try_drawn(d, &d->grid.segment.item[cell->lists.item[i]], p, along,
-                  best);
-    }
+  struct segment_walk walk = segment_grid_near(&d->grid, p[0], p[1], by);
+  const struct page_segment *s;
+  while ((s = segment_walk_next(&walk)) != NULL)
+    try_drawn(d, s, p, along, best);
 }
 
 struct drawn_place drawn_outlines_find(const struct drawn_outlines *d,

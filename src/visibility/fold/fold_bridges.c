@@ -205,20 +205,11 @@ static bool look_beside(const struct fold_bridges *b,
 static bool look_all_beside(const struct fold_bridges *b, const double at[2],
                             const double along[2], double height,
                             struct bridge_sides *sides) {
-  const struct triangle_grid *cell = &b->grid.cell;
-  struct cell_range range =
-      triangle_grid_cells(cell, (struct box2){(int32_t)floor(at[0] - height),
-                                              (int32_t)floor(at[1] - height),
-                                              (int32_t)ceil(at[0] + height),
-                                              (int32_t)ceil(at[1] + height)});
-  for (int y = range.y0; y <= range.y1; y++)
-    for (int x = range.x0; x <= range.x1; x++) {
-      size_t i = triangle_grid_index(cell, x, y);
-      for (uint32_t k = cell->lists.start[i]; k < cell->lists.start[i + 1]; k++)
-        if (!look_beside(b, &b->grid.segment.item[cell->lists.item[k]], at,
-                         along, height, sides))
-          return false;
-    }
+  struct segment_walk walk = segment_grid_near(&b->grid, at[0], at[1], height);
+  const struct page_segment *s;
+  while ((s = segment_walk_next(&walk)) != NULL)
+    if (!look_beside(b, s, at, along, height, sides))
+      return false;
   return true;
 }
 

@@ -95,15 +95,6 @@ bool fold_joints_may_join(const struct fold_joints *j, struct fold_run chain,
   return false;
 }
 
-struct cell_range fold_joints_cells(const struct fold_joints *j, double x,
-                                    double y, double by) {
-  struct box2 box = {(int32_t)fmax(floor(x - by), -SHEET_XY_MAX),
-                     (int32_t)fmax(floor(y - by), -SHEET_XY_MAX),
-                     (int32_t)fmin(ceil(x + by), SHEET_XY_MAX),
-                     (int32_t)fmin(ceil(y + by), SHEET_XY_MAX)};
-  return triangle_grid_cells(&j->grid.cell, box);
-}
-
 /* Whether a contour that ends at its edge's point k has there, over a distance,
  * about the direction of a sample. */
 static bool has_direction(const struct fold_joints *j, uint32_t edge, int k,
@@ -123,29 +114,20 @@ static bool has_direction(const struct fold_joints *j, uint32_t edge, int k,
 static uint32_t find_joint(const struct fold_joints *j,
                            const struct fold_sample *s, int k, double height,
                            double *distance) {
-  const struct triangle_grid *cell = &j->grid.cell;
+  struct segment_walk walk = segment_grid_near(&j->grid, s->x, s->y, *distance);
+  const struct page_segment *g;
   uint32_t best = SHEET_NONE;
-  if (j->grid.contours == 0)
-    return SHEET_NONE;
-  struct cell_range range = fold_joints_cells(j, s->x, s->y, *distance);
-  for (int y = range.y0; y <= range.y1; y++)
-    for (int x = range.x0; x <= range.x1; x++) {
-      size_t at = triangle_grid_index(cell, x, y);
-      for (uint32_t i = cell->lists.start[at]; i < cell->lists.start[at + 1];
-           i++) {
-        const struct page_segment *g =
-            &j->grid.segment.item[cell->lists.item[i]];
-        uint32_t point = j->in->sheet->edge.item[g->owner].point[k];
-        struct geom_point end = k == 0 ? g->p : g->q;
-        double away = hypot(end.x - s->x, end.y - s->y);
-        if (g->owner < j->in->first || away >= *distance ||
-            !fold_joints_is_loose(j, point) ||
-            !has_direction(j, g->owner, k, DIRECTION_HEIGHTS * height, s))
-          continue;
-        *distance = away;
-        best = point;
-      }
-    }
+  while ((g = segment_walk_next(&walk)) != NULL) {
+    uint32_t point = j->in->sheet->edge.item[g->owner].point[k];
+    struct geom_point end = k == 0 ? g->p : g->q;
+    double away = hypot(end.x - s->x, end.y - s->y);
+    if (g->owner < j->in->first || away >= *distance ||
+        !fold_joints_is_loose(j, point) ||
+        !has_direction(j, g->owner, k, DIRECTION_HEIGHTS * height, s))
+      continue;
+    *distance = away;
+    best = point;
+  }
   return best;
 }
 

@@ -47,8 +47,4 @@ static inline bool fold_joints_is_loose(const struct fold_joints *joints,
   return joints->ends[point - joints->in->first_point] < 2;
 }
 
-/* The cells within a distance of a place. */
-struct cell_range fold_joints_cells(const struct fold_joints *joints, double x,
-                                    double y, double by);
-
 #endif

@@ -96,22 +96,12 @@ static void try_line(const struct fold_lines *f, const struct page_segment *s,
 
 static void look_beside_fold(const struct fold_lines *f,
                              struct fold_sample *at) {
-  const struct triangle_grid *cell = &f->joints.grid.cell;
-  if (f->joints.grid.contours == 0)
-    return;
-  struct cell_range range =
-      fold_joints_cells(&f->joints, at->x, at->y, at->height);
-  for (int y = range.y0; y <= range.y1; y++)
-    for (int x = range.x0; x <= range.x1; x++) {
-      size_t i = triangle_grid_index(cell, x, y);
-      for (uint32_t k = cell->lists.start[i];
-           k < cell->lists.start[i + 1] && !at->is_beside; k++) {
-        const struct page_segment *s =
-            &f->joints.grid.segment.item[cell->lists.item[k]];
-        if (!is_line_beyond(s, at))
-          try_line(f, s, at);
-      }
-    }
+  struct segment_walk walk =
+      segment_grid_near(&f->joints.grid, at->x, at->y, at->height);
+  const struct page_segment *s;
+  while (!at->is_beside && (s = segment_walk_next(&walk)) != NULL)
+    if (!is_line_beyond(s, at))
+      try_line(f, s, at);
 }
 
 /* Whether a sample may be drawn: nothing hides the place just beside it, where

@@ -121,21 +121,13 @@ static void look_at_contour(const struct intersection_gaps *g,
 static bool has_contour_beside(const struct intersection_gaps *g,
                                const struct fold_sample *at,
                                struct outline_walk *walk) {
-  const struct triangle_grid *cell = &g->joints.grid.cell;
-  struct cell_range range =
-      fold_joints_cells(&g->joints, at->x, at->y, at->height);
+  struct segment_walk near =
+      segment_grid_near(&g->joints.grid, at->x, at->y, at->height);
+  const struct page_segment *s;
   walk->contour.away = walk->contour.end_away = INFINITY;
-  for (int y = range.y0; y <= range.y1; y++)
-    for (int x = range.x0; x <= range.x1; x++) {
-      size_t c = triangle_grid_index(cell, x, y);
-      for (uint32_t i = cell->lists.start[c]; i < cell->lists.start[c + 1];
-           i++) {
-        const struct page_segment *s =
-            &g->joints.grid.segment.item[cell->lists.item[i]];
-        if (s->owner >= g->in->first)
-          look_at_contour(g, s, at, walk);
-      }
-    }
+  while ((s = segment_walk_next(&near)) != NULL)
+    if (s->owner >= g->in->first)
+      look_at_contour(g, s, at, walk);
   return walk->contour.away < walk->contour.end_away;
 }
 

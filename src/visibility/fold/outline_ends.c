@@ -43,24 +43,15 @@ static bool add_outline_end(struct outline_ends *ends,
                             const struct projection *projection,
                             const struct segment_grid *outlines,
                             struct geom_point end) {
-  enum { REACH = (int)ON_OUTLINE_UNITS };
-  const struct triangle_grid *cell = &outlines->cell;
-  struct cell_range range =
-      triangle_grid_cells(cell, (struct box2){end.x - REACH, end.y - REACH,
-                                              end.x + REACH, end.y + REACH});
-  for (int y = range.y0; y <= range.y1; y++)
-    for (int x = range.x0; x <= range.x1; x++) {
-      size_t c = triangle_grid_index(cell, x, y);
-      for (uint32_t i = cell->lists.start[c]; i < cell->lists.start[c + 1];
-           i++) {
-        const struct page_segment *s =
-            &outlines->segment.item[cell->lists.item[i]];
-        struct outline_end made = {.outline = s->owner, .at = end};
-        if (ends_on_outline(projection, (struct geom_segment){s->p, s->q}, end,
-                            &made.t))
-          return ARRAY_PUSH(ends, made);
-      }
-    }
+  struct segment_walk walk =
+      segment_grid_near(outlines, end.x, end.y, ON_OUTLINE_UNITS);
+  const struct page_segment *s;
+  while ((s = segment_walk_next(&walk)) != NULL) {
+    struct outline_end made = {.outline = s->owner, .at = end};
+    if (ends_on_outline(projection, (struct geom_segment){s->p, s->q}, end,
+                        &made.t))
+      return ARRAY_PUSH(ends, made);
+  }
   return true;
 }
 
