@@ -251,37 +251,61 @@ static bool sample_between(struct intersection_gaps *g,
   return ok && (!is_visible || ARRAY_PUSH(&g->run, made));
 }
 
-/* Draws what a walk has found: from an end of an intersection to another one,
- * to a contour, or to where the outline is hidden. */
-static bool add_walk(struct intersection_gaps *g, struct outline_walk *walk) {
+/* What a walk leads to. */
+struct walk_goal {
+  enum {
+    GOAL_HIDDEN,      /* where the outline is hidden */
+    GOAL_CONTOUR,     /* a place of a contour */
+    GOAL_CONTOUR_END, /* an end of one, which the line is joined to */
+    GOAL_INTERSECTION /* an end of another intersection */
+  } kind;
+  struct geom_point at; /* but where it is hidden */
+};
+
+static struct walk_goal goal_of(const struct intersection_gaps *g,
+                                const struct outline_walk *walk) {
+  const struct contour_ahead *contour = &walk->contour;
+  if (walk->to != SIZE_MAX)
+    return (struct walk_goal){GOAL_INTERSECTION, g->end.item[walk->to].at};
+  if (contour->loose != SHEET_NONE)
+    return (struct walk_goal){GOAL_CONTOUR_END,
+                              g->in->sheet->point.item[contour->loose]};
+  return (struct walk_goal){contour->away < contour->end_away ? GOAL_CONTOUR
+                                                              : GOAL_HIDDEN,
+                            contour->at};
+}
+
+/* Whether a line from an end to another one has no length. */
+static bool is_point(const struct intersection_gaps *g,
+                     const struct outline_walk *walk, struct walk_goal goal) {
+  const struct geom_point from = g->end.item[walk->from].at;
+  return goal.kind >= GOAL_CONTOUR_END &&
+         hypot((double)goal.at.x - from.x, (double)goal.at.y - from.y) <=
+             TOLERANCE_OUTLINE_UNITS;
+}
+
+/* Draws what a walk has found. */
+static bool add_walk(struct intersection_gaps *g,
+                     const struct outline_walk *walk) {
   struct fold_samples *run = &g->run;
+  const struct walk_goal goal = goal_of(g, walk);
   uint32_t joint[2] = {SHEET_NONE, SHEET_NONE};
-  const struct sheet *sheet = g->in->sheet;
-  if (run->count == 1 && walk->to != SIZE_MAX && !sample_between(g, walk))
+  if (run->count == 1 && goal.kind == GOAL_INTERSECTION &&
+      !sample_between(g, walk))
     return false;
-  if (run->count < 2 &&
-      (walk->to != SIZE_MAX || walk->contour.loose == SHEET_NONE))
+  if (run->count < 2 && goal.kind != GOAL_CONTOUR_END)
     return true;
-  if (walk->to != SIZE_MAX) {
+  if (goal.kind == GOAL_INTERSECTION) {
     g->end.item[walk->to].is_closed[1 - walk->k] = true;
-  } else if (walk->contour.loose != SHEET_NONE) {
+  } else if (goal.kind == GOAL_CONTOUR_END) {
     joint[walk->k] = walk->contour.loose;
     g->joints.ends[walk->contour.loose - g->in->first_point] = 2;
-    leave_out_beyond(run, sheet->point.item[walk->contour.loose], walk->k);
+    leave_out_beyond(run, goal.at, walk->k);
   }
-  struct geom_point to = walk->to != SIZE_MAX ? g->end.item[walk->to].at
-                         : joint[walk->k] != SHEET_NONE
-                             ? sheet->point.item[joint[walk->k]]
-                             : walk->contour.at;
-  const struct geom_point from = g->end.item[walk->from].at;
   const struct fold_sample last = run->item[run->count - 1];
-  if ((walk->to != SIZE_MAX || joint[walk->k] != SHEET_NONE) &&
-      hypot((double)to.x - from.x, (double)to.y - from.y) <=
-          TOLERANCE_OUTLINE_UNITS)
+  if (is_point(g, walk, goal))
     return true;
-  if ((walk->to != SIZE_MAX || joint[walk->k] != SHEET_NONE ||
-       walk->contour.away < walk->contour.end_away) &&
-      !ARRAY_PUSH(run, sample_at(to, &last)))
+  if (goal.kind != GOAL_HIDDEN && !ARRAY_PUSH(run, sample_at(goal.at, &last)))
     return false;
   if (walk->k == 0)
     turn_over(run);
