@@ -21,6 +21,7 @@ librecto_core_la_SOURCES += \
   %D%/parallel_read.c %D%/parallel_read.h \
   %D%/path.c %D%/path.h \
   %D%/poll.c %D%/poll.h \
+  %D%/ranked_set.h \
   %D%/report.c %D%/report.h \
   %D%/sanitizer.h \
   %D%/sentence.c %D%/sentence.h \

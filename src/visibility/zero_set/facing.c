@@ -54,9 +54,11 @@ static void join_corners(struct facing *f, uint32_t edge) {
   if (!facing_corners_across(f, edge, pair))
     return;
   for (int k = 0; k < 2; k++) {
-    uint32_t a = f->near_corner[pair[k][0]], b = f->near_corner[pair[k][1]];
-    if (a != 0 && b != 0)
-      union_find_join(f->sets, a - 1, b - 1);
+    uint32_t a = pair[k][0], b = pair[k][1];
+    if (ranked_set_has(&f->near_corner, a) &&
+        ranked_set_has(&f->near_corner, b))
+      union_find_join(f->sets, ranked_set_place(&f->near_corner, a),
+                      ranked_set_place(&f->near_corner, b));
   }
 }
 
@@ -91,18 +93,20 @@ static bool mark_split_points(struct facing *f) {
   return any;
 }
 
-/* Numbers the corners of near faces. */
-static bool number_near_corners(struct facing *f) {
-  uint32_t count = 0;
-  if (f->near_corner == NULL)
-    f->near_corner = mem_calloc(f->scene->corner.count, sizeof *f->near_corner);
-  for (size_t i = 0; f->near_corner != NULL && i < f->near.count; i++) {
+/* Ranks the corners of near faces. */
+static bool rank_near_corners(struct facing *f) {
+  if (f->near_corner.count > 0)
+    return true;
+  if (!ranked_set_init(&f->near_corner, f->scene->corner.count))
+    return false;
+  for (size_t i = 0; i < f->near.count; i++) {
     uint32_t face = f->near.item[i];
     for (uint32_t c = scene_face_start(f->scene, face);
          c < scene_face_start(f->scene, face + 1); c++)
-      f->near_corner[c] = ++count;
+      ranked_set_add(&f->near_corner, c);
   }
-  return f->near_corner != NULL;
+  ranked_set_rank(&f->near_corner);
+  return true;
 }
 
 /* Finds the points at which normals are split, and which corners there share
@@ -113,18 +117,18 @@ static bool split_at_features(struct facing *f) {
     return true;
   f->sets = union_find_create(f->near_corners);
   f->signs = mem_calloc(f->near_corners, sizeof *f->signs);
-  if (f->sets == NULL || f->signs == NULL || !number_near_corners(f))
+  if (f->sets == NULL || f->signs == NULL || !rank_near_corners(f))
     return false;
   for (size_t i = 0; i < f->near_edge.count; i++)
     if ((facing_flags_of_edge(f, f->near_edge.item[i]) & FACING_SPLIT) != 0 &&
         !facing_is_feature(f, f->near_edge.item[i]))
       join_corners(f, f->near_edge.item[i]);
+  uint32_t at = 0; /* of near corners, which are ascending */
   for (size_t i = 0; i < f->near.count; i++) {
-    uint32_t face = f->near.item[i];
-    for (uint32_t c = scene_face_start(f->scene, face);
-         c < scene_face_start(f->scene, face + 1); c++)
-      f->signs[union_find_root(f->sets, f->near_corner[c] - 1)] |=
-          f->face_sign[face];
+    uint32_t face = f->near.item[i],
+             end = at + scene_face_corners(f->scene, face);
+    for (; at < end; at++)
+      f->signs[union_find_root(f->sets, at)] |= f->face_sign[face];
   }
   return true;
 }
@@ -357,7 +361,7 @@ void facing_fini(struct facing *f) {
   mem_free(f->large);
   mem_free(f->face_sign);
   mem_free(f->point_flags);
-  mem_free(f->near_corner);
+  ranked_set_fini(&f->near_corner);
   mem_free(f->corner_place);
   mem_free(f->share);
   ARRAY_FREE(&f->crossed);

@@ -18,6 +18,7 @@
 #ifndef VISIBILITY_ZERO_SET_FACING_H
 #define VISIBILITY_ZERO_SET_FACING_H
 
+#include "base/ranked_set.h"
 #include "base/tolerance.h"
 #include "base/union_find.h"
 #include "geom/vector.h"
@@ -45,15 +46,14 @@ struct facing {
                               contour can cross; ascending */
   struct facing_faces near; /* the faces at the points of these; ascending */
   uint32_t near_corners;    /* so many corners have they */
-  uint32_t *near_corner; /* one a corner: its number among these from 1 on; 0:
-                              it is none; NULL: no normals are split */
+  struct ranked_set near_corner; /* these, unless no normals are split */
   ARRAY(uint32_t) near_edge; /* the edges at the points of crossed faces, and
                                 others of near faces */
   uint32_t *corner_place;    /* one a corner of near faces: its slot's place */
   double (*share)[3]; /* one a corner of near faces: what it adds to the normal
                          there */
-  uint32_t *sets;     /* of these corners: union-find; NULL: as near_corner */
-  uint8_t *signs;     /* one a set, by its root: as of points */
+  uint32_t *sets; /* of these corners: union-find; NULL: no normals are split */
+  uint8_t *signs; /* one a set, by its root: as of points */
   uint32_t *place; /* slot -> its normal and value, from 1 on; 0: not needed */
   double (*normal)[3];   /* unit length, or 0, 0, 0 */
   double *value;         /* g; NaN until it is found */
@@ -141,7 +141,7 @@ static inline uint32_t facing_slot(const struct facing *f, uint32_t corner) {
   if (!(f->point_flags[point] & FACING_SPLIT))
     return point;
   return (uint32_t)f->scene->point.count +
-         union_find_root(f->sets, f->near_corner[corner] - 1);
+         union_find_root(f->sets, ranked_set_place(&f->near_corner, corner));
 }
 
 /* The union of the flags of an edge's points. */

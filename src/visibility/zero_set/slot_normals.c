@@ -28,7 +28,8 @@ double facing_angle(const struct facing *f, uint32_t face, uint32_t corner) {
   return angle_between(to, from);
 }
 
-/* Finds what a face adds to the normals at its corners, if any is needed.
+/* Finds what a face adds to those of the normals at its corners that are
+ * needed.
  * at  of near corners: its first one */
 static void find_shares(const struct facing *f, uint32_t face, size_t at) {
   double(*share)[3] = f->share + at;
@@ -42,7 +43,9 @@ static void find_shares(const struct facing *f, uint32_t face, size_t at) {
   newell_normal_of_face(f->scene, face, n);
   if (!vector_normalise(n))
     return;
-  for (c = start; c < end; c++) {
+  for (; c < end; c++) {
+    if (f->corner_place[at + c - start] == 0)
+      continue;
     double angle = facing_angle(f, face, c);
     for (int k = 0; k < 3; k++)
       share[c - start][k] = angle * n[k];

@@ -128,7 +128,7 @@ bool zero_finder_cross_crease(struct zero_finder *z, uint32_t edge) {
     if (facing_point(f, c) != e->point[0])
       c = scene_next_corner(f->scene, face[k], c);
     differ = differ != facing_is_back(f, c);
-    uint32_t node = z->edge_node[2 * (size_t)edge + (size_t)k];
+    uint32_t node = zero_finder_edge_node(z, edge, k);
     if (node != 0)
       stop[count++] = node - 1;
   }

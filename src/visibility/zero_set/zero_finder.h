@@ -13,12 +13,12 @@ struct zero_finder {
   struct folded_faces folded;
   struct curvature_noise curvature;
   struct projection projection;
-  bool mesh_is_inside; /* no face is clipped by the page's margins */
-  uint32_t
-      *edge_node; /* two a topology edge: its node, from 1 on, where normals
-                          are split those of its first and its second face; 0:
-                          none */
-  uint32_t *point_node;          /* one a scene point; NULL: none yet */
+  bool mesh_is_inside;         /* no face is clipped by the page's margins */
+  struct ranked_set near_edge; /* the edges of near faces */
+  uint32_t (*edge_node)[2];    /* one of these edges: its node, from 1 on, where
+                               normals are split those of its first and its
+                               second face; 0: none */
+  uint32_t *point_node;        /* one a scene point; NULL: none yet */
   ARRAY(uint32_t) diagonal_node; /* of the current face: likewise */
   ARRAY(uint32_t) corner;        /* of the current face, welded */
   struct triangulation triangulation;
@@ -59,6 +59,15 @@ USE_RESULT bool zero_finder_add_border(struct zero_finder *finder,
 /* Adds the image of an edge at which the faces of a smooth part fold over. */
 USE_RESULT bool zero_finder_add_outline(struct zero_finder *finder,
                                         uint32_t edge);
+
+/* The node of an edge, from 1 on, on the side of its first or second face; 0:
+ * none. */
+static inline uint32_t zero_finder_edge_node(const struct zero_finder *z,
+                                             uint32_t edge, int k) {
+  return ranked_set_has(&z->near_edge, edge)
+             ? z->edge_node[ranked_set_place(&z->near_edge, edge)][k]
+             : 0;
+}
 
 static inline struct view_point zero_finder_view(const struct zero_finder *z,
                                                  const double at[3]) {

@@ -149,11 +149,22 @@ static bool cross_edge(struct zero_finder *z, uint32_t e) {
          zero_finder_cross_crease(z, e);
 }
 
+/* Makes room for the nodes of edges. */
+static bool init_edge_nodes(struct zero_finder *z) {
+  const struct facing *f = z->facing;
+  if (!ranked_set_init(&z->near_edge, f->topology->edge.count))
+    return false;
+  for (size_t i = 0; i < f->near_edge.count; i++)
+    ranked_set_add(&z->near_edge, f->near_edge.item[i]);
+  ranked_set_rank(&z->near_edge);
+  z->edge_node = mem_calloc(z->near_edge.count, sizeof *z->edge_node);
+  return z->edge_node != NULL;
+}
+
 static bool cross_all(struct zero_finder *z) {
   const struct facing *f = z->facing;
   size_t edges = f->topology->edge.count;
-  z->edge_node = mem_calloc(edges, 2 * sizeof *z->edge_node);
-  if (z->edge_node == NULL)
+  if (!init_edge_nodes(z))
     return false;
   for (size_t i = 0; i < f->mixed.count; i++)
     if (!poll_at(i) || !cross_face(z, f->mixed.item[i]))
@@ -175,6 +186,7 @@ recto_status zero_set_find(struct zero_set *set, const struct sheet *sheet,
             curvature_noise_find(&z.curvature, facing) && cross_all(&z);
   curvature_noise_fini(&z.curvature);
   folded_faces_fini(&z.folded);
+  ranked_set_fini(&z.near_edge);
   mem_free(z.edge_node);
   mem_free(z.point_node);
   ARRAY_FREE(&z.diagonal_node);
