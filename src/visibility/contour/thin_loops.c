@@ -238,7 +238,8 @@ static bool is_straight_fold(const struct thin_loops *l, size_t from, size_t to,
     return false;
   *off = 0;
   double before = 0; /* of the step before */
-  for (size_t i = from; i < to; i++) {
+  double most = fmin(THIN_SHARE * heights, VISIBLE_WIDTH);
+  for (size_t i = from; i < to && *off < most; i++) {
     struct geom_point at = stack_node(l, i + 1)->page;
     double px = (double)at.x - p.x, py = (double)at.y - p.y;
     double t = square > 0 ? (px * x + py * y) / square : 0;
@@ -247,7 +248,7 @@ static bool is_straight_fold(const struct thin_loops *l, size_t from, size_t to,
     *off = fmax(*off, fmax(before, away) + measure_of(l, i)->off);
     before = away;
   }
-  return *off < fmin(THIN_SHARE * heights, VISIBLE_WIDTH);
+  return *off < most;
 }
 
 /* A filter for is_straight_fold, by sums in another order: false only where
