@@ -19,6 +19,12 @@ static inline bool vector2_is_before(const double a[2], const double b[2]) {
   return a[0] < b[0] || (a[0] == b[0] && a[1] < b[1]);
 }
 
+/* The length of a vector of the page, grid units: its squares neither overflow
+ * nor underflow to matter, so that it takes a fraction of the time of hypot. */
+static inline double vector2_length(double x, double y) {
+  return sqrt(x * x + y * y);
+}
+
 static inline double vector_dot(const double a[3], const double b[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }

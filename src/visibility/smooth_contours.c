@@ -10,6 +10,7 @@
 #include "base/poll.h"
 #include "base/sort.h"
 #include "base/tolerance.h"
+#include "geom/vector.h"
 #include "view/clip.h"
 #include "visibility/contour/contour_creases.h"
 #include "visibility/contour/contour_cusps.h"
@@ -84,8 +85,8 @@ static double bulge_at(const struct contour_pieces *c, uint32_t step) {
   for (uint32_t i = step; i <= step + 1; i++) {
     const struct contour_node *node = contour_curves_node(c->curves, i);
     struct geom_point flat = divided_curves_project(&c->divided, node->flat);
-    most = fmax(most, hypot((double)node->page.x - flat.x,
-                            (double)node->page.y - flat.y));
+    most = fmax(most, vector2_length((double)node->page.x - flat.x,
+                                     (double)node->page.y - flat.y));
   }
   return most;
 }

@@ -11,6 +11,7 @@
 #include "base/poll.h"
 #include "base/union_find.h"
 #include "geom/nearest.h"
+#include "geom/vector.h"
 #include "visibility/contour/segment_grid.h"
 
 /* How far from the contour either end of a crease may be on the page, as a
@@ -57,7 +58,7 @@ static double distance_to_segment(const struct page_segment *s,
   double x = (double)s->q.x - s->p.x, y = (double)s->q.y - s->p.y;
   double px = (double)p.x - s->p.x, py = (double)p.y - s->p.y;
   double t = geom_nearest_parameter(x, y, px, py);
-  return hypot(px - t * x, py - t * y);
+  return vector2_length(px - t * x, py - t * y);
 }
 
 /* Whether a visible contour is within reach of a point of the page. */
@@ -74,8 +75,8 @@ static bool is_near_contour(const struct contour_creases *c,
 static bool are_ends_near(const struct contour_creases *c,
                           const struct sheet_edge *edge) {
   struct geom_segment s = sheet_ends(c->sheet, edge->point);
-  double reach =
-      BESIDE_SHARE * hypot((double)s.q.x - s.p.x, (double)s.q.y - s.p.y);
+  double reach = BESIDE_SHARE *
+                 vector2_length((double)s.q.x - s.p.x, (double)s.q.y - s.p.y);
   return is_near_contour(c, s.p, reach) && is_near_contour(c, s.q, reach);
 }
 

@@ -4,6 +4,8 @@
 
 #include <math.h>
 
+#include "geom/vector.h"
+
 /* A piece that is not longer, between two that are alike, is like them. */
 enum { SHORT_SEGMENTS = 6 };
 
@@ -64,8 +66,8 @@ static double length_in_heights(const struct curve_pieces *pieces,
     const struct contour_node *a = contour_curves_node(curves, i);
     const struct contour_node *b = contour_curves_node(curves, i + 1);
     double part = fmin(i + 1, to) - fmax(i, at);
-    length += part * hypot((double)b->page.x - a->page.x,
-                           (double)b->page.y - a->page.y);
+    length += part * vector2_length((double)b->page.x - a->page.x,
+                                    (double)b->page.y - a->page.y);
     heights += contour_height(camera, a, contour_curves_segment(curves, i));
   }
   return heights > 0 ? length / (heights / steps) : 0;
@@ -174,7 +176,7 @@ static struct page_chord chord_of(const struct curve_pieces *pieces,
   struct geom_point p = contour_curves_node(pieces->curves, from)->page;
   struct geom_point q = contour_curves_node(pieces->curves, to)->page;
   double x = (double)q.x - p.x, y = (double)q.y - p.y;
-  return (struct page_chord){x, y, hypot(x, y)};
+  return (struct page_chord){x, y, vector2_length(x, y)};
 }
 
 /* The last of a few steps from `at` on, in a direction, up to which a curve is

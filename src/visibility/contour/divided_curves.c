@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/poll.h"
+#include "geom/vector.h"
 
 /* Visibility is sampled off the surface, since the mesh about it is uneven, by
  * so many heights of the triangles about it: to the side on which the line of
@@ -61,7 +62,7 @@ static double height_about(const struct divided_curves *d,
 static double length_of_step(const struct divided_curves *d, uint32_t step) {
   struct geom_point p = contour_curves_node(d->curves, step)->page;
   struct geom_point q = contour_curves_node(d->curves, step + 1)->page;
-  return hypot((double)q.x - p.x, (double)q.y - p.y);
+  return vector2_length((double)q.x - p.x, (double)q.y - p.y);
 }
 
 /* Where the visibility of a curve is sampled.

@@ -8,11 +8,10 @@
  * farther than the bound from what stays. */
 #include "visibility/contour/doubled_contours.h"
 
-#include <math.h>
-
 #include "base/poll.h"
 #include "base/tolerance.h"
 #include "geom/nearest.h"
+#include "geom/vector.h"
 #include "visibility/contour/segment_grid.h"
 
 /* Over the surface of a nearer contour, so many of its triangles' heights. */
@@ -105,7 +104,7 @@ static bool list_visible_contours(struct doubled_contours *d) {
     struct geom_segment s = sheet_ends(d->sheet, d->sheet->edge.item[e].point);
     d->along[e - d->first + 1] =
         d->along[e - d->first] +
-        hypot((double)s.q.x - s.p.x, (double)s.q.y - s.p.y);
+        vector2_length((double)s.q.x - s.p.x, (double)s.q.y - s.p.y);
     if (d->map->edge_state[e] != MAP_HIDDEN &&
         !segment_grid_add(&d->grid, s, e))
       return false;
@@ -149,7 +148,7 @@ static bool covers(const struct doubled_contours *d,
       do_share_point(d, at->edge, s->owner))
     return false;
   double t = geom_nearest_parameter(x, y, px, py);
-  double away = hypot(px - t * x, py - t * y);
+  double away = vector2_length(px - t * x, py - t * y);
   double height = fmin((double)d->height[at->edge - d->first],
                        (double)d->height[s->owner - d->first]);
   double most =
@@ -303,7 +302,7 @@ static bool count_degrees(struct doubled_contours *d) {
 static double distance_to(const struct doubled_contours *d, uint32_t point,
                           struct geom_point at) {
   struct geom_point p = d->sheet->point.item[point];
-  return hypot((double)p.x - at.x, (double)p.y - at.y);
+  return vector2_length((double)p.x - at.x, (double)p.y - at.y);
 }
 
 /* The point near a place at which the contour of an edge ends; SHEET_NONE. */

@@ -28,9 +28,11 @@ static void list_segment(struct segment_grid *grid, uint32_t segment) {
   const struct page_segment *s = &grid->segment.item[segment];
   struct cell_range range =
       triangle_grid_cells(cell, box2_of_segment(s->p, s->q));
+  bool is_wide = range.x0 < range.x1 && range.y0 < range.y1;
   for (int y = range.y0; y <= range.y1; y++) {
-    int x0, x1;
-    triangle_grid_row(cell, s->p, s->q, range, y, &x0, &x1);
+    int x0 = range.x0, x1 = range.x1;
+    if (is_wide)
+      triangle_grid_row(cell, s->p, s->q, range, y, &x0, &x1);
     for (int x = x0; x <= x1; x++)
       number_lists_put(&cell->lists, triangle_grid_index(cell, x, y), segment);
   }
@@ -95,10 +97,12 @@ static bool is_joined(const struct page_segment *a,
 bool page_segments_cross(const struct page_segment *a,
                          const struct page_segment *b, double *s, double *t) {
   int64_t bp = geom_orient2d(a->p, a->q, b->p),
-          bq = geom_orient2d(a->p, a->q, b->q),
-          ap = geom_orient2d(b->p, b->q, a->p),
+          bq = geom_orient2d(a->p, a->q, b->q);
+  if ((bp < 0) == (bq < 0))
+    return false;
+  int64_t ap = geom_orient2d(b->p, b->q, a->p),
           aq = geom_orient2d(b->p, b->q, a->q);
-  if ((bp < 0) == (bq < 0) || (ap < 0) == (aq < 0) || is_joined(a, b))
+  if ((ap < 0) == (aq < 0) || is_joined(a, b))
     return false;
   *s = (double)ap / ((double)ap - (double)aq);
   *t = (double)bp / ((double)bp - (double)bq);

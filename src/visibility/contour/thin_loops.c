@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/poll.h"
+#include "geom/vector.h"
 #include "visibility/contour/page_loop.h"
 #include "visibility/contour/segment_grid.h"
 
@@ -93,7 +94,7 @@ static bool extend_block(struct thin_loops *l, size_t i) {
 static bool measure_segment(struct thin_loops *l, size_t i) {
   struct page_segment s = stack_image(l, i);
   struct stack_segment made = {
-      .length = hypot((double)s.q.x - s.p.x, (double)s.q.y - s.p.y),
+      .length = vector2_length((double)s.q.x - s.p.x, (double)s.q.y - s.p.y),
       .height = contour_height(l->camera, stack_node(l, i),
                                &l->set->segment.item[l->step.item[i].segment]),
       .turn = i};
@@ -122,13 +123,13 @@ static struct page_loop measure_loop(const struct thin_loops *l, size_t from,
     loop.has_crease = loop.has_crease || of->in_network;
     double next_x = p.x - x0, next_y = p.y - y0;
     area += x * next_y - y * next_x;
-    loop.length += hypot(next_x - x, next_y - y);
+    loop.length += vector2_length(next_x - x, next_y - y);
     loop.height += measure_of(l, i)->height;
     x = next_x;
     y = next_y;
   }
   loop.area = fabs(area);
-  loop.length += hypot(x, y);
+  loop.length += vector2_length(x, y);
   loop.height /= (double)loop.segments;
   return loop;
 }
@@ -244,7 +245,7 @@ static bool is_straight_fold(const struct thin_loops *l, size_t from, size_t to,
     double px = (double)at.x - p.x, py = (double)at.y - p.y;
     double t = square > 0 ? (px * x + py * y) / square : 0;
     t = fmin(fmax(t, 0), 1);
-    double away = hypot(px - t * x, py - t * y);
+    double away = vector2_length(px - t * x, py - t * y);
     *off = fmax(*off, fmax(before, away) + measure_of(l, i)->off);
     before = away;
   }

@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "geom/vector.h"
 #include "visibility/zero_set/zero_segments.h"
 
 bool has_more_faces(const struct sheet_edge *edge) {
@@ -36,7 +37,7 @@ double diameter_of_triangle(const struct sheet *sheet, uint32_t triangle) {
   double most = 0;
   for (int k = 0; k < 3; k++) {
     struct geom_point p = t.p[k], q = t.p[geom_next_corner(k)];
-    most = fmax(most, hypot((double)q.x - p.x, (double)q.y - p.y));
+    most = fmax(most, vector2_length((double)q.x - p.x, (double)q.y - p.y));
   }
   return most;
 }

@@ -5,6 +5,7 @@
 
 #include "base/sort.h"
 #include "base/tolerance.h"
+#include "geom/vector.h"
 #include "visibility/contour/curve_ends.h"
 #include "visibility/contour/segment_grid.h"
 #include "visibility/fit/border_sides.h"
@@ -74,7 +75,8 @@ static double bound_on_line(const struct line_ends *l,
                             const struct page_segment *line) {
   uint32_t triangle = l->sheet->edge.item[contour->owner].triangle[0];
   return diameter_of_triangle(l->sheet, triangle) /
-         hypot((double)line->q.x - line->p.x, (double)line->q.y - line->p.y);
+         vector2_length((double)line->q.x - line->p.x,
+                        (double)line->q.y - line->p.y);
 }
 
 /* Adds the crossing of a border with a contour of its surface that ends on it.
@@ -92,7 +94,8 @@ static bool add_end_on_border(struct line_ends *l,
     const struct geom_point end = k == 0 ? contour->p : contour->q;
     double px = (double)end.x - line->p.x, py = (double)end.y - line->p.y;
     if (l->degree[of->point[k] - l->first_point] > 1 ||
-        fabs(x * py - y * px) > TOLERANCE_COINCIDENT_UNITS * hypot(x, y))
+        fabs(x * py - y * px) >
+            TOLERANCE_COINCIDENT_UNITS * vector2_length(x, y))
       continue;
     double over = END_SHARE * diameter_of_triangle(l->sheet, of->triangle[0]);
     const struct geom_point from =
@@ -117,7 +120,7 @@ static double place_on_line(const struct page_segment *line,
                             struct geom_point at, double *away) {
   double x = (double)line->q.x - line->p.x, y = (double)line->q.y - line->p.y;
   double px = (double)at.x - line->p.x, py = (double)at.y - line->p.y;
-  *away = fabs(x * py - y * px) / hypot(x, y);
+  *away = fabs(x * py - y * px) / vector2_length(x, y);
   return (px * x + py * y) / (x * x + y * y);
 }
 

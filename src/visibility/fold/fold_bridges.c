@@ -9,6 +9,7 @@
 #include "base/poll.h"
 #include "base/sort.h"
 #include "geom/nearest.h"
+#include "geom/vector.h"
 #include "visibility/contour/occluders.h"
 #include "visibility/contour/segment_grid.h"
 
@@ -75,7 +76,7 @@ static bool list_end(struct fold_bridges *b, uint32_t edge, int k) {
   uint32_t point = sheet->edge.item[edge].point[k];
   struct geom_segment s = sheet_ends(sheet, sheet->edge.item[edge].point);
   double x = (double)s.q.x - s.p.x, y = (double)s.q.y - s.p.y;
-  double length = hypot(x, y);
+  double length = vector2_length(x, y);
   if (!is_open(b, point, true) || length == 0)
     return true;
   struct geom_point at = k == 0 ? s.p : s.q;
@@ -134,7 +135,8 @@ static const struct bridge_end *find_facing(const struct fold_bridges *b,
   for (size_t i = first;
        i < b->start.count && b->start.item[i].x <= from->x + reach; i++) {
     const struct bridge_end *to = &b->start.item[i];
-    double x = to->x - from->x, y = to->y - from->y, length = hypot(x, y);
+    double x = to->x - from->x, y = to->y - from->y,
+           length = vector2_length(x, y);
     if (length == 0 || length >= least || !is_open(b, to->point, to_cut) ||
         is_open(b, to->point, false) == to_cut ||
         x * from->dx + y * from->dy < FACING_COSINE * length ||
@@ -179,9 +181,9 @@ static bool look_beside(const struct fold_bridges *b,
   double x = (double)s->q.x - s->p.x, y = (double)s->q.y - s->p.y;
   double px = at[0] - s->p.x, py = at[1] - s->p.y;
   double t = geom_nearest_parameter(x, y, px, py);
-  double away = hypot(px - t * x, py - t * y);
+  double away = vector2_length(px - t * x, py - t * y);
   if (away > height ||
-      x * along[0] + y * along[1] < BESIDE_COSINE * hypot(x, y))
+      x * along[0] + y * along[1] < BESIDE_COSINE * vector2_length(x, y))
     return true;
   if (s->owner < b->edges) {
     if (t > 0 && t < 1)
@@ -219,7 +221,8 @@ static bool is_along_folds(struct fold_bridges *b,
                            const struct bridge_end *from,
                            const struct bridge_end *to, double height,
                            bool *ok) {
-  double x = to->x - from->x, y = to->y - from->y, length = hypot(x, y);
+  double x = to->x - from->x, y = to->y - from->y,
+         length = vector2_length(x, y);
   const double along[2] = {x / length, y / length};
   int samples = (int)ceil(SAMPLES_A_HEIGHT * length / height);
   struct bridge_sides all = {0, 0, INFINITY};

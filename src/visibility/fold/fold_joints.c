@@ -5,6 +5,7 @@
 
 #include "base/poll.h"
 #include "base/sort.h"
+#include "geom/vector.h"
 #include "visibility/contour/curve_ends.h"
 
 /* What continues a contour turns from it by no more than 60 degrees. */
@@ -105,7 +106,7 @@ static bool has_direction(const struct fold_joints *j, uint32_t edge, int k,
       curve_before_end(sheet, j->in->first, edge, k, distance);
   double x = (double)end.x - before.x, y = (double)end.y - before.y;
   double along = x * s->along[0] + y * s->along[1];
-  return (k == 1 ? along : -along) >= JOINT_COSINE * hypot(x, y);
+  return (k == 1 ? along : -along) >= JOINT_COSINE * vector2_length(x, y);
 }
 
 /* Finds the end of a contour that a line continues at a sample, if `k` is 1, or
@@ -120,7 +121,7 @@ static uint32_t find_joint(const struct fold_joints *j,
   while ((g = segment_walk_next(&walk)) != NULL) {
     uint32_t point = j->in->sheet->edge.item[g->owner].point[k];
     struct geom_point end = k == 0 ? g->p : g->q;
-    double away = hypot(end.x - s->x, end.y - s->y);
+    double away = vector2_length(end.x - s->x, end.y - s->y);
     if (g->owner < j->in->first || away >= *distance ||
         !fold_joints_is_loose(j, point) ||
         !has_direction(j, g->owner, k, DIRECTION_HEIGHTS * height, s))

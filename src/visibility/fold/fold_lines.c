@@ -8,6 +8,7 @@
 #include "base/poll.h"
 #include "base/tolerance.h"
 #include "geom/nearest.h"
+#include "geom/vector.h"
 #include "visibility/contour/occluders.h"
 #include "visibility/fold/added_edges.h"
 #include "visibility/fold/added_folds.h"
@@ -79,11 +80,11 @@ static void try_line(const struct fold_lines *f, const struct page_segment *s,
   double x = (double)s->q.x - s->p.x, y = (double)s->q.y - s->p.y;
   double px = at->x - s->p.x, py = at->y - s->p.y;
   double t = geom_nearest_parameter(x, y, px, py);
-  double away = hypot(px - t * x, py - t * y);
+  double away = vector2_length(px - t * x, py - t * y);
   double cosine = x * at->along[0] + y * at->along[1];
   if (!is_contour)
     cosine = fabs(cosine);
-  if (away > at->height || cosine < FOLD_BESIDE_COSINE * hypot(x, y))
+  if (away > at->height || cosine < FOLD_BESIDE_COSINE * vector2_length(x, y))
     return;
   if ((edge->edge_class & (RECTO_EDGE_CREASE | RECTO_EDGE_GROUP)) != 0)
     at->is_on_crease = at->is_on_crease || away <= TOLERANCE_OUTLINE_UNITS;
@@ -176,8 +177,9 @@ static double least_heights(const struct fold_lines *f, const uint32_t joint[2],
   int k = joint[1] != SHEET_NONE;
   const struct fold_sample *s = &f->sample.item[k == 0 ? from : last];
   struct geom_point end = f->in->sheet->point.item[joint[k]];
-  return hypot(end.x - s->x, end.y - s->y) <= height ? NEAR_JOINED_HEIGHTS
-                                                     : joined_heights[1];
+  return vector2_length(end.x - s->x, end.y - s->y) <= height
+             ? NEAR_JOINED_HEIGHTS
+             : joined_heights[1];
 }
 
 /* Whether a run is long enough if contours continue it. */
@@ -235,7 +237,7 @@ static bool add_lines_of_run(struct fold_lines *f, size_t from, size_t to) {
 static bool is_doubled_back(const struct fold_sample *s,
                             const struct fold_sample *earlier, double height) {
   double x = s->x - earlier->x, y = s->y - earlier->y;
-  return hypot(x, y) <= height &&
+  return vector2_length(x, y) <= height &&
          x * earlier->along[0] + y * earlier->along[1] <= 0 &&
          s->along[0] * earlier->along[0] + s->along[1] * earlier->along[1] >=
              FOLD_BESIDE_COSINE;
@@ -373,7 +375,7 @@ static double mean_length(const struct zero_set *set) {
   double sum = 0;
   for (size_t i = 0; i < set->outline.count; i++) {
     const struct geom_segment *s = &set->outline.item[i].image;
-    sum += hypot((double)s->q.x - s->p.x, (double)s->q.y - s->p.y);
+    sum += vector2_length((double)s->q.x - s->p.x, (double)s->q.y - s->p.y);
   }
   return fmax(sum / (double)set->outline.count, 1);
 }

@@ -69,7 +69,7 @@ bool fold_samples_add(struct fold_samples *samples, const struct sheet *sheet,
                       const struct contour_outline *outline, uint32_t number) {
   struct geom_segment s = outline->image;
   double x = (double)s.q.x - s.p.x, y = (double)s.q.y - s.p.y;
-  double length = hypot(x, y);
+  double length = vector2_length(x, y);
   double height = height_of_face_by(&samples->last, sheet, outline->face);
   if (length == 0 || !(height > 0))
     return true;
@@ -187,7 +187,7 @@ bool fold_run_smooth(struct fold_run run, double height,
   places->count = 0;
   for (size_t i = 0; i < run.count; i++) {
     struct fold_place mean = mean_about(run, i, MEAN_HEIGHTS * height);
-    double away = hypot(mean.x - last.x, mean.y - last.y);
+    double away = vector2_length(mean.x - last.x, mean.y - last.y);
     if (i > 0 && i + 1 < run.count && away < PLACE_HEIGHTS * height)
       continue;
     last = mean;

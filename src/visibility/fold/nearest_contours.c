@@ -69,7 +69,8 @@ static bool has_cusp(const struct sheet *sheet, const uint32_t a[2],
                     q = all[b[b[0] == common]];
   double px = (double)p.x - at.x, py = (double)p.y - at.y;
   double qx = (double)q.x - at.x, qy = (double)q.y - at.y;
-  return px * qx + py * qy > CUSP_COSINE * hypot(px, py) * hypot(qx, qy);
+  return px * qx + py * qy >
+         CUSP_COSINE * vector2_length(px, py) * vector2_length(qx, qy);
 }
 
 /* Lets contours end at their cusps: there no line goes on to what is beyond. */

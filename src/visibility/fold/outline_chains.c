@@ -9,6 +9,7 @@
 
 #include "base/poll.h"
 #include "base/sort.h"
+#include "geom/vector.h"
 
 /* The outlines that begin at one point, at least, that are sorted by their
  * directions. */
@@ -110,7 +111,7 @@ static bool sort_outlines(struct chain_links *l, size_t count) {
 static double turn_cosine(struct geom_segment a, struct geom_segment b) {
   double ax = (double)a.q.x - a.p.x, ay = (double)a.q.y - a.p.y;
   double bx = (double)b.q.x - b.p.x, by = (double)b.q.y - b.p.y;
-  double size = hypot(ax, ay) * hypot(bx, by);
+  double size = vector2_length(ax, ay) * vector2_length(bx, by);
   return size > 0 ? (ax * bx + ay * by) / size : 0;
 }
 

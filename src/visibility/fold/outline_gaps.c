@@ -9,6 +9,7 @@
 
 #include "base/poll.h"
 #include "base/tolerance.h"
+#include "geom/vector.h"
 #include "visibility/contour/page_cover.h"
 #include "visibility/fold/added_edges.h"
 #include "visibility/fold/nearest_contours.h"
@@ -73,7 +74,7 @@ static bool sample_outline(struct outline_gaps *g,
                            struct sampled_outline *of) {
   struct geom_segment s = outline->image;
   double x = (double)s.q.x - s.p.x, y = (double)s.q.y - s.p.y;
-  double length = hypot(x, y);
+  double length = vector2_length(x, y);
   of->image = s;
   of->radius = fmin(extent_of_face_by(&g->last, g->in->sheet, outline->face),
                     SHEET_XY_MAX);

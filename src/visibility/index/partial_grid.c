@@ -71,9 +71,11 @@ static inline bool is_any_wanted(const struct triangle_grid *grid,
 static uint64_t count_cells(const struct partial_grid *p, uint32_t t,
                             struct cell_range r, struct wanted_triangles *all) {
   uint64_t listed = 0;
+  bool is_wide = triangle_grid_is_wide(r);
   for (int y = r.y0; y <= r.y1; y++) {
-    int x0, x1;
-    triangle_grid_row_of_triangle(&p->grid, t, r, y, &x0, &x1);
+    int x0 = r.x0, x1 = r.x1;
+    if (is_wide)
+      triangle_grid_row_of_triangle(&p->grid, t, r, y, &x0, &x1);
     for (int x = x0; x <= x1; x++)
       listed += p->wanted[triangle_grid_index(&p->grid, x, y)];
     all->looked_at += (uint64_t)(x1 >= x0 ? x1 - x0 + 1 : 1);

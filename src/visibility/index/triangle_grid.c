@@ -125,12 +125,13 @@ static void fill_triangle(const struct filling *filling,
       filling->subset != NULL ? filling->subset[index] : (uint32_t)index;
   const struct triangle_grid *grid = filling->grid;
   const struct sheet *sheet = filling->sheet;
-  bool tight = filling->by_subset && filling->wanted != NULL;
   struct cell_range r =
       filling->footprint != NULL
           ? footprint_cells(grid, sheet, t,
                             filling->footprint[filling->by_subset ? index : t])
           : triangle_grid_cells(grid, box2_of_triangle(sheet, t));
+  bool tight =
+      filling->by_subset && filling->wanted != NULL && triangle_grid_is_wide(r);
   for (int y = r.y0; y <= r.y1; y++) {
     int x0 = r.x0, x1 = r.x1;
     if (tight)

@@ -149,8 +149,8 @@ static inline bool triangle_grid_is_wide(struct cell_range r) {
   return r.x1 - r.x0 >= 4 && r.y1 - r.y0 >= 4;
 }
 
-/* The same for a triangle of the grid's sheet, whose box meets the cells of
- * `range`: all of the row where these are not wide. */
+/* The columns for a triangle of the grid's sheet, whose box meets the cells of
+ * `range`, which are wide. */
 void triangle_grid_row_of_triangle(const struct triangle_grid *grid,
                                    uint32_t triangle, struct cell_range range,
                                    int y, int *x0, int *x1);

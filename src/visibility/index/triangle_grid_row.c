@@ -48,10 +48,6 @@ static void add_row_of_segment(const struct triangle_grid *grid,
 void triangle_grid_row_of_triangle(const struct triangle_grid *grid,
                                    uint32_t triangle, struct cell_range range,
                                    int y, int *x0, int *x1) {
-  *x0 = range.x0;
-  *x1 = range.x1;
-  if (!triangle_grid_is_wide(range))
-    return;
   struct geom_triangle t = sheet_corners(grid->sheet, triangle);
   *x0 = range.x1;
   *x1 = range.x0;

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "base/sort.h"
+#include "geom/vector.h"
 #include "visibility/predicate/box2.h"
 #include "visibility/zero_set/curvature_noise.h"
 
@@ -88,7 +89,7 @@ static inline double extent_of_face(const struct sheet *sheet, uint32_t face) {
     }
   return box.x0 > box.x1
              ? 0
-             : hypot((double)box.x1 - box.x0, (double)box.y1 - box.y0);
+             : vector2_length((double)box.x1 - box.x0, (double)box.y1 - box.y0);
 }
 
 /* What was last found of a face of many corners, so that it is not found again

@@ -149,8 +149,9 @@ static bool cross_edge(struct zero_finder *z, uint32_t e) {
          zero_finder_cross_crease(z, e);
 }
 
-/* Makes room for the nodes of edges. */
-static bool init_edge_nodes(struct zero_finder *z) {
+/* Makes room for the nodes of edges, and for about as many segments as there
+ * may be. */
+static bool reserve_nodes(struct zero_finder *z) {
   const struct facing *f = z->facing;
   if (!ranked_set_init(&z->near_edge, f->topology->edge.count))
     return false;
@@ -158,13 +159,14 @@ static bool init_edge_nodes(struct zero_finder *z) {
     ranked_set_add(&z->near_edge, f->near_edge.item[i]);
   ranked_set_rank(&z->near_edge);
   z->edge_node = mem_calloc(z->near_edge.count, sizeof *z->edge_node);
-  return z->edge_node != NULL;
+  return z->edge_node != NULL && ARRAY_RESERVE(&z->set->node, f->mixed.count) &&
+         ARRAY_RESERVE(&z->set->segment, f->mixed.count);
 }
 
 static bool cross_all(struct zero_finder *z) {
   const struct facing *f = z->facing;
   size_t edges = f->topology->edge.count;
-  if (!init_edge_nodes(z))
+  if (!reserve_nodes(z))
     return false;
   for (size_t i = 0; i < f->mixed.count; i++)
     if (!poll_at(i) || !cross_face(z, f->mixed.item[i]))
