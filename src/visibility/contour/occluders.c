@@ -18,10 +18,16 @@ int occluders_count(const struct sheet *sheet, const struct triangle_grid *grid,
                     int most) {
   int count = 0;
   struct triangle_span found;
+  /* Points that are asked for one after the other lie near each other. */
+  if (most == 1 && query->last != SHEET_NONE && hides(sheet, query->last, p))
+    return 1;
   if (!triangle_grid_find_at(grid, p, query, &found))
     return -1;
   for (size_t i = 0; i < found.count && count < most; i++)
-    count += hides(sheet, found.item[i], p);
+    if (hides(sheet, found.item[i], p)) {
+      query->last = found.item[i];
+      count++;
+    }
   return count;
 }
 

@@ -326,6 +326,7 @@ bool triangle_grid_query_init(struct triangle_grid_query *query,
                               const struct triangle_grid *grid) {
   size_t count = grid->triangle_count + 1;
   memset(query, 0, sizeof *query);
+  query->last = SHEET_NONE;
   query->stamp = mem_alloc(count, sizeof *query->stamp);
   /* A page that is read before it is written faults twice, and interrupts the
    * other threads: so all is written by the thread that reads it. */

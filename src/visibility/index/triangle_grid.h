@@ -195,6 +195,8 @@ footprint_cells(const struct triangle_grid *grid, const struct sheet *sheet,
 struct triangle_grid_query {
   uint16_t *stamp; /* per triangle; == now: it was found */
   uint16_t now;    /* the number of the query */
+  uint32_t last;   /* the triangle that hid the last point asked for
+                      (occluders.h); SHEET_NONE: none did */
   ARRAY(uint32_t) found;
 };
 
