@@ -24,6 +24,9 @@ static inline uint32_t union_find_root(uint32_t *sets, uint32_t i) {
 }
 
 static inline void union_find_join(uint32_t *sets, uint32_t a, uint32_t b) {
+  /* Most are joined already, and are near their representative. */
+  if (sets[a] == sets[b])
+    return;
   a = union_find_root(sets, a);
   b = union_find_root(sets, b);
   sets[a > b ? a : b] = a > b ? b : a;
