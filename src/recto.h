@@ -161,7 +161,9 @@ typedef enum recto_background {
 } recto_background;
 
 typedef enum recto_fit {
-  RECTO_FIT_PAGE = 0, /* the drawing fills the page inside the margins */
+  RECTO_FIT_PAGE = 0, /* the drawing fills the page inside the margins; smooth
+                         contours, which bulge beyond a coarse mesh, count
+                         unless `ink.exact` */
   RECTO_FIT_NONE,     /* --fov spans the printable height, centred */
   RECTO_FIT_SCALE,    /* true scale: `scale` page mm for a mm of the scene */
   RECTO_FIT_SPHERE,   /* the sphere about the target that encloses the scene

@@ -103,6 +103,9 @@ unit_tests += %D%/test_smooth_dents
 unit_tests += %D%/test_smooth_solids
 %C%_test_smooth_solids_SOURCES = %D%/test_smooth_solids.c \
   %D%/smooth_surfaces.c %D%/smooth_surfaces.h
+unit_tests += %D%/test_smooth_margins
+%C%_test_smooth_margins_SOURCES = %D%/test_smooth_margins.c \
+  %D%/smooth_surfaces.c %D%/smooth_surfaces.h %D%/temporary.c %D%/temporary.h
 unit_tests += %D%/test_cubic_fit
 %C%_test_cubic_fit_SOURCES = %D%/test_cubic_fit.c
 

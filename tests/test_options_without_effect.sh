@@ -178,7 +178,7 @@ check_reports_progress() {
 claim "--progress is used by --check" check_reports_progress
 claim "--check looks with the same camera, edges and tolerances" \
   check_uses --view iso --lookat 0,0,1 --fov 20 --no-fit --margin 5 \
-  -e all --crease 20 --contact 0 --pen 0.3 --min-stroke 0.1 --exact --pen-width 2=0.5 \
+  -e all --contours smooth --crease 20 --contact 0 --pen 0.3 --min-stroke 0.1 --exact --pen-width 2=0.5 \
   --simplify 0.1 --curves 0.1 --precision 2
 
 claim "and at the page of a tight drawing" \

@@ -6,6 +6,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "api/contour_fit.h"
 #include "api/handle.h"
 #include "api/judge_input.h"
 #include "api/multiview.h"
@@ -18,7 +19,6 @@
 #include "ink/pens.h"
 #include "judge/svg/svg.h"
 #include "scene/weld/weld_near.h"
-#include "view/camera_aim.h"
 
 /* The number of samples of the drawing, and of the edges. */
 enum { SAMPLES = 200000 };
@@ -88,6 +88,17 @@ struct part_place {
   struct judge_circle circle;
 };
 
+static recto_status aim_for_check(struct camera *camera,
+                                  const struct preparation *prepared,
+                                  const recto_options *options,
+                                  recto_error *error) {
+  struct smooth_surface surface = {.facing = NULL};
+  recto_status status = contour_fit_aim(camera, &surface, prepared,
+                                        &prepared->topology, options, error);
+  smooth_surface_fini(&surface);
+  return status;
+}
+
 /* Checks the drawing of a view, or of a detail.
  * o  its lengths are scaled as the scene is */
 static recto_status judge_file_drawing(const struct preparation *prepared,
@@ -99,7 +110,7 @@ static recto_status judge_file_drawing(const struct preparation *prepared,
   struct camera camera;
   struct judge_input input;
   const struct scene *scene = &prepared->welded.scene;
-  recto_status status = camera_aim(&camera, prepared->scene, o, error);
+  recto_status status = aim_for_check(&camera, prepared, o, error);
   if (status != RECTO_OK)
     return status;
   for (int k = 0; k < 2; k++)
@@ -140,7 +151,7 @@ static recto_status check_view_alone(const struct preparation *prepared,
   recto_options o = *options;
   recto_status status = preparation_rescale(prepared, &o, error);
   if (status == RECTO_OK && o.output.tight) {
-    status = camera_aim(&camera, prepared->scene, &o, error);
+    status = aim_for_check(&camera, prepared, &o, error);
     if (status == RECTO_OK)
       undo_cropping(drawing, camera.page_mm[1]);
   }
@@ -304,7 +315,8 @@ static recto_status check_views(const struct scene *scene,
   }
   recto_status status =
       preparation_init(&prepared, scene, options, PREPARATION_FOR_VIEW, error);
-  topology_fini(&prepared.topology); /* the judge has its own */
+  if (!contour_fit_is_wanted(options)) /* the judge has its own */
+    topology_fini(&prepared.topology);
   if (status == RECTO_OK)
     status = (multiview_is_requested(options) ? check_sheet : check_view_alone)(
         &prepared, options, drawing, found, error);

@@ -4,6 +4,7 @@ librecto_core_la_SOURCES += \
   %D%/check.c \
   %D%/captions.c %D%/captions.h \
   %D%/clip_warning.c %D%/clip_warning.h \
+  %D%/contour_fit.c %D%/contour_fit.h \
   %D%/colour.c \
   %D%/dash.c \
   %D%/detail_places.c %D%/detail_places.h \

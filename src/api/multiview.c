@@ -4,10 +4,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "api/contour_fit.h"
 #include "api/detail_places.h"
 #include "api/multiview_grid.h"
 #include "drawing/text.h"
-#include "view/camera_extent.h"
 
 /* ---- The views that are requested ---------------------------------------- */
 
@@ -125,8 +125,7 @@ recto_status multiview_arrange(struct multiview *views,
   for (size_t i = 0; i < views->count && status == RECTO_OK; i++) {
     struct multiview_view *view = &views->view[i];
     turn_camera(&scaled, view);
-    status =
-        camera_extent(&view->box, &camera, prepared->scene, &scaled, error);
+    status = contour_fit_extent(&view->box, &camera, prepared, &scaled, error);
   }
   if (status != RECTO_OK)
     return status;

@@ -222,11 +222,11 @@ static recto_status check_cut_scale(const struct preparation *preparation,
 
 recto_status preparation_aim(struct camera *camera,
                              const struct preparation *preparation,
-                             const uint8_t *used, const recto_options *options,
-                             recto_error *error) {
+                             const uint8_t *used, const struct extent *beyond,
+                             const recto_options *options, recto_error *error) {
   const struct known_points known = {
       used, preparation->is_all_used ? &preparation->rescaled.box : NULL,
-      preparation->rescaled.part};
+      preparation->rescaled.part, beyond};
   recto_status status =
       camera_aim_at_points(camera, preparation->scene, known, options, error);
   return status == RECTO_OK ? check_cut_scale(preparation, camera, error)

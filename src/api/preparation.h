@@ -6,6 +6,7 @@
 
 #include "cut/cut.h"
 #include "scene/weld/weld_near.h"
+#include "view/extent.h"
 #include "view/rescale.h"
 
 /* Zero-initialised is empty. */
@@ -58,11 +59,13 @@ preparation_rescale(const struct preparation *preparation,
 
 /* Aims the camera at a prepared scene.
  * used    one a point, as of used.h; NULL: not known
+ * beyond  where else there are lines, as of known_points; NULL: nowhere
  * Errors  as of camera_aim; RECTO_ERROR_LIMIT also where a cut leaves less than
  *         its precision */
 USE_RESULT recto_status preparation_aim(struct camera *camera,
                                         const struct preparation *preparation,
                                         const uint8_t *used,
+                                        const struct extent *beyond,
                                         const recto_options *options,
                                         recto_error *error);
 

@@ -11,6 +11,7 @@
 
 #include "api/captions.h"
 #include "api/clip_warning.h"
+#include "api/contour_fit.h"
 #include "api/group_numbers.h"
 #include "api/handle.h"
 #include "api/method.h"
@@ -42,6 +43,7 @@ struct render {
   recto_options scaled;               /* its lengths as those of that scene */
   struct topology topology; /* owned unless the preparation is shared */
   struct camera camera;
+  struct smooth_surface surface; /* where it is known before the contours */
   struct visible_part visible;
   struct sheet sheet;
   struct face_sizes sizes; /* of the faces that were laid out */
@@ -65,8 +67,7 @@ static bool needs_fragments(const struct render *render) {
 }
 
 static bool draws_smooth_contours(const struct render *render) {
-  return render->options->ink.contours == RECTO_CONTOURS_SMOOTH &&
-         (render->options->ink.edges & RECTO_EDGE_SILHOUETTE) != 0;
+  return contour_fit_has_contours(render->options);
 }
 
 /* Whether the scene's edges are used after the sheet was laid out. */
@@ -152,8 +153,8 @@ static recto_status find_topology(struct render *render, recto_error *error) {
 
 static recto_status aim(struct render *render, recto_error *error) {
   recto_status status =
-      preparation_aim(&render->camera, render->prepared, render->topology.used,
-                      &render->scaled, error);
+      contour_fit_aim(&render->camera, &render->surface, render->prepared,
+                      &render->topology, &render->scaled, error);
   if (status != RECTO_OK)
     return status;
   for (int k = 0; k < 2; k++)
@@ -231,8 +232,9 @@ static recto_status add_smooth_contours(struct render *render,
   struct smooth_contours_counts counts;
   if (!draws_smooth_contours(render))
     return RECTO_OK;
-  recto_status status = smooth_contours_add(
-      &render->sheet, &render->map, &render->topology, how, &counts, error);
+  recto_status status =
+      smooth_contours_add(&render->sheet, &render->map, &render->surface,
+                          &render->topology, how, &counts, error);
   report_count(render->report, "contours", "segments", counts.segments);
   report_count(render->report, "contours", "curves", counts.curves);
   report_count(render->report, "contours", "pieces", counts.pieces);
@@ -398,6 +400,7 @@ static recto_status run_and_report(struct render *render, recto_error *error) {
   map_fini(&render->map);
   (void)poll_now();
   sheet_fini(&render->sheet);
+  smooth_surface_fini(&render->surface);
   visible_part_fini(&render->visible);
   drop_topology(render);
   (void)poll_now();

@@ -138,7 +138,7 @@ static const struct {
                           BIT(BY_CHECK)},
     [USED_BY_LINES] = {"lines", LINES},
     [USED_BY_SILHOUETTES] = {"edges of the class silhouette",
-                             EDGES(RECTO_EDGE_SILHOUETTE)},
+                             EDGES(RECTO_EDGE_SILHOUETTE) | BIT(BY_CHECK)},
     [USED_BY_LINES_AND_CHECK] = {"lines", LINES | BIT(BY_CHECK)},
     [USED_BY_STROKES] = {"lines and hatching", LINES | FILL(HATCH) | BIT(CUT)},
     [USED_BY_STROKES_AND_CHECK] = {"lines and hatching", LINES | FILL(HATCH) |

@@ -347,7 +347,8 @@ recto_status camera_aim_at_points(struct camera *camera,
                     .error = error,
                     .used = known.used,
                     .box = known.box,
-                    .part = known.part};
+                    .part = known.part,
+                    .beyond = known.beyond};
   recto_status status = begin_aim(&aim);
   if (status == RECTO_OK)
     status = aim_and_fit(&aim);

@@ -3,6 +3,7 @@
 #define VIEW_CAMERA_AIM_H
 
 #include "view/camera.h"
+#include "view/extent.h"
 #include "view/used_box.h"
 
 /* The plane of a section: it is parallel to the page, at the options' depth. */
@@ -38,6 +39,8 @@ struct known_points {
   const struct used_box *box;  /* all are used, and lie in this box; NULL: some
                                  may not be */
   const struct used_box *part; /* then also: their parts (used_box.h) */
+  const struct extent *beyond; /* where else there are lines, which a drawing
+                                  that fills the page includes; NULL: none */
 };
 
 /* The same for a scene whose used points are known already.  Faces and

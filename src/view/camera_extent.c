@@ -18,7 +18,7 @@ recto_status camera_extent(struct extent *box, struct camera *camera,
   *box = extent_of_drawing(camera, scene, used, true);
   mem_free(used);
   for (int k = 0; k < 2; k++) {
-    double target = (camera->page_mm[k] / 2 - camera->middle_mm[k]) / camera->s;
+    double target = camera_extent_target(camera, k);
     box->low[k] -= target;
     box->high[k] -= target;
   }

@@ -15,4 +15,10 @@ USE_RESULT recto_status camera_extent(struct extent *box, struct camera *camera,
                                       const recto_options *options,
                                       recto_error *error);
 
+/* Where the target is along an axis of such a camera, in scene units. */
+static inline double camera_extent_target(const struct camera *camera,
+                                          int axis) {
+  return (camera->page_mm[axis] / 2 - camera->middle_mm[axis]) / camera->s;
+}
+
 #endif

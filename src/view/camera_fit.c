@@ -62,6 +62,8 @@ static void prefer_scale(struct aim *aim) {
 static void fit_page(struct aim *aim, bool preferred) {
   struct camera *camera = aim->camera;
   struct extent e = extent_of_scene(aim);
+  if (aim->beyond != NULL)
+    extent_include(&e, aim->beyond);
   choose_orientation(aim, &e, INFINITY);
   camera->s = scale_to_fit(aim, &e, camera->page_mm[0], camera->page_mm[1]);
   if (preferred)

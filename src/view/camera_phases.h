@@ -16,6 +16,7 @@ struct aim {
   const struct used_box *box;  /* of all points, which are all used; NULL: it is
                                  to be found */
   const struct used_box *part; /* then also: of their parts */
+  const struct extent *beyond; /* where else there are lines; NULL: none */
   uint8_t *own_used;           /* the same, where it was found here */
   double centre[3];            /* of the scene's bounding box */
   double target[3];            /* the point looked at */

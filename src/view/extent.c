@@ -2,13 +2,11 @@
  * the page. */
 #include "view/extent.h"
 
-#include <math.h>
-
 #include "geom/vector.h"
 #include "view/project.h"
 
-static void grow_extent(struct extent *extent, const struct camera *camera,
-                        struct view_point v) {
+void extent_grow(struct extent *extent, const struct camera *camera,
+                 struct view_point v) {
   double scale = camera->perspective ? 1 / v.d : 1;
   const double xy[2] = {v.x * scale, v.y * scale};
   for (int k = 0; k < 2; k++) {
@@ -26,7 +24,7 @@ static void grow_by_cut(struct extent *extent, const struct camera *camera,
   double t = from / (from - to);
   struct view_point cut = {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y),
                            camera->near_d};
-  grow_extent(extent, camera, cut);
+  extent_grow(extent, camera, cut);
 }
 
 /* Includes the crossings of all sides of a face or polyline.
@@ -48,14 +46,14 @@ static void grow_by_cuts(struct extent *extent, const struct camera *camera,
 struct extent extent_of_drawing(const struct camera *camera,
                                 const struct scene *scene, const uint8_t *used,
                                 bool cuts) {
-  struct extent extent = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+  struct extent extent = extent_empty();
   bool any_cut = false;
   for (size_t p = 0; p < scene->point.count; p++) {
     if (!used[p])
       continue;
     struct view_point v = camera_view(camera, &scene->point.item[p]);
     if (v.d >= camera->near_d)
-      grow_extent(&extent, camera, v);
+      extent_grow(&extent, camera, v);
     else
       any_cut = cuts;
   }

@@ -340,20 +340,32 @@ static void forget_intersections(struct sheet *sheet) {
       sheet->edge.item[e].edge_class = 0;
 }
 
+static recto_status find_zero_set(struct zero_set *set,
+                                  const struct sheet *sheet,
+                                  struct smooth_surface *surface,
+                                  const struct topology *topology,
+                                  double crease_deg, recto_error *error) {
+  recto_status status = smooth_surface_find(surface, sheet->scene, topology,
+                                            &sheet->camera, crease_deg, error);
+  if (status == RECTO_OK) {
+    surface->facing->camera = &sheet->camera; /* whose scale is final */
+    status = zero_set_find(set, sheet, surface->facing, error);
+  }
+  smooth_surface_fini(surface);
+  return status;
+}
+
 recto_status smooth_contours_add(struct sheet *sheet, struct map *map,
+                                 struct smooth_surface *surface,
                                  const struct topology *topology,
                                  struct smooth_contours_options options,
                                  struct smooth_contours_counts *counts,
                                  recto_error *error) {
   uint32_t first = (uint32_t)sheet->edge.count;
-  struct facing facing;
   struct zero_set set = {.node = {0}};
   struct contour_curves curves = {.set = &set};
   recto_status status =
-      facing_init(&facing, sheet, topology, options.crease_deg, error);
-  if (status == RECTO_OK)
-    status = zero_set_find(&set, sheet, &facing, error);
-  facing_fini(&facing);
+      find_zero_set(&set, sheet, surface, topology, options.crease_deg, error);
   struct contour_pieces pieces = {
       .sheet = sheet,
       .map = map,

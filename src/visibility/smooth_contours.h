@@ -4,6 +4,7 @@
 #define VISIBILITY_SMOOTH_CONTOURS_H
 
 #include "visibility/map.h"
+#include "visibility/smooth_surface.h"
 
 /* What is known of the contours, for --stats. */
 struct smooth_contours_counts {
@@ -28,14 +29,16 @@ struct smooth_contours_options {
  * is visible or hidden as a whole, as most of its samples are.  These lie a
  * little off the surface, so that the triangles about them do not decide.
  * Visible fragments are made to end at the visible pieces (fit_fragments.h).
+ * surface      of the sheet's scene and view; found here if it is not known,
+ *              and freed
  * topology     of the sheet's scene, with its corners
  * map          of the sheet; its edges are known
  * Errors       RECTO_ERROR_MEMORY, RECTO_ERROR_CANCELLED.
  * Cost         linear in the mesh; near linear in the contours
  * Source       doc/decisions/0039 */
 USE_RESULT recto_status smooth_contours_add(
-    struct sheet *sheet, struct map *map, const struct topology *topology,
-    struct smooth_contours_options options,
+    struct sheet *sheet, struct map *map, struct smooth_surface *surface,
+    const struct topology *topology, struct smooth_contours_options options,
     struct smooth_contours_counts *counts, recto_error *error);
 
 #endif

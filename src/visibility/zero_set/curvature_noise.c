@@ -124,7 +124,7 @@ struct curvature_squares curvature_noise_sum(const struct curvature_noise *c,
   struct curvature_squares sum = {{0}, {0}, 0, 0};
   for (int k = 0; k < count; k++) {
     uint32_t place = place_of_point(f, point[k]);
-    if (place == 0)
+    if (place == 0 || c->at == NULL)
       sum.unknown++;
     else
       curvature_squares_add(&sum, c->at[place - 1]);

@@ -36,7 +36,8 @@ struct curvature_squares {
 };
 
 struct curvature_noise {
-  struct curvature_squares *at; /* one a normal of the facing */
+  struct curvature_squares *at; /* one a normal of the facing;
+                                   NULL: none is known */
 };
 
 /* Finds the squares at all points both of whose signs there are, but those at

@@ -336,11 +336,11 @@ static bool find_facings(struct facing *f, double crease_deg) {
   return facing_find_values(f);
 }
 
-recto_status facing_init(struct facing *f, const struct sheet *sheet,
-                         const struct topology *topology, double crease_deg,
+recto_status facing_init(struct facing *f, const struct scene *scene,
+                         const struct topology *topology,
+                         const struct camera *camera, double crease_deg,
                          recto_error *error) {
-  *f = (struct facing){
-      .scene = sheet->scene, .topology = topology, .camera = &sheet->camera};
+  *f = (struct facing){.scene = scene, .topology = topology, .camera = camera};
   f->class_masks = mem_alloc(topology->edge.count, sizeof *f->class_masks);
   f->coarse = mem_alloc(f->scene->point.count, 1);
   f->large = mem_alloc(1, sizeof *f->large);

@@ -80,11 +80,13 @@ enum {
 };
 
 /* Finds the facing of all slots.
+ * camera  its axes and its eye are set
  * Errors  RECTO_ERROR_MEMORY, RECTO_ERROR_CANCELLED.
  * Cost    linear in the corners; what takes long, in those about the contour */
 USE_RESULT recto_status facing_init(struct facing *facing,
-                                    const struct sheet *sheet,
+                                    const struct scene *scene,
                                     const struct topology *topology,
+                                    const struct camera *camera,
                                     double crease_deg, recto_error *error);
 void facing_fini(struct facing *facing);
 

@@ -163,18 +163,33 @@ static bool reserve_nodes(struct zero_finder *z) {
          ARRAY_RESERVE(&z->set->segment, f->mixed.count);
 }
 
-static bool cross_all(struct zero_finder *z) {
+static bool cross_faces(struct zero_finder *z) {
   const struct facing *f = z->facing;
-  size_t edges = f->topology->edge.count;
   if (!reserve_nodes(z))
     return false;
   for (size_t i = 0; i < f->mixed.count; i++)
     if (!poll_at(i) || !cross_face(z, f->mixed.item[i]))
       return false;
+  return true;
+}
+
+static bool cross_edges(struct zero_finder *z) {
+  size_t edges = z->facing->topology->edge.count;
   for (uint32_t e = 0; e < edges; e++)
     if (!poll_at(e) || (!is_within_surface(z, e) && !cross_edge(z, e)))
       return false;
   return true;
+}
+
+static void free_finder(struct zero_finder *z) {
+  curvature_noise_fini(&z->curvature);
+  folded_faces_fini(&z->folded);
+  ranked_set_fini(&z->near_edge);
+  mem_free(z->edge_node);
+  mem_free(z->point_node);
+  ARRAY_FREE(&z->diagonal_node);
+  ARRAY_FREE(&z->corner);
+  triangulation_fini(&z->triangulation);
 }
 
 recto_status zero_set_find(struct zero_set *set, const struct sheet *sheet,
@@ -185,14 +200,27 @@ recto_status zero_set_find(struct zero_set *set, const struct sheet *sheet,
                           .projection = projection_of(facing->camera),
                           .mesh_is_inside = sheet->clipped_page == 0};
   bool ok = folded_faces_mark(&z.folded) &&
-            curvature_noise_find(&z.curvature, facing) && cross_all(&z);
-  curvature_noise_fini(&z.curvature);
-  folded_faces_fini(&z.folded);
-  ranked_set_fini(&z.near_edge);
-  mem_free(z.edge_node);
-  mem_free(z.point_node);
-  ARRAY_FREE(&z.diagonal_node);
-  ARRAY_FREE(&z.corner);
-  triangulation_fini(&z.triangulation);
+            curvature_noise_find(&z.curvature, facing) && cross_faces(&z) &&
+            cross_edges(&z);
+  free_finder(&z);
+  return ok ? RECTO_OK : error_memory(error);
+}
+
+recto_status zero_set_grow_extent(struct extent *extent,
+                                  const struct facing *facing,
+                                  recto_error *error) {
+  struct zero_set set = {.node = {0}};
+  struct zero_finder z = {.set = &set,
+                          .facing = facing,
+                          .projection = projection_of(facing->camera),
+                          .mesh_is_inside = true};
+  bool ok = cross_faces(&z);
+  for (size_t i = 0; ok && i < set.node.count; i++) {
+    const struct contour_node *node = &set.node.item[i];
+    if (node->degree > 0) /* it is not in front of the near plane */
+      extent_grow(extent, facing->camera, zero_finder_view(&z, node->at));
+  }
+  free_finder(&z);
+  zero_set_fini(&set);
   return ok ? RECTO_OK : error_memory(error);
 }

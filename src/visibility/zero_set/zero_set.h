@@ -10,6 +10,7 @@
 #ifndef VISIBILITY_ZERO_SET_ZERO_SET_H
 #define VISIBILITY_ZERO_SET_ZERO_SET_H
 
+#include "view/extent.h"
 #include "view/sheet.h"
 #include "visibility/zero_set/zero_segments.h"
 
@@ -22,6 +23,15 @@ USE_RESULT recto_status zero_set_find(struct zero_set *set,
                                       const struct sheet *sheet,
                                       const struct facing *facing,
                                       recto_error *error);
+
+/* Includes the contour in a box, but for what of it runs along creases, which
+ * is on the mesh.
+ * facing  its camera has a scale
+ * Errors  RECTO_ERROR_MEMORY.
+ * Cost    linear in the faces that the contour crosses */
+USE_RESULT recto_status zero_set_grow_extent(struct extent *extent,
+                                             const struct facing *facing,
+                                             recto_error *error);
 void zero_set_fini(struct zero_set *set);
 
 #endif
