@@ -276,9 +276,8 @@ static struct walk_goal goal_of(const struct intersection_gaps *g,
 }
 
 /* Whether a line from an end to another one has no length. */
-static bool leads_nowhere(const struct intersection_gaps *g,
-                          const struct outline_walk *walk,
-                          struct walk_goal goal) {
+static bool is_at_goal(const struct intersection_gaps *g,
+                       const struct outline_walk *walk, struct walk_goal goal) {
   const struct geom_point from = g->end.item[walk->from].at;
   return goal.kind >= GOAL_CONTOUR_END &&
          hypot((double)goal.at.x - from.x, (double)goal.at.y - from.y) <=
@@ -304,7 +303,7 @@ static bool add_walk(struct intersection_gaps *g,
     leave_out_beyond(run, goal.at, walk->k);
   }
   const struct fold_sample last = run->item[run->count - 1];
-  if (leads_nowhere(g, walk, goal))
+  if (is_at_goal(g, walk, goal))
     return true;
   if (goal.kind != GOAL_HIDDEN && !ARRAY_PUSH(run, sample_at(goal.at, &last)))
     return false;
