@@ -131,7 +131,7 @@ static void fill_triangle(const struct filling *filling,
                             filling->footprint[filling->by_subset ? index : t])
           : triangle_grid_cells(grid, box2_of_triangle(sheet, t));
   bool tight =
-      filling->by_subset && filling->wanted != NULL && triangle_grid_is_wide(r);
+      triangle_grid_is_wide(r) && filling->by_subset && filling->wanted != NULL;
   for (int y = r.y0; y <= r.y1; y++) {
     int x0 = r.x0, x1 = r.x1;
     if (tight)
