@@ -79,6 +79,9 @@ unit_tests += %D%/test_smooth_tubes
   %D%/smooth_surfaces.c %D%/smooth_surfaces.h
 %C%_test_smooth_tubes_SOURCES = %D%/test_smooth_tubes.c \
   %D%/smooth_surfaces.c %D%/smooth_surfaces.h
+unit_tests += %D%/test_smooth_cusps
+%C%_test_smooth_cusps_SOURCES = %D%/test_smooth_cusps.c \
+  %D%/smooth_surfaces.c %D%/smooth_surfaces.h
 unit_tests += %D%/test_smooth_folds
 %C%_test_smooth_folds_SOURCES = %D%/test_smooth_folds.c \
   %D%/smooth_surfaces.c %D%/smooth_surfaces.h

@@ -155,6 +155,7 @@ librecto_core_la_SOURCES += \
   %D%/zero_set/folded_faces.c %D%/zero_set/folded_faces.h \
   %D%/zero_set/slot_normals.c \
   %D%/zero_set/zero_creases.c \
+  %D%/zero_set/zero_outlines.c \
   %D%/zero_set/zero_finder.h \
   %D%/zero_set/zero_segments.h \
   %D%/zero_set/zero_set.c %D%/zero_set/zero_set.h \

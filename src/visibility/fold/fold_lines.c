@@ -184,8 +184,9 @@ static double least_heights(const struct fold_lines *f, const uint32_t joint[2],
 
 /* Whether a run is long enough if contours continue it. */
 static bool may_be_line(struct fold_run run) {
-  return fold_run_is_line(run, fold_run_is_smooth(run) ? LEAST_HEIGHTS
-                                                       : LARGE_JOINED_HEIGHTS);
+  return fold_run_is_line(
+      run, fold_run_is_smooth(run) ? LEAST_HEIGHTS : LARGE_JOINED_HEIGHTS,
+      true);
 }
 
 /* Adds the line of a run of the chain, if it is long, or if contours continue
@@ -205,7 +206,8 @@ static bool add_line(struct fold_lines *f, size_t from, size_t to,
     fold_joints_lead_on(&f->joints, f->sample.item, f->sample.count, &last, 1,
                         height, &joint[1]);
     if (!is_long &&
-        !fold_run_is_line(run, least_heights(f, joint, from, last, height)))
+        !fold_run_is_line(run, least_heights(f, joint, from, last, height),
+                          joint[0] != SHEET_NONE && joint[1] != SHEET_NONE))
       return true;
     run = (struct fold_run){f->sample.item + from, last + 1 - from, false};
   }

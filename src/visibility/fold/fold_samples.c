@@ -26,6 +26,10 @@ enum { MANY_OUTLINES = 10, SEVERAL_OUTLINES = 5, FEW_OUTLINES = 3 };
 /* The share of a run that may be on creases. */
 #define CREASE_SHARE 0.5
 
+/* The share of a long run of few outlines, at least, that the surface does not
+ * contradict. */
+#define FOLDED_SHARE 0.5
+
 /* How far about a sample the mean of a zigzag is found, in heights, and how far
  * apart the places of a line are. */
 #define MEAN_HEIGHTS 1.5
@@ -83,6 +87,7 @@ bool fold_samples_add(struct fold_samples *samples, const struct sheet *sheet,
                                .step = length / count,
                                .height = height,
                                .curvature = outline->curvature,
+                               .is_contradicted = outline->is_contradicted,
                                .outline = number,
                                .face = outline->face};
     if (!ARRAY_PUSH(samples, made))
@@ -101,19 +106,22 @@ double fold_run_length(struct fold_run run) {
 /* What is known of a run as a whole. */
 struct run_measure {
   double length, height; /* its own; the mean of its triangles' */
+  double folded;         /* the length that the surface does not contradict */
   int outlines;
   struct curvature_squares curvature;
   bool on_creases; /* more than a share of it is */
+  bool is_smooth;  /* the mesh samples a smooth surface about it */
 };
 
 static struct run_measure measure_run(struct fold_run run) {
   double sum = 0, on_creases = 0;
-  struct run_measure made = {0, 0, 0, {{0}, {0}, 0, 0}, false};
+  struct run_measure made = {.outlines = 0};
   for (size_t i = 0; i < run.count; i++) {
     const struct fold_sample *s = &run.sample[i];
     made.length += s->step;
     sum += s->step * s->height;
     on_creases += s->is_on_crease ? s->step : 0;
+    made.folded += s->is_contradicted ? 0 : s->step;
     if (i > 0 && s->outline == run.sample[i - 1].outline)
       continue;
     made.outlines++;
@@ -121,6 +129,7 @@ static struct run_measure measure_run(struct fold_run run) {
   }
   made.height = made.length > 0 ? sum / made.length : 0;
   made.on_creases = on_creases > CREASE_SHARE * made.length;
+  made.is_smooth = curvature_is_smooth(made.curvature);
   return made;
 }
 
@@ -131,7 +140,7 @@ bool fold_run_is_long(struct fold_run run, double long_on_page,
   bool is_large = of.length >= long_on_page;
   int outlines = is_large && !is_sliver ? SEVERAL_OUTLINES : MANY_OUTLINES;
   double heights = LONG_HEIGHTS;
-  if (curvature_is_smooth(of.curvature) && !is_sliver) {
+  if (of.is_smooth && !is_sliver && of.folded >= FOLDED_SHARE * of.length) {
     outlines = FEW_OUTLINES;
     heights = SMOOTH_LONG_HEIGHTS;
   }
@@ -140,19 +149,20 @@ bool fold_run_is_long(struct fold_run run, double long_on_page,
          of.length >= heights * of.height;
 }
 
-bool fold_run_is_line(struct fold_run run, double heights) {
+bool fold_run_is_line(struct fold_run run, double heights, bool is_gap) {
   struct run_measure of = measure_run(run);
-  return !of.on_creases && of.length >= heights * of.height &&
-         (of.outlines >= FEW_OUTLINES || curvature_is_smooth(of.curvature));
+  double length = of.is_smooth && !is_gap ? of.folded : of.length;
+  return !of.on_creases && length >= heights * of.height &&
+         (of.outlines >= FEW_OUTLINES || of.is_smooth);
 }
 
 bool fold_run_is_smooth(struct fold_run run) {
-  return curvature_is_smooth(measure_run(run).curvature);
+  return measure_run(run).is_smooth;
 }
 
 bool fold_run_may_be_smooth(struct fold_run run) {
-  struct curvature_squares of = measure_run(run).curvature;
-  return of.known == 0 || curvature_is_smooth(of);
+  struct run_measure of = measure_run(run);
+  return of.curvature.known == 0 || of.is_smooth;
 }
 
 /* The mean of the samples about one, as far to either side as there are such of

@@ -16,9 +16,10 @@ struct fold_sample {
   double height;   /* of its triangle, on the page, grid units */
   uint32_t outline, face;
   struct curvature_squares curvature;
-  bool is_beside;    /* a line is drawn beside it that leaves none missing */
-  bool is_by_line;   /* a line that is no contour is within a height */
-  bool is_on_crease; /* a crease is on it */
+  bool is_beside;       /* a line is drawn beside it that leaves none missing */
+  bool is_by_line;      /* a line that is no contour is within a height */
+  bool is_on_crease;    /* a crease is on it */
+  bool is_contradicted; /* as its outline is */
 };
 
 /* A run of samples. */
@@ -55,15 +56,17 @@ double fold_run_length(struct fold_run run);
 
 /* Whether a run is long, as a multiple of the mean height of its triangles, and
  * of many outlines, or of several that are no sides of slivers if it is long on
- * the page as well, or of few where it is smooth; no more than half of it is on
- * creases.
+ * the page as well, or of few where it is smooth and the surface contradicts
+ * less than half of it; no more than half of it is on creases.
  * long_on_page  from which length on it is, grid units
  * height        gets the mean height */
 bool fold_run_is_long(struct fold_run run, double long_on_page, double *height);
 
 /* Whether a run is so many of these heights long, and of three outlines at
- * least or smooth, no more than half of it creases. */
-bool fold_run_is_line(struct fold_run run, double heights);
+ * least or smooth, no more than half of it on creases.
+ * is_gap  it leads from one contour to another; else a smooth run is as long
+ *         as what the surface does not contradict */
+bool fold_run_is_line(struct fold_run run, double heights, bool is_gap);
 
 /* Whether the mesh samples a smooth surface about a run: less evidence tells
  * its folds from noise. */

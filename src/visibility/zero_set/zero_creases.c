@@ -1,4 +1,4 @@
-/* zero_creases.c - the contour along creases, and the borders of a surface. */
+/* zero_creases.c - the contour along creases. */
 #include "visibility/zero_set/zero_finder.h"
 
 #include <math.h>
@@ -34,14 +34,6 @@ static bool node_of_vertex(struct zero_finder *z, uint32_t point,
   return true;
 }
 
-static bool is_front(const struct facing *f, uint32_t face) {
-  double n[3], at[3], v[3];
-  facing_face_normal(f, face, n);
-  facing_position(f, facing_point(f, scene_face_start(f->scene, face)), at);
-  facing_view(f->camera, at, v);
-  return vector_dot(n, v) < 0;
-}
-
 /* The height of a face over its longest side.
  * normal  twice its area in length */
 static double least_height(const struct facing *f, uint32_t face,
@@ -73,7 +65,7 @@ static void measure_crease(const struct facing *f,
   s->height =
       fmin(sqrt(least / vector_dot(along, along)), CREASE_HEIGHTS * s->width);
   /* Where the faces themselves fold over, the mesh about it is not uneven. */
-  if ((is_front(f, e->first) == is_front(f, e->second)) == e->same_way)
+  if (zero_finder_folds_over(f, e))
     s->width *= CREASE_SHARE;
 }
 
@@ -156,77 +148,4 @@ bool zero_finder_cross_crease(struct zero_finder *z, uint32_t edge) {
     if (differ && !add_along_crease(z, edge, &stop[k]))
       return false;
   return true;
-}
-
-/* ---- Borders ------------------------------------------------------------- */
-
-/* Whether the surface ends at an edge, or folds over at one of a part that has
- * no smooth contours. */
-static bool is_occluding(const struct facing *f, uint32_t edge) {
-  const struct topology_edge *e = &f->topology->edge.item[edge];
-  if (e->uses != 2)
-    return true;
-  return f->coarse[e->point[0]] &&
-         (is_front(f, e->first) == is_front(f, e->second)) == e->same_way;
-}
-
-/* Finds the image of an edge; returns whether any of it is on the page. */
-static bool find_image(const struct zero_finder *z, const uint32_t point[2],
-                       struct geom_segment *image) {
-  struct view_point end[2];
-  bool moved[2], outside = false;
-  for (int k = 0; k < 2; k++) {
-    double at[3];
-    facing_position(z->facing, point[k], at);
-    end[k] = zero_finder_view(z, at);
-    outside = outside || clip_outcode(&z->projection, end[k]) != 0;
-  }
-  if (outside && !clip_segment(&z->projection, end, moved))
-    return false;
-  *image = (struct geom_segment){project_point(&z->projection, end[0]),
-                                 project_point(&z->projection, end[1])};
-  return true;
-}
-
-bool zero_finder_add_border(struct zero_finder *z, uint32_t edge) {
-  struct geom_segment image;
-  return !is_occluding(z->facing, edge) ||
-         !find_image(z, z->facing->topology->edge.item[edge].point, &image) ||
-         ARRAY_PUSH(&z->set->border, image);
-}
-
-/* How a face faces the viewer at one of its edges: a warped one may do so
- * otherwise elsewhere. */
-static unsigned sign_at_edge(const struct zero_finder *z, uint32_t face,
-                             uint32_t edge) {
-  struct geom_segment image;
-  unsigned sign = 0;
-  if (folded_faces_has(&z->folded, face) &&
-      find_image(z, z->facing->topology->edge.item[edge].point, &image))
-    sign = folded_faces_sign(&z->folded, face, image);
-  return sign != 0 ? sign : z->facing->face_sign[face];
-}
-
-bool zero_finder_add_outline(struct zero_finder *z, uint32_t edge) {
-  const struct facing *f = z->facing;
-  const struct topology_edge *e = &f->topology->edge.item[edge];
-  if (e->uses != 2 || f->coarse[e->point[0]])
-    return true;
-  unsigned first = sign_at_edge(z, e->first, edge);
-  unsigned second = sign_at_edge(z, e->second, edge);
-  if ((first == second) != e->same_way)
-    return true;
-  struct contour_outline made = {
-      .face = first == FACING_FRONT ? e->first : e->second,
-      .curvature = curvature_noise_sum(&z->curvature, f, e->point, 2)};
-  uint32_t c = facing_corner_of_edge(f, made.face, edge);
-  if (c == SHEET_NONE)
-    return true;
-  uint32_t d = scene_next_corner(f->scene, made.face, c);
-  /* Faces that are seen from their backs run the other way round. */
-  bool is_back = (first == FACING_FRONT ? first : second) == FACING_BACK;
-  const uint32_t point[2] = {facing_point(f, is_back ? d : c),
-                             facing_point(f, is_back ? c : d)};
-  return !find_image(z, point, &made.image) ||
-         ARRAY_PUSH(&z->set->outline, made);
 }

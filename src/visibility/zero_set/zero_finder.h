@@ -69,6 +69,10 @@ static inline uint32_t zero_finder_edge_node(const struct zero_finder *z,
              : 0;
 }
 
+/* Whether the two faces at an edge fold over there. */
+bool zero_finder_folds_over(const struct facing *facing,
+                            const struct topology_edge *edge);
+
 static inline struct view_point zero_finder_view(const struct zero_finder *z,
                                                  const double at[3]) {
   return camera_view(z->facing->camera,

@@ -45,6 +45,8 @@ struct contour_outline {
   struct geom_segment image;
   uint32_t face;                      /* the one that faces the viewer */
   struct curvature_squares curvature; /* about it */
+  bool is_contradicted; /* one of its faces is turned otherwise than the smooth
+                           surface all about it */
 };
 
 struct zero_set {
