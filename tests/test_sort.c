@@ -1,4 +1,5 @@
-/* test_sort.c - sorting is right and stable, and lists are what was put in. */
+/* test_sort.c - sorting is right and stable, and lists and sets are what was
+ * put in. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,6 +12,7 @@
 #include "base/number_filter.h"
 #include "base/number_lists.h"
 #include "base/poll.h"
+#include "base/ranked_set.h"
 #include "base/sort.h"
 #include "tests/memory_faults.h"
 #include "tests/scenes/random.h"
@@ -320,6 +322,45 @@ static void a_filter_reports_that_memory_ran_out(void **state) {
   }
 }
 
+/* ---- Ranked sets --------------------------------------------------------- */
+
+/* The squares below a bound, of which some words of the set have none. */
+static bool rank_squares(struct ranked_set *set, uint32_t bound) {
+  if (!ranked_set_init(set, bound))
+    return false;
+  for (uint32_t i = 0; i * i < bound; i++)
+    ranked_set_add(set, i * i);
+  ranked_set_rank(set);
+  return true;
+}
+
+static void a_place_is_the_number_of_lower_members(void **state) {
+  (void)state;
+  for (uint32_t bound = 1; bound <= 1000; bound += 37) {
+    struct ranked_set set;
+    uint32_t root = 0;
+    assert_true(rank_squares(&set, bound));
+    for (uint32_t n = 0; n < bound; n++) {
+      assert_int_equal(ranked_set_place(&set, n), root);
+      assert_int_equal(ranked_set_has(&set, n), root * root == n);
+      root += root * root == n;
+    }
+    assert_int_equal(set.count, root);
+    ranked_set_fini(&set);
+  }
+}
+
+static void a_ranked_set_reports_that_memory_ran_out(void **state) {
+  (void)state;
+  struct memory_faults faults = {.least = 2};
+  while (memory_faults_go_on(&faults)) {
+    struct ranked_set set;
+    memory_faults_begin(&faults);
+    memory_faults_end(&faults, memory_faults_status(rank_squares(&set, 100)));
+    ranked_set_fini(&set);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(keys_are_sorted_stably_at_every_size),
@@ -336,6 +377,8 @@ int main(void) {
       cmocka_unit_test(parts_of_lists_report_that_memory_ran_out),
       cmocka_unit_test(a_filter_keeps_the_same_numbers_by_several_threads),
       cmocka_unit_test(a_filter_reports_that_memory_ran_out),
+      cmocka_unit_test(a_place_is_the_number_of_lower_members),
+      cmocka_unit_test(a_ranked_set_reports_that_memory_ran_out),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -13,26 +13,27 @@ enum {
   NETWORK_ENDS = 4  /* at a network's representative: one ends freely */
 };
 
-static bool has_features(const struct facing *f) {
-  uint32_t e = 0;
-  while (e < f->topology->edge.count && !facing_is_feature(f, e))
-    e++;
-  return e < f->topology->edge.count;
+struct networks {
+  const struct facing *facing;
+  uint32_t *network; /* of the points: union-find */
+  uint8_t *known;    /* one a point */
+};
+
+static bool is_no_feature(void *user, uint32_t edge) {
+  return !facing_is_feature(user, edge);
 }
 
-/* Joins the points of each crease and border, and counts how many meet at
- * each. */
-static void join_features(const struct facing *f, uint32_t *network,
-                          uint8_t *known) {
-  for (uint32_t e = 0; e < f->topology->edge.count; e++) {
-    const uint32_t *point = f->topology->edge.item[e].point;
-    if (!facing_is_feature(f, e))
-      continue;
-    union_find_join(network, point[0], point[1]);
-    for (int k = 0; k < 2; k++)
-      known[point[k]] =
-          (uint8_t)(known[point[k]] + (known[point[k]] < FEATURES_MAX));
-  }
+/* Joins the points of a crease or border, and counts how many meet at each. */
+static bool join_feature(void *user, uint32_t edge) {
+  const struct networks *n = user;
+  const uint32_t *point = n->facing->topology->edge.item[edge].point;
+  if (!facing_is_feature(n->facing, edge))
+    return true;
+  union_find_join(n->network, point[0], point[1]);
+  for (int k = 0; k < 2; k++)
+    n->known[point[k]] =
+        (uint8_t)(n->known[point[k]] + (n->known[point[k]] < FEATURES_MAX));
+  return true;
 }
 
 /* Marks the points of the networks in which nothing ends freely. */
@@ -46,16 +47,15 @@ static void mark_closed(struct facing *f, uint32_t *network, uint8_t *known) {
 }
 
 bool facing_mark_networks(struct facing *f) {
-  if (!has_features(f))
+  if (facing_each_odd_edge(f, is_no_feature, f))
     return true;
-  uint32_t *network = union_find_create(f->scene->point.count);
-  uint8_t *known = mem_calloc(f->scene->point.count, sizeof *known);
-  bool ok = network != NULL && known != NULL;
-  if (ok) {
-    join_features(f, network, known);
-    mark_closed(f, network, known);
-  }
-  mem_free(network);
-  mem_free(known);
+  struct networks n = {f, union_find_create(f->scene->point.count),
+                       mem_calloc(f->scene->point.count, sizeof *n.known)};
+  bool ok = n.network != NULL && n.known != NULL &&
+            facing_each_odd_edge(f, join_feature, &n);
+  if (ok)
+    mark_closed(f, n.network, n.known);
+  mem_free(n.network);
+  mem_free(n.known);
   return ok;
 }

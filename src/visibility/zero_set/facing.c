@@ -217,6 +217,41 @@ static bool find_face_signs(struct facing *f) {
                          PARALLEL_ITEMS, find_signs_of_range, f);
 }
 
+/* Edges that a thread takes at once: whole words of odd edges. */
+enum { EDGES_IN_RANGE = 64 * PARALLEL_RANGE(POLL_ITEMS / 64) };
+
+static bool find_odd_edges_of_range(void *user, struct parallel_range range) {
+  struct facing *f = user;
+  const struct topology_edge *edge = f->topology->edge.item;
+  const uint8_t *sign = f->face_sign;
+  for (size_t e = range.begin; e < range.end; e++)
+    if (facing_is_feature(f, (uint32_t)e) ||
+        sign[edge[e].first] != sign[edge[e].second] ||
+        (f->any_coarse && f->coarse[edge[e].point[0]]))
+      facing_add_odd_edge(f, (uint32_t)e);
+  return true;
+}
+
+static bool find_odd_edges(struct facing *f) {
+  size_t edges = f->topology->edge.count;
+  f->odd_edge = mem_calloc(edges / 64 + 1, sizeof *f->odd_edge);
+  return f->odd_edge != NULL &&
+         parallel_ranges(parallel_workers(edges, EDGES_IN_RANGE), edges,
+                         EDGES_IN_RANGE, find_odd_edges_of_range, f);
+}
+
+bool facing_each_odd_edge(const struct facing *f, facing_edge_task *task,
+                          void *user) {
+  for (size_t w = 0; w <= f->topology->edge.count / 64; w++) {
+    if (!poll_at(w))
+      return false;
+    for (uint64_t left = f->odd_edge[w]; left != 0; left &= left - 1)
+      if (!task(user, (uint32_t)(64 * w + (size_t)__builtin_ctzll(left))))
+        return false;
+  }
+  return true;
+}
+
 /* Sets flags of a face's points. */
 static void set_flags(struct facing *f, uint32_t face, uint8_t flags) {
   for (uint32_t c = scene_face_start(f->scene, face);
@@ -350,8 +385,8 @@ recto_status facing_init(struct facing *f, const struct scene *scene,
       f->class_masks != NULL && f->coarse != NULL && f->large != NULL &&
       topology_class_masks(topology, f->scene, crease_deg, f->class_masks) &&
       topology_coarse_parts(topology, f->scene, f->class_masks, f->coarse) &&
-      find_face_signs(f) && find_near_faces(f) && facing_mark_networks(f) &&
-      find_facings(f, crease_deg);
+      find_face_signs(f) && find_odd_edges(f) && find_near_faces(f) &&
+      facing_mark_networks(f) && find_facings(f, crease_deg);
   return ok ? RECTO_OK : error_memory(error);
 }
 
@@ -360,6 +395,7 @@ void facing_fini(struct facing *f) {
   mem_free(f->coarse);
   mem_free(f->large);
   mem_free(f->face_sign);
+  mem_free(f->odd_edge);
   mem_free(f->point_flags);
   ranked_set_fini(&f->near_corner);
   mem_free(f->corner_place);

@@ -39,13 +39,14 @@ struct facing {
   uint8_t *coarse;                  /* one a point: topology_coarse_parts */
   bool any_coarse;                  /* there are such points */
   uint8_t *face_sign;   /* one a face: FACING_FRONT or FACING_BACK */
+  uint64_t *odd_edge;   /* a bit an edge, set at all that are features, or
+                              between faces of both signs, or of coarse parts */
   uint8_t *point_flags; /* one a point: FACING_... of the faces about it, and
                               what else is known */
-  struct facing_faces
-      crossed; /* the faces at points of both signs, which alone the
-                              contour can cross; ascending */
-  struct facing_faces near; /* the faces at the points of these; ascending */
-  uint32_t near_corners;    /* so many corners have they */
+  /* The faces at points of both signs, which alone the contour can cross, and
+   * the faces at the points of these; ascending. */
+  struct facing_faces crossed, near;
+  uint32_t near_corners;         /* so many corners have they */
   struct ranked_set near_corner; /* these, unless no normals are split */
   ARRAY(uint32_t) near_edge; /* the edges at the points of crossed faces, and
                                 others of near faces */
@@ -100,7 +101,7 @@ USE_RESULT bool facing_find_values(struct facing *facing);
 
 /* Marks the points of creases and borders that are closed, or lead on from each
  * other, so that none of those that are joined ends freely: they are no noise.
- * Returns false when memory ran out. */
+ * Returns false when memory ran out or the caller cancelled. */
 USE_RESULT bool facing_mark_networks(struct facing *facing);
 
 /* Marks the points about which a face bends away from the mean normal by more
@@ -186,6 +187,17 @@ static inline bool facing_is_feature(const struct facing *f, uint32_t edge) {
   const struct topology_edge *e = &f->topology->edge.item[edge];
   return e->uses != 2 || e->same_way || e->first == e->second ||
          (f->class_masks[edge] & (RECTO_EDGE_CREASE | RECTO_EDGE_BORDER)) != 0;
+}
+
+/* Calls a function for each odd edge, ascending, until it returns false or the
+ * caller cancels; returns whether neither happened. */
+typedef bool facing_edge_task(void *user, uint32_t edge);
+bool facing_each_odd_edge(const struct facing *facing, facing_edge_task *task,
+                          void *user);
+
+/* Adds to the odd edges. */
+static inline void facing_add_odd_edge(const struct facing *f, uint32_t edge) {
+  f->odd_edge[edge / 64] |= UINT64_C(1) << edge % 64;
 }
 
 /* Whether the two faces of a feature have normals of their own at it; not where

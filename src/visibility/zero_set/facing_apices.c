@@ -73,7 +73,11 @@ bool facing_mark_contradicted(struct facing *f) {
 }
 
 void facing_crease_apices(struct facing *f) {
-  for (size_t i = 0; i < f->near_edge.count; i++)
-    if ((facing_flags_of_edge(f, f->near_edge.item[i]) & FACING_APEX) != 0)
-      f->class_masks[f->near_edge.item[i]] |= RECTO_EDGE_CREASE;
+  for (size_t i = 0; i < f->near_edge.count; i++) {
+    uint32_t edge = f->near_edge.item[i];
+    if ((facing_flags_of_edge(f, edge) & FACING_APEX) == 0)
+      continue;
+    f->class_masks[edge] |= RECTO_EDGE_CREASE;
+    facing_add_odd_edge(f, edge);
+  }
 }

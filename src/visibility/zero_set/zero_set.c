@@ -138,9 +138,12 @@ static inline bool is_within_surface(const struct zero_finder *z, uint32_t e) {
          !(f->any_coarse && f->coarse[edge->point[0]]);
 }
 
-static bool cross_edge(struct zero_finder *z, uint32_t e) {
+static bool cross_edge(void *user, uint32_t e) {
+  struct zero_finder *z = user;
   const struct facing *f = z->facing;
   const struct topology_edge *edge = &f->topology->edge.item[e];
+  if (is_within_surface(z, e))
+    return true;
   if (!zero_finder_add_outline(z, e) || !zero_finder_add_border(z, e))
     return false;
   return edge->uses != 2 || edge->first == edge->second ||
@@ -163,20 +166,24 @@ static bool reserve_nodes(struct zero_finder *z) {
          ARRAY_RESERVE(&z->set->segment, f->mixed.count);
 }
 
+/* Adds the edges of folded faces to the odd ones, which are looked at. */
+static void add_folded_edges(const struct zero_finder *z) {
+  const struct facing *f = z->facing;
+  uint32_t faces = z->folded.is_folded != NULL ? scene_face_count(f->scene) : 0;
+  for (uint32_t face = 0; face < faces; face++)
+    for (uint32_t c = scene_face_start(f->scene, face);
+         z->folded.is_folded[face] && c < scene_face_start(f->scene, face + 1);
+         c++)
+      facing_add_odd_edge(f, f->topology->corner_edge[c]);
+}
+
 static bool cross_faces(struct zero_finder *z) {
   const struct facing *f = z->facing;
   if (!reserve_nodes(z))
     return false;
+  add_folded_edges(z);
   for (size_t i = 0; i < f->mixed.count; i++)
     if (!poll_at(i) || !cross_face(z, f->mixed.item[i]))
-      return false;
-  return true;
-}
-
-static bool cross_edges(struct zero_finder *z) {
-  size_t edges = z->facing->topology->edge.count;
-  for (uint32_t e = 0; e < edges; e++)
-    if (!poll_at(e) || (!is_within_surface(z, e) && !cross_edge(z, e)))
       return false;
   return true;
 }
@@ -201,7 +208,7 @@ recto_status zero_set_find(struct zero_set *set, const struct sheet *sheet,
                           .mesh_is_inside = sheet->clipped_page == 0};
   bool ok = folded_faces_mark(&z.folded) &&
             curvature_noise_find(&z.curvature, facing) && cross_faces(&z) &&
-            cross_edges(&z);
+            facing_each_odd_edge(facing, cross_edge, &z);
   free_finder(&z);
   return ok ? RECTO_OK : error_memory(error);
 }
