@@ -18,6 +18,10 @@
  * the grid of the page, and lines are simplified by less than this. */
 #define TOLERANCE_MM 0.02
 
+/* Contours beyond the margins by no more than a quarter of this are moved
+ * there. */
+#define PEN_MM 0.04
+
 struct box {
   double low[2], high[2];
 };
@@ -139,6 +143,7 @@ static void the_outline_is_round_at_the_margins(void **state) {
         options.camera.elevation_deg = direction.camera.elevation_deg;
         options.ink.contours = RECTO_CONTOURS_SMOOTH;
         options.camera.fov_deg = view % 4 == 3 ? 30 : 0;
+        options.ink.pen_mm = PEN_MM;
         snprintf(what, sizeof what, "view %d of the %s of %d", view,
                  meshes[m].name, sides[k]);
         check_shape(scene, &options, what);

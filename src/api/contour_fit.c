@@ -3,6 +3,9 @@
 
 #include "view/camera_extent.h"
 
+/* Contours that are no farther beyond the margins, in pens, are moved there. */
+#define MOVED_PENS 0.25
+
 bool contour_fit_has_contours(const recto_options *options) {
   return options->ink.contours == RECTO_CONTOURS_SMOOTH &&
          (options->ink.edges & RECTO_EDGE_SILHOUETTE) != 0;
@@ -28,6 +31,20 @@ contour_box(struct extent *box, struct smooth_surface *surface,
                             : status;
 }
 
+/* Whether a box, in units of extents, is beyond the margins by more than a
+ * quarter of the pen. */
+static bool leaves_margins(const struct camera *camera,
+                           const struct extent *box,
+                           const recto_options *options) {
+  double within = camera->margin_mm - options->ink.pen_mm * MOVED_PENS;
+  for (int k = 0; k < 2; k++)
+    if (camera->middle_mm[k] + camera->s * box->low[k] < within ||
+        camera->middle_mm[k] + camera->s * box->high[k] >
+            camera->page_mm[k] - within)
+      return true;
+  return false;
+}
+
 recto_status contour_fit_aim(struct camera *camera,
                              struct smooth_surface *surface,
                              const struct preparation *prepared,
@@ -40,9 +57,10 @@ recto_status contour_fit_aim(struct camera *camera,
     return status;
   status =
       contour_box(&beyond, surface, camera, prepared, topology, options, error);
-  return status == RECTO_OK ? preparation_aim(camera, prepared, topology->used,
-                                              &beyond, options, error)
-                            : status;
+  return status == RECTO_OK && leaves_margins(camera, &beyond, options)
+             ? preparation_aim(camera, prepared, topology->used, &beyond,
+                               options, error)
+             : status;
 }
 
 recto_status contour_fit_extent(struct extent *box, struct camera *camera,

@@ -14,7 +14,8 @@ bool contour_fit_has_contours(const recto_options *options);
 bool contour_fit_is_wanted(const recto_options *options);
 
 /* Aims the camera as preparation_aim does, and so that a drawing that fills the
- * page includes its smooth contours.
+ * page includes its smooth contours, where these would be beyond the margins by
+ * more than a quarter of the pen.
  * surface   gets that of the view, if it is found
  * topology  of the prepared scene, with its corners if there are contours
  * Errors    those of preparation_aim and smooth_surface_find */
