@@ -1,5 +1,5 @@
-/* ranked_set.h - a few of many numbers, and the place of each among them, in
- * less than two bits for each of the many. */
+/* ranked_set.h - a set of some of many numbers, as a bit vector with the rank of
+ * each, in less than two bits for each of the many. */
 #ifndef BASE_RANKED_SET_H
 #define BASE_RANKED_SET_H
 
@@ -9,7 +9,7 @@ struct ranked_set {
   uint64_t *word;   /* a bit a number: it is in the set; NULL: none is */
   uint32_t *before; /* one a word: how many numbers are in those before it */
   size_t words;
-  uint32_t count; /* of numbers in the set, once they are ranked */
+  uint32_t count; /* of numbers in the set, once ranks are indexed */
 };
 
 /* An empty set of numbers below `numbers`.  Returns false when memory ran
@@ -32,8 +32,8 @@ static inline void ranked_set_add(struct ranked_set *set, uint32_t number) {
   set->word[number / 64] |= UINT64_C(1) << number % 64;
 }
 
-/* Ranks the numbers of the set, when all have been added. */
-static inline void ranked_set_rank(struct ranked_set *set) {
+/* Prepares queries of ranks, when all numbers have been added. */
+static inline void ranked_set_index(struct ranked_set *set) {
   set->count = 0;
   for (size_t w = 0; w < set->words; w++) {
     set->before[w] = set->count;
@@ -47,9 +47,9 @@ static inline bool ranked_set_has(const struct ranked_set *set,
   return (set->word[number / 64] >> number % 64 & 1) != 0;
 }
 
-/* How many lower numbers are in the set. */
-static inline uint32_t ranked_set_place(const struct ranked_set *set,
-                                        uint32_t number) {
+/* The rank of a number: how many lower ones are in the set. */
+static inline uint32_t ranked_set_rank(const struct ranked_set *set,
+                                       uint32_t number) {
   uint64_t lower = (UINT64_C(1) << number % 64) - 1;
   return set->before[number / 64] +
          (uint32_t)__builtin_popcountll(set->word[number / 64] & lower);

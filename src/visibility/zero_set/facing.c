@@ -57,8 +57,8 @@ static void join_corners(struct facing *f, uint32_t edge) {
     uint32_t a = pair[k][0], b = pair[k][1];
     if (ranked_set_has(&f->near_corner, a) &&
         ranked_set_has(&f->near_corner, b))
-      union_find_join(f->sets, ranked_set_place(&f->near_corner, a),
-                      ranked_set_place(&f->near_corner, b));
+      union_find_join(f->sets, ranked_set_rank(&f->near_corner, a),
+                      ranked_set_rank(&f->near_corner, b));
   }
 }
 
@@ -105,7 +105,7 @@ static bool rank_near_corners(struct facing *f) {
          c < scene_face_start(f->scene, face + 1); c++)
       ranked_set_add(&f->near_corner, c);
   }
-  ranked_set_rank(&f->near_corner);
+  ranked_set_index(&f->near_corner);
   return true;
 }
 

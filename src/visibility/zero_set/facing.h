@@ -144,7 +144,7 @@ static inline uint32_t facing_slot(const struct facing *f, uint32_t corner) {
   if (!(f->point_flags[point] & FACING_SPLIT))
     return point;
   return (uint32_t)f->scene->point.count +
-         union_find_root(f->sets, ranked_set_place(&f->near_corner, corner));
+         union_find_root(f->sets, ranked_set_rank(&f->near_corner, corner));
 }
 
 /* The union of the flags of an edge's points. */

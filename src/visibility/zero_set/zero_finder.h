@@ -65,7 +65,7 @@ USE_RESULT bool zero_finder_add_outline(struct zero_finder *finder,
 static inline uint32_t zero_finder_edge_node(const struct zero_finder *z,
                                              uint32_t edge, int k) {
   return ranked_set_has(&z->near_edge, edge)
-             ? z->edge_node[ranked_set_place(&z->near_edge, edge)][k]
+             ? z->edge_node[ranked_set_rank(&z->near_edge, edge)][k]
              : 0;
 }
 

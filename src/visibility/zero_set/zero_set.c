@@ -160,7 +160,7 @@ static bool reserve_nodes(struct zero_finder *z) {
     return false;
   for (size_t i = 0; i < f->near_edge.count; i++)
     ranked_set_add(&z->near_edge, f->near_edge.item[i]);
-  ranked_set_rank(&z->near_edge);
+  ranked_set_index(&z->near_edge);
   z->edge_node = mem_calloc(z->near_edge.count, sizeof *z->edge_node);
   return z->edge_node != NULL && ARRAY_RESERVE(&z->set->node, f->mixed.count) &&
          ARRAY_RESERVE(&z->set->segment, f->mixed.count);

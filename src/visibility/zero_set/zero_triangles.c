@@ -120,7 +120,7 @@ static uint32_t *place_of_side(struct zero_triangle *t, int k) {
   if (e->uses > 2 || e->first == e->second)
     return NULL;
   bool second = t->face != e->first && facing_is_split(z->facing, edge);
-  return &z->edge_node[ranked_set_place(&z->near_edge, edge)][second];
+  return &z->edge_node[ranked_set_rank(&z->near_edge, edge)][second];
 }
 
 /* The node on side k, whose ends have different signs. */
