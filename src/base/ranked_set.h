@@ -3,6 +3,8 @@
 #ifndef BASE_RANKED_SET_H
 #define BASE_RANKED_SET_H
 
+#include <string.h>
+
 #include "base/memory.h"
 
 struct ranked_set {
@@ -26,6 +28,10 @@ USE_RESULT static inline bool ranked_set_init(struct ranked_set *set,
 static inline void ranked_set_fini(struct ranked_set *set) {
   mem_free(set->word);
   mem_free(set->before);
+}
+
+static inline void ranked_set_clear(struct ranked_set *set) {
+  memset(set->word, 0, set->words * sizeof *set->word);
 }
 
 static inline void ranked_set_add(struct ranked_set *set, uint32_t number) {
