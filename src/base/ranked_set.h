@@ -1,5 +1,5 @@
-/* ranked_set.h - a set of some of many numbers, as a bit vector with the rank of
- * each, in less than two bits for each of the many. */
+/* ranked_set.h - a set of some of many numbers, as a bit vector, with the rank
+ * of each, in less than two bits for each of the many. */
 #ifndef BASE_RANKED_SET_H
 #define BASE_RANKED_SET_H
 

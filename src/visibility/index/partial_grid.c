@@ -108,8 +108,8 @@ static struct cell_counts count_cells(const struct partial_grid *p, uint32_t t,
 
 /* The cells that the box of a triangle meets: all points of the sheet are in
  * the grid. */
-static inline struct cell_range cells_of(const struct triangle_grid *grid,
-                                         struct box2 b) {
+static inline struct cell_range cells_of_box(const struct triangle_grid *grid,
+                                             struct box2 b) {
   return (struct cell_range){(int)(((int64_t)b.x0 - grid->x0) >> grid->shift),
                              (int)(((int64_t)b.y0 - grid->y0) >> grid->shift),
                              (int)(((int64_t)b.x1 - grid->x0) >> grid->shift),
@@ -128,7 +128,7 @@ static bool add_wanted_of_range(void *user, struct parallel_range range) {
                    : all->sheet->triangle.count;
   for (size_t t = range.begin * 64; t < end && !is_more(sum, left); t++) {
     struct cell_range r =
-        cells_of(&grid, box2_of_triangle(all->sheet, (uint32_t)t));
+        cells_of_box(&grid, box2_of_triangle(all->sheet, (uint32_t)t));
     if (!triangle_grid_is_wide(r) && !is_any_wanted(&grid, dilated, r)) {
       sum.looked_at += (uint64_t)(r.x1 - r.x0 + r.y1 - r.y0 + 1);
       continue;
@@ -183,7 +183,7 @@ static bool list_wanted_triangles(struct partial_grid *p,
     for (uint64_t left = set->word[w]; left != 0; left &= left - 1) {
       subset[i] = (uint32_t)(w * 64) + (uint32_t)__builtin_ctzll(left);
       struct box2 box = box2_of_triangle(sheet, subset[i]);
-      footprint[i++] = footprint_of(cells_of(&p->grid, box), 0, 0);
+      footprint[i++] = footprint_of(cells_of_box(&p->grid, box), 0, 0);
     }
   }
   ok = ok && triangle_grid_fill_some(&p->grid, sheet, subset, n, footprint,
