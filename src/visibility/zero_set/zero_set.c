@@ -100,18 +100,21 @@ static bool cross_polygon(struct zero_finder *z, uint32_t face, uint32_t start,
   return true;
 }
 
+/* Whether a face has corners of both signs. */
+static bool has_both_signs(const struct facing *f, uint32_t face) {
+  uint32_t start = scene_face_start(f->scene, face);
+  bool first = facing_is_back(f, start);
+  for (uint32_t c = start + 1; c < scene_face_start(f->scene, face + 1); c++)
+    if (facing_is_back(f, c) != first)
+      return true;
+  return false;
+}
+
+/* Finds the segments across a face that is crossed. */
 static bool cross_face(struct zero_finder *z, uint32_t face) {
   const struct facing *f = z->facing;
   uint32_t start = scene_face_start(f->scene, face);
   uint32_t count = scene_face_start(f->scene, face + 1) - start;
-  bool front = false, back = false;
-  for (uint32_t c = start; c < start + count; c++) {
-    bool is_back = facing_is_back(f, c);
-    front = front || !is_back;
-    back = back || is_back;
-  }
-  if (!front || !back)
-    return true;
   if (count > 3)
     return cross_polygon(z, face, start, count);
   const uint32_t corner[3] = {start, start + 1, start + 2};
@@ -179,11 +182,10 @@ static void add_folded_edges(const struct zero_finder *z) {
 
 static bool cross_faces(struct zero_finder *z) {
   const struct facing *f = z->facing;
-  if (!reserve_nodes(z))
-    return false;
   add_folded_edges(z);
   for (size_t i = 0; i < f->mixed.count; i++)
-    if (!poll_at(i) || !cross_face(z, f->mixed.item[i]))
+    if (!poll_at(i) || (has_both_signs(f, f->mixed.item[i]) &&
+                        !cross_face(z, f->mixed.item[i])))
       return false;
   return true;
 }
@@ -207,10 +209,114 @@ recto_status zero_set_find(struct zero_set *set, const struct sheet *sheet,
                           .projection = projection_of(facing->camera),
                           .mesh_is_inside = sheet->clipped_page == 0};
   bool ok = folded_faces_mark(&z.folded) &&
-            curvature_noise_find(&z.curvature, facing) && cross_faces(&z) &&
-            facing_each_odd_edge(facing, cross_edge, &z);
+            curvature_noise_find(&z.curvature, facing) && reserve_nodes(&z) &&
+            cross_faces(&z) && facing_each_odd_edge(facing, cross_edge, &z);
   free_finder(&z);
   return ok ? RECTO_OK : error_memory(error);
+}
+
+/* ---- The extent ---------------------------------------------------------- */
+
+/* The box of a face in the camera's axes: x, y, d. */
+struct face_box {
+  double low[3], high[3];
+};
+
+static struct view_point view_of_corner(const struct zero_finder *z,
+                                        uint32_t corner) {
+  double at[3];
+  facing_position(z->facing, facing_point(z->facing, corner), at);
+  return zero_finder_view(z, at);
+}
+
+static struct face_box face_view_box(const struct zero_finder *z,
+                                     uint32_t face) {
+  const struct scene *scene = z->facing->scene;
+  struct face_box box = {{INFINITY, INFINITY, INFINITY},
+                         {-INFINITY, -INFINITY, -INFINITY}};
+  for (uint32_t c = scene_face_start(scene, face);
+       c < scene_face_start(scene, face + 1); c++) {
+    struct view_point v = view_of_corner(z, c);
+    const double of[3] = {v.x, v.y, v.d};
+    for (int k = 0; k < 3; k++) {
+      box.low[k] = of[k] < box.low[k] ? of[k] : box.low[k];
+      box.high[k] = of[k] > box.high[k] ? of[k] : box.high[k];
+    }
+  }
+  return box;
+}
+
+/* Enlarges a face's box to that of its curved triangles: their Bezier points
+ * are no farther from the flat ones than half the longest side, as those beside
+ * corners are within a third of it of the corner, and the one in the middle is
+ * a quarter of six such steps from the mean of the corners. */
+static void enlarge_box(struct face_box *box) {
+  double square = 0;
+  for (int k = 0; k < 3; k++)
+    square += (box->high[k] - box->low[k]) * (box->high[k] - box->low[k]);
+  double most = sqrt(square) / 2;
+  for (int k = 0; k < 3; k++) {
+    box->low[k] -= most;
+    box->high[k] += most;
+  }
+}
+
+/* The extent of a box that is in front of the near plane. */
+static struct extent extent_of_box(const struct camera *camera,
+                                   const struct face_box *box) {
+  struct extent extent = extent_empty();
+  for (int k = 0; k < 4; k++) {
+    const double *xy = k & 1 ? box->high : box->low;
+    double d = k & 2 ? box->high[2] : box->low[2];
+    extent_grow(&extent, camera, (struct view_point){xy[0], xy[1], d});
+  }
+  return extent;
+}
+
+static bool lies_within(const struct extent *extent, const struct extent *of) {
+  for (int k = 0; k < 2; k++)
+    if (!(of->low[k] >= extent->low[k] && of->high[k] <= extent->high[k]))
+      return false;
+  return true;
+}
+
+/* Includes the corners of the faces that are crossed, which are on the mesh. */
+static bool include_corners(const struct zero_finder *z,
+                            struct extent *extent) {
+  const struct facing *f = z->facing;
+  for (size_t i = 0; i < f->mixed.count; i++) {
+    uint32_t face = f->mixed.item[i];
+    if (!poll_at(i))
+      return false;
+    if (!has_both_signs(f, face))
+      continue;
+    for (uint32_t c = scene_face_start(f->scene, face);
+         c < scene_face_start(f->scene, face + 1); c++) {
+      struct view_point v = view_of_corner(z, c);
+      if (v.d >= f->camera->near_d)
+        extent_grow(extent, f->camera, v);
+    }
+  }
+  return true;
+}
+
+/* Crosses those faces whose contours may not lie within the extent. */
+static bool cross_faces_beyond(struct zero_finder *z,
+                               const struct extent *extent) {
+  const struct facing *f = z->facing;
+  for (size_t i = 0; i < f->mixed.count; i++) {
+    if (!poll_at(i))
+      return false;
+    if (!has_both_signs(f, f->mixed.item[i]))
+      continue;
+    struct face_box box = face_view_box(z, f->mixed.item[i]);
+    enlarge_box(&box);
+    struct extent most = extent_of_box(f->camera, &box);
+    if (!(box.low[2] >= f->camera->near_d && lies_within(extent, &most)) &&
+        !cross_face(z, f->mixed.item[i]))
+      return false;
+  }
+  return true;
 }
 
 recto_status zero_set_grow_extent(struct extent *extent,
@@ -221,7 +327,8 @@ recto_status zero_set_grow_extent(struct extent *extent,
                           .facing = facing,
                           .projection = projection_of(facing->camera),
                           .mesh_is_inside = true};
-  bool ok = cross_faces(&z);
+  bool ok = include_corners(&z, extent) && reserve_nodes(&z) &&
+            cross_faces_beyond(&z, extent);
   for (size_t i = 0; ok && i < set.node.count; i++) {
     const struct contour_node *node = &set.node.item[i];
     if (node->degree > 0) /* it is not in front of the near plane */

@@ -24,11 +24,12 @@ USE_RESULT recto_status zero_set_find(struct zero_set *set,
                                       const struct facing *facing,
                                       recto_error *error);
 
-/* Includes the contour in a box, but for what of it runs along creases, which
- * is on the mesh.
+/* Includes in a box the contour, but for what of it runs along creases, and the
+ * corners of the faces that it crosses.
  * facing  its camera has a scale
  * Errors  RECTO_ERROR_MEMORY.
- * Cost    linear in the faces that the contour crosses */
+ * Cost    linear in these faces; the contour is found in those alone that are
+ *         near the box's sides */
 USE_RESULT recto_status zero_set_grow_extent(struct extent *extent,
                                              const struct facing *facing,
                                              recto_error *error);
