@@ -3,6 +3,7 @@
  *
  * The models have so many faces that every stage is divided: most scenes of
  * other tests are too small for a second thread. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -51,6 +52,16 @@ static void write_face(FILE *to, int face, int side) {
 
 static void write_surface(FILE *to) {
   write_points(to, SIDE, 0.02);
+  for (int f = 0; f < FACES; f++)
+    write_face(to, f, SIDE);
+}
+
+/* A smooth surface with hills that hide one another. */
+static void write_hills(FILE *to) {
+  for (int y = 0; y <= SIDE; y++)
+    for (int x = 0; x <= SIDE; x++)
+      fprintf(to, "v %d %d %.7g\n", x, y,
+              20 * sin(x * 0.08) * sin(y * 0.1 + x * 0.01));
   for (int f = 0; f < FACES; f++)
     write_face(to, f, SIDE);
 }
@@ -217,7 +228,8 @@ static const struct model {
     {"surface", "lfe", write_surface}, {"shuffled", "lh", write_shuffled},
     {"mixed", "lfhe", write_mixed},    {"polygons", "l", write_polygons},
     {"fins", "l", write_fins},         {"soup", "l", write_soup},
-    {"marked", "lh", write_marked},    {"full", "", write_full}};
+    {"marked", "lh", write_marked},    {"full", "", write_full},
+    {"hills", "s", write_hills}};
 
 /* The model as text of OBJ, *length bytes, to be freed by the caller. */
 static char *text_of_model(const struct model *model, size_t *length) {
@@ -253,6 +265,11 @@ static void set_eye(recto_options *options) {
   options->camera.eye[2] = 0.3;
 }
 
+static void set_smooth(recto_options *options) {
+  options->ink.contours = RECTO_CONTOURS_SMOOTH;
+  options->camera.elevation_deg = 25;
+}
+
 static const struct kind {
   char letter;
   const char *name;
@@ -260,7 +277,8 @@ static const struct kind {
 } kinds[] = {{'l', "lines", set_lines},
              {'f', "all edges, shaded", set_all_and_shade},
              {'h', "hidden lines", set_hidden},
-             {'e', "an eye", set_eye}};
+             {'e', "an eye", set_eye},
+             {'s', "smooth contours", set_smooth}};
 
 static char *draw(const char *bytes, size_t count, const struct kind *kind,
                   int threads) {
