@@ -7,13 +7,10 @@
 #define BACKENDS_HPGL_BATCH_H
 
 #include "backends/hpgl_strokes.h"
+#include "backends/text_chunks.h"
 
-enum { HPGL_CHUNKS_MAX = 64 };
-
-/* The strokes from `begin` to before `end`. */
-struct hpgl_chunk {
-  uint32_t begin, end;
-  struct stream *text;
+/* What the margins cut off of a chunk's strokes: how many, and mm. */
+struct hpgl_clipping {
   uint64_t clipped;
   double lost;
 };
@@ -24,8 +21,8 @@ struct hpgl_batch {
   /* private */
   const struct drawing *drawing;
   uint32_t layer;
-  struct hpgl_chunk chunk[HPGL_CHUNKS_MAX];
-  size_t chunks;
+  struct text_chunks chunks;
+  struct hpgl_clipping clipping[TEXT_CHUNKS_MAX]; /* one a chunk */
   ARRAY(struct hpgl_strokes) worker; /* each with arrays of its own */
 };
 

@@ -6,6 +6,7 @@ librecto_core_la_SOURCES += \
   %D%/svg_batch.c %D%/svg_batch.h \
   %D%/svg_elements.c %D%/svg_elements.h \
   %D%/svg_text.c %D%/svg_text.h \
+  %D%/text_chunks.c %D%/text_chunks.h \
   %D%/writer.h \
   %D%/writer_hpgl.c \
   %D%/writer_svg.c \

@@ -8,18 +8,10 @@
 #define BACKENDS_SVG_BATCH_H
 
 #include "backends/svg_elements.h"
+#include "backends/text_chunks.h"
 #include "base/parallel.h"
 
 enum svg_element { SVG_SEAM, SVG_FILL, SVG_STROKE };
-
-enum { SVG_CHUNKS_MAX = 64 };
-
-/* The elements from `begin` to before `end`; those of other layers have no
- * text. */
-struct svg_chunk {
-  uint32_t begin, end;
-  struct stream *text;
-};
 
 /* Zero-initialised is empty. */
 struct svg_batch {
@@ -27,13 +19,13 @@ struct svg_batch {
   enum svg_element kind;
   uint32_t layer;
   uint32_t end; /* of the batch: element `end` begins the next one */
-  struct svg_chunk chunk[SVG_CHUNKS_MAX];
-  size_t chunks, at;        /* how many, and that of the last element */
-  uint32_t first;           /* the element whose end is text_end.item[0] */
-  ARRAY(uint32_t) text_end; /* of each element, in the text of its chunk */
-  int workers;              /* of the batch; 1: its elements are not formatted
+  struct text_chunks chunks; /* elements of other layers have no text */
+  size_t at;                 /* the chunk of the last element */
+  uint32_t first;            /* the element whose end is text_end.item[0] */
+  ARRAY(uint32_t) text_end;  /* of each element, in the text of its chunk */
+  int workers;               /* of the batch; 1: its elements are not formatted
                                before */
-  ARRAY(struct svg) worker; /* each with arrays of its own */
+  ARRAY(struct svg) worker;  /* each with arrays of its own */
 };
 
 /* Begins the elements of a kind and layer. */
