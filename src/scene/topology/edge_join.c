@@ -4,7 +4,8 @@
  *   find    a thread finds the edges of a range alone (edge_range.c), in its
  *           part of an array of all.
  *   share   points that several ranges have edges at are looked for, and edges
- *           there in the earlier ranges, to which they belong.
+ *           there in the earlier ranges, to which they belong: these get their
+ *           faces.
  *   move    the other edges of a range are moved to those before, in order.
  * Memory  edges are moved within the array, by a little, so that little is
  *         written to that was not touched before.  Where a range has more than
@@ -22,6 +23,10 @@
 
 /* Ranges are looked up in all those before them: more would cost more. */
 enum { RANGES_MAX = 8 };
+
+/* Points that are looked at together, so that their edges are fetched while
+ * others are. */
+enum { POINTS_AT_ONCE = 32 };
 
 /* The edges of a range that earlier ones have too. */
 struct shared_edges {
@@ -100,25 +105,50 @@ static size_t shared_before(const struct shared_edges *shared, size_t edge) {
   return k;
 }
 
-/* The number of an edge in the earlier ranges; SCENE_NONE: they do not have
- * it. */
-static uint32_t find_earlier_edge(const struct edge_join *join,
-                                  const struct topology_edge *edge) {
+/* Whether the first face of an edge runs along it from its lower point to its
+ * upper one, where it first does. */
+static bool first_goes_up(const struct edge_range *range,
+                          const struct topology_edge *edge) {
+  struct side_iterator it =
+      iterate_sides(range->scene, range->weld, edge->first, edge->first + 1);
+  while (next_side(&it) &&
+         (lower_end(&it) != edge->point[0] || upper_end(&it) != edge->point[1]))
+    ;
+  return it.from < it.to;
+}
+
+/* Adds the faces of an edge to those of the same edge of an earlier range. */
+static void add_uses(const struct edge_range *range,
+                     const struct topology_edge *edge,
+                     struct topology_edge *to) {
+  bool forward = edge->uses == 1 ? edge->same_way : first_goes_up(range, edge);
+  (void)topology_use_edge(to, edge->first, forward);
+  if (edge->uses > 1)
+    to->uses = 3;
+}
+
+/* Adds the faces of an edge to those of an earlier range that has it; returns
+ * its number among all, SCENE_NONE: no range has it. */
+static uint32_t share_edge(const struct edge_join *join,
+                           const struct topology_edge *edge) {
   for (size_t r = 0; r < join->at; r++) {
     const struct shared_edges *shared = &join->shared[r];
     uint32_t found = edge_range_look_up(&join->range[r], edge->point);
-    if (found != SCENE_NONE) /* no range before this one has it */
+    if (found != SCENE_NONE) { /* no range before this one has it */
+      add_uses(&join->range[join->at], edge, &join->range[r].edge.item[found]);
       return shared->first + found - (uint32_t)shared_before(shared, found);
+    }
   }
   return SCENE_NONE;
 }
 
-/* Marks which edges of the range at their lower point are shared. */
+/* Marks which edges of the range at their lower point are shared, and adds
+ * their faces to the earlier ones. */
 static void mark_shared_at(const struct edge_join *join, uint32_t point) {
   const struct edge_range *range = &join->range[join->at];
   for (uint32_t e = range->head[point]; e != SCENE_NONE; e = range->next[e]) {
     struct topology_edge *edge = &range->edge.item[e];
-    uint32_t found = find_earlier_edge(join, edge);
+    uint32_t found = share_edge(join, edge);
     if (found == SCENE_NONE)
       continue;
     edge->second = found & TOPOLOGY_NONE;
@@ -127,50 +157,82 @@ static void mark_shared_at(const struct edge_join *join, uint32_t point) {
   }
 }
 
+/* Finds at which of some points both the range and an earlier one have edges,
+ * in vectors where it is known how many points there are.  Numbers of edges
+ * have 31 bits (limit.h), so that SCENE_NONE alone has the uppermost one.
+ * absent  one a point: its uppermost bit tells that they have not
+ * Returns whether there is any. */
+static inline bool find_common_points(const struct edge_join *join,
+                                      size_t first, size_t points,
+                                      uint32_t *absent) {
+  const uint32_t *head = join->range[0].head + first;
+  uint32_t any = SCENE_NONE;
+  for (size_t k = 0; k < points; k++)
+    absent[k] = head[k];
+  for (size_t r = 1; r < join->at; r++)
+    for (size_t k = 0; k < points; k++)
+      absent[k] &= join->range[r].head[first + k];
+  head = join->range[join->at].head + first;
+  for (size_t k = 0; k < points; k++) {
+    absent[k] |= head[k];
+    any &= absent[k];
+  }
+  return any >> 31 == 0;
+}
+
 /* Lists the points that both the range and an earlier one have edges at. */
 static size_t list_common_points(const struct edge_join *join,
                                  struct parallel_range points,
                                  uint32_t *point) {
-  const uint32_t *head = join->range[join->at].head;
+  uint32_t absent[POINTS_AT_ONCE];
   size_t count = 0;
-  for (size_t p = points.begin; p < points.end; p++) {
-    uint32_t all = SCENE_NONE; /* the bits that are set in each */
-    for (size_t r = 0; r < join->at; r++)
-      all &= join->range[r].head[p];
-    point[count] = (uint32_t)p;
-    count += all != SCENE_NONE && head[p] != SCENE_NONE;
+  for (size_t p = points.begin; p < points.end; p += POINTS_AT_ONCE) {
+    size_t left = points.end - p;
+    bool any = left >= POINTS_AT_ONCE
+                   ? find_common_points(join, p, POINTS_AT_ONCE, absent)
+                   : find_common_points(join, p, left, absent);
+    for (size_t k = 0; any && k < left && k < POINTS_AT_ONCE; k++) {
+      point[count] = (uint32_t)(p + k);
+      count += 1 - (absent[k] >> 31);
+    }
   }
   return count;
 }
 
-/* Fetches the edges of a point that follow so many others in the lists of the
- * ranges, which are to be there by then. */
-MEM_PREFETCH_INLINE void prefetch_edges(const struct edge_join *join,
-                                        uint32_t point, int after) {
-  for (size_t r = 0; r <= join->at; r++) {
-    const struct edge_range *range = &join->range[r];
-    uint32_t e = range->head[point];
-    for (int k = 0; k < after && e != SCENE_NONE; k++)
-      e = range->next[e];
-    if (e == SCENE_NONE)
-      continue;
-    MEM_PREFETCH(&range->edge.item[e]);
-    MEM_PREFETCH(&range->next[e]);
+/* Fetches all edges of some points, the next one of each once the one before it
+ * is there. */
+static void fetch_edges(const struct edge_range *range, const uint32_t *point,
+                        size_t points) {
+  uint32_t edge[POINTS_AT_ONCE];
+  size_t left = 0;
+  for (size_t i = 0; i < points; i++) {
+    edge[left] = range->head[point[i]];
+    left += edge[left] != SCENE_NONE;
+  }
+  while (left > 0) {
+    size_t listed = left;
+    for (size_t i = 0; i < listed; i++) {
+      MEM_PREFETCH(&range->edge.item[edge[i]]);
+      MEM_PREFETCH(&range->next[edge[i]]);
+    }
+    left = 0;
+    for (size_t i = 0; i < listed; i++) {
+      edge[left] = range->next[edge[i]];
+      left += edge[left] != SCENE_NONE;
+    }
   }
 }
 
 static bool mark_shared_of_points(void *user, struct parallel_range points) {
-  enum { FIRST = 3 }; /* edges of each list that are fetched ahead */
   const struct edge_join *join = user;
   uint32_t point[PARALLEL_ITEMS];
   size_t count = list_common_points(join, points, point);
-  for (size_t i = 0; i < count; i++) {
-    for (int k = 0; k < FIRST; k++) {
-      size_t ahead = i + (size_t)(FIRST - k) * MEM_PREFETCH_AHEAD;
-      if (ahead < count)
-        prefetch_edges(join, point[ahead], k);
-    }
-    mark_shared_at(join, point[i]);
+  for (size_t i = 0; i < count; i += POINTS_AT_ONCE) {
+    size_t some = count - i < POINTS_AT_ONCE ? count - i : POINTS_AT_ONCE;
+    for (size_t r = 0; r <= join->at; r++)
+      fetch_edges(&join->range[r], point + i, some);
+    for (size_t k = 0; k < some; k++)
+      mark_shared_at(join, point[i + k]);
   }
   return true;
 }
@@ -221,18 +283,6 @@ static bool find_shared(struct edge_join *join, int workers) {
 
 /* ---- Moving -------------------------------------------------------------- */
 
-/* Whether the first face of an edge runs along it from its lower point to its
- * upper one, where it first does. */
-static bool first_goes_up(const struct edge_range *range,
-                          const struct topology_edge *edge) {
-  struct side_iterator it =
-      iterate_sides(range->scene, range->weld, edge->first, edge->first + 1);
-  while (next_side(&it) &&
-         (lower_end(&it) != edge->point[0] || upper_end(&it) != edge->point[1]))
-    ;
-  return it.from < it.to;
-}
-
 /* Moves edges that no earlier range has, from this one of the range to before
  * another, to those of the topology, as numbers from `to` on. */
 static void move_own_edges(const struct edge_join *join, size_t from,
@@ -244,29 +294,18 @@ static void move_own_edges(const struct edge_join *join, size_t from,
     join->number[e] = to++;
 }
 
-/* Adds the uses of an edge to those that it has in the topology. */
-static void add_uses(const struct edge_join *join, size_t e) {
-  const struct edge_range *range = &join->range[join->at];
-  const struct topology_edge *edge = &range->edge.item[e];
-  struct topology_edge *to = &join->to[edge->second];
-  (void)topology_use_edge(to, edge->first, first_goes_up(range, edge));
-  if (edge->uses > 1)
-    to->uses = 3;
-  if (join->number != NULL)
-    join->number[e] = edge->second;
-}
-
 static bool move_edges_of_range(void *user, struct parallel_range edges) {
   const struct edge_join *join = user;
   const struct shared_edges *shared = &join->shared[join->at];
   size_t end = join->from + edges.end, e = join->from + edges.begin;
-  for (size_t k = shared_before(shared, e); e < end; e++) {
+  for (size_t k = shared_before(shared, e); e < end;) {
     bool any = k < shared->count && shared->edge[k] < end;
     size_t stop = any ? shared->edge[k] : end;
     move_own_edges(join, e, stop, shared->first + (uint32_t)(e - k));
-    if (any)
-      add_uses(join, shared->edge[k++]);
-    e = stop;
+    if (any && join->number != NULL)
+      join->number[stop] = join->range[join->at].edge.item[stop].second;
+    k += any;
+    e = stop + any;
   }
   return true;
 }
