@@ -16,6 +16,8 @@
 #include "api/handle.h"
 #include "base/parallel.h"
 #include "recto.h"
+#include "scene/topology/edge_join.h"
+#include "scene/topology/edge_range.h"
 #include "tests/obj_drawing.h"
 #include "tests/scenes/random.h"
 #include "tests/sheet_fixture.h"
@@ -357,6 +359,20 @@ static void assert_laid_out_alike(const struct scene *scene, bool all_edges) {
   sheet_fixture_fini(&two);
 }
 
+/* How many edges of a scene several faces have, as so many ranges of faces count
+ * them. */
+static size_t count_shared(const struct scene *scene, int ranges) {
+  struct edge_range all = {.scene = scene, .end_face = scene_face_count(scene)};
+  all.corner_edge = calloc(scene->corner.count, sizeof *all.corner_edge);
+  assert_non_null(all.corner_edge);
+  assert_true(ranges > 1 ? edge_join_find(&all, ranges)
+                         : edge_range_find(&all, false));
+  size_t shared = all.shared;
+  free(all.corner_edge);
+  edge_range_fini(&all);
+  return shared;
+}
+
 static void threads_change_no_edge(void **state) {
   (void)state;
   if (parallel_processors() < 2)
@@ -371,6 +387,9 @@ static void threads_change_no_edge(void **state) {
         RECTO_OK);
     assert_laid_out_alike(&scene->scene, false);
     assert_laid_out_alike(&scene->scene, true);
+    size_t shared = count_shared(&scene->scene, 1);
+    assert_int_equal(shared, count_shared(&scene->scene, 2));
+    assert_int_equal(shared, count_shared(&scene->scene, 5));
     recto_scene_destroy(scene);
     free(text);
   }

@@ -45,6 +45,7 @@ struct edge_join {
   struct shared_edges shared[RANGES_MAX];
   size_t at;             /* the range that is joined to those before it */
   atomic_ullong *marked; /* a bit an edge of it: it is shared */
+  atomic_size_t several; /* edges of all that more than one face has */
   size_t from;           /* the first edge of it that is not moved yet */
   uint32_t *number; /* one an edge of it: its number among all; only where sides
                        refer to edges */
@@ -117,25 +118,30 @@ static bool first_goes_up(const struct edge_range *range,
   return it.from < it.to;
 }
 
-/* Adds the faces of an edge to those of the same edge of an earlier range. */
-static void add_uses(const struct edge_range *range,
+/* Adds the faces of an edge to those of the same edge of an earlier range;
+ * returns whether these were one. */
+static bool add_uses(const struct edge_range *range,
                      const struct topology_edge *edge,
                      struct topology_edge *to) {
   bool forward = edge->uses == 1 ? edge->same_way : first_goes_up(range, edge);
-  (void)topology_use_edge(to, edge->first, forward);
+  bool was_one = topology_use_edge(to, edge->first, forward);
   if (edge->uses > 1)
     to->uses = 3;
+  return was_one;
 }
 
 /* Adds the faces of an edge to those of an earlier range that has it; returns
- * its number among all, SCENE_NONE: no range has it. */
+ * its number among all, SCENE_NONE: no range has it.
+ * several  gets how many more edges several faces have, modulo 2^64 */
 static uint32_t share_edge(const struct edge_join *join,
-                           const struct topology_edge *edge) {
+                           const struct topology_edge *edge, size_t *several) {
   for (size_t r = 0; r < join->at; r++) {
     const struct shared_edges *shared = &join->shared[r];
     uint32_t found = edge_range_look_up(&join->range[r], edge->point);
     if (found != SCENE_NONE) { /* no range before this one has it */
-      add_uses(&join->range[join->at], edge, &join->range[r].edge.item[found]);
+      *several += add_uses(&join->range[join->at], edge,
+                           &join->range[r].edge.item[found]);
+      *several -= edge->uses > 1;
       return shared->first + found - (uint32_t)shared_before(shared, found);
     }
   }
@@ -144,11 +150,12 @@ static uint32_t share_edge(const struct edge_join *join,
 
 /* Marks which edges of the range at their lower point are shared, and adds
  * their faces to the earlier ones. */
-static void mark_shared_at(const struct edge_join *join, uint32_t point) {
+static void mark_shared_at(const struct edge_join *join, uint32_t point,
+                           size_t *several) {
   const struct edge_range *range = &join->range[join->at];
   for (uint32_t e = range->head[point]; e != SCENE_NONE; e = range->next[e]) {
     struct topology_edge *edge = &range->edge.item[e];
-    uint32_t found = share_edge(join, edge);
+    uint32_t found = share_edge(join, edge, several);
     if (found == SCENE_NONE)
       continue;
     edge->second = found & TOPOLOGY_NONE;
@@ -224,16 +231,17 @@ static void fetch_edges(const struct edge_range *range, const uint32_t *point,
 }
 
 static bool mark_shared_of_points(void *user, struct parallel_range points) {
-  const struct edge_join *join = user;
+  struct edge_join *join = user;
   uint32_t point[PARALLEL_ITEMS];
-  size_t count = list_common_points(join, points, point);
+  size_t count = list_common_points(join, points, point), several = 0;
   for (size_t i = 0; i < count; i += POINTS_AT_ONCE) {
     size_t some = count - i < POINTS_AT_ONCE ? count - i : POINTS_AT_ONCE;
     for (size_t r = 0; r <= join->at; r++)
       fetch_edges(&join->range[r], point + i, some);
     for (size_t k = 0; k < some; k++)
-      mark_shared_at(join, point[i + k]);
+      mark_shared_at(join, point[i + k], &several);
   }
+  atomic_fetch_add(&join->several, several);
   return true;
 }
 
@@ -269,15 +277,18 @@ static bool find_shared_of_range(struct edge_join *join, int workers) {
 static bool find_shared(struct edge_join *join, int workers) {
   bool ok = true;
   size_t edges = join->range[0].edge.count;
+  atomic_init(&join->several, join->range[0].shared);
   for (size_t r = 1; ok && r < join->ranges; r++) {
     join->at = r;
     join->shared[r].first = (uint32_t)edges;
     ok = find_shared_of_range(join, workers);
     edges += join->range[r].edge.count - join->shared[r].count;
+    atomic_fetch_add(&join->several, join->range[r].shared);
   }
   for (size_t r = 0; r < join->ranges; r++)
     edge_range_drop_lists(&join->range[r]);
   join->all->edge.count = edges;
+  join->all->shared = atomic_load(&join->several);
   return ok;
 }
 

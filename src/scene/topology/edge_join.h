@@ -7,8 +7,7 @@
 /* Finds the edges as edge_range_find does without hubs, but by so many workers,
  * at least two, each of which takes a range of the faces; sides refer to edges,
  * and nothing is put off.
- * all  all faces of the scene; gets no lists, and of how many edges more than
- *      one face has it gets none, as ranges do not know
+ * all  all faces of the scene; gets no lists
  * Returns false when memory ran out, the caller cancelled, or a range, and so
  * all, is overfull. */
 USE_RESULT bool edge_join_find(struct edge_range *all, int workers);
