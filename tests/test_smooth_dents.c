@@ -250,14 +250,58 @@ static void thin_swallowtails_are_drawn(void **state) {
   recto_scene_destroy(scene);
 }
 
-/* The mesh folds over three times where the surface is nearly edge-on. */
+/* The mesh folds over several times where the surface is nearly edge-on. */
 static void a_fold_of_several_outlines_is_one_line(void **state) {
   (void)state;
-  recto_scene *scene = smooth_scene(dented, true, 128, 64);
-  recto_drawing *drawing = draw_from(scene, 309, -33.7, RECTO_CONTOURS_SMOOTH);
-  assert_int_equal(recto_drawing_stroke_count(drawing), 3);
+  static const double view[2] = {290.9, 37.6};
+  recto_scene *scene = smooth_scene(twisted, false, 384, 48);
+  recto_drawing *drawing = draw_twisted(scene, view);
+  /* As many as of 768 x 192 quads. */
+  assert_int_equal(recto_drawing_stroke_count(drawing), 5);
   recto_drawing_destroy(drawing);
   recto_scene_destroy(scene);
+}
+
+/* A view of the sphere with dents, the quads of a coarse mesh along both axes,
+ * and how many visible pieces the surface's contour has. */
+struct dented_view {
+  double view[2];
+  int n, m;
+  size_t pieces;
+};
+
+/* Fails where the ink of a coarse mesh is far from a finer one's. */
+static void check_no_false_lines(const recto_scene *fine,
+                                 const struct dented_view *v) {
+  recto_scene *coarse = smooth_scene(dented, true, v->n, v->m);
+  recto_drawing *surface =
+      draw_from(fine, v->view[0], v->view[1], RECTO_CONTOURS_SMOOTH);
+  recto_drawing *drawing =
+      draw_from(coarse, v->view[0], v->view[1], RECTO_CONTOURS_SMOOTH);
+  double added = length_beyond(drawing, surface, 1);
+  if (!(added < 1))
+    fail_msg("%g/%g degrees, %d x %d quads: %g mm of lines are false",
+             v->view[0], v->view[1], v->n, v->m, added);
+  assert_int_equal(recto_drawing_stroke_count(surface), v->pieces);
+  assert_int_equal(recto_drawing_stroke_count(drawing), v->pieces);
+  recto_drawing_destroy(surface);
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(coarse);
+}
+
+/* Where the surface is nearly edge-on between two cusps, a coarse mesh folds
+ * over all along, or from one of them on.  Lines of 17 to 37 mm led from
+ * contour to contour, or on from one. */
+static void folds_that_the_surface_denies_are_not_drawn(void **state) {
+  (void)state;
+  static const struct dented_view view[] = {
+      {{290.9, 37.6}, 64, 32, 3},  {{322.4, -33.1}, 64, 32, 2},
+      {{290.9, 37.6}, 128, 64, 3}, {{322.4, -33.1}, 128, 64, 2},
+      {{309, -33.7}, 128, 64, 4},  {{55.6, 41.3}, 64, 32, 4}};
+  recto_scene *fine = smooth_scene(dented, true, 256, 128);
+  for (size_t i = 0; i < sizeof view / sizeof *view; i++)
+    check_no_false_lines(fine, &view[i]);
+  recto_scene_destroy(fine);
 }
 
 int main(void) {
@@ -269,6 +313,7 @@ int main(void) {
       cmocka_unit_test(what_doubles_back_does_not_replace_a_line),
       cmocka_unit_test(thin_swallowtails_are_drawn),
       cmocka_unit_test(a_fold_of_several_outlines_is_one_line),
+      cmocka_unit_test(folds_that_the_surface_denies_are_not_drawn),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

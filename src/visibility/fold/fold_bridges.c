@@ -27,6 +27,10 @@
  * quarter. */
 #define BESIDE_SHARE 0.175
 
+/* The share of a gap, at most, beside which the surface contradicts the
+ * fold. */
+#define CONTRADICTED_SHARE 0.5
+
 /* The samples of a gap for each height of its triangles. */
 enum { SAMPLES_A_HEIGHT = 4 };
 
@@ -171,6 +175,7 @@ struct bridge_sides {
   double fold;    /* how far a visible fold is, grid units; INFINITY: none */
   double along;   /* how far that is in the direction of the gap */
   double contour; /* how far a visible contour is, not only an end of it */
+  const struct contour_outline *outline; /* of the fold */
 };
 
 /* Looks at a segment; returns false when memory ran out. */
@@ -198,6 +203,7 @@ static bool look_beside(const struct fold_bridges *b,
   int count = occluders_count(b->in->sheet, b->in->grid, b->in->query, p, 1);
   if (count == 0) {
     sides->fold = away;
+    sides->outline = &b->in->set->outline.item[s->owner - b->edges];
     sides->along = fabs((px - t * x) * along[0] + (py - t * y) * along[1]);
   }
   return count >= 0;
@@ -216,7 +222,8 @@ static bool look_all_beside(const struct fold_bridges *b, const double at[2],
 }
 
 /* Whether the mesh folds over all along a gap, nearer to it than to any contour
- * that is drawn there; *ok is false when memory ran out. */
+ * that is drawn there, and a smooth surface that it samples does not deny that;
+ * *ok is false when memory ran out. */
 static bool is_along_folds(struct fold_bridges *b,
                            const struct bridge_end *from,
                            const struct bridge_end *to, double height,
@@ -225,20 +232,27 @@ static bool is_along_folds(struct fold_bridges *b,
          length = vector2_length(x, y);
   const double along[2] = {x / length, y / length};
   int samples = (int)ceil(SAMPLES_A_HEIGHT * length / height);
-  struct bridge_sides all = {0, 0, INFINITY};
+  int contradicted = 0;
+  struct curvature_squares curvature = {.known = 0};
+  struct bridge_sides all = {0, 0, INFINITY, NULL};
   *ok = make_grid(b);
   for (int i = 0; *ok && i < samples; i++) {
     double t = (i + 0.5) / samples;
     const double at[2] = {from->x + t * x, from->y + t * y};
-    struct bridge_sides sides = {INFINITY, 0, INFINITY};
+    struct bridge_sides sides = {INFINITY, 0, INFINITY, NULL};
     *ok = look_all_beside(b, at, along, height, &sides);
     all.fold = fmax(all.fold, sides.fold);
     all.along += sides.along / samples;
     all.contour = fmin(all.contour, sides.contour);
     if (all.fold == INFINITY || 2 * all.fold >= all.contour)
       return false;
+    contradicted += sides.outline->is_contradicted;
+    curvature_squares_add(&curvature, sides.outline->curvature);
   }
-  return *ok && (length <= height || all.along <= BESIDE_SHARE * length);
+  return *ok &&
+         (length <= height || (all.along <= BESIDE_SHARE * length &&
+                               (contradicted <= CONTRADICTED_SHARE * samples ||
+                                !curvature_is_smooth(curvature))));
 }
 
 static bool add_bridge(const struct fold_bridges *b,

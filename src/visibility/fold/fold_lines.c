@@ -190,13 +190,14 @@ static bool may_be_line(struct fold_run run) {
 }
 
 /* Adds the line of a run of the chain, if it is long, or if contours continue
- * it. */
+ * it, unless the surface denies that it folds over there. */
 static bool add_line(struct fold_lines *f, size_t from, size_t to,
                      bool is_ring) {
   uint32_t joint[2] = {SHEET_NONE, SHEET_NONE};
   double height;
   struct fold_run run = {f->sample.item + from, to - from, is_ring};
-  bool is_long = fold_run_is_long(run, f->long_on_page, &height);
+  bool is_denied = fold_run_is_contradicted(run);
+  bool is_long = fold_run_is_long(run, f->long_on_page, &height) && !is_denied;
   if (!is_long && (is_ring || !may_be_line(run)))
     return true;
   if (!is_ring) {
@@ -205,9 +206,11 @@ static bool add_line(struct fold_lines *f, size_t from, size_t to,
                         height, &joint[0]);
     fold_joints_lead_on(&f->joints, f->sample.item, f->sample.count, &last, 1,
                         height, &joint[1]);
+    bool is_gap = joint[0] != SHEET_NONE && joint[1] != SHEET_NONE;
     if (!is_long &&
-        !fold_run_is_line(run, least_heights(f, joint, from, last, height),
-                          joint[0] != SHEET_NONE && joint[1] != SHEET_NONE))
+        ((is_gap && is_denied) ||
+         !fold_run_is_line(run, least_heights(f, joint, from, last, height),
+                           is_gap)))
       return true;
     run = (struct fold_run){f->sample.item + from, last + 1 - from, false};
   }

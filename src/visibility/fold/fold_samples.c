@@ -26,8 +26,8 @@ enum { MANY_OUTLINES = 10, SEVERAL_OUTLINES = 5, FEW_OUTLINES = 3 };
 /* The share of a run that may be on creases. */
 #define CREASE_SHARE 0.5
 
-/* The share of a long run of few outlines, at least, that the surface does not
- * contradict. */
+/* The share of a run that is long, or leads from a contour to another one, at
+ * least, that the surface does not contradict. */
 #define FOLDED_SHARE 0.5
 
 /* How far about a sample the mean of a zigzag is found, in heights, and how far
@@ -154,6 +154,12 @@ bool fold_run_is_line(struct fold_run run, double heights, bool is_gap) {
   double length = of.is_smooth && !is_gap ? of.folded : of.length;
   return !of.on_creases && length >= heights * of.height &&
          (of.outlines >= FEW_OUTLINES || of.is_smooth);
+}
+
+bool fold_run_is_contradicted(struct fold_run run) {
+  struct run_measure of = measure_run(run);
+  return of.is_smooth && of.length > of.height &&
+         of.folded < FOLDED_SHARE * of.length;
 }
 
 bool fold_run_is_smooth(struct fold_run run) {

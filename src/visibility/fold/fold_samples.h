@@ -68,6 +68,10 @@ bool fold_run_is_long(struct fold_run run, double long_on_page, double *height);
  *         as what the surface does not contradict */
 bool fold_run_is_line(struct fold_run run, double heights, bool is_gap);
 
+/* Whether the mesh samples a smooth surface about a run that is longer than its
+ * triangles are high, which contradicts more than half of it. */
+bool fold_run_is_contradicted(struct fold_run run);
+
 /* Whether the mesh samples a smooth surface about a run: less evidence tells
  * its folds from noise. */
 bool fold_run_is_smooth(struct fold_run run);
