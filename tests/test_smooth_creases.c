@@ -144,11 +144,67 @@ static void no_hook_is_drawn_at_a_groove(void **state) {
   }
 }
 
+/* A cup with a sharp rim. */
+static recto_scene *cup_scene(void) {
+  enum { ROWS = 13, SIDES = 40 };
+  static const double row[ROWS][2] = {
+      {0.001, -0.95}, {0.8, -0.95}, {0.8, -0.9},  {0.8, -0.6}, {0.8, -0.3},
+      {0.8, 0},       {0.8, 0.3},   {0.8, 0.6},   {0.8, 0.9},  {0.75, 0.95},
+      {0.7, 0.9},     {0.7, -0.75}, {0.001, -0.8}};
+  static double point[ROWS * SIDES][3];
+  static uint32_t corner[4 * (ROWS - 1) * SIDES];
+  size_t corners = 0;
+  for (uint32_t j = 0; j < ROWS; j++)
+    for (uint32_t i = 0; i < SIDES; i++) {
+      double *p = point[j * SIDES + i];
+      uint32_t next = (i + 1) % SIDES;
+      p[0] = row[j][0] * cos(2 * M_PI * i / SIDES);
+      p[1] = row[j][1];
+      p[2] = -row[j][0] * sin(2 * M_PI * i / SIDES);
+      const uint32_t quad[4] = {j * SIDES + i, j * SIDES + next,
+                                (j + 1) * SIDES + next, (j + 1) * SIDES + i};
+      for (int k = 0; j + 1 < ROWS && k < 4; k++)
+        corner[corners++] = quad[k];
+    }
+  return smooth_quads(point[0], (size_t)ROWS * SIDES, corner, corners);
+}
+
+/* The outline of its wall is drawn up to the rim: the contours of the rim's
+ * inner side, which are nearest, lie beyond its outer crease.  A line is 7.9 mm
+ * off where they count as the wall's. */
+static void the_outline_of_a_cup_does_not_cross_its_rim(void **state) {
+  (void)state;
+  recto_options options;
+  recto_options_init(&options);
+  options.camera.azimuth_deg = 124.8;
+  options.camera.elevation_deg = 16.5;
+  options.ink.contours = RECTO_CONTOURS_SMOOTH;
+  recto_scene *scene = cup_scene();
+  recto_drawing *drawing = smooth_draw(scene, &options);
+  options.ink.contours = RECTO_CONTOURS_MESH;
+  recto_drawing *mesh = smooth_draw(scene, &options);
+  for (size_t s = 0; s < recto_drawing_stroke_count(drawing); s++) {
+    recto_stroke stroke;
+    assert_true(recto_drawing_stroke(drawing, s, &stroke));
+    for (size_t i = 0; i + 1 < stroke.count; i++) {
+      const double *p = stroke.points + 2 * i;
+      const double at[2] = {(p[0] + p[2]) / 2, (p[1] + p[3]) / 2};
+      double mm = smooth_distance_to_ink(mesh, RECTO_EDGES_ALL, at);
+      if (!(mm < 1))
+        fail_msg("a line is %g mm from those of the mesh", mm);
+    }
+  }
+  recto_drawing_destroy(mesh);
+  recto_drawing_destroy(drawing);
+  recto_scene_destroy(scene);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_foot_of_a_post_reaches_its_contours),
       cmocka_unit_test(creases_of_a_pawn_reach_its_contours),
       cmocka_unit_test(no_hook_is_drawn_at_a_groove),
+      cmocka_unit_test(the_outline_of_a_cup_does_not_cross_its_rim),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,6 +9,7 @@
 
 #include "base/tolerance.h"
 #include "geom/vector.h"
+#include "view/project.h"
 
 /* Half of the side of the first square, and the entries that it may have if it
  * is larger than a cell. */
@@ -18,6 +19,11 @@
  * it bulges: the mesh is uneven. */
 #define BEYOND (4 * TOLERANCE_OUTLINE_UNITS)
 enum { FIRST_ENTRIES_MAX = 64 };
+
+/* How far a contour may be from a line of its surface with a crease between, as
+ * a share of the surface's faces: where these meet at the default crease angle
+ * they are turned out of the line of sight by 15 degrees. */
+#define BEYOND_CREASE_SHARE 0.25
 
 /* A contour has a cusp where it turns back along itself, by more than 154
  * degrees. */
@@ -40,8 +46,10 @@ static bool list_near_contour(struct nearest_contours *n, uint32_t edge) {
 
 static bool list_line(struct nearest_contours *n, uint32_t edge) {
   const struct sheet_edge *e = &n->sheet->edge.item[edge];
-  return (e->edge_class & (RECTO_EDGE_CREASE | RECTO_EDGE_GROUP)) != 0 ||
-         segment_grid_add(&n->line, sheet_ends(n->sheet, e->point), edge);
+  bool is_crease =
+      (e->edge_class & (RECTO_EDGE_CREASE | RECTO_EDGE_GROUP)) != 0;
+  return segment_grid_add(is_crease ? &n->crease : &n->line,
+                          sheet_ends(n->sheet, e->point), edge);
 }
 
 static bool list_visible(struct nearest_contours *n) {
@@ -118,12 +126,13 @@ bool nearest_contours_init(struct nearest_contours *nearest) {
   if (nearest->cusps)
     end_at_cusps(nearest);
   return list_by_cells(&nearest->contour) && list_by_cells(&nearest->line) &&
-         sum_lists(nearest);
+         list_by_cells(&nearest->crease) && sum_lists(nearest);
 }
 
 void nearest_contours_fini(struct nearest_contours *nearest) {
   segment_grid_fini(&nearest->contour);
   segment_grid_fini(&nearest->line);
+  segment_grid_fini(&nearest->crease);
   mem_free(nearest->sum);
   mem_free(nearest->ends);
 }
@@ -311,24 +320,66 @@ bool nearest_contours_has_line(struct nearest_contours *nearest,
   return false;
 }
 
+/* ---- Between ------------------------------------------------------------- */
+
+/* The depth of a place of a segment in front of the eye. */
+static double depth_in_view(const struct projection *projection,
+                            const struct page_segment *s, double t) {
+  struct geom_point at = {
+      (int32_t)lrint(s->p.x + t * ((double)s->q.x - s->p.x)),
+      (int32_t)lrint(s->p.y + t * ((double)s->q.y - s->p.y)),
+      (int64_t)page_segment_depth(s, t)};
+  return unproject_point(projection, at).d;
+}
+
+/* Whether a line is farther behind a way, where they cross, than a length on
+ * the page, grid units. */
+static bool is_behind(const struct nearest_contours *n,
+                      const struct page_segment *way, double s,
+                      const struct page_segment *line, double t,
+                      double length) {
+  struct projection projection = projection_of(&n->sheet->camera);
+  double d = depth_in_view(&projection, way, s);
+  double per_unit = projection.units / (projection.perspective ? d : 1);
+  return depth_in_view(&projection, line, t) > d + length / per_unit;
+}
+
+/* Whether a way crosses a line that is no farther than a length behind it. */
+static bool crosses_line(struct nearest_contours *n,
+                         const struct segment_grid *grid,
+                         const struct page_segment *way, double length) {
+  const struct number_lists *lists = &grid->cell.lists;
+  double s, t;
+  if (grid->contours == 0)
+    return false;
+  struct cell_range range =
+      triangle_grid_cells(&grid->cell, box2_of_segment(way->p, way->q));
+  for (int y = range.y0; y <= range.y1; y++)
+    for (int x = range.x0; x <= range.x1; x++) {
+      size_t cell = triangle_grid_index(&grid->cell, x, y);
+      n->compared += lists->start[cell + 1] - lists->start[cell];
+      for (uint32_t i = lists->start[cell]; i < lists->start[cell + 1]; i++) {
+        const struct page_segment *line = &grid->segment.item[lists->item[i]];
+        if (page_segments_cross(way, line, &s, &t) &&
+            (length == INFINITY || !is_behind(n, way, s, line, t, length)))
+          return true;
+      }
+    }
+  return false;
+}
+
 bool nearest_contours_has_line_between(struct nearest_contours *nearest,
                                        struct geom_point p,
                                        struct geom_point q) {
-  const struct number_lists *lists = &nearest->line.cell.lists;
   const struct page_segment way = {.p = p, .q = q};
-  double s, t;
-  if (nearest->line.contours == 0)
-    return false;
-  struct cell_range range =
-      triangle_grid_cells(&nearest->line.cell, box2_of_segment(p, q));
-  for (int y = range.y0; y <= range.y1; y++)
-    for (int x = range.x0; x <= range.x1; x++) {
-      size_t cell = triangle_grid_index(&nearest->line.cell, x, y);
-      nearest->compared += lists->start[cell + 1] - lists->start[cell];
-      for (uint32_t i = lists->start[cell]; i < lists->start[cell + 1]; i++)
-        if (page_segments_cross(
-                &way, &nearest->line.segment.item[lists->item[i]], &s, &t))
-          return true;
-    }
-  return false;
+  return crosses_line(nearest, &nearest->line, &way, INFINITY);
+}
+
+bool nearest_contours_is_beyond_crease(struct nearest_contours *nearest,
+                                       struct geom_point p,
+                                       const struct nearest_contour *near,
+                                       double radius) {
+  const struct page_segment way = {.p = p, .q = near->at};
+  return near->any > BEYOND_CREASE_SHARE * radius &&
+         crosses_line(nearest, &nearest->crease, &way, radius);
 }

@@ -16,9 +16,10 @@ struct nearest_contours {
   uint32_t bulges;
   bool cusps; /* contours end at cusps, too */
   struct segment_grid contour;
-  struct segment_grid line; /* other visible lines, but creases, as ink may
-                               leave them out */
-  uint32_t *sum;            /* entries of the lists of contours below and to the
+  struct segment_grid line;   /* other visible lines, but creases, as ink may
+                                 leave them out */
+  struct segment_grid crease; /* those */
+  uint32_t *sum; /* entries of the lists of contours below and to the
                                left of each corner of a cell */
   uint8_t *ends; /* one a point of contours: of visible ones, at most 2; 1 at
                         a cusp that is an end */
@@ -60,5 +61,16 @@ bool nearest_contours_has_line(struct nearest_contours *nearest,
 bool nearest_contours_has_line_between(struct nearest_contours *nearest,
                                        struct geom_point p,
                                        struct geom_point q);
+
+/* Whether the nearest contour is another surface's than a line through a point,
+ * as it is farther than a quarter of the radius, and a visible crease is
+ * between.
+ * near    any is at most the radius
+ * radius  how large the faces of the line's surface are.  A crease farther than
+ *         that behind the way to the contour is another surface's. */
+bool nearest_contours_is_beyond_crease(struct nearest_contours *nearest,
+                                       struct geom_point p,
+                                       const struct nearest_contour *near,
+                                       double radius);
 
 #endif

@@ -144,6 +144,9 @@ static bool look_at_contours(struct outline_gaps *g,
   bool at_end = near.loose < near.any &&
                 near.loose <= TOLERANCE_OUTLINE_UNITS +
                                   BULGE_SHARE * bulge_of(g, near.loose_edge);
+  if (!at_end && near.any <= fmin(near.loose, radius) &&
+      nearest_contours_is_beyond_crease(&g->nearest, made->at, &near, radius))
+    return false;
   /* Neither distance changes by more than the sample moves. */
   double sure =
       fmin(radius - near.any,

@@ -30,8 +30,9 @@ struct outline_gaps_input {
  *
  * A point of an outline is drawn if the nearest point of the visible contours,
  * not farther than the outline's faces are wide, is not one at which a contour
- * ends, but for so far as the mesh may be from that end.  Parts that are not
- * are added; they start and end at the contours beside them.
+ * ends, but for so far as the mesh may be from that end, nor lies beyond a
+ * visible crease.  Parts that are not are added; they start and end at the
+ * contours beside them.
  * Cost   near linear in the outlines
  * Returns false when memory ran out or the caller cancelled. */
 USE_RESULT bool outline_gaps_close(const struct outline_gaps_input *input);
