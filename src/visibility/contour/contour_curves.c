@@ -150,3 +150,16 @@ bool contour_curves_surface_is_left(const struct contour_curves *curves,
              a->page, contour_curves_node(curves, step + 1)->page,
              project_point(projection, camera_view(camera, &outside))) <= 0;
 }
+
+/* ---- Curvature ----------------------------------------------------------- */
+
+double contour_convexity(const struct contour_node *from,
+                         const struct contour_node *to,
+                         const struct contour_segment *segment) {
+  const double d[3] = {to->at[0] - from->at[0], to->at[1] - from->at[1],
+                       to->at[2] - from->at[2]};
+  double heights =
+      segment->height > 0 ? sqrt(vector_dot(d, d)) / segment->height : 0;
+  double weight = 0.5 + heights / 2;
+  return segment->radial < 0 ? -weight : weight;
+}

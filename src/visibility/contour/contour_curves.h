@@ -80,6 +80,16 @@ bool contour_curves_surface_is_left(const struct contour_curves *curves,
                                     const struct projection *projection,
                                     size_t step, int side);
 
+/* How much a segment says that the surface is convex at it, that is, bends away
+ * from the line of sight; negative: that it bends into it.  It is half of 1,
+ * and half of the segment's length as a multiple of its triangle's height.  By
+ * lengths alone a curve that runs along the line of sight for short had no
+ * cusps, and by numbers alone short segments that are wrong outweighed a long
+ * one. */
+double contour_convexity(const struct contour_node *from,
+                         const struct contour_node *to,
+                         const struct contour_segment *segment);
+
 /* The height on the page of the triangle of a segment that starts at a node,
  * grid units. */
 static inline double contour_height(const struct camera *camera,

@@ -45,28 +45,18 @@ static uint32_t step_at(const struct contour_curve *curve, uint32_t i) {
 
 /* ---- Labels -------------------------------------------------------------- */
 
-/* The weight of a segment: half of 1, and half of its length as a multiple of
- * its triangle's height.  By lengths alone a curve that runs along the line of
- * sight for short had no cusps, and by numbers alone short segments that are
- * wrong outweighed a long one. */
-static double weight_of(const struct contour_curves *curves, uint32_t step) {
-  const double *from = contour_curves_node(curves, step)->at;
-  const double *to = contour_curves_node(curves, step + 1)->at;
-  const struct contour_segment *s = contour_curves_segment(curves, step);
-  const double d[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
-  double length = s->height > 0 ? sqrt(vector_dot(d, d)) / s->height : 0;
-  double weight = 0.5 + length / 2;
-  return s->radial < 0 ? -weight : weight;
-}
-
 static bool find_weights(struct contour_cusps *c,
                          const struct smooth_chain *chain) {
   c->weight.count = 0;
   if (!ARRAY_RESERVE(&c->weight, chain->count))
     return false;
-  for (uint32_t i = 0; i < chain->count; i++)
+  for (uint32_t i = 0; i < chain->count; i++) {
+    uint32_t step = step_at(chain->curve, chain->first + i);
     c->weight.item[c->weight.count++] =
-        weight_of(c->curves, step_at(chain->curve, chain->first + i));
+        contour_convexity(contour_curves_node(c->curves, step),
+                          contour_curves_node(c->curves, step + 1),
+                          contour_curves_segment(c->curves, step));
+  }
   return true;
 }
 

@@ -262,13 +262,25 @@ static bool is_back_and_forth(const struct thin_loops *l, size_t from,
   return length - sqrt(x * x + y * y) < most + 0x1p-32 * (length + most);
 }
 
+/* How much the segments of the stack from one on say that the surface is convex
+ * there. */
+static double convexity_from(const struct thin_loops *l, size_t from) {
+  double sum = 0;
+  for (size_t i = from; i + 1 < l->step.count; i++)
+    sum += contour_convexity(stack_node(l, i), stack_node(l, i + 1),
+                             &l->set->segment.item[l->step.item[i].segment]);
+  return sum;
+}
+
 /* Makes one segment of a step of the stack and those after it.  It leaves the
  * crease along which the first one ran, and the surface beside that is as high
  * as the triangle: what is on the crease itself would be within it.  Where the
- * triangle is narrower than ink the crease and the line are one. */
+ * triangle is narrower than ink the crease and the line are one.  The surface
+ * bends there as most of what it stands for says. */
 static bool straighten(struct thin_loops *l, size_t from, double off) {
   struct contour_step *step = &l->step.item[from];
   struct contour_step end = l->step.item[l->step.count - 1];
+  double convexity = convexity_from(l, from);
   l->step.count = from + 2;
   double height = measure_of(l, from)->height;
   step[1] = end;
@@ -278,6 +290,7 @@ static bool straighten(struct thin_loops *l, size_t from, double off) {
                          &step->segment))
     return false;
   struct contour_segment *made = &l->set->segment.item[step->segment];
+  made->radial = copysign(made->radial, convexity);
   if (height >= VISIBLE_WIDTH) {
     made->along_crease = false;
     made->width = made->height;
