@@ -258,17 +258,19 @@ static bool list_folded_diagonals(struct contour_pieces *c) {
  * first, first_point  of the sheet's edges and points: those of the curves */
 static bool close_gaps(struct contour_pieces *c, uint32_t first,
                        uint32_t first_point) {
-  const struct outline_gaps_input input = {.sheet = c->sheet,
-                                           .map = c->map,
-                                           .set = c->set,
-                                           .first = first,
-                                           .first_point = first_point,
-                                           .bulge = c->bulge.item,
-                                           .bulges = (uint32_t)c->bulge.count,
-                                           .grid = &c->grid.grid,
-                                           .query = &c->query,
-                                           .compared = &c->curves->compared,
-                                           .exact = c->options.exact};
+  const struct outline_gaps_input input = {
+      .sheet = c->sheet,
+      .map = c->map,
+      .set = c->set,
+      .first = first,
+      .first_point = first_point,
+      .curve_points = (uint32_t)c->sheet->point.count - first_point,
+      .bulge = c->bulge.item,
+      .bulges = (uint32_t)c->bulge.count,
+      .grid = &c->grid.grid,
+      .query = &c->query,
+      .compared = &c->curves->compared,
+      .exact = c->options.exact};
   return fold_bridges_add(&input, c->height.item) && border_ends_show(&input) &&
          outline_gaps_close(&input) && fold_lines_add(&input) &&
          (!c->options.intersections || intersection_gaps_close(&input));

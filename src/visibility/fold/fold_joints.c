@@ -41,10 +41,21 @@ static bool list_joint_ends(struct fold_joints *j) {
                      compare_joint_ends, NULL);
 }
 
+static void mark_curve_nodes(struct fold_joints *j) {
+  const struct zero_set *set = j->in->set;
+  for (size_t i = 0; i < set->node.count; i++)
+    if (set->node.item[i].sheet_point != SHEET_NONE)
+      j->is_node[set->node.item[i].sheet_point - j->in->first_point] = 1;
+}
+
 bool fold_joints_list(struct fold_joints *j) {
   const struct sheet *sheet = j->in->sheet;
   j->ends = mem_calloc(sheet->point.count - j->in->first_point, 1);
-  for (uint32_t e = 0; j->ends != NULL && e < sheet->edge.count; e++) {
+  j->is_node = mem_calloc(j->in->curve_points, 1);
+  if (j->ends == NULL || j->is_node == NULL)
+    return false;
+  mark_curve_nodes(j);
+  for (uint32_t e = 0; e < sheet->edge.count; e++) {
     const uint32_t *point = sheet->edge.item[e].point;
     if (!poll_at(e))
       return false;
@@ -59,13 +70,14 @@ bool fold_joints_list(struct fold_joints *j) {
     }
   }
   j->grid.contours = j->grid.segment.count;
-  return j->ends != NULL && list_joint_ends(j) &&
+  return list_joint_ends(j) &&
          (j->grid.contours == 0 || segment_grid_make(&j->grid));
 }
 
 void fold_joints_fini(struct fold_joints *j) {
   segment_grid_fini(&j->grid);
   mem_free(j->ends);
+  mem_free(j->is_node);
   ARRAY_FREE(&j->loose);
 }
 

@@ -14,7 +14,8 @@ struct joint_end {
 struct fold_joints {
   const struct outline_gaps_input *in; /* borrowed, not owned */
   struct segment_grid grid;            /* visible lines */
-  uint8_t *ends; /* one a point of contours: of visible ones, at most 2 */
+  uint8_t *ends;    /* one a point of contours: of visible ones, at most 2 */
+  uint8_t *is_node; /* one a point of the curves: nothing crosses them there */
   ARRAY(struct joint_end) loose; /* ascending by x */
 };
 
@@ -40,6 +41,16 @@ bool fold_joints_may_join(const struct fold_joints *joints,
 void fold_joints_lead_on(const struct fold_joints *joints,
                          const struct fold_sample *sample, size_t count,
                          size_t *at, int k, double height, uint32_t *joint);
+
+/* Whether a gap begins or ends at a joint: not at SHEET_NONE, and not where a
+ * contour passes behind another line, or through a face, as it is hidden from
+ * there on. */
+static inline bool fold_joints_is_at_gap(const struct fold_joints *joints,
+                                         uint32_t joint) {
+  uint32_t i = joint - joints->in->first_point;
+  return joint != SHEET_NONE &&
+         (i >= joints->in->curve_points || joints->is_node[i] != 0);
+}
 
 /* Whether a contour only ends at a point. */
 static inline bool fold_joints_is_loose(const struct fold_joints *joints,

@@ -206,7 +206,8 @@ static bool add_line(struct fold_lines *f, size_t from, size_t to,
                         height, &joint[0]);
     fold_joints_lead_on(&f->joints, f->sample.item, f->sample.count, &last, 1,
                         height, &joint[1]);
-    bool is_gap = joint[0] != SHEET_NONE && joint[1] != SHEET_NONE;
+    bool is_gap = fold_joints_is_at_gap(&f->joints, joint[0]) &&
+                  fold_joints_is_at_gap(&f->joints, joint[1]);
     if (!is_long &&
         ((is_gap && is_denied) ||
          !fold_run_is_line(run, least_heights(f, joint, from, last, height),

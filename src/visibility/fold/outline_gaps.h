@@ -14,9 +14,10 @@ struct outline_gaps_input {
   const struct zero_set *set; /* its outlines */
   uint32_t first;             /* of the sheet's edges: of contours */
   uint32_t first_point;       /* of the sheet's points: the same */
-  const float *bulge; /* one a contour's edge: how far it is from the mesh on
+  uint32_t curve_points; /* so many are of curves; further ones are added */
+  const float *bulge;    /* one a contour's edge: how far it is from the mesh on
                          the page, grid units */
-  uint32_t bulges;    /* so many are known; of further ones it is 0 */
+  uint32_t bulges;       /* so many are known; of further ones it is 0 */
   const struct triangle_grid *grid; /* of the sheet's triangles, in the boxes
                                        of the outlines at least */
   struct triangle_grid_query *query;
