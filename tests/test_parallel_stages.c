@@ -359,7 +359,7 @@ static void assert_laid_out_alike(const struct scene *scene, bool all_edges) {
   sheet_fixture_fini(&two);
 }
 
-/* How many edges of a scene several faces have, as so many ranges of faces count
+/* How many edges of a scene several faces have, as so many ranges count
  * them. */
 static size_t count_shared(const struct scene *scene, int ranges) {
   struct edge_range all = {.scene = scene, .end_face = scene_face_count(scene)};
