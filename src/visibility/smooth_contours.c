@@ -148,6 +148,7 @@ static bool add_curve(struct contour_pieces *c, size_t index) {
   curve_pieces_absorb_short(&pieces);
   if (!c->options.exact) {
     curve_pieces_hide_covered(&pieces, &c->sheet->camera);
+    curve_pieces_hide_concave(&pieces);
     curve_pieces_absorb_runs(&pieces, &c->sheet->camera);
     curve_pieces_trim_hooks(&pieces, &c->sheet->camera);
   }

@@ -96,6 +96,30 @@ void curve_pieces_hide_covered(struct curve_pieces *pieces,
   }
 }
 
+/* Hides the visible pieces along concave creases that follow each other from
+ * piece i on in a direction, counted around a closed curve. */
+static void hide_concave_run(struct curve_pieces *pieces, size_t i,
+                             int direction) {
+  size_t count = pieces->count;
+  while (!is_hidden_at(pieces, i)) {
+    i = (i + count) % count;
+    struct contour_piece *piece = &pieces->piece[i];
+    if (piece->side > 0 ||
+        !contour_curves_segment(pieces->curves, piece->from.step)->in_network)
+      return;
+    piece->is_visible = false;
+    i += (size_t)direction;
+  }
+}
+
+void curve_pieces_hide_concave(struct curve_pieces *pieces) {
+  for (size_t i = 0; i < pieces->count; i++)
+    if (pieces->piece[i].is_visible && pieces->piece[i].side > 0) {
+      hide_concave_run(pieces, i + 1, 1);
+      hide_concave_run(pieces, i - 1, -1);
+    }
+}
+
 /* How long a run between two pieces is not to be absorbed, in heights. */
 static double long_heights(const struct contour_piece *from,
                            const struct contour_piece *to) {

@@ -38,6 +38,10 @@ void curve_pieces_absorb_short(struct curve_pieces *pieces);
 void curve_pieces_hide_covered(struct curve_pieces *pieces,
                                const struct camera *camera);
 
+/* Hides pieces along concave creases of an object beside visible ones at which
+ * the outer side of the surface is seen: the surface hides them. */
+void curve_pieces_hide_concave(struct curve_pieces *pieces);
+
 /* Makes what is hidden over less than half a height of the triangles, and then
  * what is visible over less than two, or over less than one from or to a
  * crossing, like what is beside it; not between two crossings. */

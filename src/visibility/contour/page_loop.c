@@ -22,6 +22,8 @@ bool page_loop_is_thin(const struct page_loop *loop) {
 }
 
 bool page_loop_is_fold(const struct page_loop *loop, double heights) {
+  if (loop->has_crease && loop->is_concave)
+    return true;
   if (loop->area < RECTO_FINEST_MM * SHEET_UNITS_PER_MM * loop->length)
     return false;
   if (loop->has_crease && loop->length >= CREASE_LOOP_LENGTH)

@@ -26,6 +26,7 @@ struct page_loop {
   struct curvature_squares curvature;
   size_t segments;
   bool has_crease; /* a part of it runs along one that is no noise */
+  bool is_concave; /* all such parts run along concave ones */
 };
 
 /* Whether a loop is thin: its area over half of its length is its mean
@@ -35,7 +36,7 @@ bool page_loop_is_thin(const struct page_loop *loop);
 /* Whether a loop is a fold however thin it is: it is long, or long and wide,
  * and something can be drawn between its two sides.  Where the mesh samples a
  * smooth surface, or a part of the loop is a crease of the object, it is no
- * noise.
+ * noise; of concave creases it is however short and narrow it is.
  * heights  how long it is then at least, as a multiple of its triangles'
  *          height */
 bool page_loop_is_fold(const struct page_loop *loop, double heights);

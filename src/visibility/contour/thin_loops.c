@@ -114,13 +114,14 @@ static struct page_loop measure_loop(const struct thin_loops *l, size_t from,
   double x0 = first.p.x + s * ((double)first.q.x - first.p.x);
   double y0 = first.p.y + s * ((double)first.q.y - first.p.y);
   double x = 0, y = 0, area = 0;
-  struct page_loop loop = {.segments = to - from};
+  struct page_loop loop = {.segments = to - from, .is_concave = true};
   for (size_t i = from + 1; i <= to; i++) {
     struct geom_point p = stack_node(l, i)->page;
     const struct contour_segment *of =
         &l->set->segment.item[l->step.item[i].segment];
     curvature_squares_add(&loop.curvature, of->curvature);
     loop.has_crease = loop.has_crease || of->in_network;
+    loop.is_concave = loop.is_concave && !(of->in_network && of->radial >= 0);
     double next_x = p.x - x0, next_y = p.y - y0;
     area += x * next_y - y * next_x;
     loop.length += vector2_length(next_x - x, next_y - y);
