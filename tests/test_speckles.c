@@ -331,30 +331,6 @@ static void lines_of_other_classes_end_no_line(void **state) {
   }
 }
 
-/* How many gaps are closed between two creases that pass each other by 0.1 mm,
- * 0.05 mm apart. */
-static size_t close_gaps_of_passing_lines(bool is_beside_another) {
-  struct ink_fixture k;
-  start(&k);
-  uint32_t p = ink_fixture_point(&k, 50, 50);
-  ink_fixture_edge(&k, ink_fixture_point(&k, 30, 50), p, CREASE);
-  if (is_beside_another)
-    ink_fixture_edge(&k, p, ink_fixture_point(&k, 50, 70), SILHOUETTE);
-  ink_fixture_line(&k, 49.9, 50.05, 70, 55, CREASE);
-  ink_fixture_draw(&k);
-  size_t gaps = k.drawing.gap_end.count / 2;
-  ink_fixture_end(&k);
-  return gaps;
-}
-
-/* Two lines of one surface that pass each other are joined; where another line
- * ends as well, a line would turn back there. */
-static void passing_lines_are_joined_where_no_other_ends(void **state) {
-  (void)state;
-  assert_int_equal(close_gaps_of_passing_lines(false), 1);
-  assert_int_equal(close_gaps_of_passing_lines(true), 0);
-}
-
 static void what_a_line_leads_over_is_no_gap(void **state) {
   (void)state;
   assert_int_equal(close_gaps_beside(SILHOUETTE, 50.14, 50, 0), 0);
@@ -700,7 +676,6 @@ int main(void) {
       cmocka_unit_test(only_lines_that_go_on_are_joined),
       cmocka_unit_test(gaps_are_closed_for_all_outputs),
       cmocka_unit_test(lines_of_other_classes_end_no_line),
-      cmocka_unit_test(passing_lines_are_joined_where_no_other_ends),
       cmocka_unit_test(what_a_line_leads_over_is_no_gap),
       cmocka_unit_test(a_gap_is_closed_once),
       cmocka_unit_test(zigzags_must_be_sharper_than_other_lines),

@@ -120,23 +120,14 @@ static struct drawing_point direction_to(const struct gaps *g, uint32_t end) {
   return (struct drawing_point){(double)p.x - q.x, (double)p.y - q.y};
 }
 
-static bool is_only_end(const struct gaps *g, uint32_t end) {
-  const uint32_t *start = g->graph->ends.start + node_of_loose_end(g, end);
-  return start[1] - start[0] == 1;
-}
-
 /* Whether the two lines end within `near` of each other, with no line between
- * them, and one goes on in about the direction of the other.  Where lines of
- * other classes end, too, the gap lies ahead of both: two lines that pass each
- * other end there as they are. */
+ * them, and one goes on in about the direction of the other. */
 static bool is_gap(const struct gaps *g, uint32_t a, uint32_t b, double near) {
   struct ink_point p = end_point(g, a), q = end_point(g, b);
   struct drawing_point u = direction_to(g, a), v = direction_to(g, b);
   double dx = (double)p.x - q.x, dy = (double)p.y - q.y;
   return a >> 1 != b >> 1 && dx * dx + dy * dy <= near * near &&
          u.x * v.x + u.y * v.y < 0 &&
-         ((is_only_end(g, a) && is_only_end(g, b)) ||
-          (u.x * dx + u.y * dy <= 0 && v.x * dx + v.y * dy >= 0)) &&
          !gap_nodes_are_joined(g->graph, node_of_loose_end(g, a),
                                node_of_loose_end(g, b));
 }
