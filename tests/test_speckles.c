@@ -302,40 +302,6 @@ static void gaps_are_closed_for_all_outputs(void **state) {
     }
 }
 
-/* How many gaps are closed between two creases that are 0.14 mm apart, of which
- * the first one ends where a line of some class begins that leads elsewhere. */
-static size_t close_gaps_beside(unsigned other, double x, double y,
-                                double unit_mm) {
-  struct ink_fixture k;
-  start(&k);
-  k.options.output.unit_mm = unit_mm;
-  uint32_t p = ink_fixture_point(&k, 50, 50);
-  ink_fixture_edge(&k, ink_fixture_point(&k, 30, 50), p, CREASE);
-  ink_fixture_edge(&k, p, ink_fixture_point(&k, x, y), other);
-  ink_fixture_line(&k, 50.14, 50, 70, 55, CREASE);
-  ink_fixture_draw(&k);
-  size_t gaps = k.drawing.gap_end.count / 2;
-  if (hypot(x - 50, y - 50) > 1)
-    assert_int_equal(k.drawing.stroke.count, 3 - gaps);
-  ink_fixture_end(&k);
-  return gaps;
-}
-
-static void lines_of_other_classes_end_no_line(void **state) {
-  const double unit_mm[] = {0, 0.001, 0.025, 0.1};
-  (void)state;
-  for (size_t i = 0; i < 4; i++) {
-    assert_int_equal(close_gaps_beside(SILHOUETTE, 50, 70, unit_mm[i]), 1);
-    assert_int_equal(close_gaps_beside(GROUP, 50, 70, unit_mm[i]), 1);
-    assert_int_equal(close_gaps_beside(WIRE, 50, 70, unit_mm[i]), 1);
-  }
-}
-
-static void what_a_line_leads_over_is_no_gap(void **state) {
-  (void)state;
-  assert_int_equal(close_gaps_beside(SILHOUETTE, 50.14, 50, 0), 0);
-}
-
 /* Of three ends the two nearest ones are joined. */
 static void a_gap_is_closed_once(void **state) {
   struct ink_fixture k;
@@ -675,8 +641,6 @@ int main(void) {
       cmocka_unit_test(gaps_below_half_a_pen_are_closed),
       cmocka_unit_test(only_lines_that_go_on_are_joined),
       cmocka_unit_test(gaps_are_closed_for_all_outputs),
-      cmocka_unit_test(lines_of_other_classes_end_no_line),
-      cmocka_unit_test(what_a_line_leads_over_is_no_gap),
       cmocka_unit_test(a_gap_is_closed_once),
       cmocka_unit_test(zigzags_must_be_sharper_than_other_lines),
       cmocka_unit_test(lines_of_short_pieces_are_not_drawn),

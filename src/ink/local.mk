@@ -40,8 +40,7 @@ librecto_core_la_SOURCES += \
   %D%/lines/crease_lines.c %D%/lines/crease_lines.h \
   %D%/lines/dash.c \
   %D%/lines/free_ends.c \
-  %D%/lines/gaps.c %D%/lines/gap_ends.h \
-  %D%/lines/gaps_apart.c \
+  %D%/lines/gaps.c \
   %D%/lines/isolated.c \
   %D%/lines/loose_ends.c %D%/lines/loose_ends.h \
   %D%/lines/nearest.c %D%/lines/nearest.h \

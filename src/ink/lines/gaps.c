@@ -1,8 +1,7 @@
 /* gaps.c - closes the gaps in lines that the pen's width would close.
  *
  * Phases
- *   1 collect  the loose ends: the only ones of their pen key and class at
- *              their nodes
+ *   1 collect  the loose ends: the only ones at their nodes
  *   2 find     of those with equal pen keys and classes, the pairs of which
  *              each is the other's nearest, at most half a pen away, and which
  *              do not turn back
@@ -13,13 +12,13 @@
 
 #include "base/parallel.h"
 #include "base/sort.h"
-#include "ink/lines/gap_ends.h"
 #include "ink/lines/nearest.h"
 #include "ink/lines/segment_graph.h"
 #include "ink/pens.h"
 
 enum { ENDS_IN_RANGE = PARALLEL_RANGE(1 << 10) };
-#define SEVERAL_ENDS (GAP_NO_END - 1)
+#define NO_END UINT32_MAX
+#define SEVERAL_ENDS (UINT32_MAX - 1)
 
 struct gaps {
   struct segment_graph *graph;
@@ -42,6 +41,17 @@ static struct ink_point end_point(const struct gaps *g, uint32_t end) {
   return g->graph->node.item[node_of_loose_end(g, end)];
 }
 
+/* What ends must have in common for a gap: the pen key and the class. */
+static uint64_t key_of_gap(const struct gaps *g, uint32_t end) {
+  const struct graph_segment *s = segment_of(g, end);
+  return (uint64_t)s->pen_key << 8 | (s->style_key & RECTO_EDGES_ALL);
+}
+
+/* Whether one segment ends at a node. */
+static bool has_one_end(const struct segment_graph *graph, uint32_t node) {
+  return graph->ends.start[node + 1] - graph->ends.start[node] == 1;
+}
+
 /* What a range of nodes has. */
 struct loose_range {
   ARRAY(struct sort_key) loose; /* as of the gaps */
@@ -52,28 +62,21 @@ struct loose_collection {
   struct loose_range *range;
 };
 
-static bool collect_of_node(const struct segment_graph *graph, uint32_t node,
-                            struct loose_range *own) {
-  const uint32_t *start = graph->ends.start;
-  for (uint32_t i = start[node]; i < start[node + 1]; i++) {
-    uint32_t end = graph->ends.item[i];
-    const struct graph_segment *s = &graph->segment.item[end >> 1];
-    struct sort_key loose = {gap_key(s), end};
+static bool collect_of_range(void *user, struct parallel_range range) {
+  const struct loose_collection *all = user;
+  const struct segment_graph *graph = all->gaps->graph;
+  struct loose_range *own = &all->range[range.begin / PARALLEL_ITEMS];
+  for (size_t n = range.begin; n < range.end; n++) {
+    if (!has_one_end(graph, (uint32_t)n))
+      continue;
+    uint32_t end = graph->ends.item[graph->ends.start[n]];
+    const struct graph_segment *s = segment_of(all->gaps, end);
+    struct sort_key loose = {key_of_gap(all->gaps, end), end};
     if (!graph_segment_is_hidden(s) &&
         (s->style_key & SEGMENT_GRAPH_FEATURES) != 0 &&
-        gap_loose_end(graph, node, loose.key) == end &&
         !ARRAY_PUSH(&own->loose, loose))
       return false;
   }
-  return true;
-}
-
-static bool collect_of_range(void *user, struct parallel_range range) {
-  const struct loose_collection *all = user;
-  struct loose_range *own = &all->range[range.begin / PARALLEL_ITEMS];
-  for (size_t n = range.begin; n < range.end; n++)
-    if (!collect_of_node(all->gaps->graph, (uint32_t)n, own))
-      return false;
   return true;
 }
 
@@ -120,16 +123,14 @@ static struct drawing_point direction_to(const struct gaps *g, uint32_t end) {
   return (struct drawing_point){(double)p.x - q.x, (double)p.y - q.y};
 }
 
-/* Whether the two lines end within `near` of each other, with no line between
- * them, and one goes on in about the direction of the other. */
+/* Whether the two lines end within `near` of each other, and one goes on in
+ * about the direction of the other. */
 static bool is_gap(const struct gaps *g, uint32_t a, uint32_t b, double near) {
   struct ink_point p = end_point(g, a), q = end_point(g, b);
   struct drawing_point u = direction_to(g, a), v = direction_to(g, b);
   double dx = (double)p.x - q.x, dy = (double)p.y - q.y;
   return a >> 1 != b >> 1 && dx * dx + dy * dy <= near * near &&
-         u.x * v.x + u.y * v.y < 0 &&
-         !gap_nodes_are_joined(g->graph, node_of_loose_end(g, a),
-                               node_of_loose_end(g, b));
+         u.x * v.x + u.y * v.y < 0;
 }
 
 /* Adds a segment from one end to the other, which is merged in later. */
@@ -149,7 +150,7 @@ static bool close_gap(struct gaps *g, uint32_t a, uint32_t b) {
 struct gap_group {
   const struct gaps *g;
   const struct sort_key *loose;
-  uint32_t count, *next; /* of each: the nearest other one; GAP_NO_END: none;
+  uint32_t count, *next; /* of each: the nearest other one; NO_END: none;
                             SEVERAL_ENDS: several are equally near */
   double near, most;     /* what is as far away as `most` ends no gap */
   uint8_t *ends_gap;     /* of each: it is the lower end of one */
@@ -162,6 +163,15 @@ struct nearest_end {
   double distance2; /* of a node that is to be nearer */
 };
 
+/* The loose end of the group at a node; NO_END: there is none. */
+static uint32_t loose_end_at(const struct gap_group *group, uint32_t node) {
+  const struct segment_graph *graph = group->g->graph;
+  if (!has_one_end(graph, node))
+    return NO_END;
+  uint32_t end = graph->ends.item[graph->ends.start[node]];
+  return key_of_gap(group->g, end) == group->loose->key ? end : NO_END;
+}
+
 /* Tests node k; returns whether its x is near enough, so that those beyond it
  * in its row may be. */
 static bool test_node(const struct gap_group *group, struct nearest_end *best,
@@ -173,12 +183,12 @@ static bool test_node(const struct gap_group *group, struct nearest_end *best,
   double distance2 = dx * dx + dy * dy;
   if (distance2 > best->distance2)
     return true;
-  uint32_t end = gap_loose_end(group->g->graph, k, group->loose->key);
-  if (end != GAP_NO_END && distance2 < best->distance2)
+  uint32_t end = loose_end_at(group, k);
+  if (end != NO_END && distance2 < best->distance2)
     best->found = end;
-  else if (end != GAP_NO_END && best->found != GAP_NO_END)
+  else if (end != NO_END && best->found != NO_END)
     best->found = SEVERAL_ENDS;
-  if (end != GAP_NO_END)
+  if (end != NO_END)
     best->distance2 = distance2;
   return true;
 }
@@ -209,7 +219,7 @@ static void test_other_row(const struct gap_group *group,
 /* The nearest other end of the group, as of gap_group. */
 static uint32_t find_next(const struct gap_group *group, uint32_t node) {
   const struct node_rows *rows = group->g->rows;
-  struct nearest_end best = {group->g->graph->node.item[node], GAP_NO_END,
+  struct nearest_end best = {group->g->graph->node.item[node], NO_END,
                              group->most * group->most};
   uint32_t own = rows->row[node];
   double y = best.from.y, away;
@@ -317,7 +327,7 @@ static bool find_gaps_of_range(void *user, struct parallel_range range) {
   for (size_t i = range.begin; i < range.end; i++) {
     uint32_t end = group->loose[i].value, next = group->next[i];
     group->ends_gap[i] =
-        next != GAP_NO_END &&
+        next != NO_END &&
         node_of_loose_end(g, next) > node_of_loose_end(g, end) &&
         is_gap(g, end, next, group->near) &&
         group->next[place_in_group(group, next)] == end;
@@ -362,17 +372,78 @@ static bool close_all(struct gaps *g) {
   return true;
 }
 
+static int compare_nodes(const void *first, const void *second, void *user) {
+  const struct graph_segment *a = first, *b = second;
+  (void)user;
+  return a->node[0] != b->node[0] ? compare_numbers(a->node[0], b->node[0])
+                                  : compare_numbers(a->node[1], b->node[1]);
+}
+
+static bool merge_added(struct gaps *g) {
+  return sort_stable(g->added.item, g->added.count, sizeof *g->added.item,
+                     compare_nodes, NULL) &&
+         graph_segments_merge(&g->graph->segment, &g->added);
+}
+
 recto_status segment_graph_close_gaps(struct segment_graph *graph,
                                       const struct node_rows *rows,
                                       const struct pens *pens,
                                       recto_error *error) {
   struct gaps g = {.graph = graph, .pens = pens, .rows = rows};
-  bool ok = collect_loose_ends(&g) && close_all(&g) &&
-            gap_segments_merge(graph, &g.added);
+  bool ok = collect_loose_ends(&g) && close_all(&g) && merge_added(&g);
   bool changed = g.added.count > 0;
   ARRAY_FREE(&g.loose);
   graph->gap = g.added;
   if (!ok)
     return error_memory(error);
   return changed ? segment_graph_index_ends(graph, error) : RECTO_OK;
+}
+
+/* ---- While overlaps are dropped ------------------------------------------ */
+
+/* At both of its nodes a gap had one end: nothing else joins them. */
+void segment_graph_set_gaps_apart(struct segment_graph *graph) {
+  struct graph_segment *s = graph->segment.item, *gap = graph->gap.item;
+  size_t kept = 0, apart = 0, g = 0;
+  for (size_t i = 0; i < graph->segment.count; i++) {
+    int order = 1;
+    while (g < graph->gap.count &&
+           (order = compare_nodes(&gap[g], &s[i], NULL)) < 0)
+      g++; /* left out since */
+    if (g < graph->gap.count && order == 0)
+      gap[apart++] = gap[g++];
+    else
+      s[kept++] = s[i];
+  }
+  graph->segment.count = kept;
+  graph->gap.count = apart;
+}
+
+void segment_graph_move_gaps(struct segment_graph *graph,
+                             const uint32_t *root) {
+  size_t kept = 0;
+  for (size_t i = 0; i < graph->gap.count; i++) {
+    struct graph_segment s = graph->gap.item[i];
+    for (int k = 0; k < 2; k++)
+      s.node[k] = root[s.node[k]];
+    if (s.node[0] != s.node[1])
+      graph->gap.item[kept++] = graph_segment_sorted(s);
+  }
+  graph->gap.count = kept;
+}
+
+recto_status segment_graph_merge_gaps(struct segment_graph *graph,
+                                      recto_error *error) {
+  struct graph_segments *gap = &graph->gap;
+  size_t kept = 0;
+  for (size_t i = 0; i < gap->count; i++)
+    if (has_one_end(graph, gap->item[i].node[0]) &&
+        has_one_end(graph, gap->item[i].node[1]))
+      gap->item[kept++] = gap->item[i];
+  gap->count = kept;
+  if (!sort_stable(gap->item, gap->count, sizeof *gap->item, compare_nodes,
+                   NULL) ||
+      !graph_segments_merge(&graph->segment, gap))
+    return error_memory(error);
+  return segment_graph_index_ends(graph, error);
 }

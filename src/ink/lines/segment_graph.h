@@ -181,12 +181,10 @@ USE_RESULT recto_status segment_graph_drop_output_overlaps(
 
 /* Joins two visible ends of equal pen key and class by a segment where they are
  * at most half a pen apart, each is the nearest such end to the other and the
- * only such one at its node, no segment joins them, and the lines do not turn
- * back there.
+ * only one at its node, and the lines do not turn back there.
  * Errors  RECTO_ERROR_MEMORY
- * Cost    linear, and for each end that is the only such one at its node the
- *         nodes that its row and those beside it have as near as the nearest
- *         such end */
+ * Cost    linear, and for each end that is alone at its node the nodes that its
+ *         row and those beside it have as near as the nearest such end */
 USE_RESULT recto_status segment_graph_close_gaps(struct segment_graph *graph,
                                                  const struct node_rows *rows,
                                                  const struct pens *pens,
@@ -202,8 +200,7 @@ void segment_graph_set_gaps_apart(struct segment_graph *graph);
 void segment_graph_move_gaps(struct segment_graph *graph, const uint32_t *root);
 
 /* Moves those back that are gaps still, between two ends that are the only ones
- * of their pen key and class at their nodes, and indexes the ends, which are
- * indexed without them. */
+ * at their nodes, and indexes the ends, which are indexed without them. */
 USE_RESULT recto_status segment_graph_merge_gaps(struct segment_graph *graph,
                                                  recto_error *error);
 
