@@ -43,6 +43,8 @@ unit_tests += %D%/test_hidden_faces
 %C%_test_hidden_faces_SOURCES = %D%/test_hidden_faces.c %D%/sheet_fixture.c \
   %D%/sheet_fixture.h
 %C%_test_hidden_faces_LDADD = %D%/scenes/libscenes.la $(LDADD)
+unit_tests += %D%/test_divided_curves
+%C%_test_divided_curves_SOURCES = %D%/test_divided_curves.c
 unit_tests += %D%/test_intersection_estimate
 %C%_test_intersection_estimate_SOURCES = %D%/test_intersection_estimate.c \
   %D%/sheet_fixture.c \

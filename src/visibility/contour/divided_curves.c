@@ -36,11 +36,26 @@ void divided_curves_fini(struct divided_curves *d) {
 
 /* ---- Samples ------------------------------------------------------------- */
 
-/* The median of the triangles' heights along a curve about one of its steps. */
+/* The length of a step's segment on the page. */
+static double length_of_step(const struct divided_curves *d, uint32_t step) {
+  struct geom_point p = contour_curves_node(d->curves, step)->page;
+  struct geom_point q = contour_curves_node(d->curves, step + 1)->page;
+  return vector2_length((double)q.x - p.x, (double)q.y - p.y);
+}
+
+struct height_of_length {
+  double height, length;
+};
+
+/* The median of the triangles' heights along a curve about one of its steps.
+ * Where a long side comes to a corner of small triangles most segments are the
+ * corner's: the side has its own height, as far as the median by length is no
+ * less. */
 static double height_about(const struct divided_curves *d,
                            const struct contour_curve *curve, uint32_t step) {
-  double height[2 * HEIGHT_REACH + 1];
+  struct height_of_length all[2 * HEIGHT_REACH + 1];
   size_t count = 0;
+  double length = 0, before = 0;
   const struct contour_segment *own = contour_curves_segment(d->curves, step);
   for (int i = -HEIGHT_REACH; i <= HEIGHT_REACH; i++) {
     int64_t at = (int64_t)step + i;
@@ -50,19 +65,17 @@ static double height_about(const struct divided_curves *d,
         contour_curves_segment(d->curves, (size_t)at);
     if (s != own && (s->along_crease || own->along_crease))
       continue;
+    struct height_of_length of = {s->width, length_of_step(d, (uint32_t)at)};
     size_t k = count++; /* they are few: each is put where it belongs */
-    for (; k > 0 && height[k - 1] > s->width; k--)
-      height[k] = height[k - 1];
-    height[k] = s->width;
+    for (; k > 0 && all[k - 1].height > of.height; k--)
+      all[k] = all[k - 1];
+    all[k] = of;
+    length += of.length;
   }
-  return height[count / 2];
-}
-
-/* The length of a step's segment on the page. */
-static double length_of_step(const struct divided_curves *d, uint32_t step) {
-  struct geom_point p = contour_curves_node(d->curves, step)->page;
-  struct geom_point q = contour_curves_node(d->curves, step + 1)->page;
-  return vector2_length((double)q.x - p.x, (double)q.y - p.y);
+  size_t k = 0;
+  while (k + 1 < count && 2 * (before + all[k].length) < length)
+    before += all[k++].length;
+  return fmax(all[count / 2].height, fmin(own->width, all[k].height));
 }
 
 /* Where the visibility of a curve is sampled.
