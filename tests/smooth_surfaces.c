@@ -201,6 +201,21 @@ double smooth_distance_to_ink(const recto_drawing *drawing, unsigned classes,
   return distance_to_others(drawing, SIZE_MAX, classes, at);
 }
 
+double smooth_farthest_middle(const recto_drawing *of,
+                              const recto_drawing *from) {
+  double most = 0;
+  for (size_t s = 0; s < recto_drawing_stroke_count(of); s++) {
+    recto_stroke stroke;
+    assert_true(recto_drawing_stroke(of, s, &stroke));
+    for (size_t i = 0; i + 1 < stroke.count; i++) {
+      const double *p = stroke.points + 2 * i;
+      const double middle[2] = {(p[0] + p[2]) / 2, (p[1] + p[3]) / 2};
+      most = fmax(most, smooth_distance_to_ink(from, RECTO_EDGES_ALL, middle));
+    }
+  }
+  return most;
+}
+
 int smooth_loose_ends(const recto_drawing *drawing, unsigned classes,
                       unsigned others, double mm) {
   int count = 0;

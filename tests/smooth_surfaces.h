@@ -62,6 +62,11 @@ double smooth_distance_to_segment(const double at[2], const double p[2],
 double smooth_distance_to_ink(const recto_drawing *drawing, unsigned classes,
                               const double at[2]);
 
+/* How far the middles of a drawing's segments are from the ink of another one,
+ * at most, mm. */
+double smooth_farthest_middle(const recto_drawing *of,
+                              const recto_drawing *from);
+
 /* How many ends of strokes of some classes no other stroke of `others` is
  * within `mm` of. */
 int smooth_loose_ends(const recto_drawing *drawing, unsigned classes,

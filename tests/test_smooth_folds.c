@@ -104,23 +104,6 @@ static void gourd(double u, double v, double p[3]) {
   p[1] *= r;
 }
 
-/* How far the middles of one drawing's segments are from the ink of another
- * one, at most, mm. */
-static double farthest_segment(const recto_drawing *of,
-                               const recto_drawing *from) {
-  double most = 0;
-  for (size_t s = 0; s < recto_drawing_stroke_count(of); s++) {
-    recto_stroke stroke;
-    assert_true(recto_drawing_stroke(of, s, &stroke));
-    for (size_t i = 0; i + 1 < stroke.count; i++) {
-      const double *p = stroke.points + 2 * i;
-      const double middle[2] = {(p[0] + p[2]) / 2, (p[1] + p[3]) / 2};
-      most = fmax(most, smooth_distance_to_ink(from, RECTO_EDGES_ALL, middle));
-    }
-  }
-  return most;
-}
-
 /* How far the segments of an exact drawing are from ink by default, at most. */
 static double missing_by_default(const recto_scene *scene, double azimuth_deg,
                                  double elevation_deg) {
@@ -131,7 +114,7 @@ static double missing_by_default(const recto_scene *scene, double azimuth_deg,
   recto_drawing *exact = smooth_draw(scene, &options);
   options.ink.exact = false;
   recto_drawing *drawing = smooth_draw(scene, &options);
-  double most = farthest_segment(exact, drawing);
+  double most = smooth_farthest_middle(exact, drawing);
   recto_drawing_destroy(exact);
   recto_drawing_destroy(drawing);
   return most;
@@ -410,8 +393,8 @@ static void folds_that_the_surface_denies_close_no_gaps(void **state) {
     options.camera.elevation_deg = 48;
     recto_drawing *drawing = smooth_draw(coarse, &options);
     recto_drawing *surface = smooth_draw(fine, &options);
-    double added = farthest_segment(drawing, surface);
-    double missing = farthest_segment(surface, drawing);
+    double added = smooth_farthest_middle(drawing, surface);
+    double missing = smooth_farthest_middle(surface, drawing);
     /* 6.2 mm of a line that led from one cusp to the other one. */
     if (!(added < 0.5 && missing < 0.5))
       fail_msg("%d/48 degrees: ink is %g mm from a line, a line %g mm from ink",

@@ -92,23 +92,6 @@ static recto_scene *post_on_plate(void) {
   return scene;
 }
 
-/* How far the middles of a drawing's sides are from the ink of another one, at
- * most, mm. */
-static double distance_of_ink(const recto_drawing *drawing,
-                              const recto_drawing *other) {
-  double most = 0;
-  for (size_t s = 0; s < recto_drawing_stroke_count(drawing); s++) {
-    recto_stroke stroke;
-    assert_true(recto_drawing_stroke(drawing, s, &stroke));
-    for (size_t i = 0; i + 1 < stroke.count; i++) {
-      const double *p = stroke.points + 2 * i;
-      const double at[2] = {(p[0] + p[2]) / 2, (p[1] + p[3]) / 2};
-      most = fmax(most, smooth_distance_to_ink(other, RECTO_EDGES_ALL, at));
-    }
-  }
-  return most;
-}
-
 /* The post's contour ends at its foot, where it faces the end of the hole's
  * visible rim.  No fold is between the two, but that of either is nearer than
  * triangles are high. */
@@ -126,7 +109,7 @@ static void no_line_leads_from_a_post_to_a_hole(void **state) {
     recto_drawing *drawing = smooth_draw(scene, &options);
     options.ink.contours = RECTO_CONTOURS_MESH;
     recto_drawing *mesh = smooth_draw(scene, &options);
-    double mm = distance_of_ink(drawing, mesh);
+    double mm = smooth_farthest_middle(drawing, mesh);
     /* 1.7 to 15.2 mm in sixteen views where folds that only end near count as
      * folds beside. */
     if (!(mm < 1))
