@@ -55,6 +55,9 @@ void crease_lines_fini(struct crease_lines *lines) {
   mem_free(lines->edge);
   mem_free(lines->cosine);
   mem_free((void *)lines->at);
+  mem_free(lines->end);
+  mem_free(lines->point);
+  mem_free(lines->end_of_point);
   mem_free(lines->number);
   *lines = (struct crease_lines){.sheet = lines->sheet};
 }
@@ -160,49 +163,72 @@ bool crease_lines_find_ends(struct crease_lines *lines) {
   return lines->at != NULL && crease_ends_count(sheet, NULL, lines->at);
 }
 
-/* An end of a listed edge, of two each. */
-static uint32_t end_of_listed(const struct crease_lines *lines, size_t i) {
-  return lines->sheet->edge.item[lines->edge[i / 2]].point[i % 2];
+/* Numbers the endpoints in the order of the edges. */
+static void number_endpoints(struct crease_lines *lines) {
+  const struct sheet_edge *edge = lines->sheet->edge.item;
+  for (size_t i = 0; i < 2 * lines->count; i++)
+    lines->end_of_point[edge[lines->edge[i / 2]].point[i % 2]] = SHEET_NONE;
+  for (size_t i = 0; i < 2 * lines->count; i++) {
+    uint32_t point = edge[lines->edge[i / 2]].point[i % 2];
+    uint32_t *number = &lines->end_of_point[point];
+    (void)poll_at(i);
+    if (*number == SHEET_NONE) {
+      *number = (uint32_t)lines->end_count;
+      lines->point[lines->end_count++] = point;
+    }
+    lines->end[i] = *number;
+  }
 }
 
-/* Joins the ends of the edges that are of lines.
- * line  a union-find of the sheet's points, of which only the ends of listed
- *       edges are set */
-static void join_listed_ends(const struct crease_lines *lines,
-                             double crease_deg, uint32_t *line) {
+bool crease_lines_number_ends(struct crease_lines *lines) {
+  size_t points = lines->sheet->point.count;
+  if (lines->end != NULL)
+    return true;
+  if (!crease_lines_list(lines))
+    return false;
+  size_t ends = 2 * lines->count;
+  lines->end = mem_alloc(ends, sizeof *lines->end);
+  lines->point = mem_alloc(ends < points ? ends : points, sizeof *lines->point);
+  lines->end_of_point = mem_alloc(points, sizeof *lines->end_of_point);
+  if (lines->end == NULL || lines->point == NULL || lines->end_of_point == NULL)
+    return false;
+  number_endpoints(lines);
+  return true;
+}
+
+/* Joins the endpoints of the edges that are of lines.
+ * line  a union-find of the endpoints */
+static void join_endpoints(const struct crease_lines *lines, double crease_deg,
+                           uint32_t *line) {
   double crease = angle_of_degrees(crease_deg).cosine;
-  for (size_t i = 0; i < 2 * lines->count; i++)
-    line[end_of_listed(lines, i)] = end_of_listed(lines, i);
   for (size_t i = 0; i < lines->count; i++) {
     const struct sheet_edge *edge = &lines->sheet->edge.item[lines->edge[i]];
     (void)poll_at(i);
     if (crease_is_joined(edge, lines->cosine[i], crease))
-      union_find_join(line, edge->point[0], edge->point[1]);
+      union_find_join(line, lines->end[2 * i], lines->end[2 * i + 1]);
   }
 }
 
-/* Numbers the lines in the order of their first edges. */
+/* Numbers the lines in the order of their first edges, which is that of their
+ * first endpoints. */
 static void number_crease_lines(struct crease_lines *lines, uint32_t *line) {
-  for (size_t i = 0; i < 2 * lines->count; i++) {
-    uint32_t point = end_of_listed(lines, i);
-    uint32_t *number = &lines->number[union_find_root(line, point)];
-    if (*number == 0)
-      *number = (uint32_t)++lines->line_count;
-    lines->number[point] = *number;
+  for (uint32_t e = 0; e < lines->end_count; e++) {
+    uint32_t root = union_find_root(line, e);
+    lines->number[e] =
+        root == e ? (uint32_t)++lines->line_count : lines->number[root];
   }
 }
 
 bool crease_lines_join(struct crease_lines *lines, double crease_deg) {
   if (lines->number != NULL)
     return true;
-  if (!crease_lines_measure(lines))
+  if (!crease_lines_measure(lines) || !crease_lines_number_ends(lines))
     return false;
-  size_t points = lines->sheet->point.count;
-  uint32_t *line = mem_alloc(points, sizeof *line);
-  lines->number = mem_calloc(points, sizeof *lines->number);
+  uint32_t *line = union_find_create(lines->end_count);
+  lines->number = mem_alloc(lines->end_count, sizeof *lines->number);
   bool ok = line != NULL && lines->number != NULL;
   if (ok) {
-    join_listed_ends(lines, crease_deg, line);
+    join_endpoints(lines, crease_deg, line);
     number_crease_lines(lines, line);
   }
   mem_free(line);

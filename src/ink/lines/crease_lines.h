@@ -37,8 +37,16 @@ struct crease_lines {
   double *cosine;   /* one a listed edge: crease_cosine; NULL: not yet found */
   atomic_uchar *at; /* one a point: CREASE_END_ALONE where one of these is the
                        only drawable edge; NULL: not yet found */
-  uint32_t *number; /* one a point: its line's, from 1 to line_count, 0: no
-                       such edge ends there; NULL: not yet joined */
+  /* The points at which listed edges end are few of the sheet's: what is kept
+   * of each is by its number among them. */
+  uint32_t *end;          /* two a listed edge: the numbers of its endpoints;
+                             NULL: not yet numbered */
+  uint32_t *point;        /* one an endpoint: the sheet's point */
+  uint32_t *end_of_point; /* one a point: its number, if it is an endpoint;
+                             else not set */
+  size_t end_count;
+  uint32_t *number; /* one an endpoint: its line's, from 1 to line_count; NULL:
+                       not yet joined */
   size_t line_count;
 };
 
@@ -56,21 +64,22 @@ USE_RESULT bool crease_ends_count(const struct sheet *sheet,
 
 void crease_lines_fini(struct crease_lines *lines);
 
-/* List the edges; find their cosines, where they end alone; join the lines, of
- * edges that bend by more than an angle, which is the same at every call, where
- * their cosines are found too.  Return false when memory ran out or the caller
- * cancelled. */
+/* List the edges; find their cosines, where they end alone; number their
+ * endpoints; join the lines, of edges that bend by more than an angle, which is
+ * the same at every call, where their cosines are found too.  Return false when
+ * memory ran out or the caller cancelled. */
 USE_RESULT bool crease_lines_list(struct crease_lines *lines);
 USE_RESULT bool crease_lines_measure(struct crease_lines *lines);
 USE_RESULT bool crease_lines_find_ends(struct crease_lines *lines);
+USE_RESULT bool crease_lines_number_ends(struct crease_lines *lines);
 USE_RESULT bool crease_lines_join(struct crease_lines *lines,
                                   double crease_deg);
 
-/* The number of a point's line, when they are joined; 0: no crease is there.
- * What is kept of each line takes little memory by it. */
+/* The number of the line of a listed edge that ends at a point, when they are
+ * joined.  What is kept of each line takes little memory by it. */
 static inline uint32_t crease_line_of_point(const struct crease_lines *lines,
                                             uint32_t point) {
-  return lines->number[point];
+  return lines->number[lines->end_of_point[point]];
 }
 
 #endif

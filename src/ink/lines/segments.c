@@ -319,20 +319,21 @@ static recto_status collect_in_ranges(struct segment_collection *of,
   const size_t count[2] = {of->map->edge_count, of->sheet->point.count};
   const size_t ranges[2] = {parallel_range_count(count[0], PARALLEL_ITEMS),
                             parallel_range_count(count[1], PARALLEL_ITEMS)};
-  int workers = parallel_workers(count[0], PARALLEL_ITEMS);
+  const int workers[2] = {parallel_workers(count[0], PARALLEL_ITEMS),
+                          parallel_workers(count[1], PARALLEL_ITEMS)};
   of->edges = mem_calloc(ranges[0], sizeof *of->edges);
   of->points = mem_calloc(ranges[1], sizeof *of->points);
   if (of->edges == NULL || of->points == NULL ||
-      !parallel_ranges(workers, count[0], PARALLEL_ITEMS, count_range, of) ||
-      !parallel_ranges(workers, count[1], PARALLEL_ITEMS, count_points_of_range,
-                       of))
+      !parallel_ranges(workers[0], count[0], PARALLEL_ITEMS, count_range, of) ||
+      !parallel_ranges(workers[1], count[1], PARALLEL_ITEMS,
+                       count_points_of_range, of))
     return error_memory(error);
   recto_status status = place_ranges(of, ranges, error);
   if (status != RECTO_OK)
     return status;
-  if (!parallel_ranges(workers, count[1], PARALLEL_ITEMS,
+  if (!parallel_ranges(workers[1], count[1], PARALLEL_ITEMS,
                        number_points_of_range, of) ||
-      !parallel_ranges(workers, count[0], PARALLEL_ITEMS, store_range, of))
+      !parallel_ranges(workers[0], count[0], PARALLEL_ITEMS, store_range, of))
     return error_memory(error);
   for (size_t r = 0; r < ranges[0]; r++)
     of->graph->dots += of->edges[r].dots;

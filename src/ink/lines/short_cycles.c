@@ -50,14 +50,12 @@ static bool has_free_ends(const struct crease_lines *creases) {
 /* One a line, by its number: whether a crease ends free there.  Returns NULL
  * when memory ran out. */
 static uint8_t *find_free_lines(const struct crease_lines *creases) {
-  const struct sheet *sheet = creases->sheet;
   uint8_t *is_free = mem_calloc(creases->line_count + 1, 1);
   for (size_t i = 0; is_free != NULL && i < creases->count; i++) {
     (void)poll_at(i);
     for (int k = 0; k < 2; k++)
       if (ends_free(creases, i, k))
-        is_free[crease_line_of_point(
-            creases, sheet->edge.item[creases->edge[i]].point[k])] = 1;
+        is_free[creases->number[creases->end[2 * i + (size_t)k]]] = 1;
   }
   return is_free;
 }

@@ -36,8 +36,8 @@ enum { END_PIECES = 16 };
 /* A line of fewer pieces may have few edges, as those of a roof have. */
 enum { SHALLOW_PIECES = 4 };
 
-/* What meets at a vertex: edges by their places among those drawn as creases or
- * silhouettes (crease_lines.h). */
+/* What meets at an endpoint: edges by their places among those drawn as creases
+ * or silhouettes (crease_lines.h). */
 struct speckle_corner {
   uint32_t edge[2], creases; /* the first two, and how many there are */
 };
@@ -58,8 +58,8 @@ struct speckle_search {
   struct projection projection;
   double crease, sharp; /* the cosines of the crease angle, that of zigzags */
   uint8_t *is_of_line;  /* one a listed edge */
-  struct speckle_corner *corner; /* one a vertex; set where edges of lines
-                                    end */
+  struct speckle_corner *corner; /* one an endpoint of these */
+  struct view_point *place;      /* one an endpoint */
   uint32_t *piece;               /* a union-find of the listed edges */
   double *piece_mm;              /* one of these: of a piece's root */
   struct speckle_line *lines;    /* by number of the line; 0: none */
@@ -81,27 +81,25 @@ static bool find_edges_of_range(void *user, struct parallel_range range) {
   return true;
 }
 
-/* The vertex at an end of a listed edge, of two each; SHEET_NONE: the edge is
- * of no line, or the end is no vertex.  Few vertices are such, so that no loop
- * is over all. */
+static bool is_vertex(const struct speckle_search *s, uint32_t endpoint) {
+  return s->creases->point[endpoint] < s->sheet->vertex_count;
+}
+
+/* The endpoint at an end of a listed edge, of two each; SHEET_NONE: the edge is
+ * of no line, or the end is no vertex. */
 static uint32_t vertex_of_line(const struct speckle_search *s, size_t end) {
-  if (!s->is_of_line[end / 2])
-    return SHEET_NONE;
-  uint32_t point = listed_edge(s, end / 2)->point[end % 2];
-  return point < s->sheet->vertex_count ? point : SHEET_NONE;
+  uint32_t endpoint = s->creases->end[end];
+  return s->is_of_line[end / 2] && is_vertex(s, endpoint) ? endpoint
+                                                          : SHEET_NONE;
 }
 
 static void list_corners(const struct speckle_search *s) {
-  uint32_t point;
-  size_t ends = 2 * s->creases->count;
-  for (size_t i = 0; i < ends; i++)
-    if ((point = vertex_of_line(s, i)) != SHEET_NONE)
-      s->corner[point].creases = 0;
-  for (size_t i = 0; i < ends; i++) {
+  for (size_t i = 0; i < 2 * s->creases->count; i++) {
+    uint32_t vertex = vertex_of_line(s, i);
     (void)poll_at(i);
-    if ((point = vertex_of_line(s, i)) == SHEET_NONE)
+    if (vertex == SHEET_NONE)
       continue;
-    struct speckle_corner *at = &s->corner[point];
+    struct speckle_corner *at = &s->corner[vertex];
     if (at->creases < 2)
       at->edge[at->creases] = (uint32_t)(i / 2);
     at->creases++;
@@ -111,7 +109,7 @@ static void list_corners(const struct speckle_search *s) {
 static bool find_line_corners(struct speckle_search *s) {
   size_t count = s->creases->count;
   s->is_of_line = mem_alloc(count, sizeof *s->is_of_line);
-  s->corner = mem_alloc(s->sheet->vertex_count, sizeof *s->corner);
+  s->corner = mem_calloc(s->creases->end_count, sizeof *s->corner);
   if (s->is_of_line == NULL || s->corner == NULL ||
       !parallel_ranges(parallel_workers(count, PARALLEL_ITEMS), count,
                        PARALLEL_ITEMS, find_edges_of_range, s))
@@ -122,37 +120,43 @@ static bool find_line_corners(struct speckle_search *s) {
 
 /* Whether the end of a line is free at a vertex: no other edge is drawable
  * there. */
-static bool is_free_corner(const struct speckle_search *s, uint32_t point) {
-  return s->creases->at[point] == CREASE_END_ALONE &&
-         s->corner[point].creases == 1;
+static bool is_free_corner(const struct speckle_search *s, uint32_t vertex) {
+  return s->corner[vertex].creases == 1 &&
+         s->creases->at[s->creases->point[vertex]] == CREASE_END_ALONE;
+}
+
+/* The other endpoint of a listed edge. */
+static uint32_t other_endpoint(const struct speckle_search *s, uint32_t edge,
+                               uint32_t from) {
+  const uint32_t *end = &s->creases->end[2 * (size_t)edge];
+  return end[0] == from ? end[1] : end[0];
 }
 
 /* The other one of the two creases that meet at the far end of a crease;
  * SHEET_NONE where there are not two. */
 static uint32_t next_crease(const struct speckle_search *s, uint32_t edge,
                             uint32_t from) {
-  const uint32_t *point = listed_edge(s, edge)->point;
-  uint32_t to = point[0] == from ? point[1] : point[0];
-  if (to >= s->sheet->vertex_count || s->corner[to].creases != 2)
+  uint32_t to = other_endpoint(s, edge, from);
+  if (s->corner[to].creases != 2)
     return SHEET_NONE;
   return s->corner[to].edge[s->corner[to].edge[0] == edge];
 }
 
 /* Whether a vertex is on a line of three edges about a triangle. */
-static bool is_on_triangle(const struct speckle_search *s, uint32_t point) {
-  const struct speckle_corner *at = &s->corner[point];
+static bool is_on_triangle(const struct speckle_search *s, uint32_t vertex) {
+  const struct speckle_corner *at = &s->corner[vertex];
   if (at->creases != 2)
     return false;
-  uint32_t next = next_crease(s, at->edge[0], point);
-  return next != SHEET_NONE && next == next_crease(s, at->edge[1], point);
+  uint32_t next = next_crease(s, at->edge[0], vertex);
+  return next != SHEET_NONE && next == next_crease(s, at->edge[1], vertex);
 }
 
 /* Whether any line may be noise: none of a solid is. */
 static bool has_candidates(const struct speckle_search *s) {
   for (size_t i = 0; i < 2 * s->creases->count; i++) {
-    uint32_t point = vertex_of_line(s, i);
-    if (point != SHEET_NONE &&
-        (is_free_corner(s, point) || is_on_triangle(s, point)))
+    uint32_t vertex = vertex_of_line(s, i);
+    if (vertex != SHEET_NONE &&
+        (is_free_corner(s, vertex) || is_on_triangle(s, vertex)))
       return true;
   }
   return false;
@@ -160,16 +164,22 @@ static bool has_candidates(const struct speckle_search *s) {
 
 /* ---- Pieces -------------------------------------------------------------- */
 
+/* Finds where the endpoints are in view space. */
+static bool place_endpoints(struct speckle_search *s) {
+  const struct crease_lines *creases = s->creases;
+  s->place = mem_alloc(creases->end_count, sizeof *s->place);
+  for (size_t e = 0; s->place != NULL && e < creases->end_count; e++)
+    s->place[e] = unproject_point(&s->projection,
+                                  s->sheet->point.item[creases->point[e]]);
+  return s->place != NULL;
+}
+
 /* A vector in view space from one end of an edge to the other.
- * from  the sheet point where it starts */
+ * from  the endpoint where it starts */
 static void edge_vector(const struct speckle_search *s, uint32_t edge,
                         uint32_t from, double vector[3]) {
-  const struct sheet *sheet = s->sheet;
-  const uint32_t *point = listed_edge(s, edge)->point;
-  uint32_t to = point[0] == from ? point[1] : point[0];
-  struct view_point p =
-      unproject_point(&s->projection, sheet->point.item[from]);
-  struct view_point q = unproject_point(&s->projection, sheet->point.item[to]);
+  struct view_point p = s->place[from],
+                    q = s->place[other_endpoint(s, edge, from)];
   vector[0] = q.x - p.x;
   vector[1] = q.y - p.y;
   vector[2] = q.d - p.d;
@@ -180,22 +190,22 @@ static double dot_product(const double a[3], const double b[3]) {
 }
 
 /* Whether a line goes on at a vertex where just two of its edges meet. */
-static bool goes_on(const struct speckle_search *s, uint32_t point) {
-  const struct speckle_corner *at = &s->corner[point];
+static bool goes_on(const struct speckle_search *s, uint32_t vertex) {
+  const struct speckle_corner *at = &s->corner[vertex];
   double a[3], b[3];
-  edge_vector(s, at->edge[0], point, a);
-  edge_vector(s, at->edge[1], point, b);
+  edge_vector(s, at->edge[0], vertex, a);
+  edge_vector(s, at->edge[1], vertex, b);
   return -dot_product(a, b) >=
          PIECE_END_COSINE * sqrt(dot_product(a, a) * dot_product(b, b));
 }
 
 static void join_pieces(const struct speckle_search *s) {
   for (size_t i = 0; i < 2 * s->creases->count; i++) {
-    uint32_t point = vertex_of_line(s, i);
-    if (point == SHEET_NONE)
+    uint32_t vertex = vertex_of_line(s, i);
+    if (vertex == SHEET_NONE)
       continue;
-    const struct speckle_corner *at = &s->corner[point];
-    if (at->creases == 2 && at->edge[0] == i / 2 && goes_on(s, point))
+    const struct speckle_corner *at = &s->corner[vertex];
+    if (at->creases == 2 && at->edge[0] == i / 2 && goes_on(s, vertex))
       union_find_join(s->piece, at->edge[0], at->edge[1]);
   }
 }
@@ -203,10 +213,8 @@ static void join_pieces(const struct speckle_search *s) {
 /* The length of an edge in space at the scale that it is drawn at. */
 static double length_mm(const struct speckle_search *s, uint32_t edge) {
   const struct projection *projection = &s->projection;
-  uint32_t from = listed_edge(s, edge)->point[0];
-  double v[3], d = 1;
-  if (projection->perspective)
-    d = unproject_point(projection, s->sheet->point.item[from]).d;
+  uint32_t from = s->creases->end[2 * (size_t)edge];
+  double v[3], d = projection->perspective ? s->place[from].d : 1;
   edge_vector(s, edge, from, v);
   return sqrt(dot_product(v, v)) * projection->units / (d * SHEET_UNITS_PER_MM);
 }
@@ -231,7 +239,7 @@ static void measure_lines(const struct speckle_search *s) {
                                 sheet_edge_group(s->sheet, edge));
     uint32_t piece = union_find_root(s->piece, e);
     struct speckle_line *of =
-        &s->lines[crease_line_of_point(s->creases, edge->point[0])];
+        &s->lines[s->creases->number[s->creases->end[2 * (size_t)e]]];
     double length = length_mm(s, e);
     of->length += length;
     of->bend += length * acos(fmax(-1, fmin(1, cosine))) / degree;
@@ -243,9 +251,9 @@ static void measure_lines(const struct speckle_search *s) {
       of->in_short += length;
   }
   for (size_t i = 0; i < 2 * s->creases->count; i++) {
-    uint32_t point = vertex_of_line(s, i);
-    if (point != SHEET_NONE && is_free_corner(s, point))
-      s->lines[crease_line_of_point(s->creases, point)].free_ends++;
+    uint32_t vertex = vertex_of_line(s, i);
+    if (vertex != SHEET_NONE && is_free_corner(s, vertex))
+      s->lines[s->creases->number[vertex]].free_ends++;
   }
 }
 
@@ -297,7 +305,7 @@ static bool find_and_mark(struct speckle_search *s,
                           struct crease_lines *creases,
                           const struct crease_angles *angles, uint8_t *drop) {
   if (!crease_lines_find_ends(creases) || !crease_lines_measure(creases) ||
-      !find_line_corners(s))
+      !crease_lines_number_ends(creases) || !find_line_corners(s))
     return false;
   if (!has_candidates(s))
     return true;
@@ -306,7 +314,8 @@ static bool find_and_mark(struct speckle_search *s,
   s->piece = union_find_create(creases->count);
   s->piece_mm = mem_calloc(creases->count, sizeof *s->piece_mm);
   s->lines = mem_calloc(creases->line_count + 1, sizeof *s->lines);
-  if (s->piece == NULL || s->piece_mm == NULL || s->lines == NULL)
+  if (s->piece == NULL || s->piece_mm == NULL || s->lines == NULL ||
+      !place_endpoints(s))
     return false;
   join_pieces(s);
   measure_pieces(s);
@@ -333,6 +342,7 @@ bool segment_graph_find_speckled(const struct segment_graph *graph,
   bool ok = find_and_mark(&s, graph, creases, angles, drop);
   mem_free(s.is_of_line);
   mem_free(s.corner);
+  mem_free(s.place);
   mem_free(s.piece);
   mem_free(s.piece_mm);
   mem_free(s.lines);

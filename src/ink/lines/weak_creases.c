@@ -28,9 +28,9 @@ struct crease_line {
   bool is_very_sharp;    /* by more than the angle for zigzags */
 };
 
-/* The first two points that edges of a line join to a point. */
+/* The first two endpoints that edges of a line join to one. */
 struct line_neighbours {
-  uint32_t point[2], count;
+  uint32_t end[2], count;
 };
 
 /* Whether a listed edge is of a line, and neighbours are listed at its ends. */
@@ -43,9 +43,9 @@ static bool joins_vertices(const struct crease_lines *creases, size_t i,
          edge->point[1] < sheet->vertex_count;
 }
 
-static void add_neighbour(struct line_neighbours *of, uint32_t point) {
+static void add_neighbour(struct line_neighbours *of, uint32_t end) {
   if (of->count < 2)
-    of->point[of->count] = point;
+    of->end[of->count] = end;
   of->count += of->count < 3;
 }
 
@@ -69,8 +69,8 @@ static bool turns_back(const struct projection *projection,
 }
 
 /* Finds out how the edges of the lines bend, and lists the neighbours of their
- * points on the mesh.
- * next  one a vertex; those on lines are set */
+ * endpoints on the mesh.
+ * next  one an endpoint, zero-initialised */
 static void look_at_edges(const struct crease_lines *creases,
                           const struct crease_angles *angles,
                           struct crease_line *lines,
@@ -80,24 +80,24 @@ static void look_at_edges(const struct crease_lines *creases,
   double start = angle_of_degrees(angles->start_deg).cosine;
   double very = angle_of_degrees(angles->zigzag_deg).cosine;
   for (size_t i = 0; i < creases->count; i++) {
-    const uint32_t *point = sheet->edge.item[creases->edge[i]].point;
-    for (int k = 0; k < 2 && joins_vertices(creases, i, crease); k++)
-      next[point[k]].count = 0;
-  }
-  for (size_t i = 0; i < creases->count; i++) {
     const struct sheet_edge *edge = &sheet->edge.item[creases->edge[i]];
-    const uint32_t *point = edge->point;
+    const uint32_t *end = &creases->end[2 * i];
     double cosine = creases->cosine[i];
     (void)poll_at(i);
-    struct crease_line *of = &lines[crease_line_of_point(creases, point[0])];
+    struct crease_line *of = &lines[creases->number[end[0]]];
     of->is_sharp = of->is_sharp || cosine < start;
     of->is_very_sharp = of->is_very_sharp || cosine < very;
     of->edges += crease_is_joined(edge, cosine, crease);
     if (joins_vertices(creases, i, crease)) {
-      add_neighbour(&next[point[0]], point[1]);
-      add_neighbour(&next[point[1]], point[0]);
+      add_neighbour(&next[end[0]], end[1]);
+      add_neighbour(&next[end[1]], end[0]);
     }
   }
+}
+
+static struct geom_point point_of_endpoint(const struct crease_lines *creases,
+                                           uint32_t end) {
+  return creases->sheet->point.item[creases->point[end]];
 }
 
 /* Counts where lines turn back. */
@@ -106,15 +106,16 @@ static void look_at_points(const struct crease_lines *creases,
                            struct line_neighbours *next) {
   const struct sheet *sheet = creases->sheet;
   const struct projection projection = projection_of(&sheet->camera);
-  const struct geom_point *at = sheet->point.item;
   double crease = angle_of_degrees(crease_deg).cosine;
   for (size_t i = 0; i < creases->count; i++)
     for (int k = 0; k < 2 && joins_vertices(creases, i, crease); k++) {
-      uint32_t p = sheet->edge.item[creases->edge[i]].point[k];
-      if (next[p].count == 2 && turns_back(&projection, at[next[p].point[0]],
-                                           at[p], at[next[p].point[1]]))
-        lines[crease_line_of_point(creases, p)].turns++;
-      next[p].count = 0; /* not again from the other edge */
+      uint32_t e = creases->end[2 * i + (size_t)k];
+      if (next[e].count == 2 &&
+          turns_back(&projection, point_of_endpoint(creases, next[e].end[0]),
+                     point_of_endpoint(creases, e),
+                     point_of_endpoint(creases, next[e].end[1])))
+        lines[creases->number[e]].turns++;
+      next[e].count = 0; /* not again from the other edge */
     }
 }
 
@@ -141,7 +142,7 @@ bool paths_find_weak(struct ink_paths *paths, const struct segment_graph *graph,
     return false;
   struct crease_line *lines =
       mem_calloc(creases->line_count + 1, sizeof *lines);
-  struct line_neighbours *next = mem_alloc(sheet->vertex_count, sizeof *next);
+  struct line_neighbours *next = mem_calloc(creases->end_count, sizeof *next);
   bool ok = lines != NULL && next != NULL;
   if (ok) {
     look_at_edges(creases, angles, lines, next);
