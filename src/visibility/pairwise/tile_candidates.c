@@ -2,6 +2,7 @@
  * edges or faces are deferred. */
 #include "visibility/pairwise/tile_candidates.h"
 
+#include <stdatomic.h>
 #include <string.h>
 
 #include "base/number_filter.h"
@@ -53,12 +54,27 @@ static double cost_of_lists(const struct triangle_grid *grid) {
   return cost;
 }
 
+/* The triangles that are in some list. */
+struct listed_triangles {
+  const uint32_t *item;    /* of all lists */
+  atomic_uchar *is_listed; /* one a triangle; atomic as one may be in the lists
+                              of several threads */
+};
+
+static bool mark_listed_of_range(void *user, struct parallel_range range) {
+  const struct listed_triangles *listed = user;
+  for (size_t i = range.begin; i < range.end; i++)
+    atomic_store_explicit(&listed->is_listed[listed->item[i]], 1,
+                          memory_order_relaxed);
+  return true;
+}
+
 static size_t listed_of_range(const void *user, struct parallel_range range,
                               uint32_t *kept) {
-  const uint8_t *is_listed = user;
+  const struct listed_triangles *listed = user;
   size_t count = 0;
   for (size_t t = range.begin; t < range.end; t++)
-    if (is_listed[t])
+    if (atomic_load_explicit(&listed->is_listed[t], memory_order_relaxed))
       kept[count++] = (uint32_t)t;
   return count;
 }
@@ -66,14 +82,14 @@ static size_t listed_of_range(const void *user, struct parallel_range range,
 /* The triangles that are in some list, ascending; NULL when memory ran out. */
 static uint32_t *list_all(const struct triangle_grid *grid, size_t *count) {
   size_t entries = grid->lists.start[triangle_grid_cell_count(grid)];
-  uint8_t *is_listed = mem_calloc(grid->triangle_count, 1);
-  if (is_listed == NULL)
-    return NULL;
-  for (size_t i = 0; i < entries; i++)
-    is_listed[grid->lists.item[i]] = 1;
-  uint32_t *all =
-      number_filter(grid->triangle_count, listed_of_range, is_listed, count);
-  mem_free(is_listed);
+  struct listed_triangles listed = {grid->lists.item,
+                                    mem_calloc(grid->triangle_count, 1)};
+  uint32_t *all = NULL;
+  if (listed.is_listed != NULL &&
+      parallel_ranges(parallel_workers(entries, PARALLEL_ITEMS), entries,
+                      PARALLEL_ITEMS, mark_listed_of_range, &listed))
+    all = number_filter(grid->triangle_count, listed_of_range, &listed, count);
+  mem_free((void *)listed.is_listed);
   return all;
 }
 

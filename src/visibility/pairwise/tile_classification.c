@@ -7,8 +7,7 @@
  *     that makes the sample unusable
  *   2 find each tile's front layer; the tile is simple if exactly one face of
  *     the layer is over the sample point
- *   3 reject the tiles that a contour enters at the depths of the layer
- */
+ *   3 reject the tiles that a contour enters at the depths of the layer */
 #include "visibility/pairwise/tile_classification.h"
 
 #include <math.h>
@@ -25,7 +24,8 @@ enum {
   DEEP_TILES_TOTAL = 1 << 22,    /* of all triangles of a deep scene together */
   DEEP_TILES_PER_TRIANGLE = 256, /* at most, on average */
   DEEP_QUERIES_PER_TILE = 8, /* a tile costs a tenth of so many edge queries */
-  QUERIES_PER_FACE = 16      /* a face takes as long as so many edges */
+  QUERIES_PER_FACE = 16,     /* a face takes as long as so many edges */
+  CONTOURS_IN_RANGE = PARALLEL_RANGE(512) /* that a thread takes at once */
 };
 
 static uint64_t bucket_mask(int low, int high) {
@@ -376,8 +376,8 @@ static bool classify_tiles(struct tile_classification *tiles,
   int workers = parallel_workers(n, PARALLEL_ITEMS);
   bool ok =
       parallel_ranges(workers, n, PARALLEL_ITEMS, find_simple_range, &work) &&
-      parallel_ranges(parallel_workers(contours, PARALLEL_ITEMS), contours,
-                      PARALLEL_ITEMS, reject_contour_range, &work) &&
+      parallel_ranges(parallel_workers(contours, CONTOURS_IN_RANGE), contours,
+                      CONTOURS_IN_RANGE, reject_contour_range, &work) &&
       parallel_ranges(workers, n, PARALLEL_ITEMS, count_tile_states, &work);
   tiles->z_buckets = work.z_buckets;
   tiles->simple = work.simple;

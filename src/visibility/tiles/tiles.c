@@ -75,8 +75,8 @@ static bool list_faces(struct tiles_work *work) {
 /* ---- 5. Pairs ------------------------------------------------------------ */
 
 enum {
-  BATCH_SIZE = PARALLEL_RANGE(1024), /* edges */
-  POLL_INTERVAL = 16                 /* edges between two polls */
+  BATCH_SIZE = PARALLEL_RANGE(128), /* edges */
+  POLL_INTERVAL = 16                /* edges between two polls */
 };
 
 /* Batches of consecutive deferred edges, each solved by one thread. */
