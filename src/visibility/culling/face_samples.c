@@ -7,12 +7,14 @@
 #include "visibility/predicate/box2.h"
 
 enum {
-  SAMPLES_MIN = 1 << 9,  /* faces that estimate the complexity; these, */
+  SAMPLES_MIN = 1 << 10, /* faces that estimate the complexity; these, */
   SAMPLES_MAX = 1 << 12, /* unless it is CLEARLY times more or less */
   COMPLEXITY_MIN = 4,    /* than this: a closed convex body has about 3 */
-  CLEARLY = 2,
   BOX_PER_AREA = 4 /* a typical triangle's box has this multiple of its area */
 };
+
+/* More than what the fewer samples of real scenes are off by. */
+#define CLEARLY 1.25
 
 struct face_samples {
   const struct scene *scene;

@@ -12,7 +12,7 @@
 
 enum {
   MAX_SHIFT = 31,
-  SAMPLE = 1 << 14 /* triangles sampled to choose the cells */
+  SAMPLE = 1 << 12 /* triangles sampled to choose the cells */
 };
 
 /* Do the boxes meet at most `spread` cells of 2^shift units on average?
