@@ -58,6 +58,7 @@ void crease_lines_fini(struct crease_lines *lines) {
   mem_free(lines->end);
   mem_free(lines->point);
   mem_free(lines->end_of_point);
+  mem_free(lines->place);
   mem_free(lines->number);
   *lines = (struct crease_lines){.sheet = lines->sheet};
 }
@@ -194,6 +195,31 @@ bool crease_lines_number_ends(struct crease_lines *lines) {
     return false;
   number_endpoints(lines);
   return true;
+}
+
+/* Endpoints that a thread takes at once: the points of the sheet are anywhere
+ * in memory. */
+enum { PLACED_ENDS = PARALLEL_RANGE(1024) };
+
+static bool place_ends_of_range(void *user, struct parallel_range range) {
+  const struct crease_lines *lines = user;
+  const struct projection projection = projection_of(&lines->sheet->camera);
+  const struct geom_point *point = lines->sheet->point.item;
+  for (size_t e = range.begin; e < range.end; e++)
+    lines->place[e] = unproject_point(&projection, point[lines->point[e]]);
+  return true;
+}
+
+bool crease_lines_place_ends(struct crease_lines *lines) {
+  if (lines->place != NULL)
+    return true;
+  if (!crease_lines_number_ends(lines))
+    return false;
+  size_t ends = lines->end_count;
+  lines->place = mem_alloc(ends, sizeof *lines->place);
+  return lines->place != NULL &&
+         parallel_ranges(parallel_workers(ends, PLACED_ENDS), ends, PLACED_ENDS,
+                         place_ends_of_range, lines);
 }
 
 /* Joins the endpoints of the edges that are of lines.

@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "scene/topology/large_faces.h"
+#include "view/project.h"
 #include "view/sheet.h"
 
 /* The cosine of the angle between the two faces of an edge that is drawn as a
@@ -45,6 +46,8 @@ struct crease_lines {
   uint32_t *end_of_point; /* one a point: its number, if it is an endpoint;
                              else not set */
   size_t end_count;
+  struct view_point *place; /* one an endpoint: where it is in view space;
+                               NULL: not yet found */
   uint32_t *number; /* one an endpoint: its line's, from 1 to line_count; NULL:
                        not yet joined */
   size_t line_count;
@@ -65,13 +68,14 @@ USE_RESULT bool crease_ends_count(const struct sheet *sheet,
 void crease_lines_fini(struct crease_lines *lines);
 
 /* List the edges; find their cosines, where they end alone; number their
- * endpoints; join the lines, of edges that bend by more than an angle, which is
- * the same at every call, where their cosines are found too.  Return false when
- * memory ran out or the caller cancelled. */
+ * endpoints, and place these, too; join the lines, of edges that bend by more
+ * than an angle, which is the same at every call, where their cosines are found
+ * too.  Return false when memory ran out or the caller cancelled. */
 USE_RESULT bool crease_lines_list(struct crease_lines *lines);
 USE_RESULT bool crease_lines_measure(struct crease_lines *lines);
 USE_RESULT bool crease_lines_find_ends(struct crease_lines *lines);
 USE_RESULT bool crease_lines_number_ends(struct crease_lines *lines);
+USE_RESULT bool crease_lines_place_ends(struct crease_lines *lines);
 USE_RESULT bool crease_lines_join(struct crease_lines *lines,
                                   double crease_deg);
 

@@ -59,7 +59,6 @@ struct speckle_search {
   double crease, sharp; /* the cosines of the crease angle, that of zigzags */
   uint8_t *is_of_line;  /* one a listed edge */
   struct speckle_corner *corner; /* one an endpoint of these */
-  struct view_point *place;      /* one an endpoint */
   uint32_t *piece;               /* a union-find of the listed edges */
   double *piece_mm;              /* one of these: of a piece's root */
   struct speckle_line *lines;    /* by number of the line; 0: none */
@@ -164,22 +163,12 @@ static bool has_candidates(const struct speckle_search *s) {
 
 /* ---- Pieces -------------------------------------------------------------- */
 
-/* Finds where the endpoints are in view space. */
-static bool place_endpoints(struct speckle_search *s) {
-  const struct crease_lines *creases = s->creases;
-  s->place = mem_alloc(creases->end_count, sizeof *s->place);
-  for (size_t e = 0; s->place != NULL && e < creases->end_count; e++)
-    s->place[e] = unproject_point(&s->projection,
-                                  s->sheet->point.item[creases->point[e]]);
-  return s->place != NULL;
-}
-
 /* A vector in view space from one end of an edge to the other.
  * from  the endpoint where it starts */
 static void edge_vector(const struct speckle_search *s, uint32_t edge,
                         uint32_t from, double vector[3]) {
-  struct view_point p = s->place[from],
-                    q = s->place[other_endpoint(s, edge, from)];
+  struct view_point p = s->creases->place[from],
+                    q = s->creases->place[other_endpoint(s, edge, from)];
   vector[0] = q.x - p.x;
   vector[1] = q.y - p.y;
   vector[2] = q.d - p.d;
@@ -214,7 +203,7 @@ static void join_pieces(const struct speckle_search *s) {
 static double length_mm(const struct speckle_search *s, uint32_t edge) {
   const struct projection *projection = &s->projection;
   uint32_t from = s->creases->end[2 * (size_t)edge];
-  double v[3], d = projection->perspective ? s->place[from].d : 1;
+  double v[3], d = projection->perspective ? s->creases->place[from].d : 1;
   edge_vector(s, edge, from, v);
   return sqrt(dot_product(v, v)) * projection->units / (d * SHEET_UNITS_PER_MM);
 }
@@ -309,13 +298,13 @@ static bool find_and_mark(struct speckle_search *s,
     return false;
   if (!has_candidates(s))
     return true;
-  if (!crease_lines_join(creases, angles->crease_deg))
+  if (!crease_lines_join(creases, angles->crease_deg) ||
+      !crease_lines_place_ends(creases))
     return false;
   s->piece = union_find_create(creases->count);
   s->piece_mm = mem_calloc(creases->count, sizeof *s->piece_mm);
   s->lines = mem_calloc(creases->line_count + 1, sizeof *s->lines);
-  if (s->piece == NULL || s->piece_mm == NULL || s->lines == NULL ||
-      !place_endpoints(s))
+  if (s->piece == NULL || s->piece_mm == NULL || s->lines == NULL)
     return false;
   join_pieces(s);
   measure_pieces(s);
@@ -342,7 +331,6 @@ bool segment_graph_find_speckled(const struct segment_graph *graph,
   bool ok = find_and_mark(&s, graph, creases, angles, drop);
   mem_free(s.is_of_line);
   mem_free(s.corner);
-  mem_free(s.place);
   mem_free(s.piece);
   mem_free(s.piece_mm);
   mem_free(s.lines);

@@ -13,7 +13,6 @@
 #include "base/poll.h"
 #include "ink/lines/crease_lines.h"
 #include "scene/angle.h"
-#include "view/project.h"
 
 /* A line turns back where it turns by more than 120 degrees. */
 #define TURNED_BACK_COSINE (-0.5)
@@ -49,14 +48,9 @@ static void add_neighbour(struct line_neighbours *of, uint32_t end) {
   of->count += of->count < 3;
 }
 
-/* Whether a line that passes three points of the sheet turns back in space at
- * the middle one.  A sheet does not know the scene's numbers of its points. */
-static bool turns_back(const struct projection *projection,
-                       struct geom_point from, struct geom_point at,
-                       struct geom_point to) {
-  struct view_point a = unproject_point(projection, from),
-                    b = unproject_point(projection, at),
-                    c = unproject_point(projection, to);
+/* Whether a line that passes three points turns back at the middle one. */
+static bool turns_back(struct view_point a, struct view_point b,
+                       struct view_point c) {
   const double p[3] = {b.x - a.x, b.y - a.y, b.d - a.d};
   const double q[3] = {c.x - b.x, c.y - b.y, c.d - b.d};
   double dot = 0, square[2] = {0, 0};
@@ -95,25 +89,17 @@ static void look_at_edges(const struct crease_lines *creases,
   }
 }
 
-static struct geom_point point_of_endpoint(const struct crease_lines *creases,
-                                           uint32_t end) {
-  return creases->sheet->point.item[creases->point[end]];
-}
-
 /* Counts where lines turn back. */
 static void look_at_points(const struct crease_lines *creases,
                            double crease_deg, struct crease_line *lines,
                            struct line_neighbours *next) {
-  const struct sheet *sheet = creases->sheet;
-  const struct projection projection = projection_of(&sheet->camera);
+  const struct view_point *place = creases->place;
   double crease = angle_of_degrees(crease_deg).cosine;
   for (size_t i = 0; i < creases->count; i++)
     for (int k = 0; k < 2 && joins_vertices(creases, i, crease); k++) {
       uint32_t e = creases->end[2 * i + (size_t)k];
       if (next[e].count == 2 &&
-          turns_back(&projection, point_of_endpoint(creases, next[e].end[0]),
-                     point_of_endpoint(creases, e),
-                     point_of_endpoint(creases, next[e].end[1])))
+          turns_back(place[next[e].end[0]], place[e], place[next[e].end[1]]))
         lines[creases->number[e]].turns++;
       next[e].count = 0; /* not again from the other edge */
     }
@@ -138,7 +124,8 @@ bool paths_find_weak(struct ink_paths *paths, const struct segment_graph *graph,
   }
   if (candidates == 0)
     return true;
-  if (!crease_lines_join(creases, angles->crease_deg))
+  if (!crease_lines_join(creases, angles->crease_deg) ||
+      !crease_lines_place_ends(creases))
     return false;
   struct crease_line *lines =
       mem_calloc(creases->line_count + 1, sizeof *lines);
