@@ -129,6 +129,28 @@ static void a_short_part_of_a_crease_touches_something(void **state) {
   assert_int_equal(draw_middle(2.5, false, false), 1);
 }
 
+/* A contour of a smooth surface of `length` mm, which ends in cusps, alone or
+ * with one end on another line. */
+static size_t draw_contour(double length, bool touches) {
+  struct ink_fixture k;
+  start(&k);
+  k.options.ink.contours = RECTO_CONTOURS_SMOOTH;
+  uint32_t edge =
+      ink_fixture_line(&k, 50 - length, 10, 50, 10, RECTO_EDGE_SILHOUETTE);
+  k.sheet.edge.item[edge].source = SHEET_NONE;
+  k.sheet.vertex_count = 0;
+  if (touches)
+    line(&k, 50, 5, 50, 90);
+  return draw(&k) - touches;
+}
+
+static void a_smooth_contour_alone_is_five_pens_long(void **state) {
+  (void)state;
+  assert_int_equal(draw_contour(1.4, false), 0);
+  assert_int_equal(draw_contour(1.6, false), 1);
+  assert_int_equal(draw_contour(1.4, true), 1);
+}
+
 /* Without creases what a silhouette leads to may not be drawn. */
 static void of_some_classes_all_silhouettes_are_drawn(void **state) {
   (void)state;
@@ -189,6 +211,7 @@ int main(void) {
       cmocka_unit_test(a_spur_on_which_a_line_ends_is_drawn),
       cmocka_unit_test(pieces_of_one_edge_are_judged_apart),
       cmocka_unit_test(a_short_part_of_a_crease_touches_something),
+      cmocka_unit_test(a_smooth_contour_alone_is_five_pens_long),
       cmocka_unit_test(of_some_classes_all_silhouettes_are_drawn),
       cmocka_unit_test(a_line_that_is_cut_off_is_drawn),
       cmocka_unit_test(spurs_are_the_same_for_all_outputs),

@@ -25,8 +25,10 @@
 /* In shortest creases: a triangle of these. */
 #define CYCLE_CREASES 3
 
-/* So many are as long as the shortest isolated silhouette. */
+/* So many are as long as the shortest isolated silhouette, and the shortest
+ * isolated contour of a smooth surface. */
 #define ISOLATED_CREASES 2
+#define ISOLATED_CONTOUR_CREASES 0.5
 
 /* The index of the bit of a class. */
 static unsigned class_index(unsigned edge_class) {
@@ -207,6 +209,10 @@ double pens_short_cycle_mm(const struct pens *pens, uint32_t pen) {
 
 double pens_shortest_isolated_mm(const struct pens *pens, uint32_t pen) {
   return ISOLATED_CREASES * pens_shortest_crease_mm(pens, pen);
+}
+
+double pens_shortest_contour_mm(const struct pens *pens, uint32_t pen) {
+  return ISOLATED_CONTOUR_CREASES * pens_shortest_crease_mm(pens, pen);
 }
 
 double pens_shortest_crease_mm(const struct pens *pens, uint32_t pen) {

@@ -95,6 +95,10 @@ double pens_short_cycle_mm(const struct pens *pens, uint32_t pen);
  * long. */
 double pens_shortest_isolated_mm(const struct pens *pens, uint32_t pen);
 
+/* Contours of a smooth surface that touch nothing, which may end in cusps, are
+ * drawn if they are as long. */
+double pens_shortest_contour_mm(const struct pens *pens, uint32_t pen);
+
 /* The width of visible lines of a class, in pen widths. */
 double pens_weight(const struct pens *pens, unsigned edge_class);
 

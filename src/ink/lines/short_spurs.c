@@ -1,5 +1,6 @@
 /* short_spurs.c - finds the short silhouettes within the picture that lead
- * nowhere; and beside smooth contours short creases that touch nothing.
+ * nowhere; and smooth contours, and creases beside them, that are short and
+ * touch nothing.
  *
  * Where a mesh is rough its surface folds over itself by next to nothing: each
  * fold is a silhouette, of which visibility leaves a tick beside the outline,
@@ -37,8 +38,8 @@ struct spur_search {
   const struct segment_graph *graph;
   const struct sheet *sheet;
   const struct pens *pens;
-  double step;  /* see segment_graph_find_short_spurs */
-  bool creases; /* the same */
+  double step; /* see segment_graph_find_short_spurs */
+  bool smooth; /* the same */
   ARRAY(struct spur) spur;
   uint32_t *of_segment;    /* the spur of each, plus one; 0: it is of none */
   ARRAY(uint32_t) segment; /* those of spurs */
@@ -58,7 +59,7 @@ static unsigned spur_class(const struct spur_search *s, uint32_t index) {
   const struct graph_segment *segment = &s->graph->segment.item[index];
   unsigned edge_class = segment->style_key & RECTO_EDGES_ALL;
   bool may_be = edge_class == RECTO_EDGE_SILHOUETTE ||
-                (s->creases && edge_class == RECTO_EDGE_CREASE);
+                (s->smooth && edge_class == RECTO_EDGE_CREASE);
   return may_be && !graph_segment_is_hidden(segment) ? edge_class : 0;
 }
 
@@ -77,6 +78,14 @@ static bool is_cut_off(const struct spur_search *s, uint32_t end) {
       return edge->point[k] >= s->sheet->vertex_count;
   }
   return edge->source == SHEET_NONE;
+}
+
+/* Whether an end is that of a contour of a smooth surface, which may end within
+ * it, in a cusp. */
+static bool is_smooth_contour(const struct spur_search *s, uint32_t end) {
+  const struct graph_segment *segment = &s->graph->segment.item[end >> 1];
+  return s->smooth && spur_class(s, end >> 1) == RECTO_EDGE_SILHOUETTE &&
+         s->sheet->edge.item[segment->edge].source == SHEET_NONE;
 }
 
 static double segment_mm(const struct spur_search *s, uint32_t segment) {
@@ -107,11 +116,13 @@ static uint32_t walk(const struct spur_search *s, uint32_t end, bool *is_long) {
   uint32_t group =
       sheet_edge_group(s->sheet, &s->sheet->edge.item[first->edge]);
   uint32_t pen = pens_of_line(s->pens, spur_class(s, end >> 1), group);
-  double length = 0;
+  double length = 0, limit = is_smooth_contour(s, end)
+                                 ? pens_shortest_contour_mm(s->pens, pen)
+                                 : pens_shortest_isolated_mm(s->pens, pen);
   for (uint32_t next = end; next != SEGMENT_GRAPH_NONE;
        next = next_end(s, end)) {
     length += segment_mm(s, next >> 1);
-    if (length >= pens_shortest_isolated_mm(s->pens, pen))
+    if (length >= limit)
       return SEGMENT_GRAPH_NONE;
     end = next ^ 1;
   }
@@ -124,17 +135,18 @@ typedef ARRAY(struct spur) spur_array;
 static bool add_spur(const struct spur_search *s, uint32_t end,
                      spur_array *spurs) {
   bool is_long = false;
+  bool is_smooth = is_smooth_contour(s, end);
   uint32_t last = walk(s, end, &is_long);
-  if (last == SEGMENT_GRAPH_NONE || is_cut_off(s, end))
+  if (last == SEGMENT_GRAPH_NONE || (!is_smooth && is_cut_off(s, end)))
     return true;
   bool both = ends_at(s, spur_node(s, last)) == 1;
-  if (both && (last < end || is_cut_off(s, last)))
+  if (both && (last < end || (!is_smooth && is_cut_off(s, last))))
     return true; /* found from there, or cut off */
   bool is_crease = spur_class(s, end >> 1) == RECTO_EDGE_CREASE;
-  if (is_crease && (is_long || !both))
+  if ((is_crease && is_long) || ((is_crease || is_smooth) && !both))
     return true;
   struct spur spur = {.end = {end, both ? last : SEGMENT_GRAPH_NONE},
-                      .is_dash = is_long || is_crease};
+                      .is_dash = is_long || is_crease || is_smooth};
   return ARRAY_PUSH(spurs, spur);
 }
 
@@ -321,12 +333,12 @@ bool segment_graph_find_short_spurs(const struct segment_graph *graph,
                                     const struct node_rows *rows,
                                     const struct sheet *sheet,
                                     const struct pens *pens, double step,
-                                    bool creases, uint8_t *drop) {
+                                    bool smooth, uint8_t *drop) {
   struct spur_search s = {.graph = graph,
                           .sheet = sheet,
                           .pens = pens,
                           .step = step,
-                          .creases = creases};
+                          .smooth = smooth};
   bool ok = find_spurs(&s);
   if (ok && s.spur.count > 0) {
     ok = list_spurs(&s) && find_met(&s, rows) && find_passing(&s);

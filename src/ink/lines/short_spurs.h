@@ -14,10 +14,11 @@
  * of the picture's outline.
  * Creases in chains with two such ends are treated alike, if they are shorter
  * than the shortest crease that may end free: where contours are smooth, the
- * line that hides the rest of a crease may not be drawn there.
+ * line that hides the rest of a crease may not be drawn there.  So are smooth
+ * contours that are shorter than pens_shortest_contour_mm.
  * rows  of the graph's nodes
  * step  how far nodes may be from the lines that meet there, grid units
- * creases  whether they are looked for, too
+ * smooth  whether contours are smooth: these, and creases, are looked for, too
  * drop  one a segment, 0
  * Returns false when memory ran out or the caller cancelled.
  * Cost  near linear; of segments far from loose ends of such chains, that of
@@ -25,6 +26,6 @@
 USE_RESULT bool segment_graph_find_short_spurs(
     const struct segment_graph *graph, const struct node_rows *rows,
     const struct sheet *sheet, const struct pens *pens, double step,
-    bool creases, uint8_t *drop);
+    bool smooth, uint8_t *drop);
 
 #endif
