@@ -77,12 +77,34 @@ static recto_status clip_edge(struct edge_layout *work, uint32_t edge) {
   return status;
 }
 
+/* Fetches the special edges of a word that is looked at later, and the numbers
+ * of the points of those that are looked at sooner: few words have any. */
+MEM_PREFETCH_INLINE void prefetch_special(const struct edge_layout *work,
+                                          size_t word, size_t words) {
+  const struct layout *layout = work->layout;
+  const struct topology_edge *edge = layout->topology->edge.item + 64 * word;
+  if (word + 2 * MEM_PREFETCH_AHEAD >= words)
+    return;
+  for (uint64_t left = work->special[word + 2 * MEM_PREFETCH_AHEAD]; left != 0;
+       left &= left - 1)
+    MEM_PREFETCH(
+        &edge[64 * 2 * MEM_PREFETCH_AHEAD + (size_t)__builtin_ctzll(left)]);
+  for (uint64_t left = work->special[word + MEM_PREFETCH_AHEAD];
+       left != 0 && layout->point_map != NULL; left &= left - 1) {
+    const uint32_t *point =
+        edge[64 * MEM_PREFETCH_AHEAD + (size_t)__builtin_ctzll(left)].point;
+    MEM_PREFETCH(&layout->point_map[point[0]]);
+    MEM_PREFETCH(&layout->point_map[point[1]]);
+  }
+}
+
 /* Clips the special edges, and counts the edges that are made. */
 static recto_status clip_edges(struct edge_layout *work, size_t *count) {
   struct layout_edge_ids *ids = &work->layout->ids;
   size_t words = work->layout->topology->edge.count / 64 + 1;
   *count = 0;
   for (size_t w = 0; w < words; w++) {
+    prefetch_special(work, w, words);
     for (uint64_t left = work->special[w]; left != 0; left &= left - 1) {
       uint32_t edge = (uint32_t)(64 * w) + (uint32_t)__builtin_ctzll(left);
       recto_status status = clip_edge(work, edge);

@@ -85,12 +85,38 @@ bool crease_lines_list(struct crease_lines *lines) {
 /* Edges that a thread takes at once, each of which looks at its faces. */
 enum { MEASURED_EDGES = PARALLEL_RANGE(512) };
 
+/* Fetches the corners of the faces of a listed edge that is looked at later,
+ * and the points of those of one that is looked at sooner: they are anywhere in
+ * memory. */
+MEM_PREFETCH_INLINE void prefetch_faces(const struct crease_lines *lines,
+                                        size_t i, size_t end) {
+  enum { AHEAD = MEM_PREFETCH_AHEAD / 2 };
+  const struct scene *scene = lines->sheet->scene;
+  if (i + 2 * AHEAD >= end || !lines->sheet->triangles_dropped)
+    return;
+  const struct sheet_edge *edge = lines->sheet->edge.item;
+  const uint32_t *far = edge[lines->edge[i + 2 * AHEAD]].triangle,
+                 *near = edge[lines->edge[i + AHEAD]].triangle;
+  for (int k = 0; k < 2; k++) {
+    if (far[k] != SHEET_NONE)
+      MEM_PREFETCH(&scene->corner.item[scene_face_start(scene, far[k])]);
+    if (near[k] == SHEET_NONE)
+      continue;
+    const uint32_t *corner =
+        &scene->corner.item[scene_face_start(scene, near[k])];
+    for (int c = 0; c < 3; c++)
+      MEM_PREFETCH(&scene->point.item[corner[c]]);
+  }
+}
+
 static bool measure_edges_of_range(void *user, struct parallel_range range) {
   const struct crease_lines *lines = user;
   struct large_face_normals normals = large_face_normals_start();
-  for (size_t i = range.begin; i < range.end; i++)
+  for (size_t i = range.begin; i < range.end; i++) {
+    prefetch_faces(lines, i, range.end);
     lines->cosine[i] = crease_cosine(
         lines->sheet, &lines->sheet->edge.item[lines->edge[i]], &normals);
+  }
   return true;
 }
 

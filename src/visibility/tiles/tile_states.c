@@ -143,6 +143,9 @@ static inline enum map_state state_in_corners(const struct tile_corners *tiles,
 
 /* ---- What is deferred ---------------------------------------------------- */
 
+/* Edges or triangles that a thread takes at once. */
+enum { CLASSIFIED_ITEMS = PARALLEL_RANGE(1024) };
+
 /* What the ranges of edges or triangles have in common. */
 struct classification_work {
   struct tile_states *states;
@@ -161,11 +164,11 @@ struct classification_work {
 static bool classify_all(struct classification_work *work, size_t count,
                          parallel_task *classify, parallel_task *list,
                          struct tile_list *to) {
-  int workers = parallel_workers(count, PARALLEL_ITEMS);
-  size_t ranges = parallel_range_count(count, PARALLEL_ITEMS);
+  int workers = parallel_workers(count, CLASSIFIED_ITEMS);
+  size_t ranges = parallel_range_count(count, CLASSIFIED_ITEMS);
   work->deferred = mem_calloc(ranges, sizeof *work->deferred);
   bool ok = work->deferred != NULL &&
-            parallel_ranges(workers, count, PARALLEL_ITEMS, classify, work);
+            parallel_ranges(workers, count, CLASSIFIED_ITEMS, classify, work);
   size_t sum = to->count;
   for (size_t r = 0; ok && r < ranges; r++) {
     size_t here = work->deferred[r];
@@ -175,7 +178,7 @@ static bool classify_all(struct classification_work *work, size_t count,
   ok = ok && ARRAY_RESERVE(to, sum - to->count);
   if (ok)
     to->count = sum;
-  ok = ok && parallel_ranges(workers, count, PARALLEL_ITEMS, list, work);
+  ok = ok && parallel_ranges(workers, count, CLASSIFIED_ITEMS, list, work);
   mem_free(work->deferred);
   return ok;
 }
@@ -263,7 +266,7 @@ static bool classify_edge_range(void *user, struct parallel_range range) {
       states[e] = (uint8_t)state_of_edge(work->states, &loop, p, q, wire);
     deferred += states[e] == MAP_MIXED;
   }
-  work->deferred[range.begin / PARALLEL_ITEMS] = deferred;
+  work->deferred[range.begin / CLASSIFIED_ITEMS] = deferred;
   return true;
 }
 
@@ -271,7 +274,7 @@ static bool classify_edge_range(void *user, struct parallel_range range) {
 static bool list_edge_range(void *user, struct parallel_range range) {
   const struct classification_work *work = user;
   const struct sheet *sheet = work->states->sheet;
-  size_t n = work->deferred[range.begin / PARALLEL_ITEMS];
+  size_t n = work->deferred[range.begin / CLASSIFIED_ITEMS];
   for (size_t e = work->from + range.begin; e < work->from + range.end; e++) {
     if (work->map->edge_state[e] != MAP_MIXED)
       continue;
@@ -336,7 +339,7 @@ static bool classify_face_range(void *user, struct parallel_range range) {
     states->face_state[t] = (uint8_t)state;
     deferred += state == MAP_MIXED && sheet_is_filled(states->sheet, t);
   }
-  work->deferred[range.begin / PARALLEL_ITEMS] = deferred;
+  work->deferred[range.begin / CLASSIFIED_ITEMS] = deferred;
   return true;
 }
 
@@ -344,7 +347,7 @@ static bool classify_face_range(void *user, struct parallel_range range) {
 static bool list_face_range(void *user, struct parallel_range range) {
   const struct classification_work *work = user;
   struct tile_states *states = work->states;
-  size_t n = work->deferred[range.begin / PARALLEL_ITEMS];
+  size_t n = work->deferred[range.begin / CLASSIFIED_ITEMS];
   for (size_t t = range.begin; t < range.end; t++) {
     if (states->face_state[t] != MAP_MIXED ||
         !sheet_is_filled(states->sheet, t))
