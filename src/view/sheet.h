@@ -203,6 +203,19 @@ MEM_PREFETCH_INLINE void sheet_prefetch_corners(const struct sheet *sheet,
   MEM_PREFETCH(&sheet->point.item[p[2]]);
 }
 
+/* Fetches one of each `stride` triangles that is looked at later, and the
+ * corners of one that is looked at sooner. */
+MEM_PREFETCH_INLINE void sheet_prefetch_sampled(const struct sheet *sheet,
+                                                size_t triangle,
+                                                size_t stride) {
+  size_t near = triangle + MEM_PREFETCH_AHEAD / 2 * stride,
+         far = triangle + MEM_PREFETCH_AHEAD * stride;
+  if (far >= sheet->triangle.count)
+    return;
+  MEM_PREFETCH(&sheet->triangle.item[far]);
+  sheet_prefetch_corners(sheet, near);
+}
+
 static inline struct geom_triangle sheet_corners(const struct sheet *sheet,
                                                  size_t triangle) {
   const uint32_t *point = sheet->triangle.item[triangle].point;

@@ -39,6 +39,7 @@ double occlusion_culling_complexity(const struct sheet *sheet, double area) {
   size_t n = sheet->triangle.count, stride = n / SAMPLES_MAX + 1;
   double sum = 0;
   for (size_t t = 0; t < n; t += stride) {
+    sheet_prefetch_sampled(sheet, t, stride);
     struct geom_triangle c = sheet_corners(sheet, t);
     double own = 0.5 * fabs((double)geom_orient2d(c.p[0], c.p[1], c.p[2]));
     double counted = fmin(box_area(box2_of_triangle(sheet, (uint32_t)t)),

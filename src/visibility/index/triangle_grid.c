@@ -21,6 +21,7 @@ static bool is_spread(const struct sheet *sheet, int shift, unsigned spread) {
   size_t n = sheet->triangle.count, stride = n / SAMPLE + 1;
   uint64_t cells = 0, limit = (uint64_t)spread * (n / stride) + 64;
   for (size_t t = 0; t < n && cells <= limit; t += stride) {
+    sheet_prefetch_sampled(sheet, t, stride);
     struct box2 b = box2_of_triangle(sheet, (uint32_t)t);
     cells += ((uint64_t)(((int64_t)b.x1 - b.x0) >> shift) + 1) *
              ((uint64_t)(((int64_t)b.y1 - b.y0) >> shift) + 1);

@@ -174,6 +174,7 @@ static bool sort_by_tile(struct tiles_work *work) {
   if (key == NULL)
     return false;
   for (size_t i = 0; i < n; i++) {
+    prefetch_edge(work, i, n);
     const uint32_t *point = sheet->edge.item[work->states.edge.item[i]].point;
     struct cell_range r =
         triangle_grid_cells(grid, box2_of_segment(sheet->point.item[point[0]],
