@@ -80,7 +80,7 @@ static void finish(struct line *line) {
 
 /* The height about a side, mm: its sample is a tenth of it beside the side. */
 static double height_at(const struct line *line, int side) {
-  double beside = (double)line->divided.sample.item[side].on.y -
+  double beside = (double)line->divided.sample.item[side].aside.on.y -
                   (double)line->set.node.item[side].page.y;
   return 10 * beside / SHEET_UNITS_PER_MM;
 }

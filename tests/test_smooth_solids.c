@@ -1,5 +1,5 @@
 /* test_smooth_solids.c - smooth contours within another solid are not visible,
- * and those in front of it are. */
+ * and those in front of it or in a gap beside it are. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -103,6 +103,31 @@ static void the_contours_of_a_torus_end_at_a_box(void **state) {
   }
 }
 
+/* ---- In a narrow gap ----------------------------------------------------- */
+
+/* A sphere behind the hole of the torus, which has a radius of 0.6. */
+#define SMALL_RADIUS 0.595
+static void sphere_behind(double u, double v, double p[3]) {
+  turned_sphere(u, v, p);
+  for (int k = 0; k < 3; k++)
+    p[k] *= SMALL_RADIUS;
+  p[2] -= 1.5;
+}
+
+/* Its triangles are 14 to 22 times as high as the gap is wide. */
+static void a_contour_in_a_narrow_gap_is_visible(void **state) {
+  (void)state;
+  for (int n = 24; n <= 36; n += 12) {
+    recto_scene *scene = smooth_scene(smooth_torus, false, 96, 48);
+    smooth_add(scene, sphere_behind, true, n, n / 2);
+    recto_drawing *drawing = draw_from_front(scene);
+    check_arc(drawing, SMALL_RADIUS, 1, true);
+    check_arc(drawing, SMALL_RADIUS, -1, true);
+    recto_drawing_destroy(drawing);
+    recto_scene_destroy(scene);
+  }
+}
+
 /* ---- As of a fine mesh --------------------------------------------------- */
 
 /* The farthest point of a drawing's silhouettes from the ink of another one,
@@ -176,6 +201,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_contour_of_a_sunk_sphere_is_hidden),
       cmocka_unit_test(the_contours_of_a_torus_end_at_a_box),
+      cmocka_unit_test(a_contour_in_a_narrow_gap_is_visible),
       cmocka_unit_test(contours_of_tori_end_where_they_intersect)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -210,10 +210,11 @@ static bool list_triangles_about(struct contour_pieces *c) {
     return false;
   for (size_t i = 0; i < c->divided.sample.count; i++) {
     const struct contour_sample *s = &c->divided.sample.item[i];
-    partial_grid_want(&c->grid,
-                      (struct box2){s->off.x, s->off.y, s->off.x, s->off.y});
-    partial_grid_want(&c->grid,
-                      (struct box2){s->on.x, s->on.y, s->on.x, s->on.y});
+    const struct geom_point *all[] = {&s->aside.off, &s->aside.on, &s->at.off,
+                                      &s->at.on};
+    for (int k = 0; k < 4; k++)
+      partial_grid_want(
+          &c->grid, (struct box2){all[k]->x, all[k]->y, all[k]->x, all[k]->y});
   }
   for (size_t i = 0; i < c->set->outline.count; i++)
     partial_grid_want(&c->grid, outline_gaps_box(&c->set->outline.item[i]));

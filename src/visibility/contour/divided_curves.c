@@ -78,6 +78,16 @@ static double height_about(const struct divided_curves *d,
   return fmax(all[count / 2].height, fmin(own->width, all[k].height));
 }
 
+/* The points of a sample. */
+static struct sample_points points_from(const struct divided_curves *d,
+                                        const double on[3],
+                                        const double nearer[3]) {
+  const double off[3] = {on[0] + nearer[0], on[1] + nearer[1],
+                         on[2] + nearer[2]};
+  return (struct sample_points){divided_curves_project(d, off),
+                                divided_curves_project(d, on)};
+}
+
 /* Where the visibility of a curve is sampled.
  * side  1: the surface bends away from the line of sight, so that its outer
  *       side is seen; -1: it bends into it, which hides the point unless it is
@@ -88,16 +98,18 @@ static struct contour_sample place_sample(const struct divided_curves *d,
   const struct contour_node *a = contour_curves_node(d->curves, step);
   const struct contour_node *b = contour_curves_node(d->curves, step + 1);
   const struct contour_segment *s = contour_curves_segment(d->curves, step);
-  double height = height_about(d, curve, step), on[3], off[3], view[3];
+  double height = height_about(d, curve, step);
+  double aside[3], at[3], nearer[3], view[3];
   facing_view(&d->sheet->camera, a->flat, view);
   (void)vector_normalise(view);
   for (int k = 0; k < 3; k++) {
-    on[k] = a->flat[k] + t * (b->flat[k] - a->flat[k]) +
-            side * height * OFFSET_ASIDE * s->normal[k];
-    off[k] = on[k] - height * OFFSET_NEARER * view[k];
+    aside[k] = a->flat[k] + t * (b->flat[k] - a->flat[k]) +
+               side * height * OFFSET_ASIDE * s->normal[k];
+    at[k] = a->at[k] + t * (b->at[k] - a->at[k]);
+    nearer[k] = -height * OFFSET_NEARER * view[k];
   }
-  return (struct contour_sample){divided_curves_project(d, off),
-                                 divided_curves_project(d, on), s->face,
+  return (struct contour_sample){points_from(d, aside, nearer),
+                                 points_from(d, at, nearer), s->face,
                                  length_of_step(d, step)};
 }
 
@@ -175,21 +187,40 @@ static double whole_length(const struct contour_piece *piece,
   return WHOLE_SHARE * longest;
 }
 
-/* Tests the samples of a piece.  What is near along the surface must not hide
- * the point off it; another surface must not hide the point on it.  Where a
- * contour comes to a crease it has segments that are as good as none, which do
- * not decide about a long one. */
+/* How many triangles hide the points of a sample; negative when memory ran out.
+ * What is near along the surface must not hide the point off it; another
+ * surface must not hide the point on it. */
+static int count_at_points(struct occluders *o,
+                           const struct sample_points *points, uint32_t face) {
+  int count =
+      occluders_count(o->sheet, o->grid, o->query, points->off, o->most);
+  return count != 0 ? count : occluders_count_apart(o, points->on, face);
+}
+
+/* The same of a sample.  Where the surface bends away from the line of sight,
+ * and another one hides the point beside the curve, the curve may be seen in a
+ * gap between both that is narrower than that point is off. */
+static int count_at_sample(struct occluders *o, int side,
+                           const struct contour_sample *sample) {
+  int count = count_at_points(o, &sample->aside, sample->face);
+  if (count <= 0 || side < 0)
+    return count;
+  int at_curve = count_at_points(o, &sample->at, sample->face);
+  if (at_curve != 0)
+    return at_curve < 0 ? at_curve : count;
+  int apart = occluders_count_apart(o, sample->aside.on, sample->face);
+  return apart > 0 ? 0 : apart < 0 ? apart : count;
+}
+
+/* Tests the samples of a piece.  Where a contour comes to a crease it has
+ * segments that are as good as none, which do not decide about a long one. */
 static bool test_samples(struct occluders *occluders,
                          struct contour_piece *piece,
                          const struct contour_sample *sample) {
   double whole = whole_length(piece, sample);
   for (uint32_t i = 0; i < piece->samples; i++) {
     double weight = sample[i].length < whole ? sample[i].length / whole : 1;
-    int count =
-        occluders_count(occluders->sheet, occluders->grid, occluders->query,
-                        sample[i].off, occluders->most);
-    if (count == 0)
-      count = occluders_count_apart(occluders, sample[i].on, sample[i].face);
+    int count = count_at_sample(occluders, piece->side, &sample[i]);
     if (count < 0)
       return false;
     piece->weight += weight;

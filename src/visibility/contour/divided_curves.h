@@ -16,12 +16,19 @@ struct divided_curve {
   bool joins; /* the first and the last one are one */
 };
 
+/* Points at which visibility is tested. */
+struct sample_points {
+  struct geom_point off; /* off the surface, towards the viewer */
+  struct geom_point on;  /* where that was moved from */
+};
+
 /* A place of a curve at which its visibility is tested. */
 struct contour_sample {
-  struct geom_point off; /* off the surface */
-  struct geom_point on;  /* beside it */
-  uint32_t face;         /* there */
-  double length;         /* of the segment that it is on, grid units */
+  struct sample_points
+      aside;               /* on the side on which the line of sight passes */
+  struct sample_points at; /* on the curve */
+  uint32_t face;           /* there */
+  double length;           /* of the segment that it is on, grid units */
 };
 
 struct divided_curves {
