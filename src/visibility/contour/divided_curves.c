@@ -43,39 +43,90 @@ static double length_of_step(const struct divided_curves *d, uint32_t step) {
   return vector2_length((double)q.x - p.x, (double)q.y - p.y);
 }
 
-struct height_of_length {
-  double height, length;
+/* The segments about a step of a curve, but those along creases. */
+struct height_window {
+  uint32_t from, to; /* the steps, but `to`; as many as are looked at */
+  struct {
+    double height; /* of the triangle */
+    uint32_t step;
+  } item[2 * HEIGHT_REACH + 1]; /* ascending, by steps where they are equal */
+  size_t count;
 };
+
+/* Adds the step that comes next. */
+static void add_to_window(const struct divided_curves *d,
+                          struct height_window *w) {
+  const struct contour_segment *s = contour_curves_segment(d->curves, w->to);
+  uint32_t step = w->to++;
+  if (s->along_crease)
+    return;
+  size_t k = w->count++; /* they are few: each is put where it belongs */
+  for (; k > 0 && w->item[k - 1].height > s->width; k--)
+    w->item[k] = w->item[k - 1];
+  w->item[k].height = s->width;
+  w->item[k].step = step;
+}
+
+/* Takes off the first step. */
+static void take_off_window(struct height_window *w) {
+  size_t kept = 0;
+  for (size_t k = 0; k < w->count; k++)
+    if (w->item[k].step != w->from)
+      w->item[kept++] = w->item[k];
+  w->count = kept;
+  w->from++;
+}
+
+/* Moves a window on to a step of a curve, which ascend. */
+static void move_window(const struct divided_curves *d,
+                        const struct contour_curve *curve, uint32_t step,
+                        struct height_window *w) {
+  uint32_t end = curve->step + curve->count, from = curve->step, to = end;
+  if (step - from > HEIGHT_REACH)
+    from = step - HEIGHT_REACH;
+  if (end - step > HEIGHT_REACH)
+    to = step + HEIGHT_REACH + 1;
+  if (w->to <= from) {
+    w->from = w->to = from;
+    w->count = 0;
+  }
+  while (w->from < from)
+    take_off_window(w);
+  while (w->to < to)
+    add_to_window(d, w);
+}
+
+/* The median of a window's heights by the lengths of its segments. */
+static double median_by_length(const struct divided_curves *d,
+                               const struct height_window *w) {
+  double length = 0, before = 0;
+  for (uint32_t step = w->from; step < w->to; step++)
+    if (!contour_curves_segment(d->curves, step)->along_crease)
+      length += length_of_step(d, step);
+  size_t k = 0;
+  for (; k + 1 < w->count; k++) {
+    before += length_of_step(d, w->item[k].step);
+    if (2 * before >= length)
+      break;
+  }
+  return w->item[k].height;
+}
 
 /* The median of the triangles' heights along a curve about one of its steps.
  * Where a long side comes to a corner of small triangles most segments are the
  * corner's: the side has its own height, as far as the median by length is no
  * less. */
 static double height_about(const struct divided_curves *d,
-                           const struct contour_curve *curve, uint32_t step) {
-  struct height_of_length all[2 * HEIGHT_REACH + 1];
-  size_t count = 0;
-  double length = 0, before = 0;
+                           const struct contour_curve *curve, uint32_t step,
+                           struct height_window *w) {
   const struct contour_segment *own = contour_curves_segment(d->curves, step);
-  for (int i = -HEIGHT_REACH; i <= HEIGHT_REACH; i++) {
-    int64_t at = (int64_t)step + i;
-    if (at < curve->step || at >= (int64_t)curve->step + curve->count)
-      continue;
-    const struct contour_segment *s =
-        contour_curves_segment(d->curves, (size_t)at);
-    if (s != own && (s->along_crease || own->along_crease))
-      continue;
-    struct height_of_length of = {s->width, length_of_step(d, (uint32_t)at)};
-    size_t k = count++; /* they are few: each is put where it belongs */
-    for (; k > 0 && all[k - 1].height > of.height; k--)
-      all[k] = all[k - 1];
-    all[k] = of;
-    length += of.length;
-  }
-  size_t k = 0;
-  while (k + 1 < count && 2 * (before + all[k].length) < length)
-    before += all[k++].length;
-  return fmax(all[count / 2].height, fmin(own->width, all[k].height));
+  if (own->along_crease)
+    return own->width;
+  move_window(d, curve, step, w);
+  double median = w->item[w->count / 2].height;
+  return own->width > median
+             ? fmax(median, fmin(own->width, median_by_length(d, w)))
+             : median;
 }
 
 /* The points of a sample. */
@@ -94,11 +145,12 @@ static struct sample_points points_from(const struct divided_curves *d,
  *       the inner side that is seen, as where all faces are turned inwards */
 static struct contour_sample place_sample(const struct divided_curves *d,
                                           const struct contour_curve *curve,
-                                          uint32_t step, double t, int side) {
+                                          uint32_t step, double t, int side,
+                                          struct height_window *window) {
   const struct contour_node *a = contour_curves_node(d->curves, step);
   const struct contour_node *b = contour_curves_node(d->curves, step + 1);
   const struct contour_segment *s = contour_curves_segment(d->curves, step);
-  double height = height_about(d, curve, step);
+  double height = height_about(d, curve, step, window);
   double aside[3], at[3], nearer[3], view[3];
   facing_view(&d->sheet->camera, a->flat, view);
   (void)vector_normalise(view);
@@ -132,13 +184,14 @@ static bool add_sampled_piece(struct divided_curves *d,
                               struct contour_piece *piece) {
   double from = contour_position(piece->from), to = contour_position(piece->to);
   double last = (double)curve->step + curve->count - 1;
+  struct height_window window = {.count = 0};
   piece->side = side_of_piece(d, piece);
   piece->samples = (uint32_t)fmin(ceil(to - from), SAMPLES_MAX) | 1;
   for (uint32_t i = 0; i < piece->samples; i++) {
     double at = from + (to - from) * ((i + 0.5) / piece->samples);
     double step = fmin(floor(at), last);
     struct contour_sample sample =
-        place_sample(d, curve, (uint32_t)step, at - step, piece->side);
+        place_sample(d, curve, (uint32_t)step, at - step, piece->side, &window);
     if (!ARRAY_PUSH(&d->sample, sample))
       return false;
   }
