@@ -1,16 +1,23 @@
 /* occluders.c - tests the triangles that a grid lists at a point. */
 #include "visibility/contour/occluders.h"
 
-static bool hides(const struct sheet *sheet, uint32_t t, struct geom_point p) {
+/* Whether the plane of a triangle hides a point, which it lies over. */
+static bool is_plane_before(const struct sheet *sheet, uint32_t t,
+                            struct geom_point p) {
+  struct geom_triangle of = sheet_corners(sheet, t);
+  struct geom_plane plane = geom_plane_of(of.p[0], of.p[1], of.p[2]);
+  return !sheet_is_edge_on(sheet, t) && geom_plane_value(&plane, p) < 0;
+}
+
+/* Inline, as most triangles are told by their first sides. */
+static inline bool hides(const struct sheet *sheet, uint32_t t,
+                         struct geom_point p) {
   const uint32_t *corner = sheet->triangle.item[t].point;
   const struct geom_point *a = &sheet->point.item[corner[0]];
   const struct geom_point *b = &sheet->point.item[corner[1]];
   const struct geom_point *c = &sheet->point.item[corner[2]];
-  if (geom_orient2d(*a, *b, p) <= 0 || geom_orient2d(*b, *c, p) <= 0 ||
-      geom_orient2d(*c, *a, p) <= 0 || sheet_is_edge_on(sheet, t))
-    return false;
-  struct geom_plane plane = geom_plane_of(*a, *b, *c);
-  return geom_plane_value(&plane, p) < 0;
+  return geom_orient2d(*a, *b, p) > 0 && geom_orient2d(*b, *c, p) > 0 &&
+         geom_orient2d(*c, *a, p) > 0 && is_plane_before(sheet, t, p);
 }
 
 int occluders_count(const struct sheet *sheet, const struct triangle_grid *grid,

@@ -5,14 +5,14 @@
 #include <math.h>
 
 /* Whether a triangle lies over a point. */
-static bool is_over(const struct sheet *sheet, uint32_t t,
-                    struct geom_point p) {
-  if (sheet_is_edge_on(sheet, t))
-    return false;
-  struct geom_triangle of = sheet_corners(sheet, t);
-  return geom_orient2d(of.p[0], of.p[1], p) >= 0 &&
-         geom_orient2d(of.p[1], of.p[2], p) >= 0 &&
-         geom_orient2d(of.p[2], of.p[0], p) >= 0;
+static inline bool is_over(const struct sheet *sheet, uint32_t t,
+                           struct geom_point p) {
+  const uint32_t *corner = sheet->triangle.item[t].point;
+  const struct geom_point *a = &sheet->point.item[corner[0]];
+  const struct geom_point *b = &sheet->point.item[corner[1]];
+  const struct geom_point *c = &sheet->point.item[corner[2]];
+  return geom_orient2d(*a, *b, p) >= 0 && geom_orient2d(*b, *c, p) >= 0 &&
+         geom_orient2d(*c, *a, p) >= 0 && !sheet_is_edge_on(sheet, t);
 }
 
 bool page_cover_is_over(struct page_cover *c, struct geom_point p, bool *ok) {

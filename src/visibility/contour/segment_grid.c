@@ -23,11 +23,16 @@ bool segment_grid_sort(struct segment_grid *grid) {
 }
 
 /* Puts a segment into the lists of the cells that it meets. */
-static void list_segment(struct segment_grid *grid, uint32_t segment) {
+static inline void list_segment(struct segment_grid *grid, uint32_t segment) {
   struct triangle_grid *cell = &grid->cell;
   const struct page_segment *s = &grid->segment.item[segment];
   struct cell_range range =
       triangle_grid_cells(cell, box2_of_segment(s->p, s->q));
+  if (range.x0 == range.x1 && range.y0 == range.y1) {
+    number_lists_put(&cell->lists,
+                     triangle_grid_index(cell, range.x0, range.y0), segment);
+    return;
+  }
   bool is_wide = range.x0 < range.x1 && range.y0 < range.y1;
   for (int y = range.y0; y <= range.y1; y++) {
     int x0 = range.x0, x1 = range.x1;

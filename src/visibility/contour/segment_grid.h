@@ -3,8 +3,7 @@
 #ifndef VISIBILITY_CONTOUR_SEGMENT_GRID_H
 #define VISIBILITY_CONTOUR_SEGMENT_GRID_H
 
-#include <math.h>
-
+#include "geom/vector.h"
 #include "visibility/index/triangle_grid.h"
 
 struct page_segment {
@@ -63,11 +62,12 @@ segment_grid_near(const struct segment_grid *grid, double x, double y,
   const double most = SHEET_XY_MAX;
   if (grid->contours == 0)
     return walk; /* there are no cells */
+  reach += 1;    /* as conversions leave out what is less than a unit */
   walk.range = triangle_grid_cells(
-      &grid->cell, (struct box2){(int32_t)fmax(floor(x - reach), -most),
-                                 (int32_t)fmax(floor(y - reach), -most),
-                                 (int32_t)fmin(ceil(x + reach), most),
-                                 (int32_t)fmin(ceil(y + reach), most)});
+      &grid->cell, (struct box2){(int32_t)max_number(x - reach, -most),
+                                 (int32_t)max_number(y - reach, -most),
+                                 (int32_t)min_number(x + reach, most),
+                                 (int32_t)min_number(y + reach, most)});
   walk.x = walk.range.x0;
   walk.y = walk.range.y0;
   return walk;
