@@ -35,12 +35,20 @@ enum { FIRST_ENTRIES_MAX = 64 };
 
 /* ---- Lists --------------------------------------------------------------- */
 
+/* How far a contour is from the mesh on the page, grid units. */
+static double bulge_of_contour(const struct nearest_contours *n,
+                               uint32_t edge) {
+  uint32_t i = edge - n->first;
+  return i < n->bulges ? (double)n->bulge[i] : 0;
+}
+
 static bool list_near_contour(struct nearest_contours *n, uint32_t edge) {
   const uint32_t *point = n->sheet->edge.item[edge].point;
   for (int k = 0; k < 2; k++) {
     uint8_t *ends = &n->ends[point[k] - n->first_point];
     *ends = (uint8_t)(*ends + (*ends < 2));
   }
+  n->bulge_most = fmax(n->bulge_most, bulge_of_contour(n, edge));
   return segment_grid_add(&n->contour, sheet_ends(n->sheet, point), edge);
 }
 
@@ -192,8 +200,7 @@ place_on_segment(const struct page_segment *s, struct geom_point p) {
 static bool is_on_other_side(const struct nearest_contours *n,
                              const struct page_segment *s, struct geom_point p,
                              const double along[2]) {
-  uint32_t i = s->owner - n->first;
-  double most = BEYOND + (i < n->bulges ? (double)n->bulge[i] : 0);
+  double most = BEYOND + bulge_of_contour(n, s->owner);
   double from =
       along[1] * ((double)s->p.x - p.x) - along[0] * ((double)s->p.y - p.y);
   double to =
@@ -317,6 +324,40 @@ bool nearest_contours_has_line(struct nearest_contours *nearest,
           return true;
       }
     }
+  return false;
+}
+
+/* ---- Cover --------------------------------------------------------------- */
+
+/* Whether a contour in front of a point covers it with its smooth surface, on
+ * its left; no farther than it bulges, as the mesh does not.
+ * beside  so far to its right the point may be instead */
+static bool covers_point(const struct nearest_contours *n,
+                         const struct page_segment *s, struct geom_point p,
+                         double beside) {
+  double most = TOLERANCE_OUTLINE_UNITS + bulge_of_contour(n, s->owner);
+  if (least_distance(s, p) > fmax(most, beside))
+    return false;
+  struct segment_place at = place_on_segment(s, p);
+  const uint32_t *ends = n->sheet->edge.item[s->owner].point;
+  bool is_inside = at.t > 0 && at.t < 1;
+  bool is_left = geom_orient2d(s->p, s->q, p) > 0;
+  return at.distance <= (is_left ? most : beside) &&
+         (is_inside || !is_loose_end(n, ends[at.t > 0])) &&
+         page_segment_depth(s, at.t) > (double)p.z;
+}
+
+bool nearest_contours_cover(struct nearest_contours *nearest,
+                            struct geom_point p, double beside, double radius) {
+  double most = TOLERANCE_OUTLINE_UNITS + nearest->bulge_most;
+  struct segment_walk walk = segment_grid_near(
+      &nearest->contour, p.x, p.y, fmin(fmax(most, beside), radius));
+  const struct page_segment *s;
+  while ((s = segment_walk_next(&walk)) != NULL) {
+    nearest->compared++;
+    if (covers_point(nearest, s, p, beside))
+      return true;
+  }
   return false;
 }
 

@@ -14,7 +14,8 @@ struct nearest_contours {
   uint32_t first_point;      /* of the sheet's points: the same */
   const float *bulge; /* how far the first so many contours bulge, grid units */
   uint32_t bulges;
-  bool cusps; /* contours end at cusps, too */
+  double bulge_most; /* of all contours */
+  bool cusps;        /* contours end at cusps, too */
   struct segment_grid contour;
   struct segment_grid line;   /* other visible lines, but creases, as ink may
                                  leave them out */
@@ -52,6 +53,12 @@ struct nearest_contour nearest_contours_find(struct nearest_contours *nearest,
                                              struct geom_point p,
                                              const double along[2],
                                              double radius);
+
+/* Whether a contour in front of a point, not farther than a radius, has its
+ * smooth surface there, though the mesh is not: the point is hidden.
+ * beside  so far from its surface the point may be, grid units */
+bool nearest_contours_cover(struct nearest_contours *nearest,
+                            struct geom_point p, double beside, double radius);
 
 /* Whether a line other than a contour runs through a point. */
 bool nearest_contours_has_line(struct nearest_contours *nearest,

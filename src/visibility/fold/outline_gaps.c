@@ -137,10 +137,12 @@ static uint32_t first_uncovered(struct outline_gaps *g,
  * surely is, too. */
 static bool look_at_contours(struct outline_gaps *g,
                              const struct sampled_outline *of, uint32_t k,
-                             struct outline_sample *made) {
+                             struct outline_sample *made,
+                             struct nearest_contour *found) {
   double radius = of->radius;
   struct nearest_contour near =
       nearest_contours_find(&g->nearest, made->at, of->along, radius);
+  *found = near;
   bool at_end = near.loose < near.any &&
                 near.loose <= TOLERANCE_OUTLINE_UNITS +
                                   BULGE_SHARE * bulge_of(g, near.loose_edge);
@@ -165,17 +167,37 @@ static bool look_at_contours(struct outline_gaps *g,
                     near.any <= near.loose + TOLERANCE_COINCIDENT_UNITS);
 }
 
+/* Whether a sample that no contour draws is hidden by the surface of another
+ * contour all the same, which the mesh is within.
+ * near  the contours about it.  From where one ends behind another, the mesh's
+ *       outline goes on within what the farther one bulges, too */
+static bool is_covered(struct outline_gaps *g, const struct sampled_outline *of,
+                       struct geom_point at,
+                       const struct nearest_contour *near) {
+  double beside = 0;
+  if (near->loose < near->any && near->loose <= of->radius &&
+      nearest_contours_cover(&g->nearest, near->loose_at,
+                             TOLERANCE_COINCIDENT_UNITS,
+                             TOLERANCE_COINCIDENT_UNITS))
+    beside = TOLERANCE_OUTLINE_UNITS + bulge_of(g, near->loose_edge);
+  return nearest_contours_cover(&g->nearest, at, beside, of->radius);
+}
+
 /* Looks at sample k of an outline. */
 static struct outline_sample look(struct outline_gaps *g,
                                   const struct sampled_outline *of, uint32_t k,
                                   bool *ok) {
   struct outline_sample made = {point_of_sample(of, k), SHEET_NONE, true,
                                 k + 1};
+  struct nearest_contour near;
   if (nearest_contours_has_line(&g->nearest, made.at) ||
-      look_at_contours(g, of, k, &made))
+      look_at_contours(g, of, k, &made, &near))
     return made;
   made.next = first_uncovered(g, of, k, ok);
-  if (made.next == k)
+  if (made.next > k)
+    return made;
+  made.next = k + 1;
+  if (!is_covered(g, of, made.at, &near))
     made =
         (struct outline_sample){point_of_outline(of->image, (double)k / of->n),
                                 SHEET_NONE, false, k + 1};
