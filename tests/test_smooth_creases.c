@@ -143,10 +143,9 @@ static void contours_turn_back_at_few_creases(void **state) {
 }
 
 /* How far silhouettes are drawn from all of the mesh's own lines, mm. */
-static double farthest_from_mesh(const recto_scene *scene, int view) {
-  recto_options options;
+static double farthest_from_mesh(const recto_scene *scene,
+                                 recto_options options) {
   double most = 0;
-  smooth_view(&options, view);
   options.ink.edges = RECTO_EDGE_SILHOUETTE | RECTO_EDGE_CREASE;
   options.ink.exact = false;
   recto_drawing *smooth = smooth_draw(scene, &options);
@@ -172,8 +171,11 @@ static void no_hook_is_drawn_at_a_groove(void **state) {
   (void)state;
   for (uint32_t sides = 24; sides <= 44; sides += 4) {
     recto_scene *scene = make_turned(&pawn, sides);
-    for (int view = 0; view < SMOOTH_VIEWS; view++)
-      assert_true(farthest_from_mesh(scene, view) < 0.7);
+    for (int view = 0; view < SMOOTH_VIEWS; view++) {
+      recto_options options;
+      smooth_view(&options, view);
+      assert_true(farthest_from_mesh(scene, options) < 0.7);
+    }
     recto_scene_destroy(scene);
   }
 }
@@ -225,6 +227,24 @@ static void the_outline_of_a_cup_does_not_cross_its_rim(void **state) {
   recto_scene_destroy(scene);
 }
 
+/* The inner side of its rim is hidden where the rim's crest passes in front.
+ * As points a height nearer are beyond the crest there are ticks up to 0.6 mm
+ * off in 35 of these views. */
+static void no_contour_within_a_rim_is_drawn(void **state) {
+  (void)state;
+  recto_scene *scene = cup_scene();
+  for (int k = 0; k < 40; k++) {
+    recto_options options;
+    smooth_view(&options, 0);
+    options.camera.azimuth_deg = 3.4 * k;
+    options.camera.elevation_deg = 15 + 0.2 * k;
+    double mm = farthest_from_mesh(scene, options);
+    if (!(mm < 0.2))
+      fail_msg("view %d: a line is %g mm from those of the mesh", k, mm);
+  }
+  recto_scene_destroy(scene);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_foot_of_a_post_reaches_its_contours),
@@ -232,6 +252,7 @@ int main(void) {
       cmocka_unit_test(contours_turn_back_at_few_creases),
       cmocka_unit_test(no_hook_is_drawn_at_a_groove),
       cmocka_unit_test(the_outline_of_a_cup_does_not_cross_its_rim),
+      cmocka_unit_test(no_contour_within_a_rim_is_drawn),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

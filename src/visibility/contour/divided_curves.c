@@ -12,6 +12,10 @@
 #define OFFSET_ASIDE 0.1
 #define OFFSET_NEARER 1.0
 
+/* So much nearer where the surface bends into the line of sight beside creases
+ * of an object: rims are as thin as the faces between their creases. */
+#define OFFSET_NEARER_AT_RIM 0.5
+
 /* A segment whose length is less than this share of its piece's longest counts
  * for less than that, in proportion. */
 #define WHOLE_SHARE 0.125
@@ -139,26 +143,33 @@ static struct sample_points points_from(const struct divided_curves *d,
                                 divided_curves_project(d, on)};
 }
 
-/* Where the visibility of a curve is sampled.
- * side  1: the surface bends away from the line of sight, so that its outer
- *       side is seen; -1: it bends into it, which hides the point unless it is
- *       the inner side that is seen, as where all faces are turned inwards */
+/* How the samples of a piece are placed. */
+struct sample_placing {
+  int side; /* 1: the surface bends away from the line of sight, so that its
+               outer side is seen; -1: it bends into it, which hides the point
+               unless it is the inner side that is seen, as where all faces are
+               turned inwards */
+  double heights; /* how much nearer they are */
+  struct height_window window;
+};
+
+/* Where the visibility of a curve is sampled. */
 static struct contour_sample place_sample(const struct divided_curves *d,
                                           const struct contour_curve *curve,
-                                          uint32_t step, double t, int side,
-                                          struct height_window *window) {
+                                          uint32_t step, double t,
+                                          struct sample_placing *placing) {
   const struct contour_node *a = contour_curves_node(d->curves, step);
   const struct contour_node *b = contour_curves_node(d->curves, step + 1);
   const struct contour_segment *s = contour_curves_segment(d->curves, step);
-  double height = height_about(d, curve, step, window);
+  double height = height_about(d, curve, step, &placing->window);
   double aside[3], at[3], nearer[3], view[3];
   facing_view(&d->sheet->camera, a->flat, view);
   (void)vector_normalise(view);
   for (int k = 0; k < 3; k++) {
     aside[k] = a->flat[k] + t * (b->flat[k] - a->flat[k]) +
-               side * height * OFFSET_ASIDE * s->normal[k];
+               placing->side * height * OFFSET_ASIDE * s->normal[k];
     at[k] = a->at[k] + t * (b->at[k] - a->at[k]);
-    nearer[k] = -height * OFFSET_NEARER * view[k];
+    nearer[k] = -height * placing->heights * view[k];
   }
   return (struct contour_sample){points_from(d, aside, nearer),
                                  points_from(d, at, nearer), s->face,
@@ -178,20 +189,37 @@ static int side_of_piece(const struct divided_curves *d,
   return sum < 0 ? -1 : 1;
 }
 
+/* Whether a curve runs along a crease of an object at a piece, or just before
+ * or after it. */
+static bool is_beside_crease(const struct divided_curves *d,
+                             const struct contour_curve *curve,
+                             const struct contour_piece *piece) {
+  uint32_t from = piece->from.step, to = piece->to.step;
+  from -= from > curve->step && piece->from.t == 0;
+  to -= to == curve->step + curve->count;
+  for (uint32_t i = from; i <= to; i++)
+    if (contour_curves_segment(d->curves, i)->in_network)
+      return true;
+  return false;
+}
+
 /* Adds a piece and its samples. */
 static bool add_sampled_piece(struct divided_curves *d,
                               const struct contour_curve *curve,
                               struct contour_piece *piece) {
   double from = contour_position(piece->from), to = contour_position(piece->to);
   double last = (double)curve->step + curve->count - 1;
-  struct height_window window = {.count = 0};
   piece->side = side_of_piece(d, piece);
+  struct sample_placing placing = {.side = piece->side,
+                                   .heights = OFFSET_NEARER};
+  if (piece->side < 0 && is_beside_crease(d, curve, piece))
+    placing.heights = OFFSET_NEARER_AT_RIM;
   piece->samples = (uint32_t)fmin(ceil(to - from), SAMPLES_MAX) | 1;
   for (uint32_t i = 0; i < piece->samples; i++) {
     double at = from + (to - from) * ((i + 0.5) / piece->samples);
     double step = fmin(floor(at), last);
     struct contour_sample sample =
-        place_sample(d, curve, (uint32_t)step, at - step, piece->side, &window);
+        place_sample(d, curve, (uint32_t)step, at - step, &placing);
     if (!ARRAY_PUSH(&d->sample, sample))
       return false;
   }
