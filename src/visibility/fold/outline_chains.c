@@ -88,12 +88,20 @@ static bool is_sorted(struct place_range range) {
   return range.stop - range.first >= SORTED_MIN;
 }
 
+/* Whether the outlines of two places begin at one point. */
+static bool do_start_together(const struct chain_links *l, size_t a, size_t b) {
+  return compare_image_ends(&l->outline[l->by_start[a]].image.p,
+                            &l->outline[l->by_start[b]].image.p) == 0;
+}
+
 static bool sort_outlines(struct chain_links *l, size_t count) {
   bool ok = sort_stable(l->by_start, count, sizeof *l->by_start,
                         compare_image_starts, l);
   struct place_range range = {0, 0};
-  for (; ok && range.stop < count;) {
-    range = find_starts(l, count, &l->outline[l->by_start[range.stop]].image.p);
+  for (; ok && range.first < count; range.first = range.stop) {
+    range.stop = range.first + 1;
+    while (range.stop < count && do_start_together(l, range.first, range.stop))
+      range.stop++;
     if (!is_sorted(range))
       continue;
     for (size_t k = range.first; k < range.stop; k++)

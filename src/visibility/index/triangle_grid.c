@@ -126,22 +126,21 @@ static void fill_triangle(const struct filling *filling,
       filling->subset != NULL ? filling->subset[index] : (uint32_t)index;
   const struct triangle_grid *grid = filling->grid;
   const struct sheet *sheet = filling->sheet;
+  const uint8_t *wanted = filling->wanted;
   struct cell_range r =
       filling->footprint != NULL
           ? footprint_cells(grid, sheet, t,
                             filling->footprint[filling->by_subset ? index : t])
           : triangle_grid_cells(grid, box2_of_triangle(sheet, t));
-  bool tight =
-      triangle_grid_is_wide(r) && filling->by_subset && filling->wanted != NULL;
+  bool tight = triangle_grid_is_wide(r) && filling->by_subset && wanted != NULL;
   for (int y = r.y0; y <= r.y1; y++) {
     int x0 = r.x0, x1 = r.x1;
     if (tight)
       triangle_grid_row_of_triangle(grid, t, r, y, &x0, &x1);
-    for (int x = x0; x <= x1; x++) {
-      size_t cell = triangle_grid_index(grid, x, y);
-      if (filling->wanted == NULL || filling->wanted[cell])
+    size_t cell = triangle_grid_index(grid, x0, y);
+    for (int x = x0; x <= x1; x++, cell++)
+      if (wanted == NULL || wanted[cell])
         number_lists_put(lists, cell, t);
-    }
   }
 }
 

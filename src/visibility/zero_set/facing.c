@@ -128,35 +128,44 @@ static bool split_at_features(struct facing *f) {
     uint32_t face = f->near.item[i],
              end = at + scene_face_corners(f->scene, face);
     for (; at < end; at++)
-      f->signs[union_find_root(f->sets, at)] |= f->face_sign[face];
+      if (f->point_flags[f->corner_point[at]] & FACING_SPLIT)
+        f->signs[union_find_root(f->sets, at)] |= f->face_sign[face];
   }
   return true;
 }
 
-/* The union of the signs of a near face's slots. */
-static unsigned signs_of_face(const struct facing *f, uint32_t face) {
-  unsigned signs = 0;
-  for (uint32_t c = scene_face_start(f->scene, face);
-       c < scene_face_start(f->scene, face + 1); c++)
-    signs |= facing_signs(f, facing_slot(f, c));
-  return signs;
+/* The slot of a corner of near faces, by its number among them. */
+static uint32_t slot_of_near_corner(const struct facing *f, uint32_t at) {
+  uint32_t point = f->corner_point[at];
+  return f->point_flags[point] & FACING_SPLIT
+             ? (uint32_t)f->scene->point.count + union_find_root(f->sets, at)
+             : point;
 }
 
 /* Notes the places of the slots of all corners of near faces. */
 static bool place_near_corners(struct facing *f) {
-  uint32_t at = 0, points = (uint32_t)f->scene->point.count;
   if (f->corner_place == NULL)
     f->corner_place = mem_alloc(f->near_corners, sizeof *f->corner_place);
-  for (size_t i = 0; f->corner_place != NULL && i < f->near.count; i++) {
-    uint32_t face = f->near.item[i], end = scene_face_start(f->scene, face + 1);
-    for (uint32_t c = scene_face_start(f->scene, face); c < end; c++, at++) {
-      uint32_t slot = facing_point(f, c);
-      if (f->point_flags[slot] & FACING_SPLIT)
-        slot = points + union_find_root(f->sets, at);
-      f->corner_place[at] = f->place[slot];
-    }
-  }
+  for (uint32_t at = 0; f->corner_place != NULL && at < f->near_corners; at++)
+    f->corner_place[at] = f->place[slot_of_near_corner(f, at)];
   return f->corner_place != NULL;
+}
+
+/* Lists a face if both signs are about its slots, and numbers these.
+ * from, to  of near corners: its own */
+static bool number_slots(struct facing *f, uint32_t face, uint32_t from,
+                         uint32_t to) {
+  unsigned signs = 0;
+  for (uint32_t at = from; at < to; at++)
+    signs |= facing_signs(f, slot_of_near_corner(f, at));
+  if (signs != FACING_MIXED)
+    return true;
+  for (uint32_t at = from; at < to; at++) {
+    uint32_t *place = &f->place[slot_of_near_corner(f, at)];
+    if (*place == 0)
+      *place = (uint32_t)++f->count;
+  }
+  return ARRAY_PUSH(&f->mixed, face);
 }
 
 /* Lists the faces about whose slots both signs are, and numbers these slots,
@@ -166,18 +175,16 @@ static bool number_needed(struct facing *f) {
       mem_calloc(f->scene->point.count + f->near_corners, sizeof *f->place);
   if (f->place == NULL)
     return false;
-  for (size_t i = 0; i < f->crossed.count; i++) {
-    uint32_t face = f->crossed.item[i];
-    if (signs_of_face(f, face) != FACING_MIXED)
-      continue;
-    if (!ARRAY_PUSH(&f->mixed, face))
-      return false;
-    for (uint32_t c = scene_face_start(f->scene, face);
-         c < scene_face_start(f->scene, face + 1); c++) {
-      uint32_t *place = &f->place[facing_slot(f, c)];
-      if (*place == 0)
-        *place = (uint32_t)++f->count;
+  size_t crossed = 0; /* those that were passed */
+  for (uint32_t i = 0, at = 0; crossed < f->crossed.count; i++) {
+    uint32_t face = f->near.item[i],
+             end = at + scene_face_corners(f->scene, face);
+    if (face == f->crossed.item[crossed]) {
+      crossed++;
+      if (!number_slots(f, face, at, end))
+        return false;
     }
+    at = end;
   }
   return place_near_corners(f);
 }
@@ -313,6 +320,20 @@ static void share_flags(struct facing *f) {
     f->point_flags[p] = f->point_flags[weld[p]];
 }
 
+/* Lists the points of the corners of near faces. */
+static bool list_near_corners(struct facing *f) {
+  for (size_t i = 0; i < f->near.count; i++)
+    f->near_corners += scene_face_corners(f->scene, f->near.item[i]);
+  f->corner_point = mem_alloc(f->near_corners, sizeof *f->corner_point);
+  uint32_t *to = f->corner_point;
+  for (size_t i = 0; to != NULL && i < f->near.count; i++) {
+    uint32_t face = f->near.item[i], end = scene_face_start(f->scene, face + 1);
+    for (uint32_t c = scene_face_start(f->scene, face); c < end; c++)
+      *to++ = facing_point(f, c);
+  }
+  return to != NULL;
+}
+
 /* Finds the faces that the contour can cross, and those about them.  Returns
  * false when memory ran out or the caller cancelled. */
 static bool find_near_faces(struct facing *f) {
@@ -328,9 +349,7 @@ static bool find_near_faces(struct facing *f) {
   share_flags(f);
   if (!list_faces_with(f, FACING_NEEDED, &f->near))
     return false;
-  for (size_t i = 0; i < f->near.count; i++)
-    f->near_corners += scene_face_corners(f->scene, f->near.item[i]);
-  return list_near_edges(f);
+  return list_near_corners(f) && list_near_edges(f);
 }
 
 /* ---- The whole ----------------------------------------------------------- */
@@ -398,6 +417,7 @@ void facing_fini(struct facing *f) {
   mem_free(f->odd_edge);
   mem_free(f->point_flags);
   ranked_set_fini(&f->near_corner);
+  mem_free(f->corner_point);
   mem_free(f->corner_place);
   mem_free(f->share);
   ARRAY_FREE(&f->crossed);

@@ -47,6 +47,7 @@ struct facing {
    * the faces at the points of these; ascending. */
   struct facing_faces crossed, near;
   uint32_t near_corners;         /* so many corners have they */
+  uint32_t *corner_point;        /* one of these: its point, as welded */
   struct ranked_set near_corner; /* these, unless no normals are split */
   ARRAY(uint32_t) near_edge; /* the edges at the points of crossed faces, and
                                 others of near faces */
@@ -59,8 +60,9 @@ struct facing {
   double (*normal)[3];   /* unit length, or 0, 0, 0 */
   double *value;         /* g; NaN until it is found */
   size_t count;          /* of normals and values */
-  ARRAY(uint32_t) mixed; /* the faces about whose slots both signs are;
-                            ascending */
+  ARRAY(uint32_t) mixed; /* the faces about whose slots both signs are, and
+                            once values are found those of them that have
+                            corners of both signs; ascending */
 };
 
 /* The Newell normal of a face. */

@@ -29,7 +29,7 @@ double facing_angle(const struct facing *f, uint32_t face, uint32_t corner) {
 }
 
 /* Finds what a face adds to those of the normals at its corners that are
- * needed.
+ * needed: nothing if it has none.
  * at  of near corners: its first one */
 static void find_shares(const struct facing *f, uint32_t face, size_t at) {
   double(*share)[3] = f->share + at;
@@ -41,14 +41,13 @@ static void find_shares(const struct facing *f, uint32_t face, size_t at) {
   if (c == end)
     return;
   newell_normal_of_face(f->scene, face, n);
-  if (!vector_normalise(n))
-    return;
+  bool has_normal = vector_normalise(n);
   for (; c < end; c++) {
     if (f->corner_place[at + c - start] == 0)
       continue;
-    double angle = facing_angle(f, face, c);
+    double angle = has_normal ? facing_angle(f, face, c) : 0;
     for (int k = 0; k < 3; k++)
-      share[c - start][k] = angle * n[k];
+      share[c - start][k] = has_normal ? angle * n[k] : 0;
   }
 }
 
@@ -56,7 +55,7 @@ static void find_shares(const struct facing *f, uint32_t face, size_t at) {
  * no more normals are needed then.  Returns false when memory ran out. */
 static bool find_all_shares(struct facing *f) {
   size_t at = 0;
-  f->share = mem_calloc(f->near_corners, sizeof *f->share);
+  f->share = mem_alloc(f->near_corners, sizeof *f->share);
   for (size_t i = 0; f->share != NULL && i < f->near.count; i++) {
     (void)poll_at(i);
     find_shares(f, f->near.item[i], at);
@@ -105,12 +104,26 @@ bool facing_find_normals(struct facing *f) {
   return !poll_is_cancelled();
 }
 
+/* Whether a face has corners of both signs. */
+static bool has_both_signs(const struct facing *f, uint32_t face) {
+  uint32_t start = scene_face_start(f->scene, face);
+  bool first = facing_is_back(f, start);
+  for (uint32_t c = start + 1; c < scene_face_start(f->scene, face + 1); c++)
+    if (facing_is_back(f, c) != first)
+      return true;
+  return false;
+}
+
 bool facing_find_values(struct facing *f) {
+  size_t kept = 0;
   for (size_t i = 0; i < f->mixed.count; i++) {
     uint32_t face = f->mixed.item[i];
     for (uint32_t c = scene_face_start(f->scene, face);
          c < scene_face_start(f->scene, face + 1); c++)
       facing_find_value(f, face, c);
+    if (has_both_signs(f, face))
+      f->mixed.item[kept++] = face;
   }
+  f->mixed.count = kept;
   return !poll_is_cancelled();
 }

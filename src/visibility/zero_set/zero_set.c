@@ -100,16 +100,6 @@ static bool cross_polygon(struct zero_finder *z, uint32_t face, uint32_t start,
   return true;
 }
 
-/* Whether a face has corners of both signs. */
-static bool has_both_signs(const struct facing *f, uint32_t face) {
-  uint32_t start = scene_face_start(f->scene, face);
-  bool first = facing_is_back(f, start);
-  for (uint32_t c = start + 1; c < scene_face_start(f->scene, face + 1); c++)
-    if (facing_is_back(f, c) != first)
-      return true;
-  return false;
-}
-
 /* Finds the segments across a face that is crossed. */
 static bool cross_face(struct zero_finder *z, uint32_t face) {
   const struct facing *f = z->facing;
@@ -165,8 +155,9 @@ static bool reserve_nodes(struct zero_finder *z) {
     ranked_set_add(&z->near_edge, f->near_edge.item[i]);
   ranked_set_index(&z->near_edge);
   z->edge_node = mem_calloc(z->near_edge.count, sizeof *z->edge_node);
-  return z->edge_node != NULL && ARRAY_RESERVE(&z->set->node, f->mixed.count) &&
-         ARRAY_RESERVE(&z->set->segment, f->mixed.count);
+  return z->edge_node != NULL &&
+         ARRAY_RESERVE(&z->set->node, 3 * f->mixed.count) &&
+         ARRAY_RESERVE(&z->set->segment, 3 * f->mixed.count);
 }
 
 /* Adds the edges of folded faces to the odd ones, which are looked at. */
@@ -184,8 +175,7 @@ static bool cross_faces(struct zero_finder *z) {
   const struct facing *f = z->facing;
   add_folded_edges(z);
   for (size_t i = 0; i < f->mixed.count; i++)
-    if (!poll_at(i) || (has_both_signs(f, f->mixed.item[i]) &&
-                        !cross_face(z, f->mixed.item[i])))
+    if (!poll_at(i) || !cross_face(z, f->mixed.item[i]))
       return false;
   return true;
 }
@@ -288,8 +278,6 @@ static bool include_corners(const struct zero_finder *z,
     uint32_t face = f->mixed.item[i];
     if (!poll_at(i))
       return false;
-    if (!has_both_signs(f, face))
-      continue;
     for (uint32_t c = scene_face_start(f->scene, face);
          c < scene_face_start(f->scene, face + 1); c++) {
       struct view_point v = view_of_corner(z, c);
@@ -307,8 +295,6 @@ static bool cross_faces_beyond(struct zero_finder *z,
   for (size_t i = 0; i < f->mixed.count; i++) {
     if (!poll_at(i))
       return false;
-    if (!has_both_signs(f, f->mixed.item[i]))
-      continue;
     struct face_box box = face_view_box(z, f->mixed.item[i]);
     enlarge_box(&box);
     struct extent most = extent_of_box(f->camera, &box);
