@@ -93,22 +93,6 @@ static bool mark_split_points(struct facing *f) {
   return any;
 }
 
-/* Ranks the corners of near faces. */
-static bool rank_near_corners(struct facing *f) {
-  if (f->near_corner.count > 0)
-    return true;
-  if (!ranked_set_init(&f->near_corner, f->scene->corner.count))
-    return false;
-  for (size_t i = 0; i < f->near.count; i++) {
-    uint32_t face = f->near.item[i];
-    for (uint32_t c = scene_face_start(f->scene, face);
-         c < scene_face_start(f->scene, face + 1); c++)
-      ranked_set_add(&f->near_corner, c);
-  }
-  ranked_set_index(&f->near_corner);
-  return true;
-}
-
 /* Finds the points at which normals are split, and which corners there share
  * one: at all points of crossed faces, as all faces there are near.  Returns
  * false when memory ran out. */
@@ -117,7 +101,7 @@ static bool split_at_features(struct facing *f) {
     return true;
   f->sets = union_find_create(f->near_corners);
   f->signs = mem_calloc(f->near_corners, sizeof *f->signs);
-  if (f->sets == NULL || f->signs == NULL || !rank_near_corners(f))
+  if (f->sets == NULL || f->signs == NULL)
     return false;
   for (size_t i = 0; i < f->near_edge.count; i++)
     if ((facing_flags_of_edge(f, f->near_edge.item[i]) & FACING_SPLIT) != 0 &&
@@ -128,8 +112,10 @@ static bool split_at_features(struct facing *f) {
     uint32_t face = f->near.item[i],
              end = at + scene_face_corners(f->scene, face);
     for (; at < end; at++)
-      if (f->point_flags[f->corner_point[at]] & FACING_SPLIT)
-        f->signs[union_find_root(f->sets, at)] |= f->face_sign[face];
+      if (f->point_flags[f->corner_point[at]] & FACING_SPLIT) {
+        f->sets[at] = union_find_root(f->sets, at);
+        f->signs[f->sets[at]] |= f->face_sign[face];
+      }
   }
   return true;
 }
@@ -138,7 +124,7 @@ static bool split_at_features(struct facing *f) {
 static uint32_t slot_of_near_corner(const struct facing *f, uint32_t at) {
   uint32_t point = f->corner_point[at];
   return f->point_flags[point] & FACING_SPLIT
-             ? (uint32_t)f->scene->point.count + union_find_root(f->sets, at)
+             ? (uint32_t)f->scene->point.count + f->sets[at]
              : point;
 }
 
@@ -320,18 +306,23 @@ static void share_flags(struct facing *f) {
     f->point_flags[p] = f->point_flags[weld[p]];
 }
 
-/* Lists the points of the corners of near faces. */
+/* Ranks the corners of near faces, and lists their points. */
 static bool list_near_corners(struct facing *f) {
   for (size_t i = 0; i < f->near.count; i++)
     f->near_corners += scene_face_corners(f->scene, f->near.item[i]);
   f->corner_point = mem_alloc(f->near_corners, sizeof *f->corner_point);
   uint32_t *to = f->corner_point;
-  for (size_t i = 0; to != NULL && i < f->near.count; i++) {
+  if (to == NULL || !ranked_set_init(&f->near_corner, f->scene->corner.count))
+    return false;
+  for (size_t i = 0; i < f->near.count; i++) {
     uint32_t face = f->near.item[i], end = scene_face_start(f->scene, face + 1);
-    for (uint32_t c = scene_face_start(f->scene, face); c < end; c++)
+    for (uint32_t c = scene_face_start(f->scene, face); c < end; c++) {
+      ranked_set_add(&f->near_corner, c);
       *to++ = facing_point(f, c);
+    }
   }
-  return to != NULL;
+  ranked_set_index(&f->near_corner);
+  return true;
 }
 
 /* Finds the faces that the contour can cross, and those about them.  Returns

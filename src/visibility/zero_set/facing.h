@@ -48,14 +48,15 @@ struct facing {
   struct facing_faces crossed, near;
   uint32_t near_corners;         /* so many corners have they */
   uint32_t *corner_point;        /* one of these: its point, as welded */
-  struct ranked_set near_corner; /* these, unless no normals are split */
+  struct ranked_set near_corner; /* these */
   ARRAY(uint32_t) near_edge; /* the edges at the points of crossed faces, and
                                 others of near faces */
   uint32_t *corner_place;    /* one a corner of near faces: its slot's place */
   double (*share)[3]; /* one a corner of near faces: what it adds to the normal
                          there */
-  uint32_t *sets; /* of these corners: union-find; NULL: no normals are split */
-  uint8_t *signs; /* one a set, by its root: as of points */
+  uint32_t *sets;  /* one of these corners at split points: the lowest one that
+                     shares its normal; NULL: no normals are split */
+  uint8_t *signs;  /* one a set, by its root: as of points */
   uint32_t *place; /* slot -> its normal and value, from 1 on; 0: not needed */
   double (*normal)[3];   /* unit length, or 0, 0, 0 */
   double *value;         /* g; NaN until it is found */
@@ -146,7 +147,7 @@ static inline uint32_t facing_slot(const struct facing *f, uint32_t corner) {
   if (!(f->point_flags[point] & FACING_SPLIT))
     return point;
   return (uint32_t)f->scene->point.count +
-         union_find_root(f->sets, ranked_set_rank(&f->near_corner, corner));
+         f->sets[ranked_set_rank(&f->near_corner, corner)];
 }
 
 /* The union of the flags of an edge's points. */

@@ -4,7 +4,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "base/poll.h"
+#include "base/parallel.h"
 
 static double angle_between(const double a[3], const double b[3]) {
   double cross[3];
@@ -51,17 +51,29 @@ static void find_shares(const struct facing *f, uint32_t face, size_t at) {
   }
 }
 
-/* The shares of all near faces; they serve where more edges become creases, as
- * no more normals are needed then.  Returns false when memory ran out. */
-static bool find_all_shares(struct facing *f) {
-  size_t at = 0;
-  f->share = mem_alloc(f->near_corners, sizeof *f->share);
-  for (size_t i = 0; f->share != NULL && i < f->near.count; i++) {
-    (void)poll_at(i);
+/* Faces, or values, that a thread takes at once. */
+enum { ITEMS_IN_RANGE = PARALLEL_RANGE(512) };
+
+static bool find_shares_of_range(void *user, struct parallel_range range) {
+  const struct facing *f = user;
+  size_t at = ranked_set_rank(
+      &f->near_corner, scene_face_start(f->scene, f->near.item[range.begin]));
+  for (size_t i = range.begin; i < range.end; i++) {
     find_shares(f, f->near.item[i], at);
     at += scene_face_corners(f->scene, f->near.item[i]);
   }
-  return f->share != NULL;
+  return true;
+}
+
+/* The shares of all near faces; they serve where more edges become creases, as
+ * no more normals are needed then.  Returns false when memory ran out or the
+ * caller cancelled. */
+static bool find_all_shares(struct facing *f) {
+  size_t n = f->near.count;
+  f->share = mem_alloc(f->near_corners, sizeof *f->share);
+  return f->share != NULL &&
+         parallel_ranges(parallel_workers(n, ITEMS_IN_RANGE), n, ITEMS_IN_RANGE,
+                         find_shares_of_range, f);
 }
 
 void facing_find_value(struct facing *f, uint32_t face, uint32_t corner) {
@@ -114,16 +126,55 @@ static bool has_both_signs(const struct facing *f, uint32_t face) {
   return false;
 }
 
-bool facing_find_values(struct facing *f) {
-  size_t kept = 0;
+/* The values that are to be found. */
+struct value_search {
+  const struct facing *facing;
+  uint32_t (*of)[2]; /* one a value: a face that has it, and its corner there;
+                        corner SHEET_NONE: it is known */
+};
+
+static bool find_values_of_range(void *user, struct parallel_range range) {
+  const struct value_search *search = user;
+  struct large_face_normals large = large_face_normals_start();
+  struct facing own = *search->facing;
+  own.large = &large; /* as it is written */
+  for (size_t i = range.begin; i < range.end; i++)
+    if (search->of[i][1] != SHEET_NONE)
+      facing_find_value(&own, search->of[i][0], search->of[i][1]);
+  return true;
+}
+
+/* Notes the first corner of mixed faces of each value that is not known. */
+static void list_values(const struct value_search *search) {
+  const struct facing *f = search->facing;
+  for (size_t i = 0; i < f->count; i++)
+    search->of[i][1] = SHEET_NONE;
   for (size_t i = 0; i < f->mixed.count; i++) {
-    uint32_t face = f->mixed.item[i];
-    for (uint32_t c = scene_face_start(f->scene, face);
-         c < scene_face_start(f->scene, face + 1); c++)
-      facing_find_value(f, face, c);
-    if (has_both_signs(f, face))
-      f->mixed.item[kept++] = face;
+    uint32_t face = f->mixed.item[i], start = scene_face_start(f->scene, face);
+    uint32_t at = ranked_set_rank(&f->near_corner, start);
+    for (uint32_t c = start; c < scene_face_start(f->scene, face + 1); c++) {
+      uint32_t value = f->corner_place[at + c - start] - 1;
+      if (search->of[value][1] == SHEET_NONE && isnan(f->value[value])) {
+        search->of[value][0] = face;
+        search->of[value][1] = c;
+      }
+    }
   }
+}
+
+bool facing_find_values(struct facing *f) {
+  struct value_search search = {f, mem_alloc(f->count, sizeof *search.of)};
+  if (search.of == NULL)
+    return false;
+  list_values(&search);
+  bool ok =
+      parallel_ranges(parallel_workers(f->count, ITEMS_IN_RANGE), f->count,
+                      ITEMS_IN_RANGE, find_values_of_range, &search);
+  mem_free(search.of);
+  size_t kept = 0;
+  for (size_t i = 0; ok && i < f->mixed.count; i++)
+    if (has_both_signs(f, f->mixed.item[i]))
+      f->mixed.item[kept++] = f->mixed.item[i];
   f->mixed.count = kept;
-  return !poll_is_cancelled();
+  return ok;
 }
