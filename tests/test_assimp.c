@@ -113,6 +113,22 @@ static void what_is_not_finite_is_skipped(void **state) {
   reading_fini(&r);
 }
 
+/* Assimp leaves out faces of OFF files with more than nine corners. */
+static void what_is_left_out_is_warned_about(void **state) {
+  static const char text[] =
+      "OFF\n10 2 0\n0 0 0\n1 0 0\n2 1 0\n3 3 0\n3 5 0\n2 6 0\n1 6 0\n"
+      "0 5 0\n-1 3 0\n-1 1 0\n10 0 1 2 3 4 5 6 7 8 9\n3 0 1 2\n";
+  struct reading r;
+  read_file(&r, temporary_file(state, "a.off", text, sizeof text - 1), NULL);
+  assert_read(&r);
+  if (scene_face_count(&r.scene) < 2)
+    assert_true(r.diagnostics.count[SCENE_FAULT_SYNTAX] >= 1);
+  reading_fini(&r);
+  read_file(&r, temporary_file(state, "a.off", off, sizeof off - 1), NULL);
+  assert_int_equal(r.diagnostics.count[SCENE_FAULT_SYNTAX], 0);
+  reading_fini(&r);
+}
+
 static void a_broken_file_is_an_error(void **state) {
   struct reading r;
   static const char text[] = "not a polygon file";
@@ -164,6 +180,7 @@ int main(void) {
       T(bytes_of_no_format_name_no_file_that_is_not_there),
       T(nodes_are_groups_with_their_transforms),
       T(what_is_not_finite_is_skipped),
+      T(what_is_left_out_is_warned_about),
       T(a_broken_file_is_an_error),
       T(our_own_readers_come_first),
       T(running_out_of_memory_is_an_error),

@@ -85,6 +85,36 @@ static _Noreturn void exit_with(FILE *to, enum import_why why,
   finish(to, 0);
 }
 
+/* ---- Errors -------------------------------------------------------------- */
+
+/* What Assimp reports while it reads on: it leaves out elements that it cannot
+ * read, such as faces of OFF files with more than nine corners. */
+enum { ERRORS_MAX = 64, ERROR_LENGTH_MAX = 200 };
+
+struct error_log {
+  unsigned count;
+  char text[ERRORS_MAX][ERROR_LENGTH_MAX];
+};
+
+/* Keeps a line of Assimp's log, "Error, T0: TEXT", if it is an error. */
+static void keep_error(const char *line, char *user) {
+  struct error_log *log = (struct error_log *)(void *)user;
+  const char *text = strstr(line, ": ");
+  if (strncmp(line, "Error,", 6) == 0 && text != NULL &&
+      log->count < ERRORS_MAX)
+    (void)snprintf(log->text[log->count++], ERROR_LENGTH_MAX, "%.*s",
+                   (int)strcspn(text + 2, "\n"), text + 2);
+}
+
+static void put_errors(FILE *to, const struct error_log *log) {
+  for (unsigned i = 0; i < log->count; i++) {
+    struct import_record record = {.kind = IMPORT_ERROR,
+                                   .name_length = strlen(log->text[i])};
+    write_bytes(to, &record, sizeof record);
+    write_bytes(to, log->text[i], (size_t)record.name_length);
+  }
+}
+
 /* ---- Meshes -------------------------------------------------------------- */
 
 static struct transform compose_transforms(const struct transform *parent,
@@ -347,6 +377,9 @@ int main(int argc, char **argv) {
   struct import import = {.to = fdopen(CHILD_OUTPUT, "wb")};
   if (import.to == NULL)
     return 2;
+  static struct error_log errors;
+  const struct aiLogStream stream = {keep_error, (char *)(void *)&errors};
+  aiAttachLogStream(&stream);
   write_bytes(import.to, IMPORT_MAGIC, sizeof IMPORT_MAGIC - 1);
   if (!is_supported(argv[3]))
     exit_with(import.to, IMPORT_UNKNOWN_FORMAT, "");
@@ -358,6 +391,7 @@ int main(int argc, char **argv) {
     text = "nothing of this format is in it";
   if (import.from == NULL || import.from->mRootNode == NULL)
     exit_with(import.to, IMPORT_BROKEN, text);
+  put_errors(import.to, &errors);
   put_nodes(&import);
   finish(import.to, import.unit_mm);
 }

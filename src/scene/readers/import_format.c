@@ -176,6 +176,15 @@ static recto_status add_files(struct import_parser *f) {
   return RECTO_OK;
 }
 
+/* Warns of an error that the importer read on after. */
+static recto_status warn_of_import(const struct import_parser *f) {
+  const struct import_record *r = &f->record;
+  diagnostics_fault(f->diagnostics, SCENE_FAULT_SYNTAX, 0,
+                    "parts of the model may be missing: %.*s",
+                    r->name_length < 200 ? (int)r->name_length : 200, f->name);
+  return RECTO_OK;
+}
+
 static recto_status importer_error(const struct import_parser *f) {
   const struct import_record *r = &f->record;
   if (r->why == IMPORT_UNKNOWN_FORMAT)
@@ -214,6 +223,8 @@ recto_status import_format_read(struct scene *scene, const char *bytes,
       status = add_mesh(&f);
     else if (f.record.kind == IMPORT_FILES)
       status = add_files(&f);
+    else if (f.record.kind == IMPORT_ERROR)
+      status = warn_of_import(&f);
     else if (f.record.kind == IMPORT_FAILED)
       status = importer_error(&f);
     else if (f.record.kind == IMPORT_DONE)

@@ -9,6 +9,8 @@
  *                  indices of its own points)
  *   IMPORT_FILES   the record, and in place of its name the files that were
  *                  opened (struct file_identity each)
+ *   IMPORT_ERROR   the record, and as its name an error that did not end the
+ *                  import, in whose place something may be missing
  *   IMPORT_FAILED  the record, and as its name what is wrong
  *   IMPORT_DONE    the record; it is the last
  */
@@ -17,9 +19,15 @@
 
 #include "scene/scene.h"
 
-#define IMPORT_MAGIC "recto i4"
+#define IMPORT_MAGIC "recto i5"
 
-enum import_kind { IMPORT_MESH = 1, IMPORT_FILES, IMPORT_FAILED, IMPORT_DONE };
+enum import_kind {
+  IMPORT_MESH = 1,
+  IMPORT_FILES,
+  IMPORT_ERROR,
+  IMPORT_FAILED,
+  IMPORT_DONE
+};
 
 /* Why it failed. */
 enum import_why { IMPORT_BROKEN, IMPORT_UNKNOWN_FORMAT, IMPORT_NO_MEMORY };
