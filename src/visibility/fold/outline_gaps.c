@@ -6,8 +6,9 @@
 #include "visibility/fold/outline_gaps.h"
 
 #include <math.h>
+#include <stdatomic.h>
 
-#include "base/poll.h"
+#include "base/parallel.h"
 #include "base/tolerance.h"
 #include "geom/vector.h"
 #include "visibility/contour/page_cover.h"
@@ -37,12 +38,17 @@ struct outline_part {
   uint32_t face;
 };
 
+struct outline_parts {
+  struct outline_part *item;
+  size_t count, capacity;
+};
+
 struct outline_gaps {
   const struct outline_gaps_input *in;
   struct nearest_contours nearest;
   struct page_cover cover;
   struct large_face_size last;
-  ARRAY(struct outline_part) part;
+  struct outline_parts part;
 };
 
 /* ---- Samples ------------------------------------------------------------- */
@@ -250,12 +256,69 @@ static bool add_part_edges(struct outline_gaps *g, struct map *map) {
   return true;
 }
 
-static bool find_open_parts(struct outline_gaps *g,
-                            const struct zero_set *set) {
-  for (size_t i = 0; i < set->outline.count; i++)
-    if (!poll_at(i) || !add_open_parts(g, &set->outline.item[i]))
-      return false;
+/* ---- By several threads -------------------------------------------------- */
+
+enum { OUTLINES_IN_RANGE = PARALLEL_RANGE(128) };
+
+struct gap_search {
+  const struct outline_gaps *gaps;
+  struct triangle_grid_query *query; /* one a worker */
+  struct outline_parts *part;        /* one a range */
+  _Atomic uint64_t compared;
+};
+
+static bool find_parts_of_range(void *user, struct parallel_range range) {
+  struct gap_search *search = user;
+  const struct zero_set *set = search->gaps->in->set;
+  struct outline_gaps own = *search->gaps;
+  bool ok = true;
+  own.cover.query = &search->query[range.worker];
+  own.nearest.compared = 0;
+  for (size_t i = range.begin; ok && i < range.end; i++)
+    ok = add_open_parts(&own, &set->outline.item[i]);
+  search->part[range.begin / OUTLINES_IN_RANGE] = own.part;
+  search->compared += own.nearest.compared;
+  return ok;
+}
+
+static bool init_queries(const struct outline_gaps *g,
+                         struct triangle_grid_query *query, int workers) {
+  bool ok = query != NULL;
+  for (int i = 0; ok && i < workers; i++)
+    ok = triangle_grid_query_init(&query[i], g->in->grid);
+  return ok;
+}
+
+/* Joins the parts that were found in ranges, in their order. */
+static bool join_open_parts(struct outline_gaps *g,
+                            const struct outline_parts *part, size_t ranges) {
+  for (size_t r = 0; r < ranges; r++)
+    for (size_t i = 0; i < part[r].count; i++)
+      if (!ARRAY_PUSH(&g->part, part[r].item[i]))
+        return false;
   return true;
+}
+
+static bool find_open_parts(struct outline_gaps *g) {
+  size_t n = g->in->set->outline.count;
+  size_t ranges = parallel_range_count(n, OUTLINES_IN_RANGE);
+  int workers = parallel_workers(n, OUTLINES_IN_RANGE);
+  struct gap_search search = {
+      .gaps = g,
+      .query = mem_calloc((size_t)workers, sizeof *search.query),
+      .part = mem_calloc(ranges, sizeof *search.part)};
+  bool ok = init_queries(g, search.query, workers) && search.part != NULL &&
+            parallel_ranges(workers, n, OUTLINES_IN_RANGE, find_parts_of_range,
+                            &search) &&
+            join_open_parts(g, search.part, ranges);
+  g->nearest.compared += search.compared;
+  for (int i = 0; search.query != NULL && i < workers; i++)
+    triangle_grid_query_fini(&search.query[i]);
+  for (size_t r = 0; search.part != NULL && r < ranges; r++)
+    ARRAY_FREE(&search.part[r]);
+  mem_free(search.query);
+  mem_free(search.part);
+  return ok;
 }
 
 bool outline_gaps_close(const struct outline_gaps_input *input) {
@@ -268,9 +331,9 @@ bool outline_gaps_close(const struct outline_gaps_input *input) {
                   .bulge = input->bulge,
                   .bulges = input->bulges,
                   .cusps = !input->exact},
-      .cover = {input->sheet, input->grid, input->query, SHEET_NONE}};
-  bool ok = nearest_contours_init(&g.nearest) &&
-            find_open_parts(&g, input->set) && add_part_edges(&g, input->map);
+      .cover = {input->sheet, input->grid, NULL, SHEET_NONE}};
+  bool ok = nearest_contours_init(&g.nearest) && find_open_parts(&g) &&
+            add_part_edges(&g, input->map);
   *input->compared += g.nearest.compared;
   nearest_contours_fini(&g.nearest);
   ARRAY_FREE(&g.part);
