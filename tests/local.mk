@@ -242,7 +242,7 @@ unit_tests += %D%/test_obj_parallel
   %D%/reading.c %D%/reading.h %D%/temporary.c %D%/temporary.h
 unit_tests += %D%/test_precision
 %C%_test_precision_SOURCES = %D%/test_precision.c \
-  %D%/reading.c %D%/reading.h
+  %D%/reading.c %D%/reading.h %D%/temporary.c %D%/temporary.h
 unit_tests += %D%/test_stl
 %C%_test_stl_SOURCES = %D%/test_stl.c %D%/reading.c %D%/reading.h \
   %D%/comma_locale.c %D%/comma_locale.h

@@ -16,6 +16,7 @@
 #include "scene/scene.h"
 #include "tests/reading.h"
 #include "tests/scenes/random.h"
+#include "tests/temporary.h"
 
 enum { TEXT_SIZE = 1 << 18, POINTS = 400 };
 
@@ -380,6 +381,37 @@ static void bits_have_a_range(void **state) {
   recto_scene_destroy(scene);
 }
 
+/* How many warnings reading a square gives that is so large and so far off,
+ * whose numbers are those of single precision. */
+static int warnings_of_square(void **state, double size, double from) {
+  char text[256];
+  struct reading r;
+  int length = 0;
+  for (int i = 0; i < 4; i++)
+    length +=
+        snprintf(text + length, sizeof text - (size_t)length, "v %.2f %.2f 0\n",
+                 from + (i == 1 || i == 2) * size, (i > 1) * size + 0.25);
+  length +=
+      snprintf(text + length, sizeof text - (size_t)length, "f 1 2 3 4\n");
+  reading_init(&r);
+  assert_int_equal(
+      scene_read(&r.scene, temporary_file(state, "a.obj", text, (size_t)length),
+                 NULL, &r.diagnostics, &r.error),
+      RECTO_OK);
+  int warnings = r.warnings;
+  reading_fini(&r);
+  return warnings;
+}
+
+/* Numbers of single precision at five millions are rounded by up to 0.3, of
+ * other numbers by none. */
+static void numbers_too_coarse_for_the_size_are_warned_about(void **state) {
+  assert_int_equal(warnings_of_square(state, 40, 5000000.5), 1);
+  assert_int_equal(warnings_of_square(state, 4000, 5000000.5), 0);
+  assert_int_equal(warnings_of_square(state, 40, 0.5), 0);
+  assert_int_equal(warnings_of_square(state, 40, 5000000.13), 0);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(six_decimals_round_by_half_of_the_sixth),
@@ -406,6 +438,9 @@ int main(void) {
       cmocka_unit_test(a_failed_read_leaves_the_ranges),
       cmocka_unit_test(bits_make_a_precision),
       cmocka_unit_test(bits_have_a_range),
+      cmocka_unit_test_setup_teardown(
+          numbers_too_coarse_for_the_size_are_warned_about, temporary_set_up,
+          temporary_tear_down),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

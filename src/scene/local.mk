@@ -10,6 +10,7 @@ librecto_core_la_SOURCES += \
   %D%/name.c %D%/name.h \
   %D%/newell_normal.c %D%/newell_normal.h \
   %D%/precision.c %D%/precision.h \
+  %D%/precision_warning.c %D%/precision_warning.h \
   %D%/read.c %D%/read.h \
   %D%/read_passes.c %D%/read_passes.h \
   %D%/scene.c %D%/scene.h \

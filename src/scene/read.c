@@ -12,6 +12,7 @@
 #include "base/path.h"
 #include "base/word.h"
 #include "scene/obj/obj_blocks.h"
+#include "scene/precision_warning.h"
 #include "scene/readers/conversion.h"
 
 /* ---- The reader ---------------------------------------------------------- */
@@ -151,6 +152,8 @@ static recto_status read_input(struct scene *scene, const struct reader *reader,
   scene_end_file(scene);
   if (status == RECTO_OK && scene->precision.count == before.precisions)
     status = scene_leave_precision(scene, before.points, error);
+  if (status == RECTO_OK)
+    precision_warn(scene, before.points, path, diagnostics);
   /* Of what Assimp reads, a format that states a unit states the axis too. */
   model.up_is_stated = model.up_is_stated || model.unit_mm > 0;
   if (status == RECTO_OK)
