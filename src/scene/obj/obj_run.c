@@ -9,8 +9,9 @@
  * that it parses, into memory of its own that stays in its cache.  Where all
  * statements are plain, the lines before a part say where its points or faces
  * belong: so the lines of a part are counted before it is parsed, and summed in
- * order.  The parts are taken up to the first that is not plain to its end,
- * after which none is begun; where that begins something else, it is read
+ * order.  A thread that would have to wait for those of another opens the next
+ * part meanwhile.  The parts are taken up to the first that is not plain to its
+ * end, after which none is begun; where that begins something else, it is read
  * again. */
 #include <pthread.h>
 #include <stdatomic.h>
@@ -33,6 +34,7 @@ enum {
   PART_BYTES = 1 << 16,
 #endif
   PARTS_MAX = 256, /* at once */
+  OPEN_MAX = 4,    /* of a thread */
   TIMES_SO_FAR = 4,
   AHEAD_BYTES = 1 << 20, /* a file of more is large */
   STATEMENT_BYTES = 8,   /* of the shortest one: "v 0 0 0", "f 1 2 3" */
@@ -42,7 +44,8 @@ enum {
 /* ---- Parts --------------------------------------------------------------- */
 
 struct run_part {
-  struct obj_run run;
+  struct obj_run run; /* its `most` are its lines, once it is counted */
+  bool is_counted;
   size_t past;   /* where its last plain statement ends, from the first part's
                     beginning */
   bool is_plain; /* to its end */
@@ -70,19 +73,31 @@ static void note_broken(struct parts *parts, size_t i) {
     ;
 }
 
-/* Sums up the lines of the parts, in order, to find where the statements of
- * this one belong.  Each part that a thread took is placed by it, so that no
- * other one waits for long. */
-static void place_part(struct parts *parts, size_t i, size_t lines) {
+/* Notes the lines of a part, and sums up those of all that are counted, in
+ * order, to find where their statements belong. */
+static void note_lines(struct parts *parts, size_t i, size_t lines) {
   (void)pthread_mutex_lock(&parts->lock);
-  while (parts->placed < i)
-    (void)pthread_cond_wait(&parts->is_placed, &parts->lock);
-  parts->part[i].run.before = parts->lines;
   parts->part[i].run.most = lines;
-  parts->lines += lines;
-  parts->placed++;
+  parts->part[i].is_counted = true;
+  while (parts->placed < parts->count &&
+         parts->part[parts->placed].is_counted) {
+    struct obj_run *run = &parts->part[parts->placed++].run;
+    run->before = parts->lines;
+    parts->lines += run->most;
+  }
   (void)pthread_cond_broadcast(&parts->is_placed);
   (void)pthread_mutex_unlock(&parts->lock);
+}
+
+/* Whether it is known where the statements of a part belong; waits for that
+ * where it is to. */
+static bool is_part_placed(struct parts *parts, size_t i, bool waits) {
+  (void)pthread_mutex_lock(&parts->lock);
+  while (waits && parts->placed <= i)
+    (void)pthread_cond_wait(&parts->is_placed, &parts->lock);
+  bool placed = i < parts->placed;
+  (void)pthread_mutex_unlock(&parts->lock);
+  return placed;
 }
 
 /* Lets a part be the lines that begin within its bytes.
@@ -126,11 +141,10 @@ static bool open_part(const struct parts *parts, size_t i,
   return bound_part(run, buffer->item, i == 0, buffer->item + got);
 }
 
-/* Reads a part that this thread took; false when memory ran out. */
-static bool read_part_of_run(struct parts *parts, size_t i,
-                             struct byte_array *buffer) {
-  struct run_part *part = &parts->part[i];
-  struct obj_run *run = &part->run;
+/* Opens a part and counts its lines. */
+static void count_run_part(struct parts *parts, size_t i,
+                           struct byte_array *buffer) {
+  struct obj_run *run = &parts->part[i].run;
   bool is_open =
       i <= atomic_load(&parts->broken) && open_part(parts, i, buffer);
   const char *begin = run->at;
@@ -139,9 +153,16 @@ static bool read_part_of_run(struct parts *parts, size_t i,
   is_open = is_open && lines <= (size_t)(run->end - begin) / STATEMENT_BYTES;
   if (!is_open)
     note_broken(parts, i);
-  place_part(parts, i, is_open ? lines : 0);
-  if (!is_open || i > atomic_load(&parts->broken))
-    return true;
+  note_lines(parts, i, is_open ? lines : 0);
+}
+
+/* Parses a part that is placed; false when memory ran out. */
+static bool parse_run_part(struct parts *parts, size_t i,
+                           const struct byte_array *buffer) {
+  struct run_part *part = &parts->part[i];
+  struct obj_run *run = &part->run;
+  if (i >= atomic_load(&parts->broken))
+    return true; /* also where it is not open */
   if (!parts->kind->read(parts->p, run))
     return false;
   const char *text = parts->p->lines == NULL ? parts->p->at : buffer->item;
@@ -154,20 +175,48 @@ static bool read_part_of_run(struct parts *parts, size_t i,
   return true;
 }
 
+/* The parts that a thread has counted and not parsed yet, in order. */
+struct open_parts {
+  size_t part[OPEN_MAX], first, count; /* in a ring */
+  struct byte_array buffer[OPEN_MAX];  /* of each place */
+};
+
+/* Counts the next part that no thread has taken; false where there is none. */
+static bool open_next_part(struct parts *parts, struct open_parts *open) {
+  size_t i = atomic_fetch_add(&parts->next, 1);
+  size_t place = (open->first + open->count) % OPEN_MAX;
+  if (i >= parts->count)
+    return false;
+  open->part[place] = i;
+  open->count++;
+  count_run_part(parts, i, &open->buffer[place]);
+  return true;
+}
+
+/* Takes parts, and parses each once it is placed. */
 static void read_taken_parts(void *user, bool is_caller) {
   struct parts *parts = user;
-  struct byte_array buffer = {.item = NULL};
-  size_t i;
-  while ((i = atomic_fetch_add(&parts->next, 1)) < parts->count) {
-    bool goes_on = !is_caller || poll_now();
-    if (!goes_on)
-      note_broken(parts, 0);
-    if (!read_part_of_run(parts, i, &buffer) || !goes_on) {
+  struct open_parts open = {.count = 0};
+  bool is_left = open_next_part(parts, &open);
+  while (open.count > 0) {
+    size_t i = open.part[open.first];
+    bool waits = !is_left || open.count == OPEN_MAX;
+    if (!is_part_placed(parts, i, waits)) {
+      is_left = open_next_part(parts, &open);
+      continue;
+    }
+    if ((is_caller && !poll_now()) ||
+        !parse_run_part(parts, i, &open.buffer[open.first])) {
       atomic_store(&parts->ended, true);
       note_broken(parts, 0);
     }
+    open.first = (open.first + 1) % OPEN_MAX;
+    open.count--;
+    if (open.count == 0)
+      is_left = open_next_part(parts, &open);
   }
-  ARRAY_FREE(&buffer);
+  for (int k = 0; k < OPEN_MAX; k++)
+    ARRAY_FREE(&open.buffer[k]);
 }
 
 /* ---- In parallel --------------------------------------------------------- */
