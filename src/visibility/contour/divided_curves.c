@@ -268,25 +268,26 @@ static double whole_length(const struct contour_piece *piece,
   return WHOLE_SHARE * longest;
 }
 
-/* How many triangles hide the points of a sample; negative when memory ran out.
- * What is near along the surface must not hide the point off it; another
- * surface must not hide the point on it. */
-static int count_at_points(struct occluders *o,
-                           const struct sample_points *points, uint32_t face) {
-  int count =
-      occluders_count(o->sheet, o->grid, o->query, points->off, o->most);
-  return count != 0 ? count : occluders_count_apart(o, points->on, face);
+/* How many triangles hide a point off the surface. */
+static int count_at_point(struct occluders *o, struct geom_point off) {
+  return occluders_count(o->sheet, o->grid, o->query, off, o->most);
 }
 
-/* The same of a sample.  Where the surface bends away from the line of sight,
- * and another one hides the point beside the curve, the curve may be seen in a
- * gap between both that is narrower than that point is off. */
+/* How many triangles hide a sample; negative when memory ran out.  What is near
+ * along the surface must not hide the point off it; another surface must not
+ * hide the point on it.  Where the surface bends away from the line of sight,
+ * and another one hides the point off it beside the curve, the curve may be
+ * seen in a gap between both that is narrower than that point is aside. */
 static int count_at_sample(struct occluders *o, int side,
                            const struct contour_sample *sample) {
-  int count = count_at_points(o, &sample->aside, sample->face);
-  if (count <= 0 || side < 0)
+  int count = count_at_point(o, sample->aside.off);
+  if (count == 0)
+    return occluders_count_apart(o, sample->aside.on, sample->face);
+  if (count < 0 || side < 0)
     return count;
-  int at_curve = count_at_points(o, &sample->at, sample->face);
+  int at_curve = count_at_point(o, sample->at.off);
+  if (at_curve == 0)
+    at_curve = occluders_count_apart(o, sample->at.on, sample->face);
   if (at_curve != 0)
     return at_curve < 0 ? at_curve : count;
   int apart = occluders_count_apart(o, sample->aside.on, sample->face);

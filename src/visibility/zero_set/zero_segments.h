@@ -72,13 +72,13 @@ USE_RESULT static inline bool zero_set_add_part(struct zero_set *set,
 /* The first of a face's triangles; SHEET_NONE: it has none. */
 static inline uint32_t first_triangle_of_face(const struct sheet *sheet,
                                               uint32_t face) {
-  const struct sheet_triangle *own = &sheet->triangle.item[face];
+  const struct sheet_triangle *triangle = sheet->triangle.item;
   size_t t = 0;
   /* Most often all faces are triangles, and none is left out. */
-  if (face < sheet->triangle.count && own->face == face &&
-      (face == 0 || own[-1].face < face))
+  if (face < sheet->triangle.count && triangle[face].face == face &&
+      (face == 0 || triangle[face - 1].face < face))
     return face;
-  LOWER_BOUND(t, 0, sheet->triangle.count, sheet->triangle.item[t].face < face);
+  LOWER_BOUND(t, 0, sheet->triangle.count, triangle[t].face < face);
   return t < sheet->triangle.count && sheet->triangle.item[t].face == face
              ? (uint32_t)t
              : SHEET_NONE;
