@@ -13,7 +13,8 @@ enum {
   BOX_PER_AREA = 4 /* a typical triangle's box has this multiple of its area */
 };
 
-/* More than what the fewer samples of real scenes are off by. */
+/* More than what fewer samples are off by, unless all hangs on a few large
+ * faces. */
 #define CLEARLY 1.25
 
 struct face_samples {
