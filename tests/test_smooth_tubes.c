@@ -425,7 +425,7 @@ static void outlines_end_where_surfaces_cover_them(void **state) {
   (void)state;
   recto_scene *scene = smooth_scene(coil, false, 186, 16);
   int beyond = ends_beyond_crossings(scene, SMOOTH_VIEWS);
-  /* 11, most at cusps; 134 where outlines do not. */
+  /* 11; 134 where outlines do not. */
   if (beyond > 20)
     fail_msg("%d ends are beyond a crossing", beyond);
   recto_scene_destroy(scene);
