@@ -24,11 +24,10 @@ struct sample_points {
 
 /* A place of a curve at which its visibility is tested. */
 struct contour_sample {
-  struct sample_points
-      aside;               /* on the side on which the line of sight passes */
-  struct sample_points at; /* on the curve */
-  uint32_t face;           /* there */
-  double length;           /* of the segment that it is on, grid units */
+  /* Beside the curve, where the line of sight passes, and on it. */
+  struct sample_points aside, at;
+  uint32_t face; /* there */
+  double length; /* of the segment that it is on, grid units */
 };
 
 struct divided_curves {
