@@ -282,10 +282,10 @@ size_t obj_bytes_left(const struct obj_parser *p) {
 static recto_status read_ahead(struct obj_parser *p,
                                const struct obj_run_kind *kind, bool *plain) {
   size_t left = obj_bytes_left(p);
-  int workers = parallel_workers(p->run_bytes / PART_BYTES, 1);
   size_t most = TIMES_SO_FAR * p->run_bytes;
   size_t count = (most < left ? most : left) / PART_BYTES;
   count = count < PARTS_MAX ? count : PARTS_MAX;
+  int workers = parallel_workers(count, 1);
   *plain = false;
   if (workers == 1 || count == 0 ||
       p->scene->corner.count + 4 * (left / STATEMENT_BYTES) > SCENE_LIMIT ||
