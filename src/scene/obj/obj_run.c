@@ -160,16 +160,18 @@ static void count_run_part(struct parts *parts, size_t i,
 static bool parse_run_part(struct parts *parts, size_t i,
                            const struct byte_array *buffer) {
   struct run_part *part = &parts->part[i];
-  struct obj_run *run = &part->run;
+  struct obj_run run = part->run; /* apart from what others write */
   if (i >= atomic_load(&parts->broken))
     return true; /* also where it is not open */
-  if (!parts->kind->read(parts->p, run))
+  bool ok = parts->kind->read(parts->p, &run);
+  part->run = run;
+  if (!ok)
     return false;
   const char *text = parts->p->lines == NULL ? parts->p->at : buffer->item;
-  part->past = (size_t)(run->at - text);
+  part->past = (size_t)(run.at - text);
   if (parts->p->lines != NULL)
     part->past += i * PART_BYTES - (i > 0);
-  part->is_plain = run->at == run->end;
+  part->is_plain = run.at == run.end;
   if (!part->is_plain)
     note_broken(parts, i);
   return true;
