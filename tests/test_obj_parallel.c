@@ -1,9 +1,9 @@
 /* test_obj_parallel.c - an OBJ file that several threads read is the scene, the
  * warnings and the error that one thread reads.
  *
- * Runs of plain statements are divided at the ends of lines once they are half
- * a megabyte long.  So the files are some megabytes of them, with a few other
- * statements at random places. */
+ * Runs of plain statements are divided at the ends of lines once half a
+ * megabyte of them is to be read at once.  So the files are some megabytes of
+ * them, with a few other statements at random places. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

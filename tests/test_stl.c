@@ -164,6 +164,41 @@ static void many_triangles_are_welded_as_by_comparison(void **state) {
   reading_fini(&r);
 }
 
+/* A place of a grid, or now and then one that is not finite. */
+static float random_place(struct random *random) {
+  float place = (float)random_int(random, -12, 12);
+  return random_below(random, 20000) > 0 ? place * 0.1f : NAN;
+}
+
+/* Triangles between places of a grid, so that those of all threads have most
+ * points in common, and some corners are one. */
+static char *make_grid_file(size_t triangles, size_t *count) {
+  struct random random = {7};
+  *count = 84 + 50 * triangles;
+  char *bytes = calloc(*count, 1);
+  assert_non_null(bytes);
+  put_uint32(bytes + 80, (uint32_t)triangles);
+  for (size_t i = 0; i < triangles; i++)
+    for (int k = 0; k < 9; k++)
+      put_single(bytes + 84 + 50 * i + 12 + (size_t)k * 4,
+                 random_place(&random));
+  return bytes;
+}
+
+static void several_threads_weld_as_one_does(void **state) {
+  (void)state;
+  enum { TRIANGLES = 100000, TOO_FEW_TO_DIVIDE = 1000 };
+  static const size_t triangles[] = {TRIANGLES, TOO_FEW_TO_DIVIDE};
+  for (size_t i = 0; i < 2; i++) {
+    size_t count;
+    char *bytes = make_grid_file(triangles[i], &count);
+    const char *fault = reading_parallel_fault(&reader_stl, bytes, count);
+    if (fault != NULL)
+      fail_msg("%zu triangles: %s", triangles[i], fault);
+    free(bytes);
+  }
+}
+
 static void invalid_triangles_are_skipped(void **state) {
   (void)state;
   struct binary *binary = start_binary("");
@@ -456,6 +491,7 @@ int main(void) {
       T(triangles_are_welded_by_position),
       T(minus_zero_is_zero),
       T(many_triangles_are_welded_as_by_comparison),
+      T(several_threads_weld_as_one_does),
       T(invalid_triangles_are_skipped),
       T(a_file_of_the_right_size_is_binary),
       T(a_binary_file_without_triangles_is_empty),

@@ -40,6 +40,7 @@ librecto_core_la_SOURCES += \
   %D%/readers/positions.c %D%/readers/positions.h \
   %D%/readers/reader_import.c \
   %D%/readers/reader_stl.c \
+  %D%/readers/stl_binary.c %D%/readers/stl_binary.h \
   %D%/readers/unusable.c %D%/readers/unusable.h \
   %D%/topology/corner_edges.c \
   %D%/topology/edge_copies.c %D%/topology/edge_copies.h \

@@ -78,21 +78,43 @@ recto_status positions_reserve(struct positions *positions, struct scene *scene,
   return RECTO_OK;
 }
 
-uint32_t positions_find(struct positions *positions, struct scene *scene,
-                        const struct scene_point *point, uint64_t hash) {
+/* The slot of a position, or the free one where it belongs; *point gets the
+ * scene point, or SCENE_NONE. */
+static size_t find_slot_of(const struct positions *positions,
+                           const struct scene *scene,
+                           const struct scene_point *at, uint64_t hash,
+                           uint32_t *point) {
   uint32_t tag = (uint32_t)hash;
   size_t slot = first_slot(positions, hash);
   for (; positions->slot[slot].point; slot = next_slot(positions, slot)) {
     if (positions->slot[slot].tag != tag)
       continue;
-    uint32_t index = positions->slot[slot].point - 1;
-    const struct scene_point *other = &scene->point.item[index];
-    if (other->x == point->x && other->y == point->y && other->z == point->z)
-      return index;
+    *point = positions->slot[slot].point - 1;
+    const struct scene_point *other = &scene->point.item[*point];
+    if (other->x == at->x && other->y == at->y && other->z == at->z)
+      return slot;
   }
-  uint32_t index = (uint32_t)scene->point.count;
+  *point = SCENE_NONE;
+  return slot;
+}
+
+uint32_t positions_look_up(const struct positions *positions,
+                           const struct scene *scene,
+                           const struct scene_point *point, uint64_t hash) {
+  uint32_t found;
+  (void)find_slot_of(positions, scene, point, hash, &found);
+  return found;
+}
+
+uint32_t positions_find(struct positions *positions, struct scene *scene,
+                        const struct scene_point *point, uint64_t hash) {
+  uint32_t found;
+  size_t slot = find_slot_of(positions, scene, point, hash, &found);
+  if (found != SCENE_NONE)
+    return found;
+  found = (uint32_t)scene->point.count;
   scene->point.item[scene->point.count++] = *point;
-  positions->slot[slot].tag = tag;
-  positions->slot[slot].point = index + 1;
-  return index;
+  positions->slot[slot].tag = (uint32_t)hash;
+  positions->slot[slot].point = found + 1;
+  return found;
 }

@@ -33,6 +33,11 @@ uint64_t positions_hash(const struct scene_point *point);
 /* Prefetches the slot of that hash, for a position that is looked up soon. */
 void positions_prefetch(const struct positions *positions, uint64_t hash);
 
+/* The scene point at that position; SCENE_NONE: there is none. */
+uint32_t positions_look_up(const struct positions *positions,
+                           const struct scene *scene,
+                           const struct scene_point *point, uint64_t hash);
+
 /* The scene point at that position, added where it is new; room was made. */
 uint32_t positions_find(struct positions *positions, struct scene *scene,
                         const struct scene_point *point, uint64_t hash);

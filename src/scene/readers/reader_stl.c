@@ -1,9 +1,8 @@
 /* reader_stl.c - STL, binary and text, its corners welded by exact position.
  *
- * Binary: 80 bytes of anything, the number n of triangles, then n records of
- * 50 bytes: normal, three corners (single precision, least byte first), and
- * two bytes of anything.  A file of exactly 84 + 50 n bytes is binary whatever
- * it begins with, for many a binary header says "solid".
+ * Binary: see stl_binary.c.  A file that is exactly as long as its count of
+ * triangles says is binary whatever it begins with, for many a binary header
+ * says "solid".
  *
  * Text: solid NAME, facets of one loop each, endsolid.  Its words may stand
  * on any lines, which end as they do on any system; only the name ends with
@@ -18,132 +17,19 @@
 #include "scene/limit.h"
 #include "scene/read.h"
 #include "scene/readers/positions.h"
+#include "scene/readers/stl_binary.h"
 
-enum { HEADER_SIZE = 84, RECORD_SIZE = 50, BATCH = 64 };
-
-/* ---- Binary -------------------------------------------------------------- */
-
-static uint32_t read_uint32(const char *bytes) {
-  const unsigned char *b = (const unsigned char *)bytes;
-  return b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 |
-         (uint32_t)b[3] << 24;
-}
-
-/* The number as a double; -0 becomes 0. */
-static double read_single(const char *bytes) {
-  uint32_t bits = read_uint32(bytes);
-  float value;
-  memcpy(&value, &bits, sizeof value);
-  return (double)value + 0.0;
-}
-
-static void read_corner(const char *bytes, struct scene_point *point) {
-  point->x = read_single(bytes);
-  point->y = read_single(bytes + 4);
-  point->z = read_single(bytes + 8);
-}
+/* ---- Characters ---------------------------------------------------------- */
 
 static bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
-
-static bool is_finite(const struct scene_point *point) {
-  return isfinite(point->x) && isfinite(point->y) && isfinite(point->z);
-}
-
-/* One batch of triangles: the corners of all are hashed and their slots sent
- * for before the first is looked up, so that the waits overlap. */
-static recto_status read_batch(struct scene *scene, const char *record,
-                               size_t count, unsigned long number,
-                               struct positions *positions,
-                               struct diagnostics *diagnostics,
-                               recto_error *error) {
-  struct scene_point point[3 * BATCH];
-  uint64_t hash[3 * BATCH];
-  for (size_t i = 0; i < count; i++, record += RECORD_SIZE)
-    for (size_t k = 3 * i; k < 3 * i + 3; k++) {
-      read_corner(record + 12 * (1 + k - 3 * i), &point[k]);
-      hash[k] = positions_hash(&point[k]);
-      positions_prefetch(positions, hash[k]);
-    }
-  recto_status status = RECTO_OK;
-  for (size_t i = 0; i < count && status == RECTO_OK; i++) {
-    const struct scene_point *p = &point[3 * i];
-    if (!is_finite(p) || !is_finite(p + 1) || !is_finite(p + 2)) {
-      diagnostics_fault(diagnostics, SCENE_FAULT_NOT_FINITE, number + i,
-                        "triangle with a corner that is not finite, skipped");
-      status = scene_skip_face(scene, error);
-      continue;
-    }
-    uint32_t corner[3];
-    for (size_t k = 0; k < 3; k++)
-      corner[k] = positions_find(positions, scene, p + k, hash[3 * i + k]);
-    status = scene_add_face(scene, corner, 3, number + i, diagnostics, error);
-  }
-  return status;
-}
 
 /* Whether the bytes where a binary file has its header and its count are all
  * text: a count of such bytes would be one of 500 million or more. */
 static bool has_text_for_header(const char *bytes, size_t count) {
-  for (size_t i = 0; i < count && i < HEADER_SIZE; i++)
+  for (size_t i = 0; i < count && i < STL_HEADER_SIZE; i++)
     if ((unsigned char)bytes[i] < ' ' && !is_space(bytes[i]))
       return false;
   return true;
-}
-
-/* Fails where the file is not as long as its count of triangles says; where it
- * is cut short, at the number of the first that is not there. */
-static recto_status check_length(size_t triangles, size_t count,
-                                 const char *path, recto_error *error) {
-  size_t there = (count - HEADER_SIZE) / RECORD_SIZE;
-  size_t needed = HEADER_SIZE + RECORD_SIZE * triangles;
-  if (count < needed)
-    return error_set(error, RECTO_ERROR_FORMAT, path, there + 1,
-                     "binary STL cut short: it says %zu triangles and has %zu",
-                     triangles, there);
-  if (count > needed)
-    return error_set(error, RECTO_ERROR_FORMAT, path, triangles + 1,
-                     "binary STL with %zu bytes after the %zu triangles that "
-                     "it says it has",
-                     count - needed, triangles);
-  return RECTO_OK;
-}
-
-static recto_status read_binary(struct scene *scene, const char *bytes,
-                                size_t count, const char *path,
-                                struct diagnostics *diagnostics,
-                                recto_error *error) {
-  size_t triangles = read_uint32(bytes + 80);
-  recto_status status = check_length(triangles, count, path, error);
-  if (status != RECTO_OK)
-    return status;
-  if (3 * triangles > SCENE_LIMIT - scene->corner.count)
-    return error_set(error, RECTO_ERROR_LIMIT, path, 0,
-                     "%zu triangles are too many", triangles);
-  status = scene_use_group(scene, NULL, 0, error);
-  if (status != RECTO_OK)
-    return status;
-  if (!scene_reserve_faces(scene, triangles, 3 * triangles))
-    return error_memory(error);
-  /* Closed surfaces have half as many points as triangles. */
-  struct positions positions;
-  size_t first = scene->point.count;
-  positions_init(&positions, scene);
-  status = positions_reserve(&positions, scene, triangles / 2, error);
-  for (size_t i = 0; i < triangles && status == RECTO_OK; i += BATCH) {
-    size_t batch = triangles - i < BATCH ? triangles - i : BATCH;
-    const char *record = bytes + HEADER_SIZE + RECORD_SIZE * i;
-    status = diagnostics_poll(diagnostics, record, error);
-    if (status == RECTO_OK)
-      status = positions_reserve(&positions, scene, 3 * batch, error);
-    if (status == RECTO_OK)
-      status = read_batch(scene, record, batch, i + 1, &positions, diagnostics,
-                          error);
-  }
-  positions_fini(&positions);
-  if (status != RECTO_OK)
-    return status;
-  return scene_state_precision(scene, first,
-                               (struct precision){0, PRECISION_SINGLE}, error);
 }
 
 /* ---- Text ---------------------------------------------------------------- */
@@ -349,13 +235,13 @@ static recto_status read_stl(struct scene *scene, const char *bytes,
                              struct diagnostics *diagnostics,
                              recto_error *error) {
   (void)format;
-  bool exact =
-      count >= HEADER_SIZE &&
-      count == HEADER_SIZE + (uint64_t)RECORD_SIZE * read_uint32(bytes + 80);
+  bool exact = count >= STL_HEADER_SIZE &&
+               count == STL_HEADER_SIZE + (uint64_t)STL_RECORD_SIZE *
+                                              stl_count_triangles(bytes);
   bool text = !exact && looks_like_text(bytes, count);
   if (exact ||
-      (!text && count >= HEADER_SIZE && !has_text_for_header(bytes, count)))
-    return read_binary(scene, bytes, count, path, diagnostics, error);
+      (!text && count >= STL_HEADER_SIZE && !has_text_for_header(bytes, count)))
+    return stl_read_binary(scene, bytes, count, path, diagnostics, error);
   if (!text)
     return error_set(error, RECTO_ERROR_FORMAT, path, 1,
                      "neither a text STL, which begins with 'solid', nor a "
