@@ -249,6 +249,8 @@ unit_tests += %D%/test_stl
 unit_tests += %D%/test_ply
 %C%_test_ply_SOURCES = %D%/test_ply.c %D%/reading.c %D%/reading.h \
   %D%/temporary.c %D%/temporary.h
+unit_tests += %D%/test_ply_runs
+%C%_test_ply_runs_SOURCES = %D%/test_ply_runs.c %D%/reading.c %D%/reading.h
 unit_tests += %D%/test_material
 %C%_test_material_SOURCES = %D%/test_material.c \
   %D%/reading.c %D%/reading.h %D%/temporary.c %D%/temporary.h

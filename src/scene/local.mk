@@ -33,6 +33,7 @@ librecto_core_la_SOURCES += \
   %D%/ply/ply_colour.c %D%/ply/ply_colour.h \
   %D%/ply/ply_header.c %D%/ply/ply_header.h \
   %D%/ply/ply_parser.c %D%/ply/ply_parser.h \
+  %D%/ply/ply_runs.c %D%/ply/ply_runs.h \
   %D%/ply/ply_value.h \
   %D%/ply/reader_ply.c \
   %D%/readers/conversion.c %D%/readers/conversion.h \

@@ -57,23 +57,29 @@ static void read_with(const struct reader *reader, const uint8_t *bytes,
     draw(bytes, count, reader->name, finding);
 }
 
+/* The same, after several threads have read them as one does. */
+static void read_in_both_ways(const struct reader *reader, const uint8_t *bytes,
+                              size_t count, struct fuzz_finding *finding) {
+  const char *fault =
+      reading_parallel_fault(reader, (const char *)bytes, count);
+  if (fault != NULL)
+    fuzz_found(finding, "%s: %s with several threads", reader->name, fault);
+  read_with(reader, bytes, count, finding);
+}
+
 static void run_obj(const uint8_t *bytes, size_t count,
                     struct fuzz_finding *finding) {
-  const char *fault =
-      reading_parallel_fault(&reader_obj, (const char *)bytes, count);
-  if (fault != NULL)
-    fuzz_found(finding, "obj: %s with several threads", fault);
-  read_with(&reader_obj, bytes, count, finding);
+  read_in_both_ways(&reader_obj, bytes, count, finding);
 }
 
 static void run_ply(const uint8_t *bytes, size_t count,
                     struct fuzz_finding *finding) {
-  read_with(&reader_ply, bytes, count, finding);
+  read_in_both_ways(&reader_ply, bytes, count, finding);
 }
 
 static void run_stl(const uint8_t *bytes, size_t count,
                     struct fuzz_finding *finding) {
-  read_with(&reader_stl, bytes, count, finding);
+  read_in_both_ways(&reader_stl, bytes, count, finding);
 }
 
 /* No bytes are an error in a material library; its colours are colours. */

@@ -18,6 +18,8 @@ struct ply_parser {
   size_t points;                  /* how many of the file there are so far */
   struct unusable unusable;       /* of these */
   struct precision_sample sample; /* of a text's coordinates */
+  size_t run_ranges; /* of the next run of plain faces (ply_runs.h), at most */
+  size_t singly;     /* faces that are read one by one before it */
 
   /* The element that was taken last: its line in a text, else its number. */
   unsigned long last;

@@ -23,6 +23,7 @@
 #include "scene/corner_normals.h"
 #include "scene/limit.h"
 #include "scene/ply/ply_colour.h"
+#include "scene/ply/ply_runs.h"
 #include "scene/ply/ply_value.h"
 #include "scene/read.h"
 
@@ -155,8 +156,9 @@ static recto_status read_vertices(struct ply_parser *p,
   if (!ARRAY_RESERVE(&p->scene->point, most) ||
       (has_normal(p, element) && !corner_normals_begin_points(p->scene)))
     return error_memory(p->error);
-  recto_status status = RECTO_OK;
-  for (size_t i = 0; i < element->count && status == RECTO_OK; i++) {
+  recto_status status = ply_read_plain_vertices(p, element);
+  for (size_t i = p->scene->point.count - p->first;
+       i < element->count && status == RECTO_OK; i++) {
     status = diagnostics_poll(p->diagnostics, p->at, p->error);
     if (status == RECTO_OK)
       status = read_vertex(p, element, i);
@@ -263,22 +265,31 @@ static recto_status read_edge(struct ply_parser *p,
 
 /* ---- Elements ------------------------------------------------------------ */
 
+/* Reads the element that was taken last, where it is something to us. */
+static recto_status read_other(struct ply_parser *p,
+                               const struct ply_element *element) {
+  if (element->kind == PLY_FACE)
+    return read_face(p, element);
+  if (element->kind == PLY_STRIP)
+    return read_strip(p, element);
+  return element->kind == PLY_EDGE ? read_edge(p, element) : RECTO_OK;
+}
+
 static recto_status read_others(struct ply_parser *p,
                                 const struct ply_element *element) {
   recto_status status = RECTO_OK;
   for (size_t i = 0; i < element->count && status == RECTO_OK; i++) {
-    bool ok;
+    bool good;
+    size_t run = 0;
     status = diagnostics_poll(p->diagnostics, p->at, p->error);
-    if (status == RECTO_OK)
-      status = take_element(p, element, i, &ok);
-    if (status != RECTO_OK || !ok)
-      continue;
-    if (element->kind == PLY_FACE)
-      status = read_face(p, element);
-    else if (element->kind == PLY_STRIP)
-      status = read_strip(p, element);
-    else if (element->kind == PLY_EDGE)
-      status = read_edge(p, element);
+    if (status == RECTO_OK && element->kind == PLY_FACE)
+      status = ply_read_plain_faces(p, element, element->count - i, &run);
+    i += run;
+    if (status != RECTO_OK || i == element->count)
+      break;
+    status = take_element(p, element, i, &good);
+    if (status == RECTO_OK && good)
+      status = read_other(p, element);
   }
   return status;
 }
