@@ -145,6 +145,7 @@ static recto_status find_topology(struct render *render, recto_error *error) {
     return error_set(error, RECTO_ERROR_EMPTY, NULL, 0,
                      "there is nothing to draw: the weld length is larger than "
                      "all faces");
+  render->topology.drop_sides = !needs_fragments(render);
   render->topology.drop_corners = !uses_sides && !is_shared(render);
   render->topology.drop_edges = !uses_topology(render) && !is_shared(render) &&
                                 scene_wire_count(render->prepared->scene) == 0;

@@ -171,7 +171,7 @@ bool layout_orient_all_faces(struct layout *layout) {
   }
   layout->flags.count = kept;
   layout->sheet->empty += faces - kept;
-  layout->leaves_out_sides = layout->topology->drop_corners && kept == faces;
+  layout->leaves_out_sides = layout->topology->drop_sides && kept == faces;
   return ok;
 }
 

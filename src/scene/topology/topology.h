@@ -37,6 +37,7 @@ struct topology {
   /* What may be freed once it was laid out, as it is not used later: */
   bool drop_corners; /* corner_edge */
   bool drop_edges;   /* edge */
+  bool drop_sides;   /* those of a sheet's triangles: sheet_find_sides */
   uint32_t *weld;    /* point -> the point it is welded to; NULL where
                             nothing was welded */
 };
