@@ -26,6 +26,13 @@ static void count_edges_of_parts(const struct topology *topology,
   }
 }
 
+static bool is_any_crease(const uint8_t *class_masks, size_t edges) {
+  size_t e = 0;
+  while (e < edges && !(class_masks[e] & RECTO_EDGE_CREASE))
+    e++;
+  return e < edges;
+}
+
 bool topology_coarse_parts(const struct topology *topology,
                            const struct scene *scene,
                            const uint8_t *class_masks, uint8_t *coarse) {
@@ -33,6 +40,10 @@ bool topology_coarse_parts(const struct topology *topology,
   if (topology->coarse != NULL &&
       memcmp(class_masks, topology->class_masks, topology->edge.count) == 0) {
     memcpy(coarse, topology->coarse, points);
+    return true;
+  }
+  if (!is_any_crease(class_masks, topology->edge.count)) {
+    memset(coarse, 0, points);
     return true;
   }
   uint32_t *part = union_find_create(points);
