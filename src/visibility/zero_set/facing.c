@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/number_filter.h"
 #include "base/parallel.h"
 #include "base/poll.h"
 #include "scene/edges/coarse_parts.h"
@@ -275,25 +276,45 @@ static void set_signs(struct facing *f) {
   }
 }
 
-/* Lists the faces of whose points' flags the union has all of some bits.
- * Returns false when memory ran out or the caller cancelled. */
-static bool list_faces_with(const struct facing *f, unsigned bits,
-                            struct facing_faces *list) {
-  const struct scene *scene = f->scene;
-  const uint32_t *corner = scene->corner.item, faces = scene_face_count(scene);
+/* The faces of whose points' flags the union has all of some bits. */
+struct flagged_faces {
+  const struct facing *facing;
+  unsigned bits;
+};
+
+static size_t list_flagged_of_range(const void *user,
+                                    struct parallel_range range,
+                                    uint32_t *kept) {
+  const struct flagged_faces *wanted = user;
+  const struct scene *scene = wanted->facing->scene;
+  const uint32_t *corner = scene->corner.item;
   const uint32_t *start =
       scene->face_start.count > 0 ? scene->face_start.item : NULL;
-  const uint8_t *flags = f->point_flags;
-  for (uint32_t face = 0, c = 0; face < faces; face++) {
+  const uint8_t *flags = wanted->facing->point_flags;
+  unsigned bits = wanted->bits;
+  size_t count = 0;
+  uint32_t c = scene_face_start(scene, (uint32_t)range.begin);
+  for (size_t face = range.begin; face < range.end; face++) {
     uint32_t end = start != NULL ? start[face + 1] : c + 3;
     unsigned all =
         flags[corner[c]] | flags[corner[c + 1]] | flags[corner[c + 2]];
     for (c += 3; c < end; c++)
       all |= flags[corner[c]];
-    if ((all & bits) == bits && !ARRAY_PUSH(list, face))
-      return false;
+    kept[count] = (uint32_t)face;
+    count += (all & bits) == bits;
   }
-  return poll_now();
+  return count;
+}
+
+/* Lists these faces.  Returns false when memory ran out or the caller
+ * cancelled. */
+static bool list_faces_with(const struct facing *f, unsigned bits,
+                            struct facing_faces *list) {
+  const struct flagged_faces wanted = {f, bits};
+  list->item = number_filter(scene_face_count(f->scene), list_flagged_of_range,
+                             &wanted, &list->count);
+  list->capacity = list->count;
+  return list->item != NULL;
 }
 
 /* Gives points that are welded the flags of each other. */
