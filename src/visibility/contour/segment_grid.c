@@ -57,7 +57,7 @@ bool segment_grid_make(struct segment_grid *grid) {
     cell->columns = (int)(((int64_t)all.x1 - all.x0) >> cell->shift) + 1;
     cell->rows = (int)(((int64_t)all.y1 - all.y0) >> cell->shift) + 1;
   } while ((uint64_t)cell->columns * (uint64_t)cell->rows >
-           2 * grid->segment.count + 16);
+           4 * grid->segment.count + 16);
   size_t cells = triangle_grid_cell_count(cell);
   if (!number_lists_init(&cell->lists, cells))
     return false;

@@ -30,9 +30,10 @@ enum { BODY_FACES = 4 };
 /* What is known of a segment of the stack. */
 struct stack_segment {
   double length, height; /* of its triangle; on the page, grid units */
-  double off;  /* how far what became straight there is from it, at most; parts
+  double off; /* how far what became straight there is from it, at most; parts
                   that a loop was taken off from have 0 */
-  size_t turn; /* the last node up to its first one at which the image turns
+  struct box2 box; /* of its image */
+  size_t turn;     /* the last node up to its first one at which the image turns
                   back; the curve's first: none */
 };
 
@@ -80,8 +81,7 @@ static bool image_turns_back(const struct thin_loops *l, size_t i) {
  * one. */
 static bool extend_block(struct thin_loops *l, size_t i) {
   size_t at = i - l->first;
-  struct page_segment s = stack_image(l, i);
-  struct box2 box = box2_of_segment(s.p, s.q);
+  struct box2 box = measure_of(l, i)->box;
   l->block.count = at / BLOCK_SEGMENTS + (at % BLOCK_SEGMENTS != 0);
   if (at % BLOCK_SEGMENTS == 0)
     return ARRAY_PUSH(&l->block, box);
@@ -97,6 +97,7 @@ static bool measure_segment(struct thin_loops *l, size_t i) {
       .length = vector2_length((double)s.q.x - s.p.x, (double)s.q.y - s.p.y),
       .height = contour_height(l->camera, stack_node(l, i),
                                &l->set->segment.item[l->step.item[i].segment]),
+      .box = box2_of_segment(s.p, s.q),
       .turn = i};
   l->measure.count = i - l->first;
   if (i > l->first && !image_turns_back(l, i))
@@ -194,16 +195,17 @@ static bool take_off_loops(struct thin_loops *l) {
   if (lowest < l->lowest)
     lowest = l->lowest;
   struct page_segment b = stack_image(l, last);
-  struct box2 box = box2_of_segment(b.p, b.q);
+  struct box2 box = measure_of(l, last)->box;
   size_t i = last > lowest ? last - 1 : lowest;
   while (i > lowest) {
     double s, t;
     i = previous_in_box(l, i, lowest, box);
     if (i < lowest)
       break;
+    if (box2_disjoint(measure_of(l, i)->box, box))
+      continue;
     struct page_segment a = stack_image(l, i);
-    if (box2_disjoint(box2_of_segment(a.p, a.q), box) ||
-        !page_segments_cross(&a, &b, &s, &t))
+    if (!page_segments_cross(&a, &b, &s, &t))
       continue;
     struct page_loop loop = measure_loop(l, i, last, s);
     if (!page_loop_is_thin(&loop) ||
@@ -215,7 +217,7 @@ static bool take_off_loops(struct thin_loops *l) {
       return false;
     last = i + 1;
     b = stack_image(l, last);
-    box = box2_of_segment(b.p, b.q);
+    box = measure_of(l, last)->box;
   }
   return true;
 }
