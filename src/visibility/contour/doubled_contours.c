@@ -8,7 +8,7 @@
  * farther than the bound from what stays. */
 #include "visibility/contour/doubled_contours.h"
 
-#include "base/poll.h"
+#include "base/parallel.h"
 #include "base/tolerance.h"
 #include "geom/nearest.h"
 #include "geom/vector.h"
@@ -48,10 +48,10 @@ struct doubled_contours {
   double *along; /* one a contour's edge: the length of the contours before it,
                     and of all of them */
   struct segment_grid grid;
-  uint64_t compared;    /* places with contours: the work done */
-  uint8_t *is_covered;  /* one a contour edge: some of its cells are */
-  uint8_t *is_hidden;   /* the same: some of its cells are hidden */
-  uint8_t *is_covering; /* the same: it covers cells that are hidden */
+  _Atomic uint64_t compared; /* places with contours: the work done */
+  uint8_t *is_covered;       /* one a contour edge: some of its cells are */
+  uint8_t *is_hidden;        /* the same: some of its cells are hidden */
+  uint8_t *is_covering;      /* the same: it covers cells that are hidden */
   ARRAY(struct doubled_cell) cell; /* of visible edges, along the curves */
   size_t points;                   /* before edges are divided */
   uint8_t *degree;                 /* visible contours' ends at each of them,
@@ -90,7 +90,19 @@ static bool is_reversed(const struct doubled_contours *d, uint32_t edge) {
          (e->point[1] == e[-1].point[0] || e->point[1] == e[-1].point[1]);
 }
 
-/* Lists the visible edges, and measures all. */
+/* Lists the cells of a visible edge, along its curve. */
+static bool list_cells(struct doubled_contours *d, uint32_t edge) {
+  uint32_t cells = cells_of(d, edge);
+  bool reversed = is_reversed(d, edge), ok = true;
+  for (uint32_t k = 0; ok && k < cells; k++) {
+    struct doubled_cell made = {edge, reversed ? cells - 1 - k : k, SHEET_NONE,
+                                false};
+    ok = ARRAY_PUSH(&d->cell, made);
+  }
+  return ok;
+}
+
+/* Lists the visible edges and their cells, and measures all. */
 static bool list_visible_contours(struct doubled_contours *d) {
   size_t count = d->end - d->first;
   d->along = mem_alloc(count + 1, sizeof *d->along);
@@ -105,8 +117,8 @@ static bool list_visible_contours(struct doubled_contours *d) {
     d->along[e - d->first + 1] =
         d->along[e - d->first] +
         vector2_length((double)s.q.x - s.p.x, (double)s.q.y - s.p.y);
-    if (d->map->edge_state[e] != MAP_HIDDEN &&
-        !segment_grid_add(&d->grid, s, e))
+    if (d->map->edge_state[e] != MAP_HIDDEN && contour_length(d, e) > 0 &&
+        !(segment_grid_add(&d->grid, s, e) && list_cells(d, e)))
       return false;
   }
   d->grid.contours = d->grid.segment.count;
@@ -126,15 +138,6 @@ struct doubled_place {
   double reach; /* what covers it is no farther away */
 };
 
-/* Whether the line along (x, y) is farther from a place, which is at (px, py)
- * from where it begins, than what covers it is. */
-static inline bool is_line_out_of_reach(double x, double y, double px,
-                                        double py, double reach) {
-  double area = x * py - y * px;
-  /* Distances are computed to far less than a unit. */
-  return area * area > (reach + 1) * (reach + 1) * (x * x + y * y);
-}
-
 /* Whether a contour's segment covers a place. */
 static bool covers(const struct doubled_contours *d,
                    const struct page_segment *s,
@@ -144,7 +147,7 @@ static bool covers(const struct doubled_contours *d,
   double length = sqrt(x * x + y * y);
   if ((x * at->dx + y * at->dy < PARALLEL_COSINE * length &&
        contour_length(d, at->edge) > d->beyond) ||
-      is_line_out_of_reach(x, y, px, py, at->reach) ||
+      page_line_is_off(x, y, px, py, at->reach) ||
       do_share_point(d, at->edge, s->owner))
     return false;
   double t = geom_nearest_parameter(x, y, px, py);
@@ -160,23 +163,23 @@ static bool covers(const struct doubled_contours *d,
 
 /* The nearest contour that covers a place; SHEET_NONE.  Lists go from near to
  * far, so what covers nothing is met only before what does. */
-static uint32_t find_covering_contour(struct doubled_contours *d,
-                                      const struct doubled_place *at) {
-  struct segment_walk walk =
-      segment_grid_near(&d->grid, at->x, at->y, at->reach);
+static uint32_t find_covering_contour(const struct doubled_contours *d,
+                                      struct doubled_place at,
+                                      uint64_t *compared) {
+  struct segment_walk walk = segment_grid_near(&d->grid, at.x, at.y, at.reach);
   const struct page_segment *s;
   uint32_t best = SHEET_NONE;
   int64_t nearest = 0;
   while ((s = segment_walk_next(&walk)) != NULL) {
     int64_t z = page_segment_nearest(s);
-    if ((double)z <= at->z || (best != SHEET_NONE && z <= nearest)) {
+    if ((double)z <= at.z || (best != SHEET_NONE && z <= nearest)) {
       segment_walk_leave_cell(&walk);
       continue;
     }
-    if (page_segment_is_off(s, at->x, at->y, at->reach) || s->owner == at->edge)
+    if (page_segment_is_off(s, at.x, at.y, at.reach) || s->owner == at.edge)
       continue;
-    d->compared++;
-    if (!covers(d, s, at))
+    ++*compared;
+    if (!covers(d, s, &at))
       continue;
     best = s->owner;
     nearest = z;
@@ -184,44 +187,47 @@ static uint32_t find_covering_contour(struct doubled_contours *d,
   return best;
 }
 
-/* Adds the cells of a visible edge. */
-static bool add_cells(struct doubled_contours *d,
-                      const struct page_segment *s) {
-  uint32_t index = s->owner - d->first, cells = cells_of(d, s->owner);
-  double length = contour_length(d, s->owner);
-  double x = (double)s->q.x - s->p.x, y = (double)s->q.y - s->p.y;
-  double reach = fmax(d->beyond, WITHIN_SHARE * (double)d->height[index]);
-  bool reversed = is_reversed(d, s->owner);
-  for (uint32_t k = 0; k < cells; k++) {
-    uint32_t number = reversed ? cells - 1 - k : k;
-    double t = (number + 0.5) / cells;
-    const struct doubled_place at = {.edge = s->owner,
-                                     .x = s->p.x + t * x,
-                                     .y = s->p.y + t * y,
-                                     .z = page_segment_depth(s, t),
-                                     .dx = x / length,
-                                     .dy = y / length,
-                                     .along = d->along[index] + t * length,
-                                     .reach = reach};
-    const struct doubled_cell made = {s->owner, number,
-                                      find_covering_contour(d, &at), false};
-    d->is_covered[index] |= made.covering != SHEET_NONE;
-    if (!ARRAY_PUSH(&d->cell, made))
-      return false;
+static struct doubled_place place_of_cell(const struct doubled_contours *d,
+                                          const struct doubled_cell *cell) {
+  uint32_t index = cell->edge - d->first;
+  const uint32_t *point = d->sheet->edge.item[cell->edge].point;
+  struct geom_segment of = sheet_ends(d->sheet, point);
+  const struct page_segment s = {of.p, of.q, cell->edge};
+  double x = (double)s.q.x - s.p.x, y = (double)s.q.y - s.p.y;
+  double length = contour_length(d, cell->edge);
+  double t = (cell->number + 0.5) / cells_of(d, cell->edge);
+  return (struct doubled_place){
+      .edge = cell->edge,
+      .x = s.p.x + t * x,
+      .y = s.p.y + t * y,
+      .z = page_segment_depth(&s, t),
+      .dx = x / length,
+      .dy = y / length,
+      .along = d->along[index] + t * length,
+      .reach = fmax(d->beyond, WITHIN_SHARE * (double)d->height[index])};
+}
+
+static bool mark_cells_of_range(void *user, struct parallel_range range) {
+  struct doubled_contours *d = user;
+  uint64_t compared = 0;
+  for (size_t i = range.begin; i < range.end; i++) {
+    struct doubled_cell *cell = &d->cell.item[i];
+    cell->covering =
+        find_covering_contour(d, place_of_cell(d, cell), &compared);
   }
+  d->compared += compared;
   return true;
 }
 
 static bool mark_cells(struct doubled_contours *d) {
-  for (uint32_t e = d->first; e < d->end; e++) {
-    struct geom_segment s = sheet_ends(d->sheet, d->sheet->edge.item[e].point);
-    const struct page_segment image = {s.p, s.q, e};
-    bool is_drawn =
-        d->map->edge_state[e] != MAP_HIDDEN && contour_length(d, e) > 0;
-    if (!poll_at(e) || (is_drawn && !add_cells(d, &image)))
-      return false;
-  }
-  return true;
+  enum { CELLS_IN_RANGE = PARALLEL_RANGE(256) };
+  size_t n = d->cell.count;
+  bool ok = parallel_ranges(parallel_workers(n, CELLS_IN_RANGE), n,
+                            CELLS_IN_RANGE, mark_cells_of_range, d);
+  for (size_t i = 0; ok && i < n; i++)
+    if (d->cell.item[i].covering != SHEET_NONE)
+      d->is_covered[d->cell.item[i].edge - d->first] = 1;
+  return ok;
 }
 
 /* ---- 2 Choose ------------------------------------------------------------ */

@@ -122,4 +122,13 @@ static inline bool page_segment_is_off(const struct page_segment *s, double x,
          box.y1 < y - reach;
 }
 
+/* Whether the line along (x, y) is farther than within reach from a place,
+ * which is at (px, py) from where it begins. */
+static inline bool page_line_is_off(double x, double y, double px, double py,
+                                    double reach) {
+  double area = x * py - y * px;
+  reach += 1; /* as above */
+  return area * area > reach * reach * (x * x + y * y);
+}
+
 #endif

@@ -53,15 +53,10 @@ struct fold_lines {
 /* Whether a line is surely farther from a sample than its triangle is high. */
 static inline bool is_line_beyond(const struct page_segment *s,
                                   const struct fold_sample *at) {
-  struct box2 box = box2_of_segment(s->p, s->q);
-  /* Distances are computed to far less than a unit. */
-  double reach = at->height + 1;
-  if (box.x0 > at->x + reach || box.x1 < at->x - reach ||
-      box.y0 > at->y + reach || box.y1 < at->y - reach)
+  if (page_segment_is_off(s, at->x, at->y, at->height))
     return true;
   double x = (double)s->q.x - s->p.x, y = (double)s->q.y - s->p.y;
-  double area = x * (at->y - s->p.y) - y * (at->x - s->p.x);
-  return area * area > reach * reach * (x * x + y * y);
+  return page_line_is_off(x, y, at->x - s->p.x, at->y - s->p.y, at->height);
 }
 
 /* Notes a line that is no contour.  As it is no other image of the fold, the
