@@ -8,7 +8,9 @@
 /* A part of a curve between two places. */
 struct contour_piece {
   struct contour_cut from, to;
-  uint32_t samples;       /* points of it that were tested */
+  uint32_t curve;         /* that it is of */
+  uint32_t first;         /* of the points of it that are tested */
+  uint32_t samples;       /* so many are */
   double weight, visible; /* of all of them, and of those seen */
   uint32_t occluders;     /* the sum of those that hide them */
   bool is_visible;

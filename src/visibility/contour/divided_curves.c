@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "base/poll.h"
+#include "base/parallel.h"
 #include "geom/vector.h"
 
 /* Visibility is sampled off the surface, since the mesh about it is uneven, by
@@ -203,10 +203,25 @@ static bool is_beside_crease(const struct divided_curves *d,
   return false;
 }
 
-/* Adds a piece and its samples. */
+/* How many samples the pieces have so far. */
+static uint32_t samples_of_pieces(const struct divided_curves *d) {
+  const struct contour_piece *all = d->piece.item;
+  size_t n = d->piece.count;
+  return n > 0 ? all[n - 1].first + all[n - 1].samples : 0;
+}
+
+/* Adds a piece; its samples follow those of the pieces before it. */
 static bool add_sampled_piece(struct divided_curves *d,
-                              const struct contour_curve *curve,
-                              struct contour_piece *piece) {
+                              struct contour_piece piece) {
+  double from = contour_position(piece.from), to = contour_position(piece.to);
+  piece.first = samples_of_pieces(d);
+  piece.samples = (uint32_t)fmin(ceil(to - from), SAMPLES_MAX) | 1;
+  return ARRAY_PUSH(&d->piece, piece);
+}
+
+static void place_samples(const struct divided_curves *d,
+                          struct contour_piece *piece) {
+  const struct contour_curve *curve = &d->curves->curve.item[piece->curve];
   double from = contour_position(piece->from), to = contour_position(piece->to);
   double last = (double)curve->step + curve->count - 1;
   piece->side = side_of_piece(d, piece);
@@ -214,16 +229,32 @@ static bool add_sampled_piece(struct divided_curves *d,
                                    .heights = OFFSET_NEARER};
   if (piece->side < 0 && is_beside_crease(d, curve, piece))
     placing.heights = OFFSET_NEARER_AT_RIM;
-  piece->samples = (uint32_t)fmin(ceil(to - from), SAMPLES_MAX) | 1;
   for (uint32_t i = 0; i < piece->samples; i++) {
     double at = from + (to - from) * ((i + 0.5) / piece->samples);
     double step = fmin(floor(at), last);
-    struct contour_sample sample =
+    d->sample.item[piece->first + i] =
         place_sample(d, curve, (uint32_t)step, at - step, &placing);
-    if (!ARRAY_PUSH(&d->sample, sample))
-      return false;
   }
-  return ARRAY_PUSH(&d->piece, *piece);
+}
+
+/* Pieces that a thread takes at once. */
+enum { PIECES_IN_RANGE = PARALLEL_RANGE(16) };
+
+static bool place_samples_of_range(void *user, struct parallel_range range) {
+  struct divided_curves *d = user;
+  for (size_t i = range.begin; i < range.end; i++)
+    place_samples(d, &d->piece.item[i]);
+  return true;
+}
+
+/* Places the samples of all pieces. */
+static bool place_all_samples(struct divided_curves *d) {
+  size_t n = d->piece.count, samples = samples_of_pieces(d);
+  if (!ARRAY_RESERVE(&d->sample, samples))
+    return false;
+  d->sample.count = samples;
+  return parallel_ranges(parallel_workers(n, PIECES_IN_RANGE), n,
+                         PIECES_IN_RANGE, place_samples_of_range, d);
 }
 
 /* Divides a curve at its cuts, of which *cut is the first, and passes them. */
@@ -235,13 +266,16 @@ static bool divide(struct divided_curves *d, const struct contour_curve *curve,
   struct divided_curve made = {.first = (uint32_t)d->piece.count};
   bool begins_with_cut = false;
   while (contour_position(from) < end) {
-    struct contour_piece piece = {.from = from, .to = contour_cut_at(end)};
+    struct contour_piece piece = {.curve =
+                                      (uint32_t)(curve - d->curves->curve.item),
+                                  .from = from,
+                                  .to = contour_cut_at(end)};
     if (*cut < d->curves->cut.count && all[*cut].step < end)
       piece.to = all[(*cut)++];
     from = piece.to;
     if (contour_position(piece.from) == contour_position(piece.to))
       begins_with_cut = true;
-    else if (!add_sampled_piece(d, curve, &piece))
+    else if (!add_sampled_piece(d, piece))
       return false;
   }
   made.count = (uint32_t)d->piece.count - made.first;
@@ -254,7 +288,7 @@ bool divided_curves_find(struct divided_curves *d) {
   for (size_t i = 0; i < d->curves->curve.count; i++)
     if (!poll_at(i) || !divide(d, &d->curves->curve.item[i], &cut))
       return false;
-  return true;
+  return place_all_samples(d);
 }
 
 /* ---- What hides them ----------------------------------------------------- */
@@ -321,15 +355,62 @@ static void join_end_pieces(struct contour_piece *first,
   first->occluders = last->occluders += first->occluders;
 }
 
+/* What a worker asks. */
+struct own_occluders {
+  struct occluders occluders;
+  struct triangle_grid_query query;
+  char apart[PARALLEL_APART];
+};
+
+struct sample_tests {
+  struct divided_curves *d;
+  struct own_occluders *own; /* one a worker */
+};
+
+/* What is known of the faces about the last sample is not used in another
+ * range, so that as much is searched by any number of threads. */
+static bool test_pieces_of_range(void *user, struct parallel_range range) {
+  const struct sample_tests *tests = user;
+  struct occluders *own = &tests->own[range.worker].occluders;
+  near_faces_clear(&own->near);
+  for (size_t i = range.begin; i < range.end; i++) {
+    struct contour_piece *piece = &tests->d->piece.item[i];
+    if (!test_samples(own, piece, tests->d->sample.item + piece->first))
+      return false;
+  }
+  return true;
+}
+
+/* Tests the samples of all pieces. */
+static bool test_all_samples(struct divided_curves *d,
+                             struct occluders *occluders) {
+  size_t n = d->piece.count;
+  int workers = parallel_workers(n, PIECES_IN_RANGE), i = 0;
+  struct sample_tests tests = {d,
+                               mem_calloc((size_t)workers, sizeof *tests.own)};
+  bool ok = tests.own != NULL;
+  for (; ok && i < workers; i++) {
+    struct own_occluders *own = &tests.own[i];
+    own->occluders = *occluders;
+    own->occluders.query = &own->query;
+    ok = triangle_grid_query_init(&own->query, occluders->grid);
+  }
+  ok = ok && parallel_ranges(workers, n, PIECES_IN_RANGE, test_pieces_of_range,
+                             &tests);
+  while (i-- > 0) {
+    struct own_occluders *own = &tests.own[i];
+    occluders->near.searched += own->occluders.near.searched;
+    near_faces_fini(&own->occluders.near);
+    triangle_grid_query_fini(&own->query);
+  }
+  mem_free(tests.own);
+  return ok;
+}
+
 bool divided_curves_count(struct divided_curves *d,
                           struct occluders *occluders) {
-  const struct contour_sample *sample = d->sample.item;
-  for (size_t i = 0; i < d->piece.count; i++) {
-    struct contour_piece *piece = &d->piece.item[i];
-    if (!poll_at(i) || !test_samples(occluders, piece, sample))
-      return false;
-    sample += piece->samples;
-  }
+  if (!test_all_samples(d, occluders))
+    return false;
   for (size_t i = 0; i < d->curve.count; i++) {
     const struct divided_curve *of = &d->curve.item[i];
     if (of->joins)

@@ -25,12 +25,16 @@ static bool add_faces_beside(struct near_faces *near, uint32_t face) {
   return true;
 }
 
-/* Starts a search about a face. */
-static bool start_search(struct near_faces *near, uint32_t face) {
+void near_faces_clear(struct near_faces *near) {
   for (size_t i = 0; i < near->face.count; i++)
     near->found[near->face.item[i]] = 0;
   near->face.count = 0;
   near->passed = 0;
+}
+
+/* Starts a search about a face. */
+static bool start_search(struct near_faces *near, uint32_t face) {
+  near_faces_clear(near);
   return add_near_face(near, face);
 }
 

@@ -23,6 +23,9 @@ struct near_faces {
  * Returns false when memory ran out. */
 USE_RESULT bool near_faces_find(struct near_faces *near, uint32_t face,
                                 uint32_t other, bool *is_near);
+
+/* Forgets what was found about the last face, which would serve again. */
+void near_faces_clear(struct near_faces *near);
 void near_faces_fini(struct near_faces *near);
 
 #endif
