@@ -317,6 +317,30 @@ static void no_gap_begins_behind_a_line(void **state) {
   recto_scene_destroy(fine);
 }
 
+/* A contour that enters and leaves a face by one side crosses it twice: its
+ * ends are turned alike, and its middle is not. */
+static void sides_are_crossed_twice(void **state) {
+  (void)state;
+  static const double view[][2] = {{227.7, 54.9}, {197, 48.6}};
+  recto_scene *coarse = smooth_scene(dented, true, 64, 32);
+  recto_scene *fine = smooth_scene(dented, true, 256, 128);
+  for (size_t i = 0; i < sizeof view / sizeof *view; i++) {
+    recto_drawing *surface =
+        draw_from(fine, view[i][0], view[i][1], RECTO_CONTOURS_SMOOTH);
+    recto_drawing *drawing =
+        draw_from(coarse, view[i][0], view[i][1], RECTO_CONTOURS_SMOOTH);
+    double missing = length_beyond(surface, drawing, 1);
+    /* Beside cusps: a triangle's height is 4 mm. */
+    if (!(missing < 6))
+      fail_msg("%g/%g degrees: %g mm of lines are missing", view[i][0],
+               view[i][1], missing);
+    recto_drawing_destroy(surface);
+    recto_drawing_destroy(drawing);
+  }
+  recto_scene_destroy(fine);
+  recto_scene_destroy(coarse);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(folds_of_few_outlines_are_drawn),
@@ -328,6 +352,7 @@ int main(void) {
       cmocka_unit_test(a_fold_of_several_outlines_is_one_line),
       cmocka_unit_test(folds_that_the_surface_denies_are_not_drawn),
       cmocka_unit_test(no_gap_begins_behind_a_line),
+      cmocka_unit_test(sides_are_crossed_twice),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

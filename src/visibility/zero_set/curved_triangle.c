@@ -48,6 +48,15 @@ void curved_triangle_point(const struct curved_triangle *t, const double w[3],
   }
 }
 
+void curved_triangle_side_middle(const struct curved_triangle *t, int k,
+                                 double at[3]) {
+  int next = (k + 1) % 3;
+  const double *p = t->point[k], *q = t->point[next];
+  const double *from = t->control[k][next], *to = t->control[next][k];
+  for (int i = 0; i < 3; i++)
+    at[i] = (p[i] + q[i] + 3 * (from[i] + to[i])) / 8;
+}
+
 void curved_triangle_flat_point(const struct curved_triangle *t,
                                 const double w[3], double at[3]) {
   for (int k = 0; k < 3; k++)

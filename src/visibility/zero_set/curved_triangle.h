@@ -30,7 +30,11 @@ void curved_triangle_point(const struct curved_triangle *triangle,
 void curved_triangle_flat_point(const struct curved_triangle *triangle,
                                 const double weight[3], double at[3]);
 
-/* The normal in the middle of side k, of unit length. */
+/* The middle of side k: the same, to the bit, for both triangles at it. */
+void curved_triangle_side_middle(const struct curved_triangle *triangle, int k,
+                                 double at[3]);
+
+/* The normal in the middle of side k, of unit length; likewise. */
 void curved_triangle_side_normal(const struct curved_triangle *triangle, int k,
                                  double normal[3]);
 

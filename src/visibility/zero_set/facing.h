@@ -63,7 +63,8 @@ struct facing {
   size_t count;          /* of normals and values */
   ARRAY(uint32_t) mixed; /* the faces about whose slots both signs are, and
                             once values are found those of them that have
-                            corners of both signs; ascending */
+                            corners of both signs, or where the surface may
+                            turn between corners; ascending */
 };
 
 /* The Newell normal of a face. */
@@ -101,6 +102,12 @@ void facing_fini(struct facing *facing);
 USE_RESULT bool facing_find_normals(struct facing *facing);
 void facing_find_value(struct facing *facing, uint32_t face, uint32_t corner);
 USE_RESULT bool facing_find_values(struct facing *facing);
+
+/* Whether the surface between two corners of a face, whose values are found,
+ * may be turned otherwise than at both of them, in the middle of the curved
+ * triangle's side (curved_triangle.h). */
+bool facing_may_turn_between(const struct facing *facing, uint32_t corner,
+                             uint32_t other);
 
 /* Marks the points of creases and borders that are closed, or lead on from each
  * other, so that none of those that are joined ends freely: they are no noise.

@@ -126,6 +126,41 @@ static bool has_both_signs(const struct facing *f, uint32_t face) {
   return false;
 }
 
+/* With d from one corner to the other, and the sum of the normals there, the
+ * normal in the middle has the direction of
+ * (1 + |sum| / 2) sum - 2 (d . sum) d / d^2 (curved_triangle.c), and |sum| is
+ * more than 4 / 3 where the normals turn by less than 96 degrees. */
+bool facing_may_turn_between(const struct facing *f, uint32_t corner,
+                             uint32_t other) {
+  double p[3], q[3], v[3];
+  uint32_t from = facing_place(f, facing_slot(f, corner)),
+           to = facing_place(f, facing_slot(f, other));
+  const double *m = f->normal[from], *n = f->normal[to];
+  facing_position(f, facing_point(f, corner), p);
+  facing_position(f, facing_point(f, other), q);
+  const double d[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
+  const double at[3] = {(p[0] + q[0]) / 2, (p[1] + q[1]) / 2,
+                        (p[2] + q[2]) / 2};
+  facing_view(f->camera, at, v);
+  double along = vector_dot(d, m) + vector_dot(d, n);
+  return fabs(f->value[from] + f->value[to]) * vector_dot(d, d) <=
+         1.2 * fabs(along * vector_dot(d, v));
+}
+
+/* Whether a contour may cross a face: it has corners of both signs, or the
+ * surface may turn between two of them. */
+static bool may_be_crossed(const struct facing *f, uint32_t face) {
+  uint32_t start = scene_face_start(f->scene, face);
+  uint32_t end = scene_face_start(f->scene, face + 1);
+  if (has_both_signs(f, face))
+    return true;
+  for (uint32_t c = start; c < end; c++)
+    if (facing_may_turn_between(f, c, c + 1 < end ? c + 1 : start))
+      return true;
+  return end - start == 4 && (facing_may_turn_between(f, start, start + 2) ||
+                              facing_may_turn_between(f, start + 1, end - 1));
+}
+
 /* The values that are to be found. */
 struct value_search {
   const struct facing *facing;
@@ -173,7 +208,7 @@ bool facing_find_values(struct facing *f) {
   mem_free(search.of);
   size_t kept = 0;
   for (size_t i = 0; ok && i < f->mixed.count; i++)
-    if (has_both_signs(f, f->mixed.item[i]))
+    if (may_be_crossed(f, f->mixed.item[i]))
       f->mixed.item[kept++] = f->mixed.item[i];
   f->mixed.count = kept;
   return ok;

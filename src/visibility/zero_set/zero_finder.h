@@ -15,12 +15,17 @@ struct zero_finder {
   struct projection projection;
   bool mesh_is_inside;         /* no face is clipped by the page's margins */
   struct ranked_set near_edge; /* the edges of near faces */
-  uint32_t (*edge_node)[2];    /* one of these edges: its node, from 1 on, where
-                               normals are split those of its first and its
-                               second face; 0: none */
-  uint32_t *point_node;        /* one a scene point; NULL: none yet */
-  ARRAY(uint32_t) diagonal_node; /* of the current face: likewise */
-  ARRAY(uint32_t) corner;        /* of the current face, welded */
+  uint32_t (*edge_node)[2]; /* one of these edges: its nodes, from 1 on, those
+                               of the halves at its first and second point; at
+                               features the first alone, or where normals are
+                               split those of its first and its second face;
+                               0: none */
+  uint32_t *point_node;     /* one a scene point; NULL: none yet */
+  struct {
+    uint32_t (*item)[2];
+    size_t count, capacity;
+  } diagonal_node;        /* of the current face: likewise */
+  ARRAY(uint32_t) corner; /* of the current face, welded */
   struct triangulation triangulation;
 };
 

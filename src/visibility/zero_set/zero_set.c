@@ -85,7 +85,7 @@ static bool cross_polygon(struct zero_finder *z, uint32_t face, uint32_t start,
     return false;
   for (uint32_t c = 0; c < count; c++) {
     z->corner.item[c] = facing_point(z->facing, start + c);
-    z->diagonal_node.item[c] = 0;
+    z->diagonal_node.item[c][0] = z->diagonal_node.item[c][1] = 0;
   }
   if (!triangulate(triangulation, z->facing->scene->point.item, z->corner.item,
                    count))
