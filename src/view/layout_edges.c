@@ -82,9 +82,9 @@ static recto_status clip_edge(struct edge_layout *work, uint32_t edge) {
 MEM_PREFETCH_INLINE void prefetch_special(const struct edge_layout *work,
                                           size_t word, size_t words) {
   const struct layout *layout = work->layout;
-  const struct topology_edge *edge = layout->topology->edge.item + 64 * word;
   if (word + 2 * MEM_PREFETCH_AHEAD >= words)
-    return;
+    return; /* there may be no edge at all */
+  const struct topology_edge *edge = layout->topology->edge.item + 64 * word;
   for (uint64_t left = work->special[word + 2 * MEM_PREFETCH_AHEAD]; left != 0;
        left &= left - 1)
     MEM_PREFETCH(
