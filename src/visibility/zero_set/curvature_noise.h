@@ -72,4 +72,11 @@ static inline bool curvature_is_smooth(struct curvature_squares sum) {
           sum.noise[1] < CURVATURE_NOISE_MAX * sum.curvature[1]);
 }
 
+/* Whether noise is seen there, however edges are weighted. */
+static inline bool curvature_has_noise(struct curvature_squares sum) {
+  return sum.known > 0 &&
+         sum.noise[0] >= CURVATURE_NOISE_MAX * sum.curvature[0] &&
+         sum.noise[1] >= CURVATURE_NOISE_MAX * sum.curvature[1];
+}
+
 #endif

@@ -2,7 +2,13 @@
  * normals of its sides. */
 #include "visibility/zero_set/curved_triangle.h"
 
+#include <math.h>
+
 #include "geom/vector.h"
+
+/* A triangle is thin where the square of its longest side is more than so many
+ * times that of its shortest. */
+#define THIN 16
 
 /* The side between two corners. */
 static int side_from_to(int i, int j) { return (i + 1) % 3 == j ? i : j; }
@@ -32,6 +38,43 @@ void curved_triangle_init(struct curved_triangle *t) {
     }
     t->middle[k] = sides / 4 - corners / 6;
   }
+}
+
+/* The square of a side's length. */
+static double square_length(const struct curved_triangle *t, int i, int j) {
+  double d[3];
+  for (int k = 0; k < 3; k++)
+    d[k] = t->point[j][k] - t->point[i][k];
+  return vector_dot(d, d);
+}
+
+/* How much farther from the chord the control point beside corner i is than
+ * that beside corner j. */
+static void set_asymmetry(const struct curved_triangle *t, int i, int j,
+                          double asymmetry[3]) {
+  for (int k = 0; k < 3; k++) {
+    double p = t->point[i][k], q = t->point[j][k];
+    asymmetry[k] = t->control[i][j][k] - t->control[j][i][k] + (q - p) / 3;
+  }
+}
+
+void curved_triangle_bend_as_long_sides(struct curved_triangle *t) {
+  double square[3], a[3], b[3];
+  int s = 0; /* where the shortest side begins */
+  for (int k = 0; k < 3; k++) {
+    square[k] = square_length(t, k, (k + 1) % 3);
+    s = square[k] < square[s] ? k : s;
+  }
+  int e = (s + 1) % 3, far = (s + 2) % 3;
+  double thin = 1 - THIN * square[s] / fmax(square[e], square[far]);
+  if (!(thin > 0))
+    return;
+  set_asymmetry(t, s, far, a);
+  set_asymmetry(t, e, far, b);
+  double both = vector_dot(a, a) + vector_dot(b, b);
+  double common = both > 0 ? fmax(0, 2 * vector_dot(a, b) / both) : 0;
+  for (int k = 0; k < 3; k++)
+    t->middle[k] += thin * common * (a[k] + b[k]) / 4;
 }
 
 void curved_triangle_point(const struct curved_triangle *t, const double w[3],

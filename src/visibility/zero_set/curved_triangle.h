@@ -24,6 +24,13 @@ struct curved_triangle {
 /* Computes the control points from what is above them. */
 void curved_triangle_init(struct curved_triangle *triangle);
 
+/* Lets a thin triangle bend as its two long sides do; for ones whose normals
+ * have no noise.  The control point in the middle is that of a quadratic
+ * surface, whose sides are symmetric: what both long sides have in common that
+ * is not, as beside a crease, moves it.  Else contours along strips of such
+ * triangles waved. */
+void curved_triangle_bend_as_long_sides(struct curved_triangle *triangle);
+
 /* The place on the curved surface, and on the mesh's triangle. */
 void curved_triangle_point(const struct curved_triangle *triangle,
                            const double weight[3], double at[3]);

@@ -158,6 +158,8 @@ static void measure_triangle(struct zero_triangle *t) {
                              facing_point(f, t->corner[1]),
                              facing_point(f, t->corner[2])};
   t->curvature = curvature_noise_sum(&t->finder->curvature, f, point, 3);
+  if (!curvature_has_noise(t->curvature))
+    curved_triangle_bend_as_long_sides(&t->curved);
   find_height(t);
 }
 
