@@ -369,7 +369,9 @@ typedef enum recto_crease_marks {
 typedef struct recto_mesh_options {
   /* Corners of borders that are at most this far apart are welded, scene units;
    * negative: within the rounding error of the coordinates; 0: only those at
-   * equal positions. */
+   * equal positions.  But for 0, slits without width are closed, and faces of a
+   * group that are listed twice, with edges of more than two faces, left out
+   * once, unless solver.remove_backs is set. */
   double weld;
   double crease_deg; /* faces that meet at a larger angle make a crease */
   /* Significant bits of the coordinates given to recto_scene_add_point, 1 to
@@ -736,11 +738,11 @@ RECTO_USE_RESULT recto_status recto_scene_add_polyline(recto_scene *scene,
 
 /* Prepares the scene for several views: welds its corners, finds its edges and
  * decides which of them are borders and creases, as recto_scene_render does it
- * each time for a scene that was not prepared.  Renders with the same `weld`
- * and `coordinate_bits` then share the result, and with the same `crease_deg`
- * the decisions too; those with others do the work themselves, and so do all
- * with another `crease_deg` or `crease_marks` of a scene whose files mark
- * edges.  What is added to the scene later undoes it.
+ * each time for a scene that was not prepared.  Renders with the same `weld`,
+ * `coordinate_bits` and `remove_backs` then share the result, and with the same
+ * `crease_deg` the decisions too; those with others do the work themselves, and
+ * so do all with another `crease_deg` or `crease_marks` of a scene whose files
+ * mark edges.  What is added to the scene later undoes it.
  * Errors   RECTO_ERROR_LIMIT: sizes and distances differ by too much;
  *          RECTO_ERROR_CANCELLED */
 RECTO_USE_RESULT recto_status recto_scene_prepare(recto_scene *scene,
@@ -791,7 +793,8 @@ RECTO_USE_RESULT recto_status recto_scene_read_for_parts(
  *         parts could not be joined to the same drawing: with approximate
  *         methods, smooth contours, cuts, sheets, results or verification, in a
  *         view that the page or the near plane clips, of a scene of extreme
- *         size, and where welding might join corners; RECTO_ERROR_IO */
+ *         size, and where welding might join corners or leave out faces;
+ *         RECTO_ERROR_IO */
 RECTO_USE_RESULT recto_status recto_scene_write_part(
     const recto_scene *scene, const recto_options *options, unsigned number,
     unsigned count, const char *path, recto_error *error);

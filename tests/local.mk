@@ -201,6 +201,9 @@ unit_tests += %D%/test_stream
 %C%_test_stream_SOURCES = %D%/test_stream.c \
   %D%/temporary.c %D%/temporary.h
 
+unit_tests += %D%/test_doubled_faces
+%C%_test_doubled_faces_SOURCES = %D%/test_doubled_faces.c
+%C%_test_doubled_faces_LDADD = %D%/scenes/libscenes.la $(LDADD)
 unit_tests += %D%/test_slits
 %C%_test_slits_SOURCES = %D%/test_slits.c
 %C%_test_slits_LDADD = %D%/scenes/libscenes.la $(LDADD)

@@ -549,6 +549,29 @@ static void slits_are_refused(void **state) {
   }
 }
 
+/* A tent of two sides, each face with its reverse. */
+static void faces_listed_twice_are_refused(void **state) {
+  for (int k = 0; k < 2; k++) {
+    recto_scene *scene;
+    recto_options options;
+    recto_error error = {0};
+    assert_int_equal(recto_scene_create(&scene, NULL), RECTO_OK);
+    recto_options_init(&options);
+    options.mesh.weld = k == 0 ? -1 : 0;
+    for (int i = 0; i < 4; i++)
+      build_point(&scene->scene, i % 2, i / 2 * (1 - i % 2), i == 3);
+    build_triangle(&scene->scene, 0, 1, 2);
+    build_triangle(&scene->scene, 1, 0, 3);
+    build_triangle(&scene->scene, 0, 2, 1);
+    build_triangle(&scene->scene, 0, 1, 3);
+    recto_status status = write_parts(state, scene, &options, 1, &error);
+    recto_scene_destroy(scene);
+    assert_int_equal(status, k == 0 ? RECTO_ERROR_UNSUPPORTED : RECTO_OK);
+    if (k == 0)
+      assert_non_null(strstr(error.text, "faces are listed twice"));
+  }
+}
+
 static void a_limit_of_hiding_faces_may_be_left_out(void **state) {
   recto_options options;
   recto_scene *scene = make_parts(state, &options);
@@ -641,6 +664,7 @@ int main(void) {
       IN_FOLDER(what_parts_do_not_have_is_refused),
       IN_FOLDER(corners_that_may_be_welded_are_refused),
       IN_FOLDER(slits_are_refused),
+      IN_FOLDER(faces_listed_twice_are_refused),
       IN_FOLDER(a_limit_of_hiding_faces_may_be_left_out),
       IN_FOLDER(what_runs_out_of_memory_says_so)};
   return cmocka_run_group_tests(tests, NULL, NULL);

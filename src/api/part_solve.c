@@ -14,14 +14,16 @@
 #include "parts/part_common.h"
 #include "parts/part_file.h"
 #include "parts/side_marks.h"
+#include "scene/weld/doubled_faces.h"
 #include "scene/weld/slits.h"
 #include "scene/weld/thin_faces.h"
 #include "view/layout.h"
 #include "visibility/quantitative_invisibility.h"
 #include "visibility/solver.h"
 
-/* Whether an undivided drawing would leave out faces of the part's scene, or
- * close slits of it.  Returns false when memory ran out. */
+/* Whether an undivided drawing would leave out faces of the part's scene as
+ * they have no width, or close slits of it.  Returns false when memory ran
+ * out. */
 static bool find_slits(struct part_solve *work, bool *has_slits) {
   const struct scene *scene = &work->scene.scene;
   struct precision unstated = work->part.common.camera.unstated;
@@ -36,12 +38,24 @@ static bool find_slits(struct part_solve *work, bool *has_slits) {
   return ok;
 }
 
+/* Whether it would leave out faces that are listed twice. */
+static bool find_doubled(struct part_solve *work, bool *has_doubled) {
+  uint64_t *doubled;
+  size_t count;
+  bool ok =
+      doubled_faces_find(&work->scene.scene, &work->topology, &doubled, &count);
+  *has_doubled = count > 0;
+  mem_free(doubled);
+  return ok;
+}
+
 /* Refuses what parts cannot weld. */
 static recto_status check_welding(struct part_solve *work, recto_error *error) {
-  bool may_weld, has_slits = false;
+  bool may_weld, has_slits = false, has_doubled = false;
   if (!part_scene_may_weld(&work->scene, &work->topology, work->weld,
                            &may_weld) ||
-      (work->weld > 0 && !find_slits(work, &has_slits)))
+      (work->weld > 0 &&
+       !(find_slits(work, &has_slits) && find_doubled(work, &has_doubled))))
     return error_memory(error);
   if (may_weld)
     return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
@@ -55,6 +69,11 @@ static recto_status check_welding(struct part_solve *work, recto_error *error) {
                      "other faces, whose slits parts cannot close: make the "
                      "parts, or their plan, with --weld 0, which leaves them "
                      "open");
+  if (has_doubled)
+    return error_set(error, RECTO_ERROR_UNSUPPORTED, NULL, 0,
+                     "faces are listed twice, and parts cannot leave one of "
+                     "them out: make the parts, or their plan, with --weld 0, "
+                     "which draws all of their edges");
   return RECTO_OK;
 }
 

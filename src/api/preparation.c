@@ -147,6 +147,7 @@ recto_status preparation_init(struct preparation *preparation,
       (struct preparation){.weld = options->mesh.weld,
                            .coordinate_bits = options->mesh.coordinate_bits,
                            .crease_marks = options->mesh.crease_marks,
+                           .keeps_doubled = options->solver.remove_backs,
                            .crease_deg = options->mesh.crease_deg,
                            .planes = options->mesh.cut_count};
   for (size_t i = 0; i < options->mesh.cut_count; i++)
@@ -161,6 +162,7 @@ recto_status preparation_init(struct preparation *preparation,
   const struct weld_request request = {
       .length = scaled.mesh.weld,
       .unstated = precision_of_bits(options->mesh.coordinate_bits),
+      .keeps_doubled = options->solver.remove_backs,
       .leaves_out_corners = use == PREPARATION_FOR_LINES &&
                             !may_use_sides(&preparation->rescaled, options)};
   status = weld_near(&preparation->welded, &preparation->topology,
@@ -248,6 +250,7 @@ bool preparation_is_valid_for(const struct preparation *preparation,
                preparation->weld == options->mesh.weld &&
                preparation->coordinate_bits == options->mesh.coordinate_bits &&
                preparation->planes == options->mesh.cut_count &&
+               preparation->keeps_doubled == options->solver.remove_backs &&
                has_marks_for(preparation, options);
   for (size_t i = 0; valid && i < preparation->planes; i++) {
     const recto_plane *own = &preparation->plane[i];

@@ -27,7 +27,8 @@ struct preparation {
   double weld;
   int coordinate_bits;
   recto_crease_marks crease_marks;
-  double crease_deg; /* where marks of creases depend on it */
+  bool keeps_doubled; /* faces that are listed twice, as of weld_request */
+  double crease_deg;  /* where marks of creases depend on it */
 };
 
 /* What a scene is prepared for. */

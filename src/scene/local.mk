@@ -62,6 +62,7 @@ librecto_core_la_SOURCES += \
   %D%/triangulation/triangulate.c %D%/triangulation/triangulate.h \
   %D%/triangulation/triangulation.h \
   %D%/weld/cluster.c %D%/weld/cluster.h \
+  %D%/weld/doubled_faces.c %D%/weld/doubled_faces.h \
   %D%/weld/face_rewrite.c %D%/weld/face_rewrite.h \
   %D%/weld/isolated_members.c %D%/weld/isolated_members.h \
   %D%/weld/slits.c %D%/weld/slits.h \

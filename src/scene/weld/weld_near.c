@@ -11,6 +11,8 @@
  *   join        into clusters (cluster.h); one member's position represents
  *               all, none is made up.
  *   rewrite     faces and polylines use the points that represent theirs.
+ *   doubled     faces that are listed twice are left out once
+ *               (doubled_faces.h).
  *   slits       thin faces are left out, and slits are closed (face_rewrite.h).
  *
  * What rounding explains.  A file's coordinates have a common scale S, the
@@ -35,6 +37,7 @@
 #include "base/tolerance.h"
 #include "geom/vector.h"
 #include "scene/corner_normals.h"
+#include "scene/weld/doubled_faces.h"
 #include "scene/weld/face_rewrite.h"
 #include "scene/weld/isolated_members.h"
 #include "scene/weld/slits.h"
@@ -364,18 +367,18 @@ static recto_status weld_points(struct welded *welded,
 
 /* ---- Slits --------------------------------------------------------------- */
 
-/* Replaces the faces by those without the thin ones, which have the points that
- * lie on their sides, and builds the edges anew. */
+/* Replaces the faces by those without the marked ones, which have the points
+ * that lie on their sides, and builds the edges anew. */
 static recto_status replace_faces(struct welded *welded,
                                   struct topology *topology,
-                                  const uint64_t *thin,
+                                  const uint64_t *left_out,
                                   const slit_points *points,
                                   recto_error *error) {
   struct scene next = welded->scene;
   face_rewrite_begin(&next);
   topology_fini(topology);
   recto_status status =
-      face_rewrite(&next, &welded->scene, thin, points, error);
+      face_rewrite(&next, &welded->scene, left_out, points, error);
   if (welded->owns_faces)
     face_rewrite_fini(&welded->scene);
   welded->scene = next;
@@ -384,18 +387,19 @@ static recto_status replace_faces(struct welded *welded,
                             : status;
 }
 
-static recto_status drop_thin_faces(struct welded *welded,
-                                    struct topology *topology,
-                                    const struct weld_request *request,
-                                    recto_error *error) {
-  uint64_t *thin;
-  recto_status status = RECTO_OK;
-  if (!thin_faces_find(&welded->scene, topology, request->unstated, &thin,
-                       &welded->thin))
-    status = error_memory(error);
-  else if (welded->thin > 0)
-    status = replace_faces(welded, topology, thin, NULL, error);
-  mem_free(thin);
+/* Leaves out the faces that are listed twice, or thin ones. */
+static recto_status drop_faces(struct welded *welded, struct topology *topology,
+                               struct precision unstated, bool doubled,
+                               recto_error *error) {
+  const struct scene *scene = &welded->scene;
+  uint64_t *map;
+  size_t *count = doubled ? &welded->doubled : &welded->thin;
+  bool ok = doubled ? doubled_faces_find(scene, topology, &map, count)
+                    : thin_faces_find(scene, topology, unstated, &map, count);
+  recto_status status = ok ? RECTO_OK : error_memory(error);
+  if (ok && *count > 0)
+    status = replace_faces(welded, topology, map, NULL, error);
+  mem_free(map);
   return status;
 }
 
@@ -418,8 +422,10 @@ recto_status weld_near(struct welded *welded, struct topology *topology,
                        const struct weld_request *request, recto_error *error) {
   *welded = (struct welded){.scene = *scene};
   recto_status status = weld_points(welded, topology, scene, request, error);
+  if (status == RECTO_OK && request->length != 0 && !request->keeps_doubled)
+    status = drop_faces(welded, topology, request->unstated, true, error);
   if (status == RECTO_OK && request->length != 0)
-    status = drop_thin_faces(welded, topology, request, error);
+    status = drop_faces(welded, topology, request->unstated, false, error);
   if (status == RECTO_OK && request->length != 0)
     status = close_slits(welded, topology, request, error);
   welded->borders = topology->borders;

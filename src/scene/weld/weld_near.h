@@ -8,6 +8,7 @@ struct weld_request {
   double length; /* scene units; 0: only equal positions are welded; negative:
                     the rounding error of the coordinates */
   struct precision unstated; /* of points whose precision is not stated */
+  bool keeps_doubled;        /* faces that are listed twice stay */
   bool leaves_out_corners;   /* the topology's, as of topology_init_edges */
 };
 
@@ -18,6 +19,7 @@ struct welded {
   double length;      /* the largest length used, scene units */
   size_t joined;      /* points welded to another */
   size_t lost;        /* faces that have no area any more */
+  size_t doubled;     /* faces left out that are listed twice */
   size_t thin;        /* faces left out that rounding explains */
   size_t borders;     /* edges of one face that are left */
 };
@@ -29,10 +31,11 @@ struct welded {
  * Only points of edges with a single face are welded, so that closed shells
  * that touch stay separate.
  *
- * Then closes slits (slits.h), among them those that faces leave which readers
- * skip as they have no area, and those of thin faces (thin_faces.h), which are
- * left out first: a face there gets the points that lie on its side.  Not with
- * a length of 0.
+ * Then leaves out faces that are listed twice (doubled_faces.h), unless they
+ * are kept, and closes slits (slits.h), among them those that faces leave which
+ * readers skip as they have no area, and those of thin faces (thin_faces.h),
+ * which are left out first: a face there gets the points that lie on its side.
+ * Not with a length of 0.
  * Errors  RECTO_ERROR_MEMORY: both are then empty
  * Owner   `scene` is to live as long.
  * Cost    linear in the corners. */
