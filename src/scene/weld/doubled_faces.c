@@ -1,9 +1,10 @@
-/* doubled_faces.c - finds faces on the same points by a hash of these.
+/* doubled_faces.c - finds faces on the same points by a hash of their sides.
  *
  * Phases
  *   ends   of the edges of more than two faces
- *   list   the faces that have two of these, with a hash of their points and
- *          group that is the same in any order
+ *   list   the faces that have two of these, with a hash of their sides and
+ *          group that is the same in any order: faces on the same points that
+ *          have other sides differ in it
  *   mark   of those whose hashes agree, the ones that have the points of an
  *          earlier face one after the other */
 #include "scene/weld/doubled_faces.h"
@@ -44,14 +45,17 @@ static bool list_at_ends(struct doubled_search *search) {
   const struct scene *scene = search->scene;
   for (uint32_t f = 0; f < scene_face_count(scene); f++) {
     uint64_t hash = hash_add(0, scene_face_group(scene, f));
+    uint32_t start = scene_face_start(scene, f),
+             end = scene_face_start(scene, f + 1),
+             last = point_of_side(search, end - 1);
     int ends = 0;
     if (!poll_at(f))
       return false;
-    for (uint32_t c = scene_face_start(scene, f);
-         c < scene_face_start(scene, f + 1); c++) {
+    for (uint32_t c = start; c < end; c++) {
       uint32_t point = point_of_side(search, c);
-      hash += hash_add(0, (uint64_t)point + 1);
+      hash += hash_add(0, sort_pair_key(last, point) + 1);
       ends += search->is_end[point];
+      last = point;
     }
     if (ends >= 2 && !ARRAY_PUSH(&search->face, ((struct sort_key){hash, f})))
       return false;
