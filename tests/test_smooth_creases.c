@@ -121,8 +121,8 @@ static int count_turns(const recto_drawing *drawing) {
   return count;
 }
 
-/* How often strokes turn by more than 8 degrees one way and then the other, with
- * a tenth of a millimetre or more between. */
+/* How often strokes turn by more than 8 degrees one way and then the other,
+ * with a tenth of a millimetre or more between. */
 static int count_waves(const recto_drawing *drawing) {
   int count = 0;
   for (size_t s = 0; s < recto_drawing_stroke_count(drawing); s++) {

@@ -89,13 +89,15 @@ static bool has_same_points(const struct doubled_search *search, uint32_t a,
   return false;
 }
 
-/* Whether a face has the points of one that is listed before it, with the same
- * hash, and is not itself such a one. */
-static bool has_earlier(const struct doubled_search *search, size_t i,
-                        const uint64_t *doubled) {
+/* Whether a listed face has the points of one that is listed before it, with
+ * the same hash, and is not itself such a one.
+ * begin  the first of that hash: the only one that is looked at where all are
+ *        on the same points */
+static bool has_earlier(const struct doubled_search *search, size_t begin,
+                        size_t i, const uint64_t *doubled) {
   const struct sort_key *face = search->face.item;
-  for (size_t k = i; k > 0 && face[k - 1].key == face[i].key; k--) {
-    uint32_t other = face[k - 1].value;
+  for (size_t k = begin; k < i; k++) {
+    uint32_t other = face[k].value;
     if ((doubled[other / 64] >> other % 64 & 1) == 0 &&
         has_same_points(search, other, face[i].value))
       return true;
@@ -108,11 +110,14 @@ static bool mark_doubled(struct doubled_search *search, uint64_t *doubled,
   const struct sort_key *face = search->face.item;
   if (!sort_keys_alone(search->face.item, search->face.count))
     return false;
-  for (size_t i = 0; i < search->face.count; i++)
-    if (has_earlier(search, i, doubled)) {
+  for (size_t i = 0, begin = 0; i < search->face.count; i++) {
+    if (face[i].key != face[begin].key)
+      begin = i;
+    if (has_earlier(search, begin, i, doubled)) {
       doubled[face[i].value / 64] |= UINT64_C(1) << face[i].value % 64;
       ++*count;
     }
+  }
   return true;
 }
 
