@@ -56,7 +56,7 @@ static bool count_open_ends(void *user, struct parallel_range range) {
 static bool store_open_ends(void *user, struct parallel_range range) {
   const struct open_end_list *list = user;
   struct open_walk *walk =
-      list->paths->walk.item + list->open[range.begin / PARALLEL_ITEMS];
+      ARRAY_AT(&list->paths->walk, list->open[range.begin / PARALLEL_ITEMS]);
   for (size_t end = range.begin; end < range.end; end++)
     if (list->mate[end] == SEGMENT_GRAPH_NONE)
       *walk++ = (struct open_walk){.open = (uint32_t)end};
