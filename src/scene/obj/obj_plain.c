@@ -110,7 +110,8 @@ static const char *sample_point(struct obj_parser *p, const char *at,
 static bool add_points(struct obj_parser *p, const struct obj_run *run) {
   const struct scene_point *point =
       p->scene->point.item + p->scene->point.count;
-  const char *at = run->sampled.item, *end = at + run->sampled.count;
+  const char *at = run->sampled.item,
+             *end = ARRAY_AT(&run->sampled, run->sampled.count);
   while (at < end) {
     size_t number = next_sampled(p, p->seen);
     (void)precision_is_sampled(&p->sample, number);
