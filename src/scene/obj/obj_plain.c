@@ -244,11 +244,9 @@ SPECIALIZED size_t read_block_of_faces(const struct obj_parser *p,
 bool obj_find_normals_of_face(const struct obj_parser *p, uint32_t *normal,
                               size_t corners) {
   bool all = true;
-  uint32_t bits = 0;
   for (size_t k = 0; k < corners; k++) {
     normal[k] = normal[k] > 0 ? p->normal.item[normal[k] - 1] : 0;
     all = all && normal[k] != 0;
-    bits |= normal[k];
   }
   for (size_t k = 0; k < corners && !all; k++)
     normal[k] = 0;
