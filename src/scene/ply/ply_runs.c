@@ -10,7 +10,6 @@
 #include <math.h>
 
 #include "base/parallel.h"
-#include "base/poll.h"
 #include "scene/exact.h"
 #include "scene/limit.h"
 #include "scene/ply/ply_colour.h"
