@@ -194,11 +194,9 @@ bool reading_same(const struct scene *a, const struct scene *b) {
 
 /* ---- Threads ------------------------------------------------------------- */
 
-/* Reads bytes, or a file.
- * bytes  NULL: the file */
-static void read_with_threads(struct reading *reading,
-                              const struct reader *reader, const char *bytes,
-                              size_t count, const char *path, int threads) {
+void reading_with_threads(struct reading *reading, const struct reader *reader,
+                          const char *bytes, size_t count, const char *path,
+                          int threads) {
   recto_options options;
   struct poll poll;
   recto_options_init(&options);
@@ -235,8 +233,8 @@ static const char *parallel_fault(const struct reader *reader,
                                   const char *bytes, size_t count,
                                   const char *path) {
   struct reading one, several;
-  read_with_threads(&one, reader, bytes, count, path, 1);
-  read_with_threads(&several, reader, bytes, count, path, 4);
+  reading_with_threads(&one, reader, bytes, count, path, 1);
+  reading_with_threads(&several, reader, bytes, count, path, 4);
   const char *fault = reading_difference(&one, &several);
   reading_fini(&one);
   reading_fini(&several);

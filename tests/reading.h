@@ -33,6 +33,12 @@ recto_status reading_bytes(struct reading *reading, const struct reader *reader,
 void reading_of(struct reading *reading, const struct reader *reader,
                 const char *text);
 
+/* Reads bytes, or a file, with up to so many threads into a new reading.
+ * bytes  NULL: the file */
+void reading_with_threads(struct reading *reading, const struct reader *reader,
+                          const char *bytes, size_t count, const char *path,
+                          int threads);
+
 /* Why the scene does not keep its invariants; NULL where it does. */
 const char *reading_fault(const struct scene *scene);
 

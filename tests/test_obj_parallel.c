@@ -482,8 +482,55 @@ static void large_files_have_the_room_that_they_need(void **state) {
   free(text.bytes);
 }
 
+/* Statements of one length, and so many bytes of them. */
+static void put_points(struct text *text, size_t bytes, int digits) {
+  char statement[LONGEST];
+  double x = 1 + 0.25 / digits;
+  snprintf(statement, sizeof statement, "v %.*f %.*f %.*f\n", digits, x, digits,
+           x + 1, digits, x + 2);
+  for (size_t end = text->count + bytes; text->count < end;)
+    put(text, statement);
+}
+
+/* Room is made for as many statements as the bytes to come have if they are as
+ * long as those before: where they are shorter, there is no room for all. */
+static void statements_may_become_shorter(void **state) {
+  enum { LONG = 1 << 20, SHORT = 1 << 21 };
+  (void)state;
+  skip_without_processors();
+  struct text text = {malloc(2 * (LONG + SHORT) + 4 * LONGEST), 0};
+  assert_non_null(text.bytes);
+  for (int turn = 0; turn < 2; turn++) {
+    put_points(&text, LONG, 30);
+    put_points(&text, SHORT, 0);
+  }
+  const char *fault =
+      reading_parallel_fault(&reader_obj, text.bytes, text.count);
+  free(text.bytes);
+  assert_null(fault);
+}
+
+/* An array that grows is moved, which takes longer than to read it. */
+static void threads_make_no_room_for_what_is_not_there(void **state) {
+  enum { BYTES = 900 << 10 }; /* of a larger file it would be given back */
+  (void)state;
+  skip_without_processors();
+  struct text text = {malloc(BYTES + LONGEST), 0};
+  struct reading reading;
+  assert_non_null(text.bytes);
+  put_points(&text, BYTES, 18);
+  reading_with_threads(&reading, &reader_obj, text.bytes, text.count, NULL, 2);
+  assert_int_equal(reading.status, RECTO_OK);
+  assert_in_range(reading.scene.point.capacity, reading.scene.point.count,
+                  3 * reading.scene.point.count);
+  reading_fini(&reading);
+  free(text.bytes);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(statements_may_become_shorter),
+      cmocka_unit_test(threads_make_no_room_for_what_is_not_there),
       cmocka_unit_test(plain_files_are_read_alike),
       cmocka_unit_test(other_statements_are_found_where_they_are),
       cmocka_unit_test(blanks_and_carriage_returns_change_nothing),

@@ -33,7 +33,8 @@ struct obj_parser {
   bool known;            /* a statement was understood */
   unsigned long strange; /* line of the first that was not; 0 */
   const char *run_end;   /* where the last run of plain statements ended */
-  size_t run_bytes;      /* its length, with those right before it */
+  size_t run_bytes;      /* its length, with those right before it, */
+  size_t run_count;      /* and its statements, if it has a length */
   const struct obj_run_kind *run_kind; /* and what it is of */
   /* The statements that room was made for at once, when a run of them was long;
    * or NULL. */

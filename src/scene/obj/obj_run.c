@@ -39,6 +39,7 @@ enum {
   AHEAD_BYTES = 1 << 20, /* a file of more is large */
   STATEMENT_BYTES = 8,   /* of the shortest one: "v 0 0 0", "f 1 2 3" */
   ROOM_BYTES = 2 * OBJ_PLAIN_ROOM, /* behind a part that may be looked at */
+  PART_STATEMENTS = (PART_BYTES + ROOM_BYTES) / STATEMENT_BYTES, /* at most */
 };
 
 /* ---- Parts --------------------------------------------------------------- */
@@ -56,6 +57,7 @@ struct parts {
   const struct obj_run_kind *kind;
   struct run_part *part;
   size_t count;
+  size_t room;          /* for so many statements of all parts */
   off_t from;           /* where the first begins in the file, */
   atomic_size_t next;   /* the first that no thread has taken */
   atomic_size_t broken; /* one that is not plain to its end; `count`: none */
@@ -64,6 +66,7 @@ struct parts {
   pthread_cond_t is_placed;
   size_t placed; /* parts before which the lines are known */
   size_t lines;  /* of these */
+  size_t full;   /* the first part that there is no room for; `count`: none */
 };
 
 static void note_broken(struct parts *parts, size_t i) {
@@ -73,18 +76,27 @@ static void note_broken(struct parts *parts, size_t i) {
     ;
 }
 
+/* Lets the statements of the next part follow those of the parts before it, if
+ * there is room for them. */
+static void place_next_part(struct parts *parts) {
+  size_t i = parts->placed++;
+  struct obj_run *run = &parts->part[i].run;
+  run->before = parts->lines;
+  parts->lines += run->most;
+  if (parts->lines <= parts->room || parts->full < i)
+    return;
+  parts->full = i;
+  note_broken(parts, i);
+}
+
 /* Notes the lines of a part, and sums up those of all that are counted, in
  * order, to find where their statements belong. */
 static void note_lines(struct parts *parts, size_t i, size_t lines) {
   (void)pthread_mutex_lock(&parts->lock);
   parts->part[i].run.most = lines;
   parts->part[i].is_counted = true;
-  while (parts->placed < parts->count &&
-         parts->part[parts->placed].is_counted) {
-    struct obj_run *run = &parts->part[parts->placed++].run;
-    run->before = parts->lines;
-    parts->lines += run->most;
-  }
+  while (parts->placed < parts->count && parts->part[parts->placed].is_counted)
+    place_next_part(parts);
   (void)pthread_cond_broadcast(&parts->is_placed);
   (void)pthread_mutex_unlock(&parts->lock);
 }
@@ -248,27 +260,46 @@ void obj_go_on(struct obj_parser *p, size_t bytes) {
   }
 }
 
-/* Reads the parts, and takes those that are plain; *plain: all of them. */
+/* Notes that a run goes on by so many statements in so many bytes. */
+static void lengthen_run(struct obj_parser *p, size_t count, size_t bytes) {
+  p->run_count = p->run_bytes > 0 ? p->run_count + count : count;
+  p->run_bytes += bytes;
+}
+
+/* How many statements there are in so many bytes if these are like the run so
+ * far, and a few more, as others are shorter; at least those of one part. */
+static size_t expected_statements(const struct obj_parser *p, size_t bytes) {
+  size_t each = p->run_bytes / p->run_count,
+         count = bytes / (each > STATEMENT_BYTES ? each : STATEMENT_BYTES);
+  return count + count / 16 + PART_STATEMENTS;
+}
+
+/* Reads the parts, and takes those that are plain; *plain: all of them, or all
+ * that there was room for. */
 static recto_status read_parts_of_run(struct parts *parts, int workers,
                                       bool *plain) {
   struct obj_parser *p = parts->p;
-  size_t past = 0;
-  size_t most = (parts->count * PART_BYTES + ROOM_BYTES) / STATEMENT_BYTES;
-  *plain = parts->kind->reserve(p, most);
-  if (*plain) {
+  size_t past = 0, count = 0, i = 0;
+  bool ok = parts->kind->reserve(p, parts->room);
+  if (ok) {
     parallel_run(workers, read_taken_parts, parts);
-    *plain = !atomic_load(&parts->ended);
+    ok = !atomic_load(&parts->ended);
   }
-  recto_status status = *plain ? RECTO_OK : error_memory(p->error);
-  for (size_t i = 0; *plain && i < parts->count; i++) {
+  recto_status status = ok ? RECTO_OK : error_memory(p->error);
+  for (*plain = ok; *plain && i < parts->count; i += *plain) {
     const struct run_part *part = &parts->part[i];
     *plain = part->is_plain;
     if (part->past > 0) {
       take_run(p, parts->kind, &part->run);
+      count += part->run.count;
       past = part->past;
     }
   }
-  p->run_bytes = *plain ? p->run_bytes + past : 0;
+  *plain = ok && (i == parts->count || i == parts->full);
+  if (*plain)
+    lengthen_run(p, count, past);
+  else
+    p->run_bytes = 0;
   obj_go_on(p, past);
   return p->out_of_memory ? error_memory(p->error) : status;
 }
@@ -293,7 +324,12 @@ static recto_status read_ahead(struct obj_parser *p,
       p->scene->corner.count + 4 * (left / STATEMENT_BYTES) > SCENE_LIMIT ||
       p->scene->point.count + left / STATEMENT_BYTES > SCENE_LIMIT)
     return RECTO_OK;
-  struct parts parts = {.p = p, .kind = kind, .count = count, .broken = count};
+  struct parts parts = {.p = p,
+                        .kind = kind,
+                        .count = count,
+                        .room = expected_statements(p, count * PART_BYTES),
+                        .broken = count,
+                        .full = count};
   if (p->lines != NULL)
     parts.from = obj_place_in_file(p);
   parts.part = mem_calloc(count, sizeof *parts.part);
@@ -314,13 +350,12 @@ static recto_status read_ahead(struct obj_parser *p,
 
 /* ---- Runs ---------------------------------------------------------------- */
 
-/* Makes room for all that is left of a large file, if it is like a run of
- * PLAIN_RUN statements of so many bytes: arrays that do not grow step by step
- * are in large pages from their beginning (base/memory.c).  Where there is not
- * as much memory, they grow. */
-static void reserve_ahead(struct obj_parser *p, const struct obj_run_kind *kind,
-                          size_t bytes) {
-  size_t left = obj_bytes_left(p), count = left / (bytes / PLAIN_RUN);
+/* Makes room for all that is left of a large file, if it is like the run so
+ * far: arrays that do not grow step by step are in large pages from their
+ * beginning (base/memory.c).  Where there is not as much memory, they grow. */
+static void reserve_ahead(struct obj_parser *p,
+                          const struct obj_run_kind *kind) {
+  size_t left = obj_bytes_left(p), count = expected_statements(p, left);
   if (left > AHEAD_BYTES && count < SCENE_LIMIT / 4 && kind->reserve(p, count))
     p->has_room_for = kind;
 }
@@ -331,13 +366,12 @@ static recto_status read_alone(struct obj_parser *p,
   struct obj_run run = {
       .at = p->at, .end = p->end, .limit = p->end, .most = PLAIN_RUN};
   bool ok = kind->reserve(p, PLAIN_RUN) && kind->read(p, &run);
-  size_t bytes = (size_t)(run.at - p->at);
-  if (run.count == PLAIN_RUN && p->has_room_for != kind)
-    reserve_ahead(p, kind, bytes);
-  p->run_bytes += bytes;
+  lengthen_run(p, run.count, (size_t)(run.at - p->at));
   if (ok)
     take_run(p, kind, &run);
   p->at = run.at;
+  if (run.count == PLAIN_RUN && p->has_room_for != kind)
+    reserve_ahead(p, kind);
   ARRAY_FREE(&run.sampled);
   return ok && !p->out_of_memory ? RECTO_OK : error_memory(p->error);
 }
