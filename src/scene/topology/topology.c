@@ -117,33 +117,55 @@ static bool build_edges(struct topology *topology, const struct scene *scene) {
          find_borders(topology);
 }
 
+/* The points of border edges, as each worker has found them. */
+struct border_marks {
+  const struct topology *topology;
+  size_t words;
+  uint64_t *marked; /* a bit a point, for each worker */
+};
+
 /* Sets a bit for each point of a border edge. */
-static void mark_border_points(const struct topology *topology,
-                               uint64_t *marked) {
-  const struct topology_edge *edge = topology->edge.item;
-  for (size_t w = 0; 64 * w < topology->edge.count; w++)
-    for (uint64_t left = topology->border[w]; left; left &= left - 1)
+static bool mark_border_points(void *user, struct parallel_range edges) {
+  const struct border_marks *points = user;
+  const struct topology_edge *edge = points->topology->edge.item;
+  uint64_t *marked = points->marked + (size_t)edges.worker * points->words;
+  for (size_t w = edges.begin / 64; 64 * w < edges.end; w++)
+    for (uint64_t left = points->topology->border[w]; left; left &= left - 1)
       for (int k = 0; k < 2; k++) {
         uint32_t p = edge[64 * w + (size_t)__builtin_ctzll(left)].point[k];
         marked[p / 64] |= UINT64_C(1) << p % 64;
       }
+  return true;
 }
 
-bool topology_border_points(const struct topology *topology, size_t points,
-                            uint32_t **point, size_t *count) {
-  size_t words = points / 64 + 1, listed = 0;
-  uint64_t *marked = mem_calloc(words, sizeof *marked);
-  *point = NULL;
-  if (marked == NULL)
-    return false;
-  mark_border_points(topology, marked);
+/* Lists the points that are marked.  Returns false when memory ran out. */
+static bool list_marked(const uint64_t *marked, size_t words, uint32_t **point,
+                        size_t *count) {
+  size_t listed = 0;
   *count = count_bits(marked, words);
   *point = mem_alloc(*count, sizeof **point);
   for (size_t w = 0; *point != NULL && w < words; w++)
     for (uint64_t left = marked[w]; left; left &= left - 1)
       (*point)[listed++] = (uint32_t)(64 * w) + (uint32_t)__builtin_ctzll(left);
-  mem_free(marked);
   return *point != NULL;
+}
+
+bool topology_border_points(const struct topology *topology, size_t points,
+                            uint32_t **point, size_t *count) {
+  size_t words = points / 64 + 1;
+  int workers = parallel_workers(topology->borders, EDGES_IN_RANGE);
+  struct border_marks border = {
+      topology, words,
+      mem_calloc((size_t)workers * words, sizeof *border.marked)};
+  *point = NULL;
+  bool ok = border.marked != NULL &&
+            parallel_ranges(workers, topology->edge.count, EDGES_IN_RANGE,
+                            mark_border_points, &border);
+  for (size_t w = words; ok && w < (size_t)workers * words; w++)
+    border.marked[w % words] |= border.marked[w];
+  ok = ok && list_marked(border.marked, words, point, count);
+  mem_free(border.marked);
+  return ok;
 }
 
 /* Welds the points of border edges that coincide. */

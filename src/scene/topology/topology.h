@@ -87,7 +87,7 @@ static inline uint32_t topology_next_border(const struct topology *topology,
 /* Lists the points of these edges, ascending.
  * points  of the scene
  * point   set to a new array, which the caller owns, also on failure
- * Returns false when memory ran out. */
+ * Returns false when memory ran out, or the caller cancelled. */
 USE_RESULT bool topology_border_points(const struct topology *topology,
                                        size_t points, uint32_t **point,
                                        size_t *count);
