@@ -75,8 +75,9 @@ static bool list_faces(struct tiles_work *work) {
 /* ---- 5. Pairs ------------------------------------------------------------ */
 
 enum {
-  BATCH_SIZE = PARALLEL_RANGE(128), /* edges */
-  POLL_INTERVAL = 16                /* edges between two polls */
+  BATCH_SIZE = PARALLEL_RANGE(128),     /* edges */
+  BATCHES_OF_COPY = PARALLEL_RANGE(64), /* copied by one thread */
+  POLL_INTERVAL = 16                    /* edges between two polls */
 };
 
 /* Batches of consecutive deferred edges, each solved by one thread. */
@@ -84,6 +85,10 @@ struct edge_batches {
   const struct tiles_work *work;
   struct edge_query *query; /* one a worker */
   struct map *map;          /* one a batch; all share edge_state */
+  struct map *whole;        /* that of all */
+  struct batch_place {
+    size_t mixed, interval;
+  } * place; /* one a batch: where it begins in that */
 };
 
 /* Closes short gaps of the edge that was stored last, and frees the places of
@@ -146,20 +151,43 @@ static bool solve_batch(void *user, struct parallel_range range) {
   return ok;
 }
 
-/* Appends the intervals of a batch to the map; batches come in the order of
- * their edges. */
-static bool append_batch(struct map *map, const struct map *batch) {
-  uint32_t base = (uint32_t)map->interval.count;
-  if (!ARRAY_RESERVE(&map->mixed, batch->mixed.count) ||
-      !ARRAY_RESERVE(&map->interval, batch->interval.count))
-    return false;
-  for (size_t i = 0; i < batch->mixed.count; i++) {
-    struct map_mixed mixed = batch->mixed.item[i];
-    mixed.interval += base;
-    map->mixed.item[map->mixed.count++] = mixed;
+/* Makes room in a map for what the batches have, in the order of their edges;
+ * false when memory ran out. */
+static bool place_batches(struct edge_batches *batches, size_t count,
+                          struct map *map) {
+  struct batch_place end = {map->mixed.count, map->interval.count};
+  for (size_t i = 0; i < count; i++) {
+    batches->place[i] = end;
+    end.mixed += batches->map[i].mixed.count;
+    end.interval += batches->map[i].interval.count;
   }
-  for (size_t i = 0; i < batch->interval.count; i++)
-    map->interval.item[map->interval.count++] = batch->interval.item[i];
+  if (!ARRAY_RESERVE(&map->mixed, end.mixed - map->mixed.count) ||
+      !ARRAY_RESERVE(&map->interval, end.interval - map->interval.count))
+    return false;
+  map->mixed.count = end.mixed;
+  map->interval.count = end.interval;
+  batches->whole = map;
+  return true;
+}
+
+/* Copies the intervals of batches to their places, and frees their own. */
+static bool copy_batches(void *user, struct parallel_range range) {
+  const struct edge_batches *batches = user;
+  for (size_t b = range.begin; b < range.end; b++) {
+    struct map *batch = &batches->map[b];
+    struct map_mixed *mixed =
+        batches->whole->mixed.item + batches->place[b].mixed;
+    struct map_interval *interval =
+        batches->whole->interval.item + batches->place[b].interval;
+    for (size_t i = 0; i < batch->mixed.count; i++) {
+      mixed[i] = batch->mixed.item[i];
+      mixed[i].interval += (uint32_t)batches->place[b].interval;
+    }
+    for (size_t i = 0; i < batch->interval.count; i++)
+      interval[i] = batch->interval.item[i];
+    ARRAY_FREE(&batch->mixed);
+    ARRAY_FREE(&batch->interval);
+  }
   return true;
 }
 
@@ -196,15 +224,20 @@ static bool solve_edges_tiles(struct tiles_work *work, struct map *map) {
   size_t count = parallel_range_count(work->states.edge.count, BATCH_SIZE);
   int workers = count > 1 ? work->request->threads : 1;
   struct edge_batches batches = {
-      work, mem_calloc((size_t)workers, sizeof *batches.query),
-      mem_calloc(count, sizeof *batches.map)};
-  bool ok = batches.query != NULL && batches.map != NULL;
+      .work = work,
+      .query = mem_calloc((size_t)workers, sizeof *batches.query),
+      .map = mem_calloc(count, sizeof *batches.map),
+      .place = mem_alloc(count, sizeof *batches.place)};
+  bool ok =
+      batches.query != NULL && batches.map != NULL && batches.place != NULL;
   for (size_t i = 0; ok && i < count; i++)
     batches.map[i].edge_state = map->edge_state;
-  ok = ok && parallel_ranges(workers, work->states.edge.count, BATCH_SIZE,
-                             solve_batch, &batches);
+  ok = ok &&
+       parallel_ranges(workers, work->states.edge.count, BATCH_SIZE,
+                       solve_batch, &batches) &&
+       place_batches(&batches, count, map) &&
+       parallel_ranges(workers, count, BATCHES_OF_COPY, copy_batches, &batches);
   for (size_t i = 0; batches.map != NULL && i < count; i++) {
-    ok = ok && append_batch(map, &batches.map[i]);
     batches.map[i].edge_state = NULL;
     map_fini(&batches.map[i]);
   }
@@ -214,6 +247,7 @@ static bool solve_edges_tiles(struct tiles_work *work, struct map *map) {
   }
   mem_free(batches.query);
   mem_free(batches.map);
+  mem_free(batches.place);
   return ok && map_sort_mixed(map);
 }
 
