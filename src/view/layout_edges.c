@@ -9,6 +9,8 @@
  *   link    makes the sides of triangles refer to these, and them to their
  *           triangles, where these are there (layout_face_ranges.h).
  */
+#include <stdatomic.h>
+
 #include "base/parallel.h"
 #include "base/sort.h"
 #include "view/layout_edge_choice.h"
@@ -52,11 +54,12 @@ struct edge_layout {
   struct layout *layout;
   uint64_t *special; /* a bit an edge: it is a contour or leaves the page */
   struct link_range *link;
+  atomic_bool is_manifold; /* no edge that was made has more than two faces */
 };
 
 static bool edge_layout_init(struct edge_layout *work, struct layout *layout) {
   size_t words = layout->topology->edge.count / 64 + 1;
-  *work = (struct edge_layout){.layout = layout};
+  *work = (struct edge_layout){.layout = layout, .is_manifold = true};
   layout->ids.bits = mem_calloc(words, sizeof *layout->ids.bits);
   layout->ids.before = mem_alloc(words, sizeof *layout->ids.before);
   work->special = mem_calloc(words, sizeof *work->special);
@@ -121,8 +124,9 @@ static recto_status clip_edges(struct edge_layout *work, size_t *count) {
 
 /* Makes the chosen edges of a range; all that are clipped are known. */
 static bool make_edges_of_range(void *user, struct parallel_range range) {
-  const struct edge_layout *work = user;
+  struct edge_layout *work = user;
   struct layout *layout = work->layout;
+  bool is_manifold = true;
   size_t at = layout->ids.before[range.begin / 64];
   struct sheet_edge *to = layout->sheet->edge.item + at;
   uint32_t *group = layout->sheet->edge_group.item;
@@ -139,12 +143,15 @@ static bool make_edges_of_range(void *user, struct parallel_range range) {
       if (layout->leaves_out_sides) {
         to->triangle[0] = edge->first;
         to->triangle[1] = edge->uses > 1 ? edge->second : SHEET_NONE;
+        is_manifold = is_manifold && edge->uses < 3;
       }
       if (group != NULL)
         group[at] = scene_face_group(layout->scene, edge->first);
       at++;
       to++;
     }
+  if (!is_manifold)
+    atomic_store(&work->is_manifold, false);
   return true;
 }
 
@@ -166,6 +173,8 @@ static recto_status make_edges(struct edge_layout *work) {
                        LAYOUT_EDGES_IN_RANGE, make_edges_of_range, work))
     return error_memory(layout->error);
   layout->sheet->edge.count = count;
+  layout->sheet->edges_are_manifold =
+      layout->leaves_out_sides && atomic_load(&work->is_manifold);
   if (layout->scene->group.count > 1)
     layout->sheet->edge_group.count = count;
   return RECTO_OK;

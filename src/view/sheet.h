@@ -88,6 +88,8 @@ struct sheet {
   ARRAY(struct sheet_triangle) triangle;
   ARRAY(struct sheet_sides) sides; /* one a triangle; none where they were left
                                       out: sheet_find_sides */
+  bool edges_are_manifold;   /* no edge has more triangles than it refers to;
+                                false: some may have */
   uint64_t sides_compared;   /* how often that compared a side with an edge that
                               it is not */
   bool triangles_are_faces;  /* each has the number of its face */
