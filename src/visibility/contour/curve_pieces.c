@@ -53,24 +53,33 @@ void curve_pieces_absorb_short(struct curve_pieces *pieces) {
 
 /* ---- Runs ---------------------------------------------------------------- */
 
-/* The length of a piece on the page, as a multiple of its triangles' mean
- * height. */
-static double length_in_heights(const struct curve_pieces *pieces,
-                                const struct contour_piece *piece,
-                                const struct camera *camera) {
+/* The length of a piece on the page, grid units. */
+static double page_length(const struct curve_pieces *pieces,
+                          const struct contour_piece *piece) {
   const struct contour_curves *curves = pieces->curves;
-  double length = 0, heights = 0, to = contour_position(piece->to);
+  double length = 0, to = contour_position(piece->to);
   double at = contour_position(piece->from);
-  int steps = 0;
-  for (uint32_t i = piece->from.step; i < to; i++, steps++) {
+  for (uint32_t i = piece->from.step; i < to; i++) {
     const struct contour_node *a = contour_curves_node(curves, i);
     const struct contour_node *b = contour_curves_node(curves, i + 1);
     double part = fmin(i + 1, to) - fmax(i, at);
     length += part * vector2_length((double)b->page.x - a->page.x,
                                     (double)b->page.y - a->page.y);
-    heights += contour_height(camera, a, contour_curves_segment(curves, i));
   }
-  return heights > 0 ? length / (heights / steps) : 0;
+  return length;
+}
+
+/* The same as a multiple of its triangles' mean height. */
+static double length_in_heights(const struct curve_pieces *pieces,
+                                const struct contour_piece *piece,
+                                const struct camera *camera) {
+  const struct contour_curves *curves = pieces->curves;
+  double heights = 0, to = contour_position(piece->to);
+  int steps = 0;
+  for (uint32_t i = piece->from.step; i < to; i++, steps++)
+    heights += contour_height(camera, contour_curves_node(curves, i),
+                              contour_curves_segment(curves, i));
+  return heights > 0 ? page_length(pieces, piece) / (heights / steps) : 0;
 }
 
 /* Whether a curve is hidden at piece i, counted around a closed one; it is
@@ -96,29 +105,85 @@ void curve_pieces_hide_covered(struct curve_pieces *pieces,
   }
 }
 
-/* Hides the visible pieces along concave creases that follow each other from
- * piece i on in a direction, counted around a closed curve. */
+/* ---- Concave creases ----------------------------------------------------- */
+
+/* The piece beside piece i in a direction, counted around a closed curve;
+ * SIZE_MAX: none. */
+static size_t piece_beside(const struct curve_pieces *pieces, size_t i,
+                           int direction) {
+  size_t end = direction > 0 ? pieces->count - 1 : 0;
+  if (i == end && !pieces->curve->closed)
+    return SIZE_MAX;
+  return (i + pieces->count + (size_t)direction) % pieces->count;
+}
+
+/* The segment at an end of a piece: 0: the first one, 1: the last. */
+static const struct contour_segment *
+segment_at_end(const struct curve_pieces *pieces,
+               const struct contour_piece *piece, int end) {
+  uint32_t step = piece->from.step;
+  if (end == 1)
+    step = piece->to.t > 0 ? piece->to.step : piece->to.step - 1;
+  return contour_curves_segment(pieces->curves, step);
+}
+
+/* Whether a piece is visible, and along a concave crease if the one beside it
+ * is not: where faces on either side are listed in opposite directions, outer
+ * and inner sides change their places.
+ * direction  from the one beside it */
+static bool is_concave_beside(const struct curve_pieces *pieces, size_t i,
+                              size_t beside, int direction) {
+  const struct contour_piece *piece = &pieces->piece[i];
+  int end = direction > 0 ? 0 : 1;
+  return piece->is_visible && piece->side < 0 &&
+         segment_at_end(pieces, piece, 0)->in_network &&
+         vector_dot(
+             segment_at_end(pieces, piece, end)->normal,
+             segment_at_end(pieces, &pieces->piece[beside], 1 - end)->normal) >=
+             0;
+}
+
+/* The length of the visible pieces from i on in a direction at which the outer
+ * side of the surface is seen. */
+static double outer_length(const struct curve_pieces *pieces, size_t i,
+                           int direction) {
+  double length = 0;
+  for (; i != SIZE_MAX && pieces->piece[i].is_visible &&
+         pieces->piece[i].side > 0;
+       i = piece_beside(pieces, i, direction))
+    length += page_length(pieces, &pieces->piece[i]);
+  return length;
+}
+
+/* Hides the pieces along concave creases that follow piece i in a direction, if
+ * they are no longer than what leads there: of a body whose faces are all
+ * turned over a short piece that seems to show the outer side is wrong. */
 static void hide_concave_run(struct curve_pieces *pieces, size_t i,
                              int direction) {
-  size_t count = pieces->count;
-  while (!is_hidden_at(pieces, i)) {
-    i = (i + count) % count;
-    struct contour_piece *piece = &pieces->piece[i];
-    if (piece->side > 0 ||
-        !contour_curves_segment(pieces->curves, piece->from.step)->in_network)
-      return;
-    piece->is_visible = false;
-    i += (size_t)direction;
+  double length = 0;
+  size_t last = i, next;
+  while ((next = piece_beside(pieces, last, direction)) != SIZE_MAX &&
+         is_concave_beside(pieces, next, last, direction)) {
+    length += page_length(pieces, &pieces->piece[next]);
+    last = next;
+  }
+  if (last == i || length > outer_length(pieces, i, -direction))
+    return;
+  while (i != last) {
+    i = piece_beside(pieces, i, direction);
+    pieces->piece[i].is_visible = false;
   }
 }
 
 void curve_pieces_hide_concave(struct curve_pieces *pieces) {
   for (size_t i = 0; i < pieces->count; i++)
     if (pieces->piece[i].is_visible && pieces->piece[i].side > 0) {
-      hide_concave_run(pieces, i + 1, 1);
-      hide_concave_run(pieces, i - 1, -1);
+      hide_concave_run(pieces, i, 1);
+      hide_concave_run(pieces, i, -1);
     }
 }
+
+/* ---- Runs that are absorbed ---------------------------------------------- */
 
 /* How long a run between two pieces is not to be absorbed, in heights. */
 static double long_heights(const struct contour_piece *from,
