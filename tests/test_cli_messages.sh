@@ -1,6 +1,6 @@
 #!/bin/bash
 # test_cli_messages.sh - control characters in names and arguments do not reach
-# the terminal through messages.
+# the terminal through messages; models without faces are told apart.
 . "$(dirname "$0")/tap.sh"
 . "$(dirname "$0")/cli.sh"
 
@@ -49,4 +49,17 @@ dashes() {
   cp cube.obj ./-odd.obj && run 0 -o -odd.svg -- -odd.obj && test -s ./-odd.svg
 }
 claim "names that begin with a dash are read and written" dashes
+only_points() {
+  printf '%s\n' ply 'format ascii 1.0' 'element vertex 2' 'property float x' \
+    'property float y' 'property float z' end_header '0 0 0' '1 2 3' >cloud.ply
+  quoted 1 'points alone, no faces and no lines' cloud.ply -o no.svg &&
+    printf 'v 0 0 0\nv 1 2 3\n' >cloud.obj &&
+    quoted 1 'points alone, no faces and no lines' cloud.obj -o no.svg
+}
+claim "a cloud of points is named as such" only_points
+nothing_at_all() {
+  printf 'solid a\nendsolid a\n' >empty.stl &&
+    quoted 1 'the model is empty' empty.stl -o no.svg
+}
+claim "so is a model without anything" nothing_at_all
 finish

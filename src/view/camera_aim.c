@@ -87,6 +87,18 @@ static recto_status check_view(const struct aim *aim) {
 
 /* ---- Aim ----------------------------------------------------------------- */
 
+/* Says why nothing can be drawn. */
+static recto_status nothing_error(const struct aim *aim) {
+  const struct scene *scene = aim->scene;
+  const char *why = "";
+  if (scene_face_count(scene) == 0 && scene_wire_count(scene) == 0)
+    why = scene->point.count > 0
+              ? ": the model has points alone, no faces and no lines"
+              : ": the model is empty";
+  return error_set(aim->error, RECTO_ERROR_EMPTY, NULL, 0,
+                   "there is nothing to draw%s", why);
+}
+
 /* The bounding box of all that is drawn: its centre and diagonal. */
 static recto_status measure_scene(struct aim *aim) {
   struct used_box box;
@@ -96,8 +108,7 @@ static recto_status measure_scene(struct aim *aim) {
     return error_cancelled(aim->error);
   const double *low = box.low, *high = box.high;
   if (low[0] > high[0])
-    return error_set(aim->error, RECTO_ERROR_EMPTY, NULL, 0,
-                     "there is nothing to draw");
+    return nothing_error(aim);
   double extent[3];
   for (int k = 0; k < 3; k++) {
     aim->centre[k] = low[k] / 2 + high[k] / 2;
