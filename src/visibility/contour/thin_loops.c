@@ -266,13 +266,22 @@ static bool is_back_and_forth(const struct thin_loops *l, size_t from,
 }
 
 /* How much the segments of the stack from one on say that the surface is convex
- * there. */
-static double convexity_from(const struct thin_loops *l, size_t from) {
-  double sum = 0;
-  for (size_t i = from; i + 1 < l->step.count; i++)
-    sum += contour_convexity(stack_node(l, i), stack_node(l, i + 1),
-                             &l->set->segment.item[l->step.item[i].segment]);
-  return sum;
+ * there.  Where they have opposite normals, as faces on either side of an edge
+ * are listed in opposite directions, the outer side is that of most of them.
+ * is_turned  gets whether this is the inner one of the first of them */
+static double convexity_from(const struct thin_loops *l, size_t from,
+                             bool *is_turned) {
+  const struct contour_segment *segment = l->set->segment.item;
+  const double *normal = segment[l->step.item[from].segment].normal;
+  double sum = 0, same = 0;
+  for (size_t i = from; i + 1 < l->step.count; i++) {
+    const struct contour_segment *of = &segment[l->step.item[i].segment];
+    double sign = vector_dot(of->normal, normal) < 0 ? -1 : 1;
+    sum += sign * contour_convexity(stack_node(l, i), stack_node(l, i + 1), of);
+    same += sign * measure_of(l, i)->length;
+  }
+  *is_turned = same < 0;
+  return *is_turned ? -sum : sum;
 }
 
 /* Makes one segment of a step of the stack and those after it.  It leaves the
@@ -283,7 +292,8 @@ static double convexity_from(const struct thin_loops *l, size_t from) {
 static bool straighten(struct thin_loops *l, size_t from, double off) {
   struct contour_step *step = &l->step.item[from];
   struct contour_step end = l->step.item[l->step.count - 1];
-  double convexity = convexity_from(l, from);
+  bool is_turned;
+  double convexity = convexity_from(l, from, &is_turned);
   l->step.count = from + 2;
   double height = measure_of(l, from)->height;
   step[1] = end;
@@ -294,6 +304,8 @@ static bool straighten(struct thin_loops *l, size_t from, double off) {
     return false;
   struct contour_segment *made = &l->set->segment.item[step->segment];
   made->radial = copysign(made->radial, convexity);
+  for (int k = 0; is_turned && k < 3; k++)
+    made->normal[k] = -made->normal[k];
   if (height >= VISIBLE_WIDTH) {
     made->along_crease = false;
     made->width = made->height;
