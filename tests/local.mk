@@ -103,6 +103,9 @@ unit_tests += %D%/test_smooth_plate
 unit_tests += %D%/test_smooth_dents
 %C%_test_smooth_dents_SOURCES = %D%/test_smooth_dents.c \
   %D%/smooth_surfaces.c %D%/smooth_surfaces.h
+unit_tests += %D%/test_thin_loops
+%C%_test_thin_loops_SOURCES = %D%/test_thin_loops.c \
+  %D%/smooth_surfaces.c %D%/smooth_surfaces.h
 unit_tests += %D%/test_smooth_solids
 %C%_test_smooth_solids_SOURCES = %D%/test_smooth_solids.c \
   %D%/smooth_surfaces.c %D%/smooth_surfaces.h

@@ -29,6 +29,7 @@ librecto_core_la_SOURCES += \
   %D%/contour/page_loop.c %D%/contour/page_loop.h \
   %D%/contour/part_size.c %D%/contour/part_size.h \
   %D%/contour/segment_grid.c %D%/contour/segment_grid.h \
+  %D%/contour/loop_stack.c %D%/contour/loop_stack.h \
   %D%/contour/thin_loops.c %D%/contour/thin_loops.h \
   %D%/culling/contact_bounds.c %D%/culling/contact_bounds.h \
   %D%/culling/culling_bands.c %D%/culling/culling_bands.h \

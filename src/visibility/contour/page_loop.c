@@ -10,6 +10,10 @@
 #define NOISE_SHARE 0.15
 enum { LONG_SEGMENTS_MIN = 24 };
 
+/* The same of a loop that is large in the picture: noise has as small triangles
+ * as the mesh. */
+enum { LARGE_SEGMENTS_MIN = 12 };
+
 /* The length of a fold, in heights, where the mesh samples a smooth surface. */
 #define SMOOTH_LOOP_HEIGHTS 1.5
 
@@ -30,7 +34,8 @@ bool page_loop_is_fold(const struct page_loop *loop, double heights) {
     return true;
   if (curvature_is_smooth(loop->curvature))
     return loop->length >= 2 * SMOOTH_LOOP_HEIGHTS * loop->height;
-  return loop->segments >= LONG_SEGMENTS_MIN &&
+  return loop->segments >=
+             (loop->is_large ? LARGE_SEGMENTS_MIN : LONG_SEGMENTS_MIN) &&
          (loop->length >= 2 * heights * loop->height ||
           (loop->area >= 2 * FOLD_AREA * loop->height * loop->height &&
            (loop->area >= VISIBLE_WIDTH * loop->length ||

@@ -25,6 +25,7 @@ struct page_loop {
   double height;       /* the mean of its triangles' */
   struct curvature_squares curvature;
   size_t segments;
+  bool is_large;   /* half of its length is long in the picture */
   bool has_crease; /* a part of it runs along one that is no noise */
   bool is_concave; /* all such parts run along concave ones */
 };

@@ -27,10 +27,6 @@ static const double joined_heights[] = {INFINITY, 6, 3};
 static const double smooth_heights[] = {INFINITY, 2, 0.5};
 #define LEAST_HEIGHTS 0.5
 
-/* The share of the picture's longer side from which on a line is long on the
- * page. */
-#define PICTURE_SHARE (1.0 / 14)
-
 /* How much of a chain may be hidden where it doubles back, in heights. */
 #define DOUBLED_HEIGHTS 4
 
@@ -360,17 +356,6 @@ static bool add_all_lines(struct fold_lines *f) {
   return true;
 }
 
-/* The length from which on a line is long on the page: outlines extend as far
- * as the picture does. */
-static double find_long_on_page(const struct zero_set *set) {
-  struct box2 box = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
-  for (size_t i = 0; i < set->outline.count; i++) {
-    const struct geom_segment *s = &set->outline.item[i].image;
-    box = box2_union(box, box2_of_segment(s->p, s->q));
-  }
-  return PICTURE_SHARE * fmax((double)box.x1 - box.x0, (double)box.y1 - box.y0);
-}
-
 /* The mean length of outlines, grid units; 1 at least. */
 static double mean_length(const struct zero_set *set) {
   double sum = 0;
@@ -387,7 +372,8 @@ bool fold_lines_add(const struct outline_gaps_input *input) {
     return true;
   struct fold_lines f = {.in = input,
                          .joints = {.in = input},
-                         .long_on_page = find_long_on_page(input->set),
+                         .long_on_page =
+                             contour_outlines_long_on_page(input->set),
                          .added = {.cell = mean_length(input->set)}};
   f.is_passed = mem_calloc(outlines, 1);
   bool ok = f.is_passed != NULL && fold_joints_list(&f.joints) &&

@@ -57,6 +57,24 @@ struct zero_set {
   ARRAY(struct contour_outline) outline; /* of smooth parts */
 };
 
+/* The share of the picture's longer side from which on a line is long on the
+ * page. */
+#define CONTOUR_PICTURE_SHARE (1.0 / 14)
+
+/* The length from which on a line is long on the page, grid units: outlines
+ * extend as far as the picture does.  INFINITY: there are none. */
+static inline double contour_outlines_long_on_page(const struct zero_set *set) {
+  struct box2 box = {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
+  for (size_t i = 0; i < set->outline.count; i++) {
+    const struct geom_segment *s = &set->outline.item[i].image;
+    box = box2_union(box, box2_of_segment(s->p, s->q));
+  }
+  if (set->outline.count == 0)
+    return INFINITY;
+  return CONTOUR_PICTURE_SHARE *
+         fmax((double)box.x1 - box.x0, (double)box.y1 - box.y0);
+}
+
 /* Adds a segment between two nodes that is a part of another one. */
 USE_RESULT static inline bool zero_set_add_part(struct zero_set *set,
                                                 uint32_t of, uint32_t from,
