@@ -39,6 +39,7 @@ struct fold_lines {
   struct outline_chains chains;
   uint8_t *is_passed;  /* one an outline */
   double long_on_page; /* grid units */
+  double bulge_most;   /* of all contours that are visible; likewise */
   struct added_folds added;
   struct fold_samples sample; /* of a chain */
   struct fold_places place;   /* of a line */
@@ -46,13 +47,24 @@ struct fold_lines {
 
 /* ---- What is drawn ------------------------------------------------------- */
 
-/* Whether a line is surely farther from a sample than its triangle is high. */
+/* How far a line may be from a sample beside which it is: its triangle's
+ * height, or, of a contour, as far as that is from the mesh.  Where triangles
+ * are long and thin a contour bulges more than they are high. */
+static double reach_of_line(const struct fold_lines *f, uint32_t edge,
+                            double height) {
+  uint32_t i = edge - f->in->first;
+  return edge >= f->in->first && i < f->in->bulges
+             ? fmax(height, TOLERANCE_OUTLINE_UNITS + (double)f->in->bulge[i])
+             : height;
+}
+
+/* Whether a line is surely farther from a sample than a distance. */
 static inline bool is_line_beyond(const struct page_segment *s,
-                                  const struct fold_sample *at) {
-  if (page_segment_is_off(s, at->x, at->y, at->height))
+                                  const struct fold_sample *at, double away) {
+  if (page_segment_is_off(s, at->x, at->y, away))
     return true;
   double x = (double)s->q.x - s->p.x, y = (double)s->q.y - s->p.y;
-  return page_line_is_off(x, y, at->x - s->p.x, at->y - s->p.y, at->height);
+  return page_line_is_off(x, y, at->x - s->p.x, at->y - s->p.y, away);
 }
 
 /* Notes a line that is no contour.  As it is no other image of the fold, the
@@ -65,7 +77,7 @@ static void note_other_line(struct fold_sample *at, double away) {
 /* Notes whether a line runs beside a sample: not where a contour only ends.
  * Creases are none, as ink may leave them out. */
 static void try_line(const struct fold_lines *f, const struct page_segment *s,
-                     struct fold_sample *at) {
+                     double reach, struct fold_sample *at) {
   const struct sheet_edge *edge = &f->in->sheet->edge.item[s->owner];
   bool is_contour = s->owner >= f->in->first;
   double x = (double)s->q.x - s->p.x, y = (double)s->q.y - s->p.y;
@@ -75,7 +87,7 @@ static void try_line(const struct fold_lines *f, const struct page_segment *s,
   double cosine = x * at->along[0] + y * at->along[1];
   if (!is_contour)
     cosine = fabs(cosine);
-  if (away > at->height || cosine < FOLD_BESIDE_COSINE * vector2_length(x, y))
+  if (away > reach || cosine < FOLD_BESIDE_COSINE * vector2_length(x, y))
     return;
   if ((edge->edge_class & (RECTO_EDGE_CREASE | RECTO_EDGE_GROUP)) != 0)
     at->is_on_crease = at->is_on_crease || away <= TOLERANCE_OUTLINE_UNITS;
@@ -88,12 +100,15 @@ static void try_line(const struct fold_lines *f, const struct page_segment *s,
 
 static void look_beside_fold(const struct fold_lines *f,
                              struct fold_sample *at) {
+  double reach_most = fmax(at->height, TOLERANCE_OUTLINE_UNITS + f->bulge_most);
   struct segment_walk walk =
-      segment_grid_near(&f->joints.grid, at->x, at->y, at->height);
+      segment_grid_near(&f->joints.grid, at->x, at->y, reach_most);
   const struct page_segment *s;
-  while (!at->is_beside && (s = segment_walk_next(&walk)) != NULL)
-    if (!is_line_beyond(s, at))
-      try_line(f, s, at);
+  while (!at->is_beside && (s = segment_walk_next(&walk)) != NULL) {
+    double reach = reach_of_line(f, s->owner, at->height);
+    if (!is_line_beyond(s, at, reach))
+      try_line(f, s, reach, at);
+  }
 }
 
 /* Whether a sample may be drawn: nothing hides the place just beside it, where
@@ -366,6 +381,15 @@ static double mean_length(const struct zero_set *set) {
   return fmax(sum / (double)set->outline.count, 1);
 }
 
+/* How far contours that are visible are from the mesh, at most. */
+static double find_bulge_most(const struct outline_gaps_input *in) {
+  double most = 0;
+  for (uint32_t i = 0; i < in->bulges; i++)
+    if (in->map->edge_state[in->first + i] != MAP_HIDDEN)
+      most = fmax(most, (double)in->bulge[i]);
+  return most;
+}
+
 bool fold_lines_add(const struct outline_gaps_input *input) {
   size_t outlines = input->set->outline.count;
   if (outlines == 0)
@@ -374,6 +398,7 @@ bool fold_lines_add(const struct outline_gaps_input *input) {
                          .joints = {.in = input},
                          .long_on_page =
                              contour_outlines_long_on_page(input->set),
+                         .bulge_most = find_bulge_most(input),
                          .added = {.cell = mean_length(input->set)}};
   f.is_passed = mem_calloc(outlines, 1);
   bool ok = f.is_passed != NULL && fold_joints_list(&f.joints) &&
