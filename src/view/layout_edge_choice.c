@@ -199,12 +199,30 @@ static bool choose_few_edges(void *user, struct parallel_range range) {
   return true;
 }
 
+/* The same where the classes of all are there. */
+static bool choose_few_classed_edges(void *user, struct parallel_range range) {
+  const struct edge_choice c = *(const struct edge_choice *)user;
+  for (size_t e = range.begin; e < range.end; e++) {
+    bool between = is_between_sides(&c, e),
+         smooth = c.class_masks[e] == RECTO_EDGE_SMOOTH;
+    if (between && smooth)
+      c.class_masks[e] = 0;
+    else
+      choose_class(&c, (uint32_t)e, between, smooth);
+  }
+  return true;
+}
+
 bool layout_choose_edges(struct layout *layout, uint64_t *special) {
   struct edge_choice choice = edge_choice_of(layout, special);
   size_t edges = layout->topology->edge.count;
-  bool few = choice.filter.direction != NULL && choice.sides == NULL &&
-             !choice.all_edges && choice.smooth == 0;
+  bool are_few = !choice.all_edges && choice.smooth == 0;
+  parallel_task *task = choose_edges;
+  if (are_few && choice.filter.direction != NULL && choice.sides == NULL)
+    task = choose_few_edges;
+  else if (are_few && choice.filter.direction == NULL &&
+           choice.class_masks != NULL)
+    task = choose_few_classed_edges;
   return parallel_ranges(parallel_workers(edges, LAYOUT_EDGES_IN_RANGE), edges,
-                         LAYOUT_EDGES_IN_RANGE,
-                         few ? choose_few_edges : choose_edges, &choice);
+                         LAYOUT_EDGES_IN_RANGE, task, &choice);
 }
