@@ -5,7 +5,6 @@
 #include <stdatomic.h>
 
 #include "base/parallel.h"
-#include "base/ranked_set.h"
 
 enum {
   /* Cells a triangle, on average: those that are looked at, and those among
@@ -14,6 +13,11 @@ enum {
   LOOKED_AT_MAX = 64,
   LISTED_MAX = 32,
   CELLS_MAX = 2
+};
+
+/* A triangle in one of its cells. */
+struct triangle_in_cell {
+  uint32_t cell, triangle;
 };
 
 bool partial_grid_shape(struct partial_grid *p, const struct sheet *sheet) {
@@ -50,15 +54,19 @@ static bool double_cells(struct partial_grid *p) {
 
 /* ---- Triangles ----------------------------------------------------------- */
 
-/* Words of a set's bits in a range. */
-enum { RANGE_WORDS = PARALLEL_RANGE(POLL_ITEMS / 64) };
+/* What a range of the triangles has in wanted cells. */
+struct wanted_range {
+  ARRAY(struct triangle_in_cell) in;
+  char apart[PARALLEL_APART];
+};
 
 /* The search for the triangles that may meet wanted cells. */
 struct wanted_triangles {
   const struct partial_grid *partial;
   const struct sheet *sheet;
-  uint8_t *dilated;      /* of the wanted cells */
-  struct ranked_set set; /* of these triangles */
+  uint8_t *dilated; /* of the wanted cells */
+  struct wanted_range *range;
+  size_t ranges;
   /* Cells, of all triangles; once one of them is too much, of some. */
   _Atomic uint64_t looked_at, listed;
 };
@@ -73,15 +81,11 @@ static inline bool is_any_wanted(const struct triangle_grid *grid,
   return false;
 }
 
+/* How many more cells may be looked at and listed. */
 struct cell_counts {
   uint64_t looked_at, listed;
 };
 
-static inline bool is_more(struct cell_counts a, struct cell_counts b) {
-  return a.looked_at > b.looked_at || a.listed > b.listed;
-}
-
-/* How many more cells may be looked at and listed. */
 static struct cell_counts cells_left(const struct wanted_triangles *all) {
   uint64_t n = all->sheet->triangle.count + 16;
   uint64_t looked_at = all->looked_at, listed = all->listed;
@@ -90,69 +94,73 @@ static struct cell_counts cells_left(const struct wanted_triangles *all) {
       listed < LISTED_MAX * n ? LISTED_MAX * n - listed : 0};
 }
 
-/* Counts the cells that may list a triangle, and those that do. */
-static struct cell_counts count_cells(const struct partial_grid *p, uint32_t t,
-                                      struct cell_range r) {
-  struct cell_counts counts = {0, 0};
+/* Lists a triangle in those of its cells that are wanted.
+ * looked_at  adds the cells that may list it
+ * Returns false when memory ran out. */
+static bool list_in_cells(const struct partial_grid *p, uint32_t t,
+                          struct cell_range r, struct wanted_range *own,
+                          uint64_t *looked_at) {
   bool is_wide = triangle_grid_is_wide(r);
   for (int y = r.y0; y <= r.y1; y++) {
     int x0 = r.x0, x1 = r.x1;
     if (is_wide)
       triangle_grid_row_of_triangle(&p->grid, t, r, y, &x0, &x1);
-    for (int x = x0; x <= x1; x++)
-      counts.listed += p->wanted[triangle_grid_index(&p->grid, x, y)];
-    counts.looked_at += (uint64_t)(x1 >= x0 ? x1 - x0 + 1 : 1);
+    size_t cell = triangle_grid_index(&p->grid, x0, y);
+    for (int x = x0; x <= x1; x++, cell++)
+      if (p->wanted[cell] &&
+          !ARRAY_PUSH(&own->in, ((struct triangle_in_cell){(uint32_t)cell, t})))
+        return false;
+    *looked_at += (uint64_t)(x1 >= x0 ? x1 - x0 + 1 : 1);
   }
-  return counts;
+  return true;
 }
 
 /* The cells that the box of a triangle meets: all points of the sheet are in
  * the grid. */
 static inline struct cell_range cells_of_box(const struct triangle_grid *grid,
                                              struct box2 b) {
-  return (struct cell_range){(int)(((int64_t)b.x0 - grid->x0) >> grid->shift),
-                             (int)(((int64_t)b.y0 - grid->y0) >> grid->shift),
-                             (int)(((int64_t)b.x1 - grid->x0) >> grid->shift),
-                             (int)(((int64_t)b.y1 - grid->y0) >> grid->shift)};
+  uint32_t x = (uint32_t)grid->x0, y = (uint32_t)grid->y0;
+  return (struct cell_range){(int)(((uint32_t)b.x0 - x) >> grid->shift),
+                             (int)(((uint32_t)b.y0 - y) >> grid->shift),
+                             (int)(((uint32_t)b.x1 - x) >> grid->shift),
+                             (int)(((uint32_t)b.y1 - y) >> grid->shift)};
 }
 
-/* Adds those of a range's triangles that may meet wanted cells to the set; ends
- * where there is too much. */
-static bool add_wanted_of_range(void *user, struct parallel_range range) {
+/* Lists those of a range's triangles that may meet wanted cells; ends where
+ * there is too much. */
+static bool list_wanted_of_range(void *user, struct parallel_range range) {
   struct wanted_triangles *all = user;
+  struct wanted_range *own = &all->range[range.begin / PARALLEL_ITEMS];
   const struct triangle_grid grid = all->partial->grid;
+  const struct sheet sheet = *all->sheet;
   const uint8_t *dilated = all->dilated;
-  struct cell_counts left = cells_left(all), sum = {0, 0};
-  size_t end = range.end * 64 < all->sheet->triangle.count
-                   ? range.end * 64
-                   : all->sheet->triangle.count;
-  for (size_t t = range.begin * 64; t < end && !is_more(sum, left); t++) {
+  struct cell_counts left = cells_left(all);
+  uint64_t looked_at = 0;
+  bool ok = true;
+  own->in.count = 0;
+  for (size_t t = range.begin; ok && t < range.end; t++) {
     struct cell_range r =
-        cells_of_box(&grid, box2_of_triangle(all->sheet, (uint32_t)t));
-    if (!triangle_grid_is_wide(r) && !is_any_wanted(&grid, dilated, r)) {
-      sum.looked_at += (uint64_t)(r.x1 - r.x0 + r.y1 - r.y0 + 1);
-      continue;
-    }
-    struct cell_counts counts = count_cells(all->partial, (uint32_t)t, r);
-    sum.looked_at += counts.looked_at;
-    sum.listed += counts.listed;
-    if (counts.listed > 0)
-      ranked_set_add(&all->set, (uint32_t)t);
+        cells_of_box(&grid, box2_of_triangle(&sheet, (uint32_t)t));
+    if (triangle_grid_is_wide(r) || is_any_wanted(&grid, dilated, r))
+      ok = list_in_cells(all->partial, (uint32_t)t, r, own, &looked_at);
+    else
+      looked_at += (uint64_t)(r.x1 - r.x0 + r.y1 - r.y0 + 1);
+    if (looked_at > left.looked_at || own->in.count > left.listed)
+      break;
   }
-  all->looked_at += sum.looked_at;
-  all->listed += sum.listed;
-  return true;
+  all->looked_at += looked_at;
+  all->listed += own->in.count;
+  return ok;
 }
 
-/* Finds the triangles that may meet wanted cells.
+/* Lists the triangles that may meet wanted cells.
  * many  gets whether there are too many */
-static bool find_wanted_triangles(struct wanted_triangles *all, bool *many) {
+static bool list_wanted_triangles(struct wanted_triangles *all, bool *many) {
   size_t n = all->sheet->triangle.count;
   int workers = parallel_workers(n, PARALLEL_ITEMS);
   all->looked_at = all->listed = 0;
-  ranked_set_clear(&all->set);
-  bool ok = parallel_ranges(workers, (n + 63) / 64, RANGE_WORDS,
-                            add_wanted_of_range, all);
+  bool ok = parallel_ranges(workers, n, PARALLEL_ITEMS, list_wanted_of_range,
+                            all);
   struct cell_counts left = cells_left(all);
   *many = left.looked_at == 0 || left.listed == 0;
   return ok;
@@ -163,42 +171,49 @@ static bool fit_cells(struct partial_grid *p, struct wanted_triangles *all) {
   bool many = true, ok = true;
   while (ok && many) {
     all->dilated = triangle_grid_dilate(&p->grid, p->wanted);
-    ok = all->dilated != NULL && find_wanted_triangles(all, &many) &&
+    ok = all->dilated != NULL && list_wanted_triangles(all, &many) &&
          (!many || double_cells(p));
     mem_free(all->dilated);
   }
   return ok;
 }
 
-/* Makes the lists of the triangles of a set. */
-static bool list_wanted_triangles(struct partial_grid *p,
-                                  const struct sheet *sheet,
-                                  struct ranked_set *set) {
-  ranked_set_index(set);
-  size_t n = set->count, i = 0;
-  uint32_t *subset = mem_alloc(n, sizeof *subset);
-  struct footprint *footprint = mem_alloc(n, sizeof *footprint);
-  bool ok = subset != NULL && footprint != NULL;
-  for (size_t w = 0; ok && w < set->words; w++) {
-    for (uint64_t left = set->word[w]; left != 0; left &= left - 1) {
-      subset[i] = (uint32_t)(w * 64) + (uint32_t)__builtin_ctzll(left);
-      struct box2 box = box2_of_triangle(sheet, subset[i]);
-      footprint[i++] = footprint_of(cells_of_box(&p->grid, box), 0, 0);
-    }
+/* Puts what ranges listed into the lists of cells, from the last one on. */
+static void put_into_lists(const struct wanted_triangles *all,
+                           struct number_lists *lists) {
+  for (size_t r = all->ranges; r-- > 0;) {
+    const struct wanted_range *range = &all->range[r];
+    for (size_t i = range->in.count; i-- > 0;)
+      number_lists_put(lists, range->in.item[i].cell,
+                       range->in.item[i].triangle);
   }
-  ok = ok && triangle_grid_fill_some(&p->grid, sheet, subset, n, footprint,
-                                     p->wanted);
-  mem_free(subset);
-  mem_free(footprint);
-  return ok;
+}
+
+static bool make_lists(struct triangle_grid *grid,
+                       const struct wanted_triangles *all) {
+  size_t cells = triangle_grid_cell_count(grid);
+  if (!number_lists_init(&grid->lists, cells))
+    return false;
+  put_into_lists(all, &grid->lists);
+  if (!number_lists_allocate(&grid->lists, cells))
+    return false;
+  put_into_lists(all, &grid->lists);
+  return triangle_grid_leave_out_duplicates(grid);
 }
 
 bool partial_grid_fill(struct partial_grid *p, const struct sheet *sheet) {
-  struct wanted_triangles all = {.partial = p, .sheet = sheet};
-  bool ok = ranked_set_init(&all.set, sheet->triangle.count) &&
-            fit_cells(p, &all) && list_wanted_triangles(p, sheet, &all.set) &&
-            triangle_grid_split(&p->grid, false);
-  ranked_set_fini(&all.set);
+  size_t ranges =
+      parallel_range_count(sheet->triangle.count, PARALLEL_ITEMS);
+  struct wanted_triangles all = {
+      .partial = p,
+      .sheet = sheet,
+      .ranges = ranges,
+      .range = mem_calloc(ranges, sizeof *all.range)};
+  bool ok = all.range != NULL && fit_cells(p, &all) &&
+            make_lists(&p->grid, &all) && triangle_grid_split(&p->grid, false);
+  for (size_t r = 0; all.range != NULL && r < ranges; r++)
+    ARRAY_FREE(&all.range[r].in);
+  mem_free(all.range);
   return ok;
 }
 

@@ -168,8 +168,7 @@ static void shorten_lists(struct triangle_grid *grid) {
   grid->lists.start[cells] = kept;
 }
 
-/* Leaves out duplicates where the longest list has many of them. */
-static bool leave_out_duplicates(struct triangle_grid *grid) {
+bool triangle_grid_leave_out_duplicates(struct triangle_grid *grid) {
   size_t cells = triangle_grid_cell_count(grid), longest = 0;
   const uint32_t *start = grid->lists.start;
   bool many;
@@ -226,7 +225,7 @@ static bool fill(struct filling *filling) {
   bool ok =
       number_lists_make(&grid->lists, cells, filling_workers(filling, cells),
                         filling->count, fill_cells, filling);
-  ok = ok && leave_out_duplicates(grid);
+  ok = ok && triangle_grid_leave_out_duplicates(grid);
   if (!ok)
     triangle_grid_fini(grid);
   return ok;

@@ -85,6 +85,10 @@ USE_RESULT bool triangle_grid_fill_some(struct triangle_grid *grid,
                                         const struct footprint *footprint,
                                         const uint8_t *wanted);
 
+/* Leaves out duplicates where the longest list has many of them.  Returns false
+ * when memory ran out. */
+USE_RESULT bool triangle_grid_leave_out_duplicates(struct triangle_grid *grid);
+
 /* Makes a BSP of each list of TRIANGLE_GRID_SPLIT triangles or more.
  * planes  split by planes too: a query then finds what may hide its shape, not
  *         what the shape may hide (bsp.h)
