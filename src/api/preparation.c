@@ -74,17 +74,21 @@ static recto_status cut_prepared(struct preparation *preparation,
   return status;
 }
 
-/* Stores what views have in common, or need twice. */
+/* Stores what views have in common, or need twice.  The smooth contours of a
+ * single view ask for the directions of faces, too. */
 static recto_status store_classes(struct preparation *preparation,
                                   const recto_options *options,
+                                  enum preparation_use use,
                                   recto_error *error) {
   struct topology *topology = &preparation->topology;
-  return topology_store_class_masks(topology, preparation->scene,
-                                    options->mesh.crease_deg) &&
-                 (options->ink.contours != RECTO_CONTOURS_SMOOTH ||
-                  topology_store_coarse_parts(topology, preparation->scene))
-             ? RECTO_OK
-             : error_memory(error);
+  if (!topology_store_class_masks(topology, preparation->scene,
+                                  options->mesh.crease_deg) ||
+      (options->ink.contours == RECTO_CONTOURS_SMOOTH &&
+       !topology_store_coarse_parts(topology, preparation->scene)))
+    return error_memory(error);
+  if (use == PREPARATION_FOR_VIEWS)
+    topology_drop_directions(topology);
+  return RECTO_OK;
 }
 
 /* Keeps which points are used, for the camera and the sheet; where some are
@@ -181,7 +185,7 @@ recto_status preparation_init(struct preparation *preparation,
     status = cut_prepared(preparation, error);
   if (status == RECTO_OK && (use == PREPARATION_FOR_VIEWS ||
                              options->ink.contours == RECTO_CONTOURS_SMOOTH))
-    status = store_classes(preparation, options, error);
+    status = store_classes(preparation, options, use, error);
   return status == RECTO_OK ? keep_used(preparation, error) : status;
 }
 

@@ -261,7 +261,6 @@ bool topology_store_class_masks(struct topology *topology,
     mem_free(class_masks);
     return false;
   }
-  topology_drop_directions(topology);
   topology->class_masks = class_masks;
   topology->crease_deg = crease_deg;
   return true;

@@ -178,26 +178,50 @@ static bool number_needed(struct facing *f) {
 
 /* ---- Signs --------------------------------------------------------------- */
 
-/* Finds the sign of each face by its own normal. */
+/* The sign of a face by its own normal. */
+static uint8_t find_sign(const struct facing *f, uint32_t face) {
+  uint32_t first = facing_point(f, scene_face_start(f->scene, face));
+  double n[3], at[3], v[3];
+  newell_normal_of_face(f->scene, face, n);
+  facing_position(f, first, at);
+  facing_view(f->camera, at, v);
+  /* Coarse parts have no smooth contour. */
+  return vector_dot(n, v) < 0 && !(f->any_coarse && f->coarse[first])
+             ? FACING_FRONT
+             : FACING_BACK;
+}
+
+/* Finds the sign of each face. */
 static bool find_signs_of_range(void *user, struct parallel_range range) {
   const struct facing *f = user;
-  const struct scene *scene = f->scene;
-  const struct camera *camera = f->camera;
-  const uint32_t *weld = f->topology->weld;
+  for (size_t face = range.begin; face < range.end; face++)
+    f->face_sign[face] = find_sign(f, (uint32_t)face);
+  return true;
+}
+
+/* The same of triangles whose directions are known: it is theirs where they are
+ * not seen nearly edge-on, as none of their coordinates is off by as much as
+ * one. */
+static bool find_signs_by_directions(void *user, struct parallel_range range) {
+  const struct facing *f = user;
+  const struct face_direction *direction = f->topology->direction;
+  const bool in_perspective = f->camera->perspective;
   uint8_t *sign = f->face_sign;
+  double v[3] = {0, 0, 0}, at[3];
+  if (!in_perspective)
+    facing_view(f->camera, v, v);
   for (size_t face = range.begin; face < range.end; face++) {
-    uint32_t first =
-        scene->corner.item[scene_face_start(scene, (uint32_t)face)];
-    double n[3], v[3];
-    if (weld != NULL)
-      first = weld[first];
-    const struct scene_point *p = &scene->point.item[first];
-    newell_normal_of_face(scene, (uint32_t)face, n);
-    facing_view(camera, (const double[3]){p->x, p->y, p->z}, v);
-    /* Coarse parts have no smooth contour. */
-    sign[face] = vector_dot(n, v) < 0 && !(f->any_coarse && f->coarse[first])
-                     ? FACING_FRONT
-                     : FACING_BACK;
+    struct face_direction d = direction[face];
+    if (in_perspective) {
+      facing_position(f, facing_point(f, 3 * (uint32_t)face), at);
+      facing_view(f->camera, at, v);
+    }
+    double dot = d.x * v[0] + d.y * v[1] + d.z * v[2];
+    if (fabs(dot) <= fabs(v[0]) + fabs(v[1]) + fabs(v[2]) ||
+        (f->any_coarse && dot < 0))
+      sign[face] = find_sign(f, (uint32_t)face);
+    else
+      sign[face] = dot < 0 ? FACING_FRONT : FACING_BACK;
   }
   return true;
 }
@@ -208,21 +232,30 @@ static bool find_face_signs(struct facing *f) {
   f->face_sign = mem_alloc(faces, 1);
   return f->face_sign != NULL &&
          parallel_ranges(parallel_workers(faces, PARALLEL_ITEMS), faces,
-                         PARALLEL_ITEMS, find_signs_of_range, f);
+                         PARALLEL_ITEMS,
+                         f->topology->direction != NULL &&
+                                 f->scene->face_start.count == 0
+                             ? find_signs_by_directions
+                             : find_signs_of_range,
+                         f);
 }
 
 /* Edges that a thread takes at once: whole words of odd edges. */
 enum { EDGES_IN_RANGE = 64 * PARALLEL_RANGE(POLL_ITEMS / 64) };
 
 static bool find_odd_edges_of_range(void *user, struct parallel_range range) {
-  struct facing *f = user;
+  const struct facing own = *(const struct facing *)user, *f = &own;
   const struct topology_edge *edge = f->topology->edge.item;
   const uint8_t *sign = f->face_sign;
-  for (size_t e = range.begin; e < range.end; e++)
-    if (facing_is_feature(f, (uint32_t)e) ||
-        sign[edge[e].first] != sign[edge[e].second] ||
-        (f->any_coarse && f->coarse[edge[e].point[0]]))
-      facing_add_odd_edge(f, (uint32_t)e);
+  for (size_t from = range.begin, e = from; from < range.end; from = e) {
+    uint64_t odd = 0;
+    for (uint64_t bit = 1; bit != 0 && e < range.end; bit <<= 1, e++)
+      if (facing_is_feature(f, (uint32_t)e) ||
+          sign[edge[e].first] != sign[edge[e].second] ||
+          (f->any_coarse && f->coarse[edge[e].point[0]]))
+        odd |= bit;
+    f->odd_edge[from / 64] = odd;
+  }
   return true;
 }
 
@@ -265,8 +298,14 @@ static void set_signs(struct facing *f) {
       scene->face_start.count > 0 ? scene->face_start.item : NULL;
   const uint8_t *signs = f->face_sign;
   uint8_t *flags = f->point_flags;
-  for (uint32_t face = 0, c = 0; face < faces; face++) {
-    uint32_t end = start != NULL ? start[face + 1] : c + 3;
+  for (uint32_t face = 0; start == NULL && face < faces; face++, corner += 3) {
+    uint8_t sign = signs[face];
+    flags[corner[0]] |= sign;
+    flags[corner[1]] |= sign;
+    flags[corner[2]] |= sign;
+  }
+  for (uint32_t face = 0, c = 0; start != NULL && face < faces; face++) {
+    uint32_t end = start[face + 1];
     uint8_t sign = signs[face];
     flags[corner[c]] |= sign;
     flags[corner[c + 1]] |= sign;
@@ -288,18 +327,33 @@ static size_t list_flagged_of_range(const void *user,
   const struct flagged_faces *wanted = user;
   const struct scene *scene = wanted->facing->scene;
   const uint32_t *corner = scene->corner.item;
-  const uint32_t *start =
-      scene->face_start.count > 0 ? scene->face_start.item : NULL;
+  const uint32_t *start = scene->face_start.item;
   const uint8_t *flags = wanted->facing->point_flags;
   unsigned bits = wanted->bits;
   size_t count = 0;
-  uint32_t c = scene_face_start(scene, (uint32_t)range.begin);
   for (size_t face = range.begin; face < range.end; face++) {
-    uint32_t end = start != NULL ? start[face + 1] : c + 3;
-    unsigned all =
-        flags[corner[c]] | flags[corner[c + 1]] | flags[corner[c + 2]];
-    for (c += 3; c < end; c++)
+    uint32_t c = start[face], end = start[face + 1];
+    unsigned all = 0;
+    for (; c < end; c++)
       all |= flags[corner[c]];
+    kept[count] = (uint32_t)face;
+    count += (all & bits) == bits;
+  }
+  return count;
+}
+
+/* The same where all faces are triangles. */
+static size_t list_flagged_triangles(const void *user,
+                                     struct parallel_range range,
+                                     uint32_t *kept) {
+  const struct flagged_faces *wanted = user;
+  const uint32_t *corner =
+      wanted->facing->scene->corner.item + 3 * range.begin;
+  const uint8_t *flags = wanted->facing->point_flags;
+  unsigned bits = wanted->bits;
+  size_t count = 0;
+  for (size_t face = range.begin; face < range.end; face++, corner += 3) {
+    unsigned all = flags[corner[0]] | flags[corner[1]] | flags[corner[2]];
     kept[count] = (uint32_t)face;
     count += (all & bits) == bits;
   }
@@ -311,7 +365,10 @@ static size_t list_flagged_of_range(const void *user,
 static bool list_faces_with(const struct facing *f, unsigned bits,
                             struct facing_faces *list) {
   const struct flagged_faces wanted = {f, bits};
-  list->item = number_filter(scene_face_count(f->scene), list_flagged_of_range,
+  list->item = number_filter(scene_face_count(f->scene),
+                             f->scene->face_start.count == 0
+                                 ? list_flagged_triangles
+                                 : list_flagged_of_range,
                              &wanted, &list->count);
   list->capacity = list->count;
   return list->item != NULL;
