@@ -44,6 +44,7 @@ struct render {
   struct topology topology; /* owned unless the preparation is shared */
   struct camera camera;
   struct smooth_surface surface; /* where it is known before the contours */
+  struct smooth_curves curves;   /* of it */
   struct visible_part visible;
   struct sheet sheet;
   struct face_sizes sizes; /* of the faces that were laid out */
@@ -197,9 +198,22 @@ static recto_status project_scene(struct render *render, recto_error *error) {
   return status;
 }
 
+static struct smooth_curves_input curves_input(struct render *render) {
+  return (struct smooth_curves_input){
+      .sheet = &render->sheet,
+      .surface = &render->surface,
+      .topology = &render->topology,
+      .crease_deg = render->options->mesh.crease_deg,
+      .exact = render->options->ink.exact ||
+               render->options->ink.min_stroke_mm == 0};
+}
+
 static recto_status solve_visibility(struct render *render,
                                      recto_error *error) {
   const recto_options *options = render->options;
+  const struct smooth_curves_input curves = curves_input(render);
+  if (draws_smooth_contours(render))
+    smooth_curves_begin(&render->curves, &curves);
   struct solver_request request = solver_request_to_draw(options);
   request.fragments = needs_fragments(render);
   request.threads = parallel_threads();
@@ -225,17 +239,17 @@ static recto_status find_invisibility(struct render *render,
 static recto_status add_smooth_contours(struct render *render,
                                         recto_error *error) {
   const recto_options *options = render->options;
+  const struct smooth_curves_input input = curves_input(render);
   const struct smooth_contours_options how = {
-      .crease_deg = options->mesh.crease_deg,
       .hidden_max = options->ink.hidden ? options->ink.hidden_by_max : 0,
-      .exact = options->ink.exact || options->ink.min_stroke_mm == 0,
       .intersections = (options->ink.edges & RECTO_EDGE_INTERSECTION) != 0};
   struct smooth_contours_counts counts;
   if (!draws_smooth_contours(render))
     return RECTO_OK;
   recto_status status =
-      smooth_contours_add(&render->sheet, &render->map, &render->surface,
-                          &render->topology, how, &counts, error);
+      smooth_contours_add(&render->sheet, &render->map, &render->curves, &input,
+                          how, &counts, error);
+  smooth_curves_fini(&render->curves);
   report_count(render->report, "contours", "segments", counts.segments);
   report_count(render->report, "contours", "curves", counts.curves);
   report_count(render->report, "contours", "pieces", counts.pieces);
@@ -398,6 +412,7 @@ static recto_status run_and_report(struct render *render, recto_error *error) {
     stats_add_seconds(render->report, "render_wall_s", clock_wall() - wall);
     warn_and_report(render);
   }
+  smooth_curves_fini(&render->curves);
   map_fini(&render->map);
   (void)poll_now();
   sheet_fini(&render->sheet);

@@ -44,6 +44,33 @@ void parallel_run(int threads, parallel_worker *worker, void *user) {
   thread_pool_end(own);
 }
 
+static void do_aside(void *user) {
+  struct parallel_aside *aside = user;
+  poll_follow(&aside->ended);
+  aside->work(aside->user);
+  poll_follow(NULL);
+}
+
+void parallel_aside_begin(struct parallel_aside *aside,
+                          void (*work)(void *user), void *user) {
+  struct thread_pool **kept = poll_pool();
+  aside->work = work;
+  aside->user = user;
+  aside->pool = NULL;
+  atomic_init(&aside->ended, false);
+  if (kept != NULL && parallel_threads() > 1 &&
+      thread_pool_give(kept, do_aside, aside))
+    aside->pool = *kept;
+}
+
+void parallel_aside_finish(struct parallel_aside *aside, bool is_wanted) {
+  if (!is_wanted)
+    atomic_store(&aside->ended, true);
+  bool is_done = aside->pool != NULL && thread_pool_take_back(aside->pool);
+  if (!is_done && is_wanted)
+    aside->work(aside->user);
+}
+
 int parallel_processors(void) {
   long there = 0;
 #ifdef __linux__

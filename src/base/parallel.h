@@ -23,6 +23,25 @@ typedef void parallel_worker(void *user, bool is_caller);
  * Threads  may be called from several threads at once, and after fork */
 void parallel_run(int threads, parallel_worker *worker, void *user);
 
+/* Work that another thread may do while the caller goes on. */
+struct parallel_aside {
+  void (*work)(void *user);
+  void *user;
+  struct thread_pool *pool; /* that got it; NULL: none did */
+  atomic_bool ended;        /* polls of that thread are false */
+};
+
+/* Gives work to another thread, if the call of the library may use several;
+ * until it is finished the caller does nothing that the work may notice.  Loops
+ * in the work are done by its own thread. */
+void parallel_aside_begin(struct parallel_aside *aside,
+                          void (*work)(void *user), void *user);
+
+/* Waits until the work is done, which no other thread may have begun: then the
+ * caller does it.
+ * is_wanted  false: the work may end early, or not be done at all */
+void parallel_aside_finish(struct parallel_aside *aside, bool is_wanted);
+
 /* How many processors this process may run on; at least 1. */
 int parallel_processors(void);
 

@@ -22,6 +22,9 @@ struct thread_pool {
   void *user;
   int places;  /* threads that may still begin with it */
   int working; /* threads that do it */
+  thread_pool_work *given; /* to one thread; NULL: nothing is */
+  void *given_user;
+  enum { GIVEN_WAITS, GIVEN_BEGAN, GIVEN_ENDED } given_state;
   bool ends;
   pid_t process; /* in which the threads are */
   size_t threads;
@@ -78,13 +81,31 @@ static void allow_all_processors(const struct thread_pool *pool) { (void)pool; }
 
 /* ---- Threads ------------------------------------------------------------- */
 
+static bool waits_given(const struct thread_pool *pool) {
+  return pool->given != NULL && pool->given_state == GIVEN_WAITS;
+}
+
+/* Does what is given to one thread. */
+static void do_given(struct thread_pool *pool) {
+  pool->given_state = GIVEN_BEGAN;
+  (void)pthread_mutex_unlock(&pool->lock);
+  pool->given(pool->given_user);
+  (void)pthread_mutex_lock(&pool->lock);
+  pool->given_state = GIVEN_ENDED;
+  (void)pthread_cond_signal(&pool->is_idle);
+}
+
 static void *serve(void *argument) {
   struct thread_pool *pool = argument;
   allow_all_processors(pool);
   (void)pthread_mutex_lock(&pool->lock);
   for (;;) {
-    while (pool->places == 0 && !pool->ends)
+    if (waits_given(pool))
+      do_given(pool);
+    while (pool->places == 0 && !pool->ends && !waits_given(pool))
       (void)pthread_cond_wait(&pool->wake, &pool->lock);
+    if (waits_given(pool))
+      continue;
     if (pool->places == 0)
       break;
     pool->places--;
@@ -169,6 +190,36 @@ void thread_pool_withdraw(struct thread_pool *pool) {
     (void)pthread_cond_wait(&pool->is_idle, &pool->lock);
   pool->work = NULL;
   (void)pthread_mutex_unlock(&pool->lock);
+}
+
+bool thread_pool_give(struct thread_pool **kept, thread_pool_work *work,
+                      void *user) {
+  if (*kept == NULL)
+    *kept = create_pool();
+  struct thread_pool *pool = *kept;
+  if (pool == NULL || pool->work != NULL || pool->given != NULL ||
+      pool->process != getpid())
+    return false;
+  start_threads(pool, 1);
+  if (pool->threads == 0)
+    return false;
+  (void)pthread_mutex_lock(&pool->lock);
+  pool->given = work;
+  pool->given_user = user;
+  pool->given_state = GIVEN_WAITS;
+  (void)pthread_mutex_unlock(&pool->lock);
+  (void)pthread_cond_signal(&pool->wake);
+  return true;
+}
+
+bool thread_pool_take_back(struct thread_pool *pool) {
+  (void)pthread_mutex_lock(&pool->lock);
+  while (pool->given_state == GIVEN_BEGAN)
+    (void)pthread_cond_wait(&pool->is_idle, &pool->lock);
+  bool is_done = pool->given_state == GIVEN_ENDED;
+  pool->given = NULL;
+  (void)pthread_mutex_unlock(&pool->lock);
+  return is_done;
 }
 
 void thread_pool_end(struct thread_pool *pool) {

@@ -28,6 +28,18 @@ bool thread_pool_offer(struct thread_pool **pool, int threads,
  * that have begun. */
 void thread_pool_withdraw(struct thread_pool *pool);
 
+/* Gives work to one thread of the pool, which does it beside what is offered to
+ * all; thread_pool_take_back is to follow.
+ * pool  as of thread_pool_offer
+ * Returns false, and gives nothing, where thread_pool_offer would, or no thread
+ * could be started, or other work was given and not taken back. */
+bool thread_pool_give(struct thread_pool **pool, thread_pool_work *work,
+                      void *user);
+
+/* Takes that work back if it has not begun, or waits until it ends.  Returns
+ * whether it was done. */
+bool thread_pool_take_back(struct thread_pool *pool);
+
 /* Ends the threads, once all to which work is offered have done their share,
  * and frees the pool, which may be NULL. */
 void thread_pool_end(struct thread_pool *pool);

@@ -9,6 +9,7 @@ librecto_core_la_SOURCES += \
   %D%/progress.c %D%/progress.h \
   %D%/quantitative_invisibility.c %D%/quantitative_invisibility.h \
   %D%/smooth_contours.c %D%/smooth_contours.h \
+  %D%/smooth_curves.c %D%/smooth_curves.h \
   %D%/smooth_surface.c %D%/smooth_surface.h \
   %D%/solver.c %D%/solver.h \
   %D%/brute/brute.c %D%/brute/brute.h \

@@ -13,14 +13,10 @@
 #include "geom/vector.h"
 #include "view/clip.h"
 #include "visibility/contour/contour_creases.h"
-#include "visibility/contour/contour_cusps.h"
 #include "visibility/contour/curve_pieces.h"
 #include "visibility/contour/divided_curves.h"
 #include "visibility/contour/doubled_contours.h"
-#include "visibility/contour/end_zigzags.h"
 #include "visibility/contour/intersection_cuts.h"
-#include "visibility/contour/page_crossings.h"
-#include "visibility/contour/thin_loops.h"
 #include "visibility/fit/border_ends.h"
 #include "visibility/fit/fit_fragments.h"
 #include "visibility/fit/fit_outline.h"
@@ -35,13 +31,13 @@
 struct contour_pieces {
   struct sheet *sheet;
   struct map *map;
-  const struct topology *topology;
   struct zero_set *set;
   struct contour_curves *curves;
   struct divided_curves divided;
   struct partial_grid grid; /* about the curves and the mesh's outlines */
   struct triangle_grid_query query;
   struct occluders occluders;
+  bool exact;
   struct smooth_contours_options options;
   ARRAY(float) height; /* one an edge made: that of its triangle on the page,
                           grid units */
@@ -146,7 +142,7 @@ static bool add_curve(struct contour_pieces *c, size_t index) {
   struct curve_pieces pieces = {c->curves, &c->curves->curve.item[index],
                                 c->divided.piece.item + of->first, of->count};
   curve_pieces_absorb_short(&pieces);
-  if (!c->options.exact) {
+  if (!c->exact) {
     curve_pieces_hide_covered(&pieces, &c->sheet->camera);
     curve_pieces_hide_concave(&pieces);
     curve_pieces_absorb_runs(&pieces, &c->sheet->camera);
@@ -272,7 +268,7 @@ static bool close_gaps(struct contour_pieces *c, uint32_t first,
       .grid = &c->grid.grid,
       .query = &c->query,
       .compared = &c->curves->compared,
-      .exact = c->options.exact};
+      .exact = c->exact};
   return fold_bridges_add(&input, c->height.item) && border_ends_show(&input) &&
          outline_gaps_close(&input) && fold_lines_add(&input) &&
          (!c->options.intersections || intersection_gaps_close(&input));
@@ -285,20 +281,14 @@ static bool add_pieces(struct contour_pieces *c) {
     return false;
   if (c->set->outline.count == 0 && c->set->segment.count == 0)
     return true;
-  bool ok = contour_curves_join(c->curves, c->set, c->options.crease_deg) &&
-            (c->options.exact ||
-             (thin_loops_remove(c->curves, c->set, c->sheet, c->topology) &&
-              end_zigzags_straighten(c->curves, c->set, &c->sheet->camera))) &&
-            contour_cusps_cut(c->curves) &&
-            page_crossings_cut(c->curves, &c->sheet->camera) &&
-            intersection_cuts_add(c->curves, c->sheet, c->map) &&
+  bool ok = intersection_cuts_add(c->curves, c->sheet, c->map) &&
             contour_cuts_sort(&c->curves->cut) &&
             divided_curves_find(&c->divided) && list_triangles_about(c) &&
             triangle_grid_query_init(&c->query, &c->grid.grid);
   return ok && divided_curves_count(&c->divided, &c->occluders) &&
          add_all_curves(c) &&
          doubled_contours_hide(c->sheet, c->map, first, c->height.item,
-                               c->options.exact
+                               c->exact
                                    ? RECTO_FINEST_MM * SHEET_UNITS_PER_MM
                                    : TOLERANCE_OUTLINE_UNITS,
                                &c->curves->compared) &&
@@ -344,48 +334,33 @@ static void forget_intersections(struct sheet *sheet) {
       sheet->edge.item[e].edge_class = 0;
 }
 
-static recto_status find_zero_set(struct zero_set *set,
-                                  const struct sheet *sheet,
-                                  struct smooth_surface *surface,
-                                  const struct topology *topology,
-                                  double crease_deg, recto_error *error) {
-  recto_status status = smooth_surface_find(surface, sheet->scene, topology,
-                                            &sheet->camera, crease_deg, error);
-  if (status == RECTO_OK) {
-    surface->facing->camera = &sheet->camera; /* whose scale is final */
-    status = zero_set_find(set, sheet, surface->facing, error);
-  }
-  smooth_surface_fini(surface);
-  return status;
-}
-
 recto_status smooth_contours_add(struct sheet *sheet, struct map *map,
-                                 struct smooth_surface *surface,
-                                 const struct topology *topology,
+                                 struct smooth_curves *found,
+                                 const struct smooth_curves_input *input,
                                  struct smooth_contours_options options,
                                  struct smooth_contours_counts *counts,
                                  recto_error *error) {
   uint32_t first = (uint32_t)sheet->edge.count;
-  struct zero_set set = {.node = {0}};
-  struct contour_curves curves = {.set = &set};
-  recto_status status =
-      find_zero_set(&set, sheet, surface, topology, options.crease_deg, error);
+  const struct topology *topology = input->topology;
+  struct zero_set *set = &found->set;
+  struct contour_curves *curves = &found->curves;
+  recto_status status = smooth_curves_find(found, input, error);
   struct contour_pieces pieces = {
       .sheet = sheet,
       .map = map,
-      .topology = topology,
-      .set = &set,
-      .curves = &curves,
+      .set = set,
+      .curves = curves,
       .divided = {.sheet = sheet,
-                  .curves = &curves,
+                  .curves = curves,
                   .projection = projection_of(&sheet->camera),
-                  .exact = options.exact},
+                  .exact = input->exact},
       .occluders = {.sheet = sheet,
                     .grid = &pieces.grid.grid,
                     .query = &pieces.query,
                     .near = {.scene = sheet->scene, .topology = topology},
                     /* Their number is asked for by is_too_deep alone. */
                     .most = options.hidden_max > 0 ? INT_MAX : 1},
+      .exact = input->exact,
       .options = options};
   if (status == RECTO_OK &&
       !(add_pieces(&pieces) && end_at_contours(sheet, map, topology, first)))
@@ -393,10 +368,8 @@ recto_status smooth_contours_add(struct sheet *sheet, struct map *map,
   if (!options.intersections)
     forget_intersections(sheet);
   *counts = (struct smooth_contours_counts){
-      set.segment.count, curves.curve.count, pieces.divided.piece.count,
-      curves.compared + pieces.occluders.near.searched};
+      set->segment.count, curves->curve.count, pieces.divided.piece.count,
+      curves->compared + pieces.occluders.near.searched};
   fini_pieces(&pieces);
-  contour_curves_fini(&curves);
-  zero_set_fini(&set);
   return status;
 }

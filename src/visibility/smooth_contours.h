@@ -4,7 +4,7 @@
 #define VISIBILITY_SMOOTH_CONTOURS_H
 
 #include "visibility/map.h"
-#include "visibility/smooth_surface.h"
+#include "visibility/smooth_curves.h"
 
 /* What is known of the contours, for --stats. */
 struct smooth_contours_counts {
@@ -13,10 +13,8 @@ struct smooth_contours_counts {
 };
 
 struct smooth_contours_options {
-  double crease_deg;  /* where normals are split */
   int hidden_max;     /* hidden pieces that more triangles hide are left out; 0:
                         none are */
-  bool exact;         /* thin loops stay */
   bool intersections; /* they are drawn; else their class becomes 0 */
 };
 
@@ -29,16 +27,16 @@ struct smooth_contours_options {
  * is visible or hidden as a whole, as most of its samples are.  These lie a
  * little off the surface, so that the triangles about them do not decide.
  * Visible fragments are made to end at the visible pieces (fit_fragments.h).
- * surface      of the sheet's scene and view; found here if it is not known,
- *              and freed
- * topology     of the sheet's scene, with its corners
- * map          of the sheet; its edges are known
- * Errors       RECTO_ERROR_MEMORY, RECTO_ERROR_CANCELLED.
- * Cost         linear in the mesh; near linear in the contours
- * Source       doc/decisions/0039 */
+ * map     of the sheet; its edges are known
+ * curves  found here, unless that was begun before (smooth_curves.h)
+ * input   their surface, of the sheet's scene and view, and more
+ * Errors  RECTO_ERROR_MEMORY, RECTO_ERROR_CANCELLED.
+ * Cost    linear in the mesh; near linear in the contours
+ * Source  doc/decisions/0039 */
 USE_RESULT recto_status smooth_contours_add(
-    struct sheet *sheet, struct map *map, struct smooth_surface *surface,
-    const struct topology *topology, struct smooth_contours_options options,
+    struct sheet *sheet, struct map *map, struct smooth_curves *curves,
+    const struct smooth_curves_input *input,
+    struct smooth_contours_options options,
     struct smooth_contours_counts *counts, recto_error *error);
 
 #endif
