@@ -54,6 +54,7 @@ librecto_core_la_SOURCES += \
   %D%/fold/added_edges.c %D%/fold/added_edges.h \
   %D%/fold/added_folds.c %D%/fold/added_folds.h \
   %D%/fold/fold_bridges.c %D%/fold/fold_bridges.h \
+  %D%/fold/fold_chains.c %D%/fold/fold_chains.h \
   %D%/fold/fold_joints.c %D%/fold/fold_joints.h \
   %D%/fold/fold_lines.c %D%/fold/fold_lines.h \
   %D%/fold/fold_samples.c %D%/fold/fold_samples.h \

@@ -11,11 +11,10 @@
 /* What continues a contour turns from it by no more than 60 degrees. */
 #define JOINT_COSINE 0.5
 
-/* How far from a sample the end of a contour may be that a line continues, how
- * far a line is led on to one, and over how much of the contour its direction
- * is found, as its last segments may turn back; in heights. */
+/* How far from a sample the end of a contour may be that a line continues, and
+ * over how much of the contour its direction is found, as its last segments may
+ * turn back; in heights. */
 #define JOINT_HEIGHTS 1.5
-#define LEAD_HEIGHTS 3
 #define DIRECTION_HEIGHTS 0.5
 
 /* ---- What is drawn ------------------------------------------------------- */
@@ -48,6 +47,15 @@ static void mark_curve_nodes(struct fold_joints *j) {
       j->is_node[set->node.item[i].sheet_point - j->in->first_point] = 1;
 }
 
+/* How far contours that are visible are from the mesh, at most. */
+static double find_bulge_most(const struct outline_gaps_input *in) {
+  double most = 0;
+  for (uint32_t i = 0; i < in->bulges; i++)
+    if (in->map->edge_state[in->first + i] != MAP_HIDDEN)
+      most = fmax(most, (double)in->bulge[i]);
+  return most;
+}
+
 bool fold_joints_list(struct fold_joints *j) {
   const struct sheet *sheet = j->in->sheet;
   j->ends = mem_calloc(sheet->point.count - j->in->first_point, 1);
@@ -55,6 +63,7 @@ bool fold_joints_list(struct fold_joints *j) {
   if (j->ends == NULL || j->is_node == NULL)
     return false;
   mark_curve_nodes(j);
+  j->bulge_most = find_bulge_most(j->in);
   for (uint32_t e = 0; e < sheet->edge.count; e++) {
     const uint32_t *point = sheet->edge.item[e].point;
     if (!poll_at(e))
@@ -149,7 +158,7 @@ void fold_joints_lead_on(const struct fold_joints *j,
                          size_t *at, int k, double height, uint32_t *joint) {
   double least = JOINT_HEIGHTS * height, passed = 0;
   *joint = SHEET_NONE;
-  for (size_t i = *at; passed <= LEAD_HEIGHTS * height;
+  for (size_t i = *at; passed <= FOLD_LEAD_HEIGHTS * height;
        i += k == 0 ? SIZE_MAX : 1) {
     passed += sample[i].step;
     uint32_t found = find_joint(j, &sample[i], 1 - k, height, &least);

@@ -14,10 +14,15 @@ struct joint_end {
 struct fold_joints {
   const struct outline_gaps_input *in; /* borrowed, not owned */
   struct segment_grid grid;            /* visible lines */
-  uint8_t *ends;    /* one a point of contours: of visible ones, at most 2 */
-  uint8_t *is_node; /* one a point of the curves: nothing crosses them there */
+  double bulge_most; /* how far visible contours are from the mesh, at most;
+                        grid units */
+  uint8_t *ends;     /* one a point of contours: of visible ones, at most 2 */
+  uint8_t *is_node;  /* one a point of the curves: nothing crosses them there */
   ARRAY(struct joint_end) loose; /* ascending by x */
 };
+
+/* How far a line is led on to the end of a contour, in heights. */
+#define FOLD_LEAD_HEIGHTS 3
 
 /* Lists the visible lines, and the ends of contours.
  * joints  zero-initialised but for what is borrowed; the caller frees it

@@ -1,5 +1,5 @@
-/* fold_lines.c - samples the chains of a mesh's outlines, and smooths the runs
- * of samples that are to be drawn. */
+/* fold_lines.c - finds the runs of samples along a mesh's outlines that are to
+ * be drawn, and smooths them. */
 #include "visibility/fold/fold_lines.h"
 
 #include <math.h>
@@ -7,13 +7,10 @@
 
 #include "base/poll.h"
 #include "base/tolerance.h"
-#include "geom/nearest.h"
 #include "geom/vector.h"
-#include "visibility/contour/occluders.h"
 #include "visibility/fold/added_edges.h"
 #include "visibility/fold/added_folds.h"
-#include "visibility/fold/fold_joints.h"
-#include "visibility/fold/outline_chains.h"
+#include "visibility/fold/fold_chains.h"
 
 /* The heights of a line that is not of many outlines, at least, if a contour
  * continues it at one end, and at both; and at one end that is within a height
@@ -24,105 +21,27 @@ static const double joined_heights[] = {INFINITY, 6, 3};
 /* The same for a line that is long on the page, and where the mesh samples a
  * smooth surface; no line is of fewer. */
 #define LARGE_JOINED_HEIGHTS 2.5
-static const double smooth_heights[] = {INFINITY, 2, 0.5};
-#define LEAST_HEIGHTS 0.5
+static const double smooth_heights[] = {INFINITY, 2, FOLD_LEAST_HEIGHTS};
 
 /* How much of a chain may be hidden where it doubles back, in heights. */
 #define DOUBLED_HEIGHTS 4
 
-/* How far beside an outline nothing must hide it, grid units. */
-#define BESIDE 8
-
 struct fold_lines {
   const struct outline_gaps_input *in;
   struct fold_joints joints;
-  struct outline_chains chains;
-  uint8_t *is_passed;  /* one an outline */
+  struct fold_chains chains;
   double long_on_page; /* grid units */
-  double bulge_most;   /* of all contours that are visible; likewise */
   struct added_folds added;
   struct fold_samples sample; /* of a chain */
   struct fold_places place;   /* of a line */
 };
 
-/* ---- What is drawn ------------------------------------------------------- */
-
-/* How far a line may be from a sample beside which it is: its triangle's
- * height, or, of a contour, as far as that is from the mesh.  Where triangles
- * are long and thin a contour bulges more than they are high. */
-static double reach_of_line(const struct fold_lines *f, uint32_t edge,
-                            double height) {
-  uint32_t i = edge - f->in->first;
-  return edge >= f->in->first && i < f->in->bulges
-             ? fmax(height, TOLERANCE_OUTLINE_UNITS + (double)f->in->bulge[i])
-             : height;
-}
-
-/* Whether a line is surely farther from a sample than a distance. */
-static inline bool is_line_beyond(const struct page_segment *s,
-                                  const struct fold_sample *at, double away) {
-  if (page_segment_is_off(s, at->x, at->y, away))
-    return true;
-  double x = (double)s->q.x - s->p.x, y = (double)s->q.y - s->p.y;
-  return page_line_is_off(x, y, at->x - s->p.x, at->y - s->p.y, away);
-}
-
-/* Notes a line that is no contour.  As it is no other image of the fold, the
- * fold is missing unless the line lies on it. */
-static void note_other_line(struct fold_sample *at, double away) {
-  at->is_by_line = true;
-  at->is_beside = at->is_beside || away <= TOLERANCE_OUTLINE_UNITS;
-}
-
-/* Notes whether a line runs beside a sample: not where a contour only ends.
- * Creases are none, as ink may leave them out. */
-static void try_line(const struct fold_lines *f, const struct page_segment *s,
-                     double reach, struct fold_sample *at) {
-  const struct sheet_edge *edge = &f->in->sheet->edge.item[s->owner];
-  bool is_contour = s->owner >= f->in->first;
-  double x = (double)s->q.x - s->p.x, y = (double)s->q.y - s->p.y;
-  double px = at->x - s->p.x, py = at->y - s->p.y;
-  double t = geom_nearest_parameter(x, y, px, py);
-  double away = vector2_length(px - t * x, py - t * y);
-  double cosine = x * at->along[0] + y * at->along[1];
-  if (!is_contour)
-    cosine = fabs(cosine);
-  if (away > reach || cosine < FOLD_BESIDE_COSINE * vector2_length(x, y))
-    return;
-  if ((edge->edge_class & (RECTO_EDGE_CREASE | RECTO_EDGE_GROUP)) != 0)
-    at->is_on_crease = at->is_on_crease || away <= TOLERANCE_OUTLINE_UNITS;
-  else if (!is_contour)
-    note_other_line(at, away);
-  else if ((t > 0 && t < 1) ||
-           !fold_joints_is_loose(&f->joints, edge->point[t > 0]))
-    at->is_beside = true;
-}
-
-static void look_beside_fold(const struct fold_lines *f,
-                             struct fold_sample *at) {
-  double reach_most = fmax(at->height, TOLERANCE_OUTLINE_UNITS + f->bulge_most);
-  struct segment_walk walk =
-      segment_grid_near(&f->joints.grid, at->x, at->y, reach_most);
-  const struct page_segment *s;
-  while (!at->is_beside && (s = segment_walk_next(&walk)) != NULL) {
-    double reach = reach_of_line(f, s->owner, at->height);
-    if (!is_line_beyond(s, at, reach))
-      try_line(f, s, reach, at);
-  }
-}
-
-/* Whether a sample may be drawn: nothing hides the place just beside it, where
- * its own surface does not reach, and no line was added beside it. */
+/* Whether a sample may be drawn: nothing hides it, and no line was added beside
+ * it. */
 static bool is_visible(const struct fold_lines *f, const struct fold_sample *s,
                        bool *ok) {
-  if (added_folds_beside(&f->added, s))
-    return false;
-  struct geom_point p = {(int32_t)lrint(s->x + BESIDE * s->along[1]),
-                         (int32_t)lrint(s->y - BESIDE * s->along[0]),
-                         (int64_t)s->z};
-  int count = occluders_count(f->in->sheet, f->in->grid, f->in->query, p, 1);
-  *ok = *ok && count >= 0;
-  return count == 0;
+  return !added_folds_beside(&f->added, s) &&
+         fold_chains_is_seen(f->in, f->in->query, s, ok);
 }
 
 /* ---- Lines --------------------------------------------------------------- */
@@ -191,7 +110,7 @@ static double least_heights(const struct fold_lines *f, const uint32_t joint[2],
 /* Whether a run is long enough if contours continue it. */
 static bool may_be_line(struct fold_run run) {
   return fold_run_is_line(
-      run, fold_run_is_smooth(run) ? LEAST_HEIGHTS : LARGE_JOINED_HEIGHTS,
+      run, fold_run_is_smooth(run) ? FOLD_LEAST_HEIGHTS : LARGE_JOINED_HEIGHTS,
       true);
 }
 
@@ -306,8 +225,11 @@ static bool open_ring(struct fold_lines *f, bool *is_ring) {
   struct fold_samples *s = &f->sample;
   size_t count = s->count, at = 0;
   bool ok = ARRAY_RESERVE(s, count);
-  while (at < count && !s->item[at].is_beside)
-    at++;
+  for (; at < count; at++) {
+    fold_chains_look_beside(&f->joints, &s->item[at]);
+    if (s->item[at].is_beside)
+      break;
+  }
   if (at == count)
     for (at = 0; ok && at < count && is_visible(f, &s->item[at], &ok);)
       at++;
@@ -319,33 +241,56 @@ static bool open_ring(struct fold_lines *f, bool *is_ring) {
   return true;
 }
 
-/* Samples a chain from one of its outlines on; no samples are left of one that
- * is not long. */
-static bool sample_chain(struct fold_lines *f, uint32_t start, bool *is_ring) {
-  const struct contour_outline *outline = f->in->set->outline.item;
-  uint32_t i = start;
-  double height;
-  f->sample.count = 0;
-  for (; i != SHEET_NONE && !f->is_passed[i]; i = f->chains.next[i]) {
-    f->is_passed[i] = 1;
-    if (!fold_samples_add(&f->sample, f->in->sheet, &outline[i], i))
-      return false;
+/* Looks beside samples from one on, in steps of 1 or of SIZE_MAX, up to the
+ * first that has a line beside it, and as far beyond as a line may be led on.
+ * Returns that one, or the number of samples. */
+static size_t look_along(struct fold_lines *f, size_t from, size_t step,
+                         double most) {
+  size_t count = f->sample.count, first = count;
+  double passed = 0;
+  for (size_t i = from; i < count && passed <= most; i += step) {
+    struct fold_sample *s = &f->sample.item[i];
+    fold_chains_look_beside(&f->joints, s);
+    if (first == count && s->is_beside)
+      first = i;
+    passed += first < count ? s->step : 0;
   }
-  *is_ring = false;
-  struct fold_run chain = {f->sample.item, f->sample.count, false};
-  if (!fold_run_is_long(chain, f->long_on_page, &height) &&
-      !fold_joints_may_join(&f->joints, chain, LEAST_HEIGHTS)) {
-    f->sample.count = 0;
-    return true;
-  }
-  for (size_t k = 0; k < f->sample.count; k++)
-    look_beside_fold(f, &f->sample.item[k]);
-  return i != start || open_ring(f, is_ring);
+  return first;
 }
 
-static bool add_lines_of_chain(struct fold_lines *f, uint32_t start) {
+/* Looks beside all samples of those parts of the chain without lines beside
+ * them of which something is seen, and leaves out the others. */
+static bool look_beside_seen(struct fold_lines *f) {
+  struct fold_samples *all = &f->sample;
+  struct fold_chain_look look = {.is_hidden = false};
+  double most = 0;
+  bool ok = true;
+  for (size_t i = 0; i < all->count; i++)
+    most = fmax(most, FOLD_LEAD_HEIGHTS * all->item[i].height);
+  for (size_t i = 0; ok && i < all->count; i++)
+    if (fold_chains_may_lack(&f->chains, f->in->query, &all->item[i], &look,
+                             &ok)) {
+      (void)look_along(f, i, SIZE_MAX, most);
+      i = look_along(f, i, 1, most);
+    }
+  for (size_t i = 0; i < all->count; i++)
+    all->item[i].is_beside |= !all->item[i].is_looked_beside;
+  return ok;
+}
+
+/* Samples a chain and looks beside it. */
+static bool sample_chain(struct fold_lines *f, const struct fold_chain *chain,
+                         bool *is_ring) {
+  *is_ring = false;
+  return fold_chains_sample(&f->chains, chain, &f->sample) &&
+         (!chain->is_closed || open_ring(f, is_ring)) &&
+         (*is_ring || look_beside_seen(f));
+}
+
+static bool add_lines_of_chain(struct fold_lines *f,
+                               const struct fold_chain *chain) {
   bool is_ring;
-  if (!sample_chain(f, start, &is_ring))
+  if (!sample_chain(f, chain, &is_ring))
     return false;
   if (is_ring)
     return add_line(f, 0, f->sample.count, true);
@@ -360,14 +305,11 @@ static bool add_lines_of_chain(struct fold_lines *f, uint32_t start) {
   return true;
 }
 
-/* Open chains first, then closed ones. */
 static bool add_all_lines(struct fold_lines *f) {
-  for (int closed = 0; closed < 2; closed++)
-    for (uint32_t i = 0; i < f->in->set->outline.count; i++)
-      if (!poll_at(i) ||
-          (!f->is_passed[i] && (closed != 0 || !f->chains.is_led_to[i]) &&
-           !add_lines_of_chain(f, i)))
-        return false;
+  for (size_t i = 0; i < f->chains.count; i++)
+    if (!poll_at(i) || (f->chains.item[i].may_lack_lines &&
+                        !add_lines_of_chain(f, &f->chains.item[i])))
+      return false;
   return true;
 }
 
@@ -381,32 +323,20 @@ static double mean_length(const struct zero_set *set) {
   return fmax(sum / (double)set->outline.count, 1);
 }
 
-/* How far contours that are visible are from the mesh, at most. */
-static double find_bulge_most(const struct outline_gaps_input *in) {
-  double most = 0;
-  for (uint32_t i = 0; i < in->bulges; i++)
-    if (in->map->edge_state[in->first + i] != MAP_HIDDEN)
-      most = fmax(most, (double)in->bulge[i]);
-  return most;
-}
-
 bool fold_lines_add(const struct outline_gaps_input *input) {
-  size_t outlines = input->set->outline.count;
-  if (outlines == 0)
+  if (input->set->outline.count == 0)
     return true;
   struct fold_lines f = {.in = input,
                          .joints = {.in = input},
                          .long_on_page =
                              contour_outlines_long_on_page(input->set),
-                         .bulge_most = find_bulge_most(input),
                          .added = {.cell = mean_length(input->set)}};
-  f.is_passed = mem_calloc(outlines, 1);
-  bool ok = f.is_passed != NULL && fold_joints_list(&f.joints) &&
-            outline_chains_link(&f.chains, input->set) && add_all_lines(&f);
-  *input->compared += f.chains.compared;
+  f.chains = (struct fold_chains){
+      .in = input, .joints = &f.joints, .long_on_page = f.long_on_page};
+  bool ok = fold_joints_list(&f.joints) && fold_chains_find(&f.chains) &&
+            add_all_lines(&f);
   fold_joints_fini(&f.joints);
-  outline_chains_fini(&f.chains);
-  mem_free(f.is_passed);
+  fold_chains_fini(&f.chains);
   ARRAY_FREE(&f.added.segment);
   ARRAY_FREE(&f.sample);
   ARRAY_FREE(&f.place);

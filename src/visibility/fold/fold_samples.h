@@ -16,6 +16,7 @@ struct fold_sample {
   double height;   /* of its triangle, on the page, grid units */
   uint32_t outline, face;
   struct curvature_squares curvature;
+  bool is_looked_beside;
   bool is_beside;       /* a line is drawn beside it that leaves none missing */
   bool is_by_line;      /* a line that is no contour is within a height */
   bool is_on_crease;    /* a crease is on it */
