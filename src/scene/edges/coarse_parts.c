@@ -7,23 +7,56 @@
 #include "base/memory.h"
 #include "base/union_find.h"
 
-/* Counts the edges of each part, and the creases among them, at its root.
- * count  two a point, all 0 */
-static void count_edges_of_parts(const struct topology *topology,
-                                 const uint8_t *class_masks, uint32_t *part,
-                                 size_t points, uint32_t (*count)[2]) {
+/* Joins the points of all edges: those of a part lead to one of them. */
+static void join_parts(const struct topology *topology, uint32_t *part) {
   const struct topology_edge *edge = topology->edge.item;
   for (size_t e = 0; e < topology->edge.count; e++) {
-    uint32_t *own = count[edge[e].point[0]];
-    own[0]++;
-    own[1] += (class_masks[e] & RECTO_EDGE_CREASE) != 0;
-    union_find_join(part, edge[e].point[0], edge[e].point[1]);
+    uint32_t a = edge[e].point[0], b = edge[e].point[1];
+    if (part[a] == part[b])
+      continue;
+    uint32_t p = union_find_root(part, a), q = union_find_root(part, b);
+    part[p > q ? p : q] = part[a] = part[b] = p < q ? p : q;
   }
-  for (uint32_t p = 0; p < points; p++) {
-    uint32_t root = union_find_root(part, p);
-    for (int k = 0; root != p && k < 2; k++)
-      count[root][k] += count[p][k];
+}
+
+static bool is_part_coarse(size_t edges, size_t creases) {
+  return 4 * (uint64_t)creases > edges;
+}
+
+/* Tells it of all points where only one part has edges; other points have none.
+ * Returns false where there are several. */
+static bool mark_one_part(const struct topology *topology,
+                          const uint8_t *class_masks, uint32_t *part,
+                          size_t points, uint8_t *coarse) {
+  size_t creases = 0, edges = topology->edge.count;
+  uint32_t root = union_find_root(part, topology->edge.item[0].point[0]);
+  for (uint32_t p = 0; p < points; p++)
+    if (part[p] != p && union_find_root(part, p) != root)
+      return false;
+  for (size_t e = 0; e < edges; e++)
+    creases += (class_masks[e] & RECTO_EDGE_CREASE) != 0;
+  bool is_coarse = is_part_coarse(edges, creases);
+  for (uint32_t p = 0; p < points; p++)
+    coarse[p] = is_coarse && (part[p] != p || p == root);
+  return true;
+}
+
+/* The same of several parts.  Returns false when memory ran out. */
+static bool mark_coarse_parts(const struct topology *topology,
+                              const uint8_t *class_masks, uint32_t *part,
+                              size_t points, uint8_t *coarse) {
+  uint32_t(*count)[2] = mem_calloc(points, sizeof *count); /* all, creases */
+  for (size_t e = 0; count != NULL && e < topology->edge.count; e++) {
+    uint32_t *of = count[union_find_root(part, topology->edge.item[e].point[0])];
+    of[0]++;
+    of[1] += (class_masks[e] & RECTO_EDGE_CREASE) != 0;
   }
+  for (uint32_t p = 0; count != NULL && p < points; p++) {
+    const uint32_t *of = count[union_find_root(part, p)];
+    coarse[p] = is_part_coarse(of[0], of[1]);
+  }
+  mem_free(count);
+  return count != NULL;
 }
 
 static bool is_any_crease(const uint8_t *class_masks, size_t edges) {
@@ -47,16 +80,12 @@ bool topology_coarse_parts(const struct topology *topology,
     return true;
   }
   uint32_t *part = union_find_create(points);
-  uint32_t(*count)[2] = mem_calloc(points, sizeof *count); /* all, creases */
-  bool ok = part != NULL && count != NULL;
+  bool ok = part != NULL;
   if (ok)
-    count_edges_of_parts(topology, class_masks, part, points, count);
-  for (uint32_t p = 0; ok && p < points; p++) {
-    const uint32_t *of = count[union_find_root(part, p)];
-    coarse[p] = 4 * (uint64_t)of[1] > of[0];
-  }
+    join_parts(topology, part);
+  if (ok && !mark_one_part(topology, class_masks, part, points, coarse))
+    ok = mark_coarse_parts(topology, class_masks, part, points, coarse);
   mem_free(part);
-  mem_free(count);
   return ok;
 }
 
