@@ -81,9 +81,10 @@ static recto_status store_classes(struct preparation *preparation,
                                   enum preparation_use use,
                                   recto_error *error) {
   struct topology *topology = &preparation->topology;
+  bool is_smooth = options->ink.contours == RECTO_CONTOURS_SMOOTH;
   if (!topology_store_class_masks(topology, preparation->scene,
-                                  options->mesh.crease_deg) ||
-      (options->ink.contours == RECTO_CONTOURS_SMOOTH &&
+                                  options->mesh.crease_deg, is_smooth) ||
+      (is_smooth &&
        !topology_store_coarse_parts(topology, preparation->scene)))
     return error_memory(error);
   if (use == PREPARATION_FOR_VIEWS)

@@ -183,7 +183,11 @@ struct class_work {
   struct crease_filter filter;
   const struct topology_edge *edge;
   uint8_t *class_masks; /* one an edge */
+  uint64_t *features;   /* a bit an edge; NULL: not wanted */
 };
+
+/* Edges that a thread takes at once: whole words of features. */
+enum { EDGES_IN_RANGE = 64 * PARALLEL_RANGE(POLL_ITEMS / 64) };
 
 /* What the loop reads is copied, so that the compiler knows that writing bytes
  * does not change it. */
@@ -193,36 +197,49 @@ static bool find_masks(void *user, struct parallel_range range) {
   for (size_t e = range.begin; e < range.end; e++, edge++) {
     if (e + MEM_PREFETCH_AHEAD < range.end)
       MEM_PREFETCH(&work.filter.direction[edge[MEM_PREFETCH_AHEAD].second]);
-    work.class_masks[e] =
-        crease_filter_is_smooth(&work.filter, edge)
-            ? RECTO_EDGE_SMOOTH
-            : (uint8_t)crease_filter_class_mask(&work.filter, edge);
+    const struct topology_edge of = *edge;
+    unsigned mask = RECTO_EDGE_SMOOTH;
+    bool is_feature = of.same_way || of.first == of.second;
+    if (!crease_filter_is_smooth(&work.filter, &of)) {
+      mask = crease_filter_class_mask(&work.filter, edge);
+      is_feature = topology_is_feature(&of, mask);
+    }
+    work.class_masks[e] = (uint8_t)mask;
+    if (is_feature && work.features != NULL)
+      work.features[e / 64] |= UINT64_C(1) << e % 64;
   }
   return true;
 }
 
-bool topology_class_masks(const struct topology *topology,
-                          const struct scene *scene, double crease_deg,
-                          uint8_t *class_masks) {
-  if (topology->class_masks != NULL && topology->crease_deg == crease_deg) {
-    memcpy(class_masks, topology->class_masks, topology->edge.count);
-    return true;
-  }
+/* As topology_class_masks, where they are not stored.
+ * features  as of a topology; NULL: not wanted */
+static bool find_class_masks(const struct topology *topology,
+                             const struct scene *scene, double crease_deg,
+                             uint8_t *class_masks, uint64_t *features) {
   const struct face_direction *direction = topology->direction;
   struct face_sizes sizes;
   struct face_direction *own =
       direction == NULL ? face_directions_find(scene, NULL, &sizes) : NULL;
   struct class_work work = {
       crease_filter_of(scene, own != NULL ? own : direction, crease_deg),
-      topology->edge.item, class_masks};
+      topology->edge.item, class_masks, features};
   size_t edges = topology->edge.count;
   bool ok = work.filter.direction != NULL &&
-            parallel_ranges(parallel_workers(edges, PARALLEL_ITEMS), edges,
-                            PARALLEL_ITEMS, find_masks, &work);
+            parallel_ranges(parallel_workers(edges, EDGES_IN_RANGE), edges,
+                            EDGES_IN_RANGE, find_masks, &work);
   mem_free(own);
   if (ok)
     crease_marks_apply(topology, class_masks);
   return ok;
+}
+
+bool topology_class_masks(const struct topology *topology,
+                          const struct scene *scene, double crease_deg,
+                          uint8_t *class_masks) {
+  if (topology->class_masks == NULL || topology->crease_deg != crease_deg)
+    return find_class_masks(topology, scene, crease_deg, class_masks, NULL);
+  memcpy(class_masks, topology->class_masks, topology->edge.count);
+  return true;
 }
 
 bool topology_drop_weak_creases(const struct topology *topology,
@@ -254,14 +271,25 @@ bool topology_drop_weak_creases(const struct topology *topology,
 }
 
 bool topology_store_class_masks(struct topology *topology,
-                                const struct scene *scene, double crease_deg) {
-  uint8_t *class_masks = mem_alloc(topology->edge.count, sizeof *class_masks);
-  if (class_masks == NULL ||
-      !topology_class_masks(topology, scene, crease_deg, class_masks)) {
+                                const struct scene *scene, double crease_deg,
+                                bool with_features) {
+  size_t edges = topology->edge.count;
+  uint8_t *class_masks = mem_alloc(edges, sizeof *class_masks);
+  uint64_t *features = NULL;
+  bool ok = class_masks != NULL;
+  if (ok && with_features && topology->crease_mark == NULL) {
+    features = mem_calloc(edges / 64 + 1, sizeof *features);
+    ok = features != NULL;
+  }
+  ok = ok &&
+       find_class_masks(topology, scene, crease_deg, class_masks, features);
+  if (!ok) {
     mem_free(class_masks);
+    mem_free(features);
     return false;
   }
   topology->class_masks = class_masks;
+  topology->features = features;
   topology->crease_deg = crease_deg;
   return true;
 }

@@ -76,6 +76,13 @@ USE_RESULT bool topology_class_masks(const struct topology *topology,
                                      const struct scene *scene,
                                      double crease_deg, uint8_t *class_masks);
 
+/* Whether a surface is not smooth at an edge of these classes. */
+static inline bool topology_is_feature(const struct topology_edge *edge,
+                                       unsigned class_mask) {
+  return edge->uses != 2 || edge->same_way || edge->first == edge->second ||
+         (class_mask & (RECTO_EDGE_CREASE | RECTO_EDGE_BORDER)) != 0;
+}
+
 /* Hysteresis: of the creases that edges form which are joined at points, makes
  * those no creases of which no edge bends by more than start_deg.
  * class_masks  one an edge, as of topology_class_masks at a smaller angle
@@ -86,9 +93,11 @@ USE_RESULT bool topology_drop_weak_creases(const struct topology *topology,
                                            uint8_t *class_masks);
 
 /* Stores the result of topology_class_masks at that angle for later calls.
+ * with_features  and which edges are features
  * Returns false when memory ran out. */
 USE_RESULT bool topology_store_class_masks(struct topology *topology,
                                            const struct scene *scene,
-                                           double crease_deg);
+                                           double crease_deg,
+                                           bool with_features);
 
 #endif

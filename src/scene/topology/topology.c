@@ -245,6 +245,7 @@ void topology_fini(struct topology *topology) {
   mem_free(topology->weld);
   mem_free(topology->border);
   mem_free(topology->class_masks);
+  mem_free(topology->features);
   mem_free(topology->coarse);
   mem_free(topology->crease_mark);
   mem_free(topology->direction);

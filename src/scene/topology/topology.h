@@ -22,6 +22,8 @@ struct topology {
   size_t borders;       /* how many there are */
   uint8_t *class_masks; /* of all edges at the angle crease_deg, as of
                             topology_class_masks; NULL: not kept */
+  uint64_t *features;   /* a bit an edge, with class_masks: it is a feature
+                           (topology_is_feature); NULL: not kept */
   double crease_deg;
   uint8_t *coarse;      /* of all points, as of topology_coarse_parts with
                       class_masks; NULL: not kept */

@@ -259,9 +259,31 @@ static bool find_odd_edges_of_range(void *user, struct parallel_range range) {
   return true;
 }
 
-static bool find_odd_edges(struct facing *f) {
+/* Adds the edges of crossed faces that are between both signs to the features:
+ * all such edges are, as they have points of both signs. */
+static void find_odd_edges_by_faces(struct facing *f) {
+  const struct topology *topology = f->topology;
+  memcpy(f->odd_edge, topology->features,
+         (topology->edge.count / 64 + 1) * sizeof *f->odd_edge);
+  for (size_t i = 0; i < f->crossed.count; i++) {
+    uint32_t face = f->crossed.item[i], end = scene_face_start(f->scene, face + 1);
+    for (uint32_t c = scene_face_start(f->scene, face); c < end; c++) {
+      uint32_t edge = topology->corner_edge[c];
+      const struct topology_edge *e = &topology->edge.item[edge];
+      if (e->uses == 2 && f->face_sign[e->first] != f->face_sign[e->second])
+        facing_add_odd_edge(f, edge);
+    }
+  }
+}
+
+static bool find_odd_edges(struct facing *f, double crease_deg) {
   size_t edges = f->topology->edge.count;
   f->odd_edge = mem_calloc(edges / 64 + 1, sizeof *f->odd_edge);
+  if (f->odd_edge != NULL && !f->any_coarse && f->topology->features != NULL &&
+      f->topology->crease_deg == crease_deg) {
+    find_odd_edges_by_faces(f);
+    return true;
+  }
   return f->odd_edge != NULL &&
          parallel_ranges(parallel_workers(edges, EDGES_IN_RANGE), edges,
                          EDGES_IN_RANGE, find_odd_edges_of_range, f);
@@ -473,8 +495,8 @@ recto_status facing_init(struct facing *f, const struct scene *scene,
       f->class_masks != NULL && f->coarse != NULL && f->large != NULL &&
       topology_class_masks(topology, f->scene, crease_deg, f->class_masks) &&
       topology_coarse_parts(topology, f->scene, f->class_masks, f->coarse) &&
-      find_face_signs(f) && find_odd_edges(f) && find_near_faces(f) &&
-      facing_mark_networks(f) && find_facings(f, crease_deg);
+      find_face_signs(f) && find_near_faces(f) &&
+      find_odd_edges(f, crease_deg) && facing_mark_networks(f) && find_facings(f, crease_deg);
   return ok ? RECTO_OK : error_memory(error);
 }
 

@@ -22,6 +22,7 @@
 #include "base/tolerance.h"
 #include "base/union_find.h"
 #include "geom/vector.h"
+#include "scene/edges/edge_classes.h"
 #include "scene/topology/large_faces.h"
 #include "view/sheet.h"
 
@@ -194,9 +195,8 @@ static inline bool facing_is_near(const struct facing *f, uint32_t edge) {
 
 /* Whether the surface is not smooth at the edge. */
 static inline bool facing_is_feature(const struct facing *f, uint32_t edge) {
-  const struct topology_edge *e = &f->topology->edge.item[edge];
-  return e->uses != 2 || e->same_way || e->first == e->second ||
-         (f->class_masks[edge] & (RECTO_EDGE_CREASE | RECTO_EDGE_BORDER)) != 0;
+  return topology_is_feature(&f->topology->edge.item[edge],
+                             f->class_masks[edge]);
 }
 
 /* Calls a function for each odd edge, ascending, until it returns false or the
