@@ -22,25 +22,57 @@ bool segment_grid_sort(struct segment_grid *grid) {
                      sizeof *grid->segment.item, compare_nearest, NULL);
 }
 
-/* Puts a segment into the lists of the cells that it meets. */
-static inline void list_segment(struct segment_grid *grid, uint32_t segment) {
-  struct triangle_grid *cell = &grid->cell;
+/* The segments in the cells that they meet. */
+struct met_cell {
+  uint32_t cell, segment;
+};
+struct met_cells {
+  struct met_cell *item;
+  size_t count, capacity;
+};
+
+static inline bool add_met_cell(struct segment_grid *grid,
+                                struct met_cells *cells, size_t cell,
+                                uint32_t segment) {
+  number_lists_put(&grid->cell.lists, cell, segment); /* it is counted */
+  return ARRAY_PUSH(cells, ((struct met_cell){(uint32_t)cell, segment}));
+}
+
+/* Lists the cells that a segment meets. */
+static inline bool list_segment(struct segment_grid *grid,
+                                struct met_cells *cells, uint32_t segment) {
+  const struct triangle_grid *cell = &grid->cell;
   const struct page_segment *s = &grid->segment.item[segment];
   struct cell_range range =
       triangle_grid_cells(cell, box2_of_segment(s->p, s->q));
-  if (range.x0 == range.x1 && range.y0 == range.y1) {
-    number_lists_put(&cell->lists,
-                     triangle_grid_index(cell, range.x0, range.y0), segment);
-    return;
-  }
-  bool is_wide = range.x0 < range.x1 && range.y0 < range.y1;
+  if (range.x0 == range.x1 && range.y0 == range.y1)
+    return add_met_cell(grid, cells,
+                        triangle_grid_index(cell, range.x0, range.y0), segment);
+  bool is_wide = range.x0 < range.x1 && range.y0 < range.y1, ok = true;
   for (int y = range.y0; y <= range.y1; y++) {
     int x0 = range.x0, x1 = range.x1;
     if (is_wide)
       triangle_grid_row(cell, s->p, s->q, range, y, &x0, &x1);
-    for (int x = x0; x <= x1; x++)
-      number_lists_put(&cell->lists, triangle_grid_index(cell, x, y), segment);
+    for (int x = x0; ok && x <= x1; x++)
+      ok = add_met_cell(grid, cells, triangle_grid_index(cell, x, y), segment);
   }
+  return ok;
+}
+
+/* Lists the segments by the cells that they meet. */
+static bool list_segments_by_cells(struct segment_grid *grid) {
+  struct met_cells cells = {.item = NULL};
+  struct number_lists *lists = &grid->cell.lists;
+  size_t count = triangle_grid_cell_count(&grid->cell);
+  bool ok = number_lists_init(lists, count) &&
+            ARRAY_RESERVE(&cells, 2 * grid->segment.count);
+  for (uint32_t i = 0; ok && i < grid->segment.count; i++)
+    ok = list_segment(grid, &cells, i);
+  ok = ok && number_lists_allocate(lists, count);
+  for (size_t i = 0; ok && i < cells.count; i++)
+    number_lists_put(lists, cells.item[i].cell, cells.item[i].segment);
+  ARRAY_FREE(&cells);
+  return ok;
 }
 
 bool segment_grid_make(struct segment_grid *grid) {
@@ -58,16 +90,7 @@ bool segment_grid_make(struct segment_grid *grid) {
     cell->rows = (int)(((int64_t)all.y1 - all.y0) >> cell->shift) + 1;
   } while ((uint64_t)cell->columns * (uint64_t)cell->rows >
            4 * grid->segment.count + 16);
-  size_t cells = triangle_grid_cell_count(cell);
-  if (!number_lists_init(&cell->lists, cells))
-    return false;
-  for (uint32_t i = 0; i < grid->segment.count; i++)
-    list_segment(grid, i);
-  if (!number_lists_allocate(&cell->lists, cells))
-    return false;
-  for (uint32_t i = 0; i < grid->segment.count; i++)
-    list_segment(grid, i);
-  return true;
+  return list_segments_by_cells(grid);
 }
 
 void segment_grid_fini(struct segment_grid *grid) {
