@@ -6,7 +6,10 @@
 
 bool segment_grid_add(struct segment_grid *grid, struct geom_segment segment,
                       uint32_t owner) {
+  enum { AT_FIRST = 4096 }; /* fewer are copied often as their array grows */
   struct page_segment made = {segment.p, segment.q, owner};
+  if (grid->segment.item == NULL && !ARRAY_RESERVE(&grid->segment, AT_FIRST))
+    return false;
   return (made.p.x == made.q.x && made.p.y == made.q.y) ||
          ARRAY_PUSH(&grid->segment, made);
 }

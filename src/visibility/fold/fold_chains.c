@@ -14,6 +14,9 @@
 /* How far beside an outline nothing must hide it, grid units. */
 #define BESIDE 8
 
+/* Samples of an outline for which there is room at first. */
+enum { SAMPLES_AN_OUTLINE = 6 };
+
 /* ---- What is drawn ------------------------------------------------------- */
 
 /* How far a line may be from a sample beside which it is: its triangle's
@@ -151,6 +154,8 @@ bool fold_chains_sample(const struct fold_chains *c,
   uint32_t i = chain->start;
   double height;
   samples->count = 0;
+  if (!ARRAY_RESERVE(samples, SAMPLES_AN_OUTLINE * (size_t)chain->outlines))
+    return false;
   for (uint32_t k = 0; k < chain->outlines; k++, i = c->next[i])
     if (!fold_samples_add(samples, c->in->sheet, &outline[i], i))
       return false;

@@ -136,8 +136,8 @@ static bool list_wanted_of_range(void *user, struct parallel_range range) {
   const uint8_t *dilated = all->dilated;
   struct cell_counts left = cells_left(all);
   uint64_t looked_at = 0;
-  bool ok = true;
   own->in.count = 0;
+  bool ok = ARRAY_RESERVE(&own->in, (range.end - range.begin) / 2);
   for (size_t t = range.begin; ok && t < range.end; t++) {
     struct cell_range r =
         cells_of_box(&grid, box2_of_triangle(&sheet, (uint32_t)t));
