@@ -154,7 +154,7 @@ librecto_core_la_SOURCES += \
   %D%/zero_set/curvature_noise.c %D%/zero_set/curvature_noise.h \
   %D%/zero_set/curved_triangle.c %D%/zero_set/curved_triangle.h \
   %D%/zero_set/facing.c %D%/zero_set/facing.h \
-  %D%/zero_set/facing_apices.c \
+  %D%/zero_set/facing_apices.c %D%/zero_set/facing_slots.c \
   %D%/zero_set/folded_faces.c %D%/zero_set/folded_faces.h \
   %D%/zero_set/slot_normals.c \
   %D%/zero_set/zero_creases.c \

@@ -187,6 +187,11 @@ static uint32_t find_covering_contour(const struct doubled_contours *d,
   return best;
 }
 
+/* How far from an edge what covers it is, at most. */
+static double reach_of(const struct doubled_contours *d, uint32_t edge) {
+  return fmax(d->beyond, WITHIN_SHARE * (double)d->height[edge - d->first]);
+}
+
 static struct doubled_place place_of_cell(const struct doubled_contours *d,
                                           const struct doubled_cell *cell) {
   uint32_t index = cell->edge - d->first;
@@ -204,16 +209,57 @@ static struct doubled_place place_of_cell(const struct doubled_contours *d,
       .dx = x / length,
       .dy = y / length,
       .along = d->along[index] + t * length,
-      .reach = fmax(d->beyond, WITHIN_SHARE * (double)d->height[index])};
+      .reach = reach_of(d, cell->edge)};
+}
+
+/* Whether two edges are so near each other along a curve that no place of one
+ * covers one of the other. */
+static bool are_near_along(const struct doubled_contours *d, uint32_t e,
+                           uint32_t f) {
+  const double *p = &d->along[e - d->first], *q = &d->along[f - d->first];
+  return fmax(p[1] - q[0], q[1] - p[0]) < APART_ALONG * d->beyond - 1;
+}
+
+/* A filter for edges: whether a contour may cover a place of one. */
+static bool may_be_covered(const struct doubled_contours *d, uint32_t edge) {
+  struct geom_segment of =
+      sheet_ends(d->sheet, d->sheet->edge.item[edge].point);
+  struct box2 box = box2_of_segment(of.p, of.q);
+  double x = ((double)box.x0 + box.x1) / 2, y = ((double)box.y0 + box.y1) / 2;
+  double reach = reach_of(d, edge) + 1, wide = x - box.x0, high = y - box.y0;
+  double farthest = fmin((double)of.p.z, (double)of.q.z);
+  farthest -= 0x1p-50 * fabs(farthest); /* more than rounding */
+  struct segment_walk walk =
+      segment_grid_near(&d->grid, x, y, fmax(wide, high) + reach);
+  const struct page_segment *s;
+  while ((s = segment_walk_next(&walk)) != NULL) {
+    struct box2 b = box2_of_segment(s->p, s->q);
+    if ((double)page_segment_nearest(s) < farthest) {
+      segment_walk_leave_cell(&walk);
+      continue;
+    }
+    if (b.x0 <= x + wide + reach && b.x1 >= x - wide - reach &&
+        b.y0 <= y + high + reach && b.y1 >= y - high - reach &&
+        !do_share_point(d, edge, s->owner) &&
+        !are_near_along(d, edge, s->owner))
+      return true;
+  }
+  return false;
 }
 
 static bool mark_cells_of_range(void *user, struct parallel_range range) {
   struct doubled_contours *d = user;
   uint64_t compared = 0;
+  uint32_t last = SHEET_NONE;
+  bool may_be = false;
   for (size_t i = range.begin; i < range.end; i++) {
     struct doubled_cell *cell = &d->cell.item[i];
-    cell->covering =
-        find_covering_contour(d, place_of_cell(d, cell), &compared);
+    if (cell->edge != last)
+      may_be = may_be_covered(d, cell->edge);
+    last = cell->edge;
+    if (may_be)
+      cell->covering =
+          find_covering_contour(d, place_of_cell(d, cell), &compared);
   }
   d->compared += compared;
   return true;

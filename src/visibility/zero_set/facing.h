@@ -96,10 +96,12 @@ USE_RESULT recto_status facing_init(struct facing *facing,
                                     double crease_deg, recto_error *error);
 void facing_fini(struct facing *facing);
 
-/* Parts of facing_init: the mean normals of slots by their places; then their
- * values, for which normals are turned: of a corner's slot, if that is needed
- * and was not found before, and of all slots.
+/* Parts of facing_init: slots by the edges' classes, and their mean normals by
+ * their places; then their values, for which normals are turned: of a corner's
+ * slot, if that is needed and was not found before, and of all slots.
  * Return false when memory ran out or the caller cancelled. */
+USE_RESULT bool facing_find_slots(struct facing *facing);
+void facing_free_slots(struct facing *facing);
 USE_RESULT bool facing_find_normals(struct facing *facing);
 void facing_find_value(struct facing *facing, uint32_t face, uint32_t corner);
 USE_RESULT bool facing_find_values(struct facing *facing);
