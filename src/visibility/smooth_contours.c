@@ -32,6 +32,7 @@ struct contour_pieces {
   struct sheet *sheet;
   struct map *map;
   struct zero_set *set;
+  const struct outline_chains *chains;
   struct contour_curves *curves;
   struct divided_curves divided;
   struct partial_grid grid; /* about the curves and the mesh's outlines */
@@ -260,6 +261,7 @@ static bool close_gaps(struct contour_pieces *c, uint32_t first,
       .sheet = c->sheet,
       .map = c->map,
       .set = c->set,
+      .chains = c->chains,
       .first = first,
       .first_point = first_point,
       .curve_points = (uint32_t)c->sheet->point.count - first_point,
@@ -349,6 +351,7 @@ recto_status smooth_contours_add(struct sheet *sheet, struct map *map,
       .sheet = sheet,
       .map = map,
       .set = set,
+      .chains = &found->chains,
       .curves = curves,
       .divided = {.sheet = sheet,
                   .curves = curves,

@@ -37,7 +37,8 @@ static bool cut_curves(struct smooth_curves *c) {
 
 static void find_smooth_curves(void *user) {
   struct smooth_curves *c = user;
-  c->ok = find_smooth_set(c) && cut_curves(c);
+  c->ok = find_smooth_set(c) && cut_curves(c) &&
+          (c->has_folds || outline_chains_link(&c->chains, &c->set));
 }
 
 /* Whether the sheet is asked for triangles of warped faces, which have no points
@@ -51,7 +52,8 @@ static bool has_folds(const struct sheet *sheet) {
 
 void smooth_curves_begin(struct smooth_curves *c,
                          const struct smooth_curves_input *input) {
-  if (input->surface->facing == NULL || has_folds(input->sheet))
+  c->has_folds = has_folds(input->sheet);
+  if (input->surface->facing == NULL || c->has_folds)
     return;
   c->in = *input;
   c->is_begun = true;
@@ -74,6 +76,7 @@ void smooth_curves_fini(struct smooth_curves *c) {
   if (c->is_begun)
     parallel_aside_finish(&c->aside, false);
   c->is_begun = false;
+  outline_chains_fini(&c->chains);
   contour_curves_fini(&c->curves);
   zero_set_fini(&c->set);
 }

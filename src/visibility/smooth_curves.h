@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "visibility/contour/contour_curves.h"
+#include "visibility/fold/outline_chains.h"
 #include "visibility/smooth_surface.h"
 #include "visibility/zero_set/folded_faces.h"
 
@@ -20,9 +21,11 @@ struct smooth_curves_input {
 struct smooth_curves {
   struct smooth_curves_input in;
   struct zero_set set;
+  struct outline_chains chains; /* of its outlines; empty where warped faces fold
+                                   over, which have more */
   struct contour_curves curves; /* of it, cut at cusps and where they cross each
                                    other on the page */
-  bool is_begun, ok;
+  bool is_begun, has_folds, ok;
   struct parallel_aside aside;
 };
 

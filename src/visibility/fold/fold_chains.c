@@ -97,22 +97,6 @@ bool fold_chains_is_seen(const struct outline_gaps_input *input,
   return count == 0;
 }
 
-bool fold_chains_may_lack(const struct fold_chains *c,
-                          struct triangle_grid_query *query,
-                          struct fold_sample *s, struct fold_chain_look *look,
-                          bool *ok) {
-  bool is_seen = false;
-  if (look->is_hidden) {
-    is_seen = fold_chains_is_seen(c->in, query, s, ok);
-    if (!is_seen)
-      return false;
-  }
-  fold_chains_look_beside(c->joints, s);
-  look->is_hidden =
-      !s->is_beside && !is_seen && !fold_chains_is_seen(c->in, query, s, ok);
-  return *ok && !s->is_beside && !look->is_hidden;
-}
-
 /* ---- Chains -------------------------------------------------------------- */
 
 /* Adds the chain from an outline on.
@@ -131,25 +115,28 @@ static bool add_chain(struct fold_chains *c, uint32_t start,
 
 /* Open chains first, then closed ones. */
 static bool list_chains(struct fold_chains *c) {
-  struct outline_chains links = {.next = NULL};
+  const struct outline_chains *links = c->in->chains;
   uint32_t outlines = (uint32_t)c->in->set->outline.count;
   uint8_t *is_passed = mem_calloc(outlines, 1);
-  bool ok = is_passed != NULL && outline_chains_link(&links, c->in->set);
-  c->next = links.next;
-  *c->in->compared += links.compared;
+  bool ok = is_passed != NULL;
+  if (ok && links->next == NULL) {
+    links = &c->own;
+    ok = outline_chains_link(&c->own, c->in->set);
+  }
+  c->next = links->next;
+  *c->in->compared += links->compared;
   for (int closed = 0; closed < 2; closed++)
     for (uint32_t i = 0; ok && i < outlines; i++)
-      if (!is_passed[i] && (closed != 0 || !links.is_led_to[i]))
+      if (!is_passed[i] && (closed != 0 || !links->is_led_to[i]))
         ok = add_chain(c, i, is_passed);
-  links.next = NULL;
-  outline_chains_fini(&links);
   mem_free(is_passed);
   return ok;
 }
 
-bool fold_chains_sample(const struct fold_chains *c,
-                        const struct fold_chain *chain,
-                        struct fold_samples *samples) {
+/* Places the samples of a chain; none of one that is not long. */
+static bool place_fold_samples(const struct fold_chains *c,
+                               const struct fold_chain *chain,
+                               struct fold_samples *samples) {
   const struct contour_outline *outline = c->in->set->outline.item;
   uint32_t i = chain->start;
   double height;
@@ -164,6 +151,111 @@ bool fold_chains_sample(const struct fold_chains *c,
       !fold_joints_may_join(c->joints, run, FOLD_LEAST_HEIGHTS))
     samples->count = 0;
   return true;
+}
+
+/* ---- Samples ------------------------------------------------------------- */
+
+/* What looking at the samples of a chain needs. */
+struct chain_look {
+  const struct fold_chains *chains;
+  const struct added_folds *added;
+  struct triangle_grid_query *query;
+  struct fold_samples *sample;
+  bool is_hidden; /* the last one asked for was */
+  bool ok;
+};
+
+static bool is_seen(struct chain_look *l, const struct fold_sample *s) {
+  return fold_chains_is_seen(l->chains->in, l->query, s, &l->ok);
+}
+
+/* Lets the samples of a closed chain begin where there is no line, and none is
+ * to be drawn.  Returns whether there is such a place, or memory ran out. */
+static bool open_ring(struct chain_look *l) {
+  struct fold_samples *s = l->sample;
+  size_t count = s->count, at = 0;
+  l->ok = ARRAY_RESERVE(s, count);
+  for (; at < count; at++) {
+    fold_chains_look_beside(l->chains->joints, &s->item[at]);
+    if (s->item[at].is_beside)
+      break;
+  }
+  if (at == count)
+    for (at = 0; l->ok && at < count &&
+                 !added_folds_beside(l->added, &s->item[at]) &&
+                 is_seen(l, &s->item[at]);)
+      at++;
+  if (!l->ok || at == count)
+    return !l->ok;
+  memcpy(s->item + count, s->item, at * sizeof *s->item);
+  memmove(s->item, s->item + at, count * sizeof *s->item);
+  return true;
+}
+
+/* Whether a sample is seen, and no line is beside it.  Where the last one was
+ * hidden this one is likely to be, else a line to be beside it: what is likely
+ * is asked first. */
+static bool may_sample_lack(struct chain_look *l, struct fold_sample *s) {
+  bool was_hidden = l->is_hidden;
+  if (was_hidden && !is_seen(l, s))
+    return false;
+  fold_chains_look_beside(l->chains->joints, s);
+  l->is_hidden = !s->is_beside && !was_hidden && !is_seen(l, s);
+  return !s->is_beside && !l->is_hidden;
+}
+
+/* Looks beside samples from one on, in steps of 1 or of SIZE_MAX, up to the
+ * first that has a line beside it, and as far beyond as a line may be led on.
+ * Returns that one, or the number of samples. */
+static size_t look_along(struct chain_look *l, size_t from, size_t step,
+                         double most) {
+  size_t count = l->sample->count, first = count;
+  double passed = 0;
+  for (size_t i = from; i < count && passed <= most; i += step) {
+    struct fold_sample *s = &l->sample->item[i];
+    fold_chains_look_beside(l->chains->joints, s);
+    if (first == count && s->is_beside)
+      first = i;
+    passed += first < count ? s->step : 0;
+  }
+  return first;
+}
+
+/* Looks beside all samples of those parts of the chain without lines beside
+ * them of which something is seen, and leaves out the others.  Returns whether
+ * there are such. */
+static bool look_beside_seen(struct chain_look *l) {
+  struct fold_samples *all = l->sample;
+  double most = 0;
+  bool any = false;
+  for (size_t i = 0; i < all->count; i++)
+    most = fmax(most, FOLD_LEAD_HEIGHTS * all->item[i].height);
+  for (size_t i = 0; l->ok && i < all->count; i++)
+    if (may_sample_lack(l, &all->item[i])) {
+      (void)look_along(l, i, SIZE_MAX, most);
+      i = look_along(l, i, 1, most);
+      any = true;
+    }
+  for (size_t i = 0; i < all->count; i++)
+    all->item[i].is_beside |= !all->item[i].is_looked_beside;
+  return any;
+}
+
+bool fold_chains_sample(const struct fold_chains *c, struct fold_chain *chain,
+                        const struct added_folds *added,
+                        struct triangle_grid_query *query,
+                        struct fold_samples *samples) {
+  struct chain_look look = {.chains = c,
+                            .added = added,
+                            .query = query,
+                            .sample = samples,
+                            .ok = true};
+  if (!place_fold_samples(c, chain, samples))
+    return false;
+  chain->is_ring =
+      samples->count > 0 && chain->is_closed && !open_ring(&look);
+  chain->may_lack_lines = chain->is_ring || look_beside_seen(&look);
+  return look.ok;
 }
 
 /* ---- What they lack ------------------------------------------------------ */
@@ -182,23 +274,19 @@ struct fold_chain_search {
   struct own_samples *own; /* one a worker */
 };
 
-static bool may_chain_lack(const struct fold_chains *c, struct own_samples *own,
-                           bool *ok) {
-  struct fold_chain_look look = {.is_hidden = false};
-  for (size_t k = 0; *ok && k < own->sample.count; k++)
-    if (fold_chains_may_lack(c, &own->query, &own->sample.item[k], &look, ok))
-      return true;
-  return false;
-}
-
 static bool search_chains_of_range(void *user, struct parallel_range range) {
+  static const struct added_folds none = {.cell = 1};
   const struct fold_chain_search *search = user;
   struct fold_chains *c = search->chains;
   struct own_samples *own = &search->own[range.worker];
   bool ok = true;
   for (size_t i = range.begin; ok && i < range.end; i++) {
-    ok = fold_chains_sample(c, &c->item[i], &own->sample);
-    c->item[i].may_lack_lines = ok && may_chain_lack(c, own, &ok);
+    struct fold_chain *chain = &c->item[i];
+    ok = fold_chains_sample(c, chain, &none, &own->query, &own->sample);
+    if (ok && chain->may_lack_lines) { /* which are few */
+      chain->sample = own->sample;
+      own->sample = (struct fold_samples){.item = NULL};
+    }
   }
   return ok;
 }
@@ -225,6 +313,8 @@ bool fold_chains_find(struct fold_chains *c) {
 }
 
 void fold_chains_fini(struct fold_chains *c) {
-  mem_free(c->next);
+  outline_chains_fini(&c->own);
+  for (size_t i = 0; i < c->count; i++)
+    ARRAY_FREE(&c->item[i].sample);
   ARRAY_FREE(c);
 }

@@ -3,7 +3,9 @@
 #ifndef VISIBILITY_FOLD_FOLD_CHAINS_H
 #define VISIBILITY_FOLD_FOLD_CHAINS_H
 
+#include "visibility/fold/added_folds.h"
 #include "visibility/fold/fold_joints.h"
+#include "visibility/fold/outline_chains.h"
 
 /* No line is of fewer heights of its triangles. */
 #define FOLD_LEAST_HEIGHTS 0.5
@@ -11,15 +13,18 @@
 struct fold_chain {
   uint32_t start, outlines; /* the first one, and how many follow each other */
   bool is_closed;
+  bool is_ring;        /* no line is beside it, and nothing hides any of it */
   bool may_lack_lines; /* a sample is seen beside which no line is */
+  struct fold_samples sample; /* if so */
 };
 
 struct fold_chains {
   const struct outline_gaps_input *in; /* borrowed, not owned */
   const struct fold_joints *joints;    /* listed; the same */
   double long_on_page;                 /* as of fold_run_is_long */
-  uint32_t *next;                      /* as of outline_chains */
-  struct fold_chain *item; /* open ones first; each by its first outline */
+  const uint32_t *next;                /* as of outline_chains */
+  struct outline_chains own; /* where the input has none */
+  struct fold_chain *item;   /* open ones first; each by its first outline */
   size_t count, capacity;
 };
 
@@ -30,10 +35,15 @@ struct fold_chains {
 USE_RESULT bool fold_chains_find(struct fold_chains *chains);
 void fold_chains_fini(struct fold_chains *chains);
 
-/* Samples a chain; there are no samples of one that is not long.  Returns false
- * when memory ran out. */
+/* Samples a chain, and finds again what is known of it.  Those samples alone
+ * count as having no line beside them that are of parts of which something is
+ * seen.
+ * added  lines that were added
+ * Returns false when memory ran out. */
 USE_RESULT bool fold_chains_sample(const struct fold_chains *chains,
-                                   const struct fold_chain *chain,
+                                   struct fold_chain *chain,
+                                   const struct added_folds *added,
+                                   struct triangle_grid_query *query,
                                    struct fold_samples *samples);
 
 /* Finds what lines are beside a sample, nearer than a height, unless that was
@@ -47,17 +57,5 @@ void fold_chains_look_beside(const struct fold_joints *joints,
 bool fold_chains_is_seen(const struct outline_gaps_input *input,
                          struct triangle_grid_query *query,
                          const struct fold_sample *sample, bool *ok);
-
-/* Whether a sample is seen, and no line is beside it.  Where the last one was
- * hidden this one is likely to be, else a line to be beside it: what is likely
- * is asked first.
- * look  of the sample before */
-struct fold_chain_look {
-  bool is_hidden;
-};
-bool fold_chains_may_lack(const struct fold_chains *chains,
-                          struct triangle_grid_query *query,
-                          struct fold_sample *sample,
-                          struct fold_chain_look *look, bool *ok);
 
 #endif

@@ -30,6 +30,7 @@ struct fold_lines {
   const struct outline_gaps_input *in;
   struct fold_joints joints;
   struct fold_chains chains;
+  size_t edges; /* before lines are added */
   double long_on_page; /* grid units */
   struct added_folds added;
   struct fold_samples sample; /* of a chain */
@@ -218,81 +219,22 @@ static bool add_visible_lines(struct fold_lines *f, size_t from, size_t to) {
           add_fold_runs(f, from, to, height, DOUBLED_HEIGHTS * height));
 }
 
-/* Lets the samples of a closed chain begin where there is no line, and none is
- * to be drawn.
- * is_ring  set if there is no such place */
-static bool open_ring(struct fold_lines *f, bool *is_ring) {
-  struct fold_samples *s = &f->sample;
-  size_t count = s->count, at = 0;
-  bool ok = ARRAY_RESERVE(s, count);
-  for (; at < count; at++) {
-    fold_chains_look_beside(&f->joints, &s->item[at]);
-    if (s->item[at].is_beside)
-      break;
-  }
-  if (at == count)
-    for (at = 0; ok && at < count && is_visible(f, &s->item[at], &ok);)
-      at++;
-  *is_ring = at == count;
-  if (!ok || *is_ring)
-    return ok;
-  memcpy(s->item + count, s->item, at * sizeof *s->item);
-  memmove(s->item, s->item + at, count * sizeof *s->item);
+/* Samples a chain, unless that serves which was found before lines were
+ * added. */
+static bool sample_chain(struct fold_lines *f, struct fold_chain *chain) {
+  if (f->in->map->edge_count != f->edges)
+    return fold_chains_sample(&f->chains, chain, &f->added, f->in->query,
+                              &f->sample);
+  ARRAY_FREE(&f->sample);
+  f->sample = chain->sample;
+  chain->sample = (struct fold_samples){.item = NULL};
   return true;
 }
 
-/* Looks beside samples from one on, in steps of 1 or of SIZE_MAX, up to the
- * first that has a line beside it, and as far beyond as a line may be led on.
- * Returns that one, or the number of samples. */
-static size_t look_along(struct fold_lines *f, size_t from, size_t step,
-                         double most) {
-  size_t count = f->sample.count, first = count;
-  double passed = 0;
-  for (size_t i = from; i < count && passed <= most; i += step) {
-    struct fold_sample *s = &f->sample.item[i];
-    fold_chains_look_beside(&f->joints, s);
-    if (first == count && s->is_beside)
-      first = i;
-    passed += first < count ? s->step : 0;
-  }
-  return first;
-}
-
-/* Looks beside all samples of those parts of the chain without lines beside
- * them of which something is seen, and leaves out the others. */
-static bool look_beside_seen(struct fold_lines *f) {
-  struct fold_samples *all = &f->sample;
-  struct fold_chain_look look = {.is_hidden = false};
-  double most = 0;
-  bool ok = true;
-  for (size_t i = 0; i < all->count; i++)
-    most = fmax(most, FOLD_LEAD_HEIGHTS * all->item[i].height);
-  for (size_t i = 0; ok && i < all->count; i++)
-    if (fold_chains_may_lack(&f->chains, f->in->query, &all->item[i], &look,
-                             &ok)) {
-      (void)look_along(f, i, SIZE_MAX, most);
-      i = look_along(f, i, 1, most);
-    }
-  for (size_t i = 0; i < all->count; i++)
-    all->item[i].is_beside |= !all->item[i].is_looked_beside;
-  return ok;
-}
-
-/* Samples a chain and looks beside it. */
-static bool sample_chain(struct fold_lines *f, const struct fold_chain *chain,
-                         bool *is_ring) {
-  *is_ring = false;
-  return fold_chains_sample(&f->chains, chain, &f->sample) &&
-         (!chain->is_closed || open_ring(f, is_ring)) &&
-         (*is_ring || look_beside_seen(f));
-}
-
-static bool add_lines_of_chain(struct fold_lines *f,
-                               const struct fold_chain *chain) {
-  bool is_ring;
-  if (!sample_chain(f, chain, &is_ring))
+static bool add_lines_of_chain(struct fold_lines *f, struct fold_chain *chain) {
+  if (!sample_chain(f, chain))
     return false;
-  if (is_ring)
+  if (chain->is_ring)
     return add_line(f, 0, f->sample.count, true);
   for (size_t from = 0; from < f->sample.count;) {
     size_t to = from;
@@ -306,6 +248,7 @@ static bool add_lines_of_chain(struct fold_lines *f,
 }
 
 static bool add_all_lines(struct fold_lines *f) {
+  f->edges = f->in->map->edge_count;
   for (size_t i = 0; i < f->chains.count; i++)
     if (!poll_at(i) || (f->chains.item[i].may_lack_lines &&
                         !add_lines_of_chain(f, &f->chains.item[i])))

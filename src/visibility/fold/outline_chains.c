@@ -255,4 +255,6 @@ bool outline_chains_link(struct outline_chains *chains,
 void outline_chains_fini(struct outline_chains *chains) {
   mem_free(chains->next);
   mem_free(chains->is_led_to);
+  chains->next = NULL;
+  chains->is_led_to = NULL;
 }

@@ -10,6 +10,7 @@
 /* What is completed. */
 struct outline_gaps_input {
   struct sheet *sheet;
+  const struct outline_chains *chains; /* of the outlines; empty: not known */
   struct map *map;
   const struct zero_set *set; /* its outlines */
   uint32_t first;             /* of the sheet's edges: of contours */
