@@ -197,6 +197,40 @@ static void list_values(const struct value_search *search) {
   }
 }
 
+/* The search for the faces that may be crossed, whose values are known. */
+struct crossed_search {
+  struct facing *facing;
+  size_t *kept; /* one a range: how many, at its beginning */
+};
+
+static bool keep_crossed_of_range(void *user, struct parallel_range range) {
+  const struct crossed_search *search = user;
+  const struct facing *f = search->facing;
+  uint32_t *face = f->mixed.item;
+  size_t kept = range.begin;
+  for (size_t i = range.begin; i < range.end; i++)
+    if (may_be_crossed(f, face[i]))
+      face[kept++] = face[i];
+  search->kept[range.begin / ITEMS_IN_RANGE] = kept - range.begin;
+  return true;
+}
+
+/* Leaves out the mixed faces that are not crossed. */
+static bool keep_crossed(struct facing *f) {
+  size_t n = f->mixed.count;
+  struct crossed_search search = {
+      f, mem_alloc(parallel_range_count(n, ITEMS_IN_RANGE),
+                   sizeof *search.kept)};
+  bool ok = search.kept != NULL &&
+            parallel_ranges(parallel_workers(n, ITEMS_IN_RANGE), n,
+                            ITEMS_IN_RANGE, keep_crossed_of_range, &search);
+  if (ok)
+    f->mixed.count = parallel_gather(f->mixed.item, sizeof *f->mixed.item, n,
+                                     ITEMS_IN_RANGE, search.kept);
+  mem_free(search.kept);
+  return ok;
+}
+
 bool facing_find_values(struct facing *f) {
   struct value_search search = {f, mem_alloc(f->count, sizeof *search.of)};
   if (search.of == NULL)
@@ -206,10 +240,5 @@ bool facing_find_values(struct facing *f) {
       parallel_ranges(parallel_workers(f->count, ITEMS_IN_RANGE), f->count,
                       ITEMS_IN_RANGE, find_values_of_range, &search);
   mem_free(search.of);
-  size_t kept = 0;
-  for (size_t i = 0; ok && i < f->mixed.count; i++)
-    if (may_be_crossed(f, f->mixed.item[i]))
-      f->mixed.item[kept++] = f->mixed.item[i];
-  f->mixed.count = kept;
-  return ok;
+  return ok && keep_crossed(f);
 }

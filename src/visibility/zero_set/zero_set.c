@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/parallel.h"
 #include "base/poll.h"
 #include "scene/triangulation/triangulate.h"
 #include "view/clip.h"
@@ -219,15 +220,19 @@ static struct view_point view_of_corner(const struct zero_finder *z,
   return zero_finder_view(z, at);
 }
 
-static struct face_box face_view_box(const struct zero_finder *z,
-                                     uint32_t face) {
-  const struct scene *scene = z->facing->scene;
+/* The box of a face; its corners, which are on the mesh, are included in an
+ * extent. */
+static struct face_box face_view_box(const struct zero_finder *z, uint32_t face,
+                                     struct extent *extent) {
+  const struct facing *f = z->facing;
   struct face_box box = {{INFINITY, INFINITY, INFINITY},
                          {-INFINITY, -INFINITY, -INFINITY}};
-  for (uint32_t c = scene_face_start(scene, face);
-       c < scene_face_start(scene, face + 1); c++) {
+  for (uint32_t c = scene_face_start(f->scene, face);
+       c < scene_face_start(f->scene, face + 1); c++) {
     struct view_point v = view_of_corner(z, c);
     const double of[3] = {v.x, v.y, v.d};
+    if (v.d >= f->camera->near_d)
+      extent_grow(extent, f->camera, v);
     for (int k = 0; k < 3; k++) {
       box.low[k] = of[k] < box.low[k] ? of[k] : box.low[k];
       box.high[k] = of[k] > box.high[k] ? of[k] : box.high[k];
@@ -270,35 +275,48 @@ static bool lies_within(const struct extent *extent, const struct extent *of) {
   return true;
 }
 
-/* Includes the corners of the faces that are crossed, which are on the mesh. */
-static bool include_corners(const struct zero_finder *z,
-                            struct extent *extent) {
-  const struct facing *f = z->facing;
-  for (size_t i = 0; i < f->mixed.count; i++) {
-    uint32_t face = f->mixed.item[i];
-    if (!poll_at(i))
-      return false;
-    for (uint32_t c = scene_face_start(f->scene, face);
-         c < scene_face_start(f->scene, face + 1); c++) {
-      struct view_point v = view_of_corner(z, c);
-      if (v.d >= f->camera->near_d)
-        extent_grow(extent, f->camera, v);
-    }
-  }
+/* The boxes of the faces that are crossed. */
+struct face_boxes {
+  const struct zero_finder *finder;
+  struct face_box *box;
+  struct extent *extent; /* one a range: of corners */
+};
+
+enum { BOXES_IN_RANGE = PARALLEL_RANGE(256) };
+
+static bool find_boxes_of_range(void *user, struct parallel_range range) {
+  const struct face_boxes *boxes = user;
+  const uint32_t *face = boxes->finder->facing->mixed.item;
+  struct extent extent = extent_empty();
+  for (size_t i = range.begin; i < range.end; i++)
+    boxes->box[i] = face_view_box(boxes->finder, face[i], &extent);
+  boxes->extent[range.begin / BOXES_IN_RANGE] = extent;
   return true;
 }
 
-/* Crosses those faces whose contours may not lie within the extent. */
-static bool cross_faces_beyond(struct zero_finder *z,
+/* Finds the boxes, and includes the corners of the faces. */
+static bool find_boxes(const struct face_boxes *boxes, size_t n,
+                       struct extent *extent) {
+  bool ok = boxes->box != NULL && boxes->extent != NULL &&
+            parallel_ranges(parallel_workers(n, BOXES_IN_RANGE), n,
+                            BOXES_IN_RANGE, find_boxes_of_range,
+                            (void *)(uintptr_t)boxes);
+  for (size_t r = 0; ok && r < parallel_range_count(n, BOXES_IN_RANGE); r++)
+    extent_include(extent, &boxes->extent[r]);
+  return ok;
+}
+
+/* Crosses those faces whose contours may not lie within the extent.
+ * all  their boxes */
+static bool cross_faces_beyond(struct zero_finder *z, struct face_box *all,
                                const struct extent *extent) {
   const struct facing *f = z->facing;
   for (size_t i = 0; i < f->mixed.count; i++) {
     if (!poll_at(i))
       return false;
-    struct face_box box = face_view_box(z, f->mixed.item[i]);
-    enlarge_box(&box);
-    struct extent most = extent_of_box(f->camera, &box);
-    if (!(box.low[2] >= f->camera->near_d && lies_within(extent, &most)) &&
+    enlarge_box(&all[i]);
+    struct extent most = extent_of_box(f->camera, &all[i]);
+    if (!(all[i].low[2] >= f->camera->near_d && lies_within(extent, &most)) &&
         !cross_face(z, f->mixed.item[i]))
       return false;
   }
@@ -313,8 +331,14 @@ recto_status zero_set_grow_extent(struct extent *extent,
                           .facing = facing,
                           .projection = projection_of(facing->camera),
                           .mesh_is_inside = true};
-  bool ok = include_corners(&z, extent) && reserve_nodes(&z) &&
-            cross_faces_beyond(&z, extent);
+  size_t n = facing->mixed.count;
+  const struct face_boxes boxes = {
+      &z, mem_alloc(n, sizeof *boxes.box),
+      mem_alloc(parallel_range_count(n, BOXES_IN_RANGE), sizeof *boxes.extent)};
+  bool ok = find_boxes(&boxes, n, extent) && reserve_nodes(&z) &&
+            cross_faces_beyond(&z, boxes.box, extent);
+  mem_free(boxes.box);
+  mem_free(boxes.extent);
   for (size_t i = 0; ok && i < set.node.count; i++) {
     const struct contour_node *node = &set.node.item[i];
     if (node->degree > 0) /* it is not in front of the near plane */
