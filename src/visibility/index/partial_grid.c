@@ -105,12 +105,16 @@ static bool list_in_cells(const struct partial_grid *p, uint32_t t,
     int x0 = r.x0, x1 = r.x1;
     if (is_wide)
       triangle_grid_row_of_triangle(&p->grid, t, r, y, &x0, &x1);
+    size_t width = x1 >= x0 ? (size_t)(x1 - x0) + 1 : 0;
+    if (!ARRAY_RESERVE(&own->in, width))
+      return false;
+    struct triangle_in_cell *to = own->in.item + own->in.count;
     size_t cell = triangle_grid_index(&p->grid, x0, y);
-    for (int x = x0; x <= x1; x++, cell++)
-      if (p->wanted[cell] &&
-          !ARRAY_PUSH(&own->in, ((struct triangle_in_cell){(uint32_t)cell, t})))
-        return false;
-    *looked_at += (uint64_t)(x1 >= x0 ? x1 - x0 + 1 : 1);
+    for (size_t end = cell + width; cell < end; cell++)
+      if (p->wanted[cell])
+        *to++ = (struct triangle_in_cell){(uint32_t)cell, t};
+    own->in.count = (size_t)(to - own->in.item);
+    *looked_at += width > 0 ? width : 1;
   }
   return true;
 }
@@ -137,7 +141,7 @@ static bool list_wanted_of_range(void *user, struct parallel_range range) {
   struct cell_counts left = cells_left(all);
   uint64_t looked_at = 0;
   own->in.count = 0;
-  bool ok = ARRAY_RESERVE(&own->in, (range.end - range.begin) / 2);
+  bool ok = ARRAY_RESERVE(&own->in, range.end - range.begin);
   for (size_t t = range.begin; ok && t < range.end; t++) {
     struct cell_range r =
         cells_of_box(&grid, box2_of_triangle(&sheet, (uint32_t)t));

@@ -88,29 +88,40 @@ static bool find_signs_of_range(void *user, struct parallel_range range) {
   return true;
 }
 
-/* The same of triangles whose directions are known: it is theirs where they are
- * not seen nearly edge-on, as none of their coordinates is off by as much as
- * one. */
+/* The sign of a triangle whose direction is known: it is that of its product
+ * with the view where the triangle is not seen nearly edge-on.
+ * bound  of the error of the product: none of the direction's coordinates is
+ *        off by as much as one */
+static inline uint8_t sign_by_direction(const struct facing *f, size_t face,
+                                        const double v[3], double bound) {
+  struct face_direction d = f->topology->direction[face];
+  double product = d.x * v[0] + d.y * v[1] + d.z * v[2];
+  if (product > bound)
+    return FACING_BACK;
+  if (product < -bound && !f->any_coarse)
+    return FACING_FRONT;
+  return find_sign(f, (uint32_t)face);
+}
+
+static inline double bound_of_view(const double v[3]) {
+  return fabs(v[0]) + fabs(v[1]) + fabs(v[2]);
+}
+
+/* The same of triangles whose directions are known. */
 static bool find_signs_by_directions(void *user, struct parallel_range range) {
   const struct facing *f = user;
-  const struct face_direction *direction = f->topology->direction;
-  const bool in_perspective = f->camera->perspective;
   uint8_t *sign = f->face_sign;
-  double v[3] = {0, 0, 0}, at[3];
-  if (!in_perspective)
-    facing_view(f->camera, v, v);
+  double at[3] = {0, 0, 0}, v[3];
+  facing_view(f->camera, at, v);
+  const double along[3] = {v[0], v[1], v[2]}, bound = bound_of_view(along);
   for (size_t face = range.begin; face < range.end; face++) {
-    struct face_direction d = direction[face];
-    if (in_perspective) {
-      facing_position(f, facing_point(f, 3 * (uint32_t)face), at);
-      facing_view(f->camera, at, v);
+    if (!f->camera->perspective) {
+      sign[face] = sign_by_direction(f, face, along, bound);
+      continue;
     }
-    double dot = d.x * v[0] + d.y * v[1] + d.z * v[2];
-    if (fabs(dot) <= fabs(v[0]) + fabs(v[1]) + fabs(v[2]) ||
-        (f->any_coarse && dot < 0))
-      sign[face] = find_sign(f, (uint32_t)face);
-    else
-      sign[face] = dot < 0 ? FACING_FRONT : FACING_BACK;
+    facing_position(f, facing_point(f, 3 * (uint32_t)face), at);
+    facing_view(f->camera, at, v);
+    sign[face] = sign_by_direction(f, face, v, bound_of_view(v));
   }
   return true;
 }
