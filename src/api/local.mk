@@ -31,6 +31,7 @@ librecto_core_la_SOURCES += \
   %D%/render.c %D%/render.h \
   %D%/render_scene.c \
   %D%/render_warnings.c %D%/render_warnings.h \
+  %D%/render_contours.c %D%/render_contours.h \
   %D%/render_multiview.c %D%/render_multiview.h \
   %D%/preparation.c %D%/preparation.h \
   %D%/result.c %D%/result.h %D%/result_edges.c %D%/result_faces.c \

@@ -84,8 +84,7 @@ static recto_status store_classes(struct preparation *preparation,
   bool is_smooth = options->ink.contours == RECTO_CONTOURS_SMOOTH;
   if (!topology_store_class_masks(topology, preparation->scene,
                                   options->mesh.crease_deg, is_smooth) ||
-      (is_smooth &&
-       !topology_store_coarse_parts(topology, preparation->scene)))
+      (is_smooth && !topology_store_coarse_parts(topology, preparation->scene)))
     return error_memory(error);
   if (use == PREPARATION_FOR_VIEWS)
     topology_drop_directions(topology);

@@ -17,6 +17,7 @@
 #include "api/method.h"
 #include "api/output_format.h"
 #include "api/render.h"
+#include "api/render_contours.h"
 #include "api/render_warnings.h"
 #include "api/result.h"
 #include "api/rounded_warning.h"
@@ -30,7 +31,6 @@
 #include "ink/ink.h"
 #include "ink/pens.h"
 #include "visibility/quantitative_invisibility.h"
-#include "visibility/smooth_contours.h"
 #include "visibility/solver.h"
 
 /* The results of the stages; zero-initialised is empty. */
@@ -199,13 +199,8 @@ static recto_status project_scene(struct render *render, recto_error *error) {
 }
 
 static struct smooth_curves_input curves_input(struct render *render) {
-  return (struct smooth_curves_input){
-      .sheet = &render->sheet,
-      .surface = &render->surface,
-      .topology = &render->topology,
-      .crease_deg = render->options->mesh.crease_deg,
-      .exact = render->options->ink.exact ||
-               render->options->ink.min_stroke_mm == 0};
+  return render_contours_input(&render->sheet, &render->surface,
+                               &render->topology, render->options);
 }
 
 static recto_status solve_visibility(struct render *render,
@@ -238,23 +233,11 @@ static recto_status find_invisibility(struct render *render,
 
 static recto_status add_smooth_contours(struct render *render,
                                         recto_error *error) {
-  const recto_options *options = render->options;
   const struct smooth_curves_input input = curves_input(render);
-  const struct smooth_contours_options how = {
-      .hidden_max = options->ink.hidden ? options->ink.hidden_by_max : 0,
-      .intersections = (options->ink.edges & RECTO_EDGE_INTERSECTION) != 0};
-  struct smooth_contours_counts counts;
-  if (!draws_smooth_contours(render))
-    return RECTO_OK;
-  recto_status status =
-      smooth_contours_add(&render->sheet, &render->map, &render->curves, &input,
-                          how, &counts, error);
-  smooth_curves_fini(&render->curves);
-  report_count(render->report, "contours", "segments", counts.segments);
-  report_count(render->report, "contours", "curves", counts.curves);
-  report_count(render->report, "contours", "pieces", counts.pieces);
-  report_count(render->report, "contours", "compared", counts.compared);
-  return status;
+  return draws_smooth_contours(render)
+             ? render_contours_add(&render->map, &render->curves, &input,
+                                   render->options, render->report, error)
+             : RECTO_OK;
 }
 
 static recto_status ink(struct render *render, recto_error *error) {

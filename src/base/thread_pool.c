@@ -20,8 +20,8 @@ struct thread_pool {
   pthread_cond_t is_idle; /* no thread works */
   thread_pool_work *work; /* what is offered; NULL: nothing is */
   void *user;
-  int places;  /* threads that may still begin with it */
-  int working; /* threads that do it */
+  int places;              /* threads that may still begin with it */
+  int working;             /* threads that do it */
   thread_pool_work *given; /* to one thread; NULL: nothing is */
   void *given_user;
   enum { GIVEN_WAITS, GIVEN_BEGAN, GIVEN_ENDED } given_state;

@@ -19,6 +19,7 @@ librecto_core_la_SOURCES += \
   %D%/contour/curve_ends.c %D%/contour/curve_ends.h \
   %D%/contour/curve_pieces.c %D%/contour/curve_pieces.h \
   %D%/contour/divided_curves.c %D%/contour/divided_curves.h \
+  %D%/contour/doubled_cells.c %D%/contour/doubled_cells.h \
   %D%/contour/doubled_contours.c %D%/contour/doubled_contours.h \
   %D%/contour/end_zigzags.c %D%/contour/end_zigzags.h \
   %D%/contour/intersection_cuts.c %D%/contour/intersection_cuts.h \

@@ -290,9 +290,8 @@ static bool add_pieces(struct contour_pieces *c) {
   return ok && divided_curves_count(&c->divided, &c->occluders) &&
          add_all_curves(c) &&
          doubled_contours_hide(c->sheet, c->map, first, c->height.item,
-                               c->exact
-                                   ? RECTO_FINEST_MM * SHEET_UNITS_PER_MM
-                                   : TOLERANCE_OUTLINE_UNITS,
+                               c->exact ? RECTO_FINEST_MM * SHEET_UNITS_PER_MM
+                                        : TOLERANCE_OUTLINE_UNITS,
                                &c->curves->compared) &&
          contour_creases_leave_out(c->sheet, c->map, first) &&
          close_gaps(c, first, first_point);

@@ -21,7 +21,8 @@ struct smooth_curves_input {
 struct smooth_curves {
   struct smooth_curves_input in;
   struct zero_set set;
-  struct outline_chains chains; /* of its outlines; empty where warped faces fold
+  struct outline_chains
+      chains; /* of its outlines; empty where warped faces fold
                                    over, which have more */
   struct contour_curves curves; /* of it, cut at cusps and where they cross each
                                    other on the page */
@@ -38,9 +39,9 @@ void smooth_curves_begin(struct smooth_curves *curves,
 
 /* Finds the curves, unless another thread did.
  * Errors  RECTO_ERROR_MEMORY, RECTO_ERROR_CANCELLED */
-USE_RESULT recto_status smooth_curves_find(
-    struct smooth_curves *curves, const struct smooth_curves_input *input,
-    recto_error *error);
+USE_RESULT recto_status
+smooth_curves_find(struct smooth_curves *curves,
+                   const struct smooth_curves_input *input, recto_error *error);
 void smooth_curves_fini(struct smooth_curves *curves);
 
 #endif

@@ -47,7 +47,8 @@ static bool mark_coarse_parts(const struct topology *topology,
                               size_t points, uint8_t *coarse) {
   uint32_t(*count)[2] = mem_calloc(points, sizeof *count); /* all, creases */
   for (size_t e = 0; count != NULL && e < topology->edge.count; e++) {
-    uint32_t *of = count[union_find_root(part, topology->edge.item[e].point[0])];
+    uint32_t *of =
+        count[union_find_root(part, topology->edge.item[e].point[0])];
     of[0]++;
     of[1] += (class_masks[e] & RECTO_EDGE_CREASE) != 0;
   }

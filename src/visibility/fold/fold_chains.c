@@ -252,8 +252,7 @@ bool fold_chains_sample(const struct fold_chains *c, struct fold_chain *chain,
                             .ok = true};
   if (!place_fold_samples(c, chain, samples))
     return false;
-  chain->is_ring =
-      samples->count > 0 && chain->is_closed && !open_ring(&look);
+  chain->is_ring = samples->count > 0 && chain->is_closed && !open_ring(&look);
   chain->may_lack_lines = chain->is_ring || look_beside_seen(&look);
   return look.ok;
 }

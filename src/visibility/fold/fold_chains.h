@@ -23,8 +23,8 @@ struct fold_chains {
   const struct fold_joints *joints;    /* listed; the same */
   double long_on_page;                 /* as of fold_run_is_long */
   const uint32_t *next;                /* as of outline_chains */
-  struct outline_chains own; /* where the input has none */
-  struct fold_chain *item;   /* open ones first; each by its first outline */
+  struct outline_chains own;           /* where the input has none */
+  struct fold_chain *item; /* open ones first; each by its first outline */
   size_t count, capacity;
 };
 

@@ -30,7 +30,7 @@ struct fold_lines {
   const struct outline_gaps_input *in;
   struct fold_joints joints;
   struct fold_chains chains;
-  size_t edges; /* before lines are added */
+  size_t edges;        /* before lines are added */
   double long_on_page; /* grid units */
   struct added_folds added;
   struct fold_samples sample; /* of a chain */

@@ -163,8 +163,8 @@ static bool list_wanted_triangles(struct wanted_triangles *all, bool *many) {
   size_t n = all->sheet->triangle.count;
   int workers = parallel_workers(n, PARALLEL_ITEMS);
   all->looked_at = all->listed = 0;
-  bool ok = parallel_ranges(workers, n, PARALLEL_ITEMS, list_wanted_of_range,
-                            all);
+  bool ok =
+      parallel_ranges(workers, n, PARALLEL_ITEMS, list_wanted_of_range, all);
   struct cell_counts left = cells_left(all);
   *many = left.looked_at == 0 || left.listed == 0;
   return ok;
@@ -206,13 +206,12 @@ static bool make_lists(struct triangle_grid *grid,
 }
 
 bool partial_grid_fill(struct partial_grid *p, const struct sheet *sheet) {
-  size_t ranges =
-      parallel_range_count(sheet->triangle.count, PARALLEL_ITEMS);
-  struct wanted_triangles all = {
-      .partial = p,
-      .sheet = sheet,
-      .ranges = ranges,
-      .range = mem_calloc(ranges, sizeof *all.range)};
+  size_t ranges = parallel_range_count(sheet->triangle.count, PARALLEL_ITEMS);
+  struct wanted_triangles all = {.partial = p,
+                                 .sheet = sheet,
+                                 .ranges = ranges,
+                                 .range =
+                                     mem_calloc(ranges, sizeof *all.range)};
   bool ok = all.range != NULL && fit_cells(p, &all) &&
             make_lists(&p->grid, &all) && triangle_grid_split(&p->grid, false);
   for (size_t r = 0; all.range != NULL && r < ranges; r++)

@@ -131,13 +131,12 @@ static bool find_face_signs(struct facing *f) {
   f->any_coarse = memchr(f->coarse, 1, f->scene->point.count) != NULL;
   f->face_sign = mem_alloc(faces, 1);
   return f->face_sign != NULL &&
-         parallel_ranges(parallel_workers(faces, PARALLEL_ITEMS), faces,
-                         PARALLEL_ITEMS,
-                         f->topology->direction != NULL &&
-                                 f->scene->face_start.count == 0
-                             ? find_signs_by_directions
-                             : find_signs_of_range,
-                         f);
+         parallel_ranges(
+             parallel_workers(faces, PARALLEL_ITEMS), faces, PARALLEL_ITEMS,
+             f->topology->direction != NULL && f->scene->face_start.count == 0
+                 ? find_signs_by_directions
+                 : find_signs_of_range,
+             f);
 }
 
 /* Edges that a thread takes at once: whole words of odd edges. */
@@ -166,7 +165,8 @@ static void find_odd_edges_by_faces(struct facing *f) {
   memcpy(f->odd_edge, topology->features,
          (topology->edge.count / 64 + 1) * sizeof *f->odd_edge);
   for (size_t i = 0; i < f->crossed.count; i++) {
-    uint32_t face = f->crossed.item[i], end = scene_face_start(f->scene, face + 1);
+    uint32_t face = f->crossed.item[i],
+             end = scene_face_start(f->scene, face + 1);
     for (uint32_t c = scene_face_start(f->scene, face); c < end; c++) {
       uint32_t edge = topology->corner_edge[c];
       const struct topology_edge *e = &topology->edge.item[edge];
@@ -269,8 +269,7 @@ static size_t list_flagged_triangles(const void *user,
                                      struct parallel_range range,
                                      uint32_t *kept) {
   const struct flagged_faces *wanted = user;
-  const uint32_t *corner =
-      wanted->facing->scene->corner.item + 3 * range.begin;
+  const uint32_t *corner = wanted->facing->scene->corner.item + 3 * range.begin;
   const uint8_t *flags = wanted->facing->point_flags;
   unsigned bits = wanted->bits;
   size_t count = 0;
@@ -287,11 +286,11 @@ static size_t list_flagged_triangles(const void *user,
 static bool list_faces_with(const struct facing *f, unsigned bits,
                             struct facing_faces *list) {
   const struct flagged_faces wanted = {f, bits};
-  list->item = number_filter(scene_face_count(f->scene),
-                             f->scene->face_start.count == 0
-                                 ? list_flagged_triangles
-                                 : list_flagged_of_range,
-                             &wanted, &list->count);
+  list->item =
+      number_filter(scene_face_count(f->scene),
+                    f->scene->face_start.count == 0 ? list_flagged_triangles
+                                                    : list_flagged_of_range,
+                    &wanted, &list->count);
   list->capacity = list->count;
   return list->item != NULL;
 }
@@ -376,7 +375,8 @@ recto_status facing_init(struct facing *f, const struct scene *scene,
       topology_class_masks(topology, f->scene, crease_deg, f->class_masks) &&
       topology_coarse_parts(topology, f->scene, f->class_masks, f->coarse) &&
       find_face_signs(f) && find_near_faces(f) &&
-      find_odd_edges(f, crease_deg) && facing_mark_networks(f) && find_facings(f, crease_deg);
+      find_odd_edges(f, crease_deg) && facing_mark_networks(f) &&
+      find_facings(f, crease_deg);
   return ok ? RECTO_OK : error_memory(error);
 }
 

@@ -219,8 +219,8 @@ static bool keep_crossed_of_range(void *user, struct parallel_range range) {
 static bool keep_crossed(struct facing *f) {
   size_t n = f->mixed.count;
   struct crossed_search search = {
-      f, mem_alloc(parallel_range_count(n, ITEMS_IN_RANGE),
-                   sizeof *search.kept)};
+      f,
+      mem_alloc(parallel_range_count(n, ITEMS_IN_RANGE), sizeof *search.kept)};
   bool ok = search.kept != NULL &&
             parallel_ranges(parallel_workers(n, ITEMS_IN_RANGE), n,
                             ITEMS_IN_RANGE, keep_crossed_of_range, &search);

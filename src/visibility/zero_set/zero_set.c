@@ -297,10 +297,10 @@ static bool find_boxes_of_range(void *user, struct parallel_range range) {
 /* Finds the boxes, and includes the corners of the faces. */
 static bool find_boxes(const struct face_boxes *boxes, size_t n,
                        struct extent *extent) {
-  bool ok = boxes->box != NULL && boxes->extent != NULL &&
-            parallel_ranges(parallel_workers(n, BOXES_IN_RANGE), n,
-                            BOXES_IN_RANGE, find_boxes_of_range,
-                            (void *)(uintptr_t)boxes);
+  bool ok =
+      boxes->box != NULL && boxes->extent != NULL &&
+      parallel_ranges(parallel_workers(n, BOXES_IN_RANGE), n, BOXES_IN_RANGE,
+                      find_boxes_of_range, (void *)(uintptr_t)boxes);
   for (size_t r = 0; ok && r < parallel_range_count(n, BOXES_IN_RANGE); r++)
     extent_include(extent, &boxes->extent[r]);
   return ok;
