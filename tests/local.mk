@@ -71,6 +71,9 @@ unit_tests += %D%/test_speckles
 unit_tests += %D%/test_short_spurs
 %C%_test_short_spurs_SOURCES = %D%/test_short_spurs.c %D%/ink_fixture.c \
   %D%/ink_fixture.h
+unit_tests += %D%/test_facing_passes
+unit_tests += %D%/test_coarse_parts
+%C%_test_coarse_parts_LDADD = %D%/scenes/libscenes.la $(LDADD)
 unit_tests += %D%/test_smooth_contours %D%/test_smooth_fillets
 unit_tests += %D%/test_smooth_tubes
 %C%_test_smooth_contours_SOURCES = %D%/test_smooth_contours.c \
@@ -184,6 +187,7 @@ unit_tests += %D%/test_input
 unit_tests += %D%/test_parallel
 %C%_test_parallel_SOURCES = %D%/test_parallel.c %D%/sheet_fixture.c %D%/sheet_fixture.h
 %C%_test_parallel_LDADD = %D%/scenes/libscenes.la $(LDADD)
+unit_tests += %D%/test_parallel_aside
 unit_tests += %D%/test_parallel_stages
 %C%_test_parallel_stages_SOURCES = %D%/test_parallel_stages.c %D%/sheet_fixture.c %D%/sheet_fixture.h
 %C%_test_parallel_stages_LDADD = %D%/scenes/libscenes.la $(LDADD)

@@ -63,12 +63,15 @@ void parallel_aside_begin(struct parallel_aside *aside,
     aside->pool = *kept;
 }
 
-void parallel_aside_finish(struct parallel_aside *aside, bool is_wanted) {
+bool parallel_aside_finish(struct parallel_aside *aside, bool is_wanted) {
   if (!is_wanted)
     atomic_store(&aside->ended, true);
-  bool is_done = aside->pool != NULL && thread_pool_take_back(aside->pool);
-  if (!is_done && is_wanted)
+  enum thread_pool_given came = aside->pool != NULL
+                                    ? thread_pool_take_back(aside->pool)
+                                    : THREAD_POOL_WAITS;
+  if (came != THREAD_POOL_ENDED && is_wanted)
     aside->work(aside->user);
+  return came != THREAD_POOL_BEGAN || is_wanted;
 }
 
 int parallel_processors(void) {

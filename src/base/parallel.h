@@ -38,9 +38,11 @@ void parallel_aside_begin(struct parallel_aside *aside,
                           void (*work)(void *user), void *user);
 
 /* Waits until the work is done, which no other thread may have begun: then the
- * caller does it.
- * is_wanted  false: the work may end early, or not be done at all */
-void parallel_aside_finish(struct parallel_aside *aside, bool is_wanted);
+ * caller does it, if it is wanted, else it may end early.  The caller does it
+ * from the beginning, too, where the process was forked since another thread
+ * began, which goes on in the other process alone.
+ * Returns false where the work is half done for that reason. */
+bool parallel_aside_finish(struct parallel_aside *aside, bool is_wanted);
 
 /* How many processors this process may run on; at least 1. */
 int parallel_processors(void);

@@ -24,7 +24,7 @@ struct thread_pool {
   int working;             /* threads that do it */
   thread_pool_work *given; /* to one thread; NULL: nothing is */
   void *given_user;
-  enum { GIVEN_WAITS, GIVEN_BEGAN, GIVEN_ENDED } given_state;
+  enum thread_pool_given given_state;
   bool ends;
   pid_t process; /* in which the threads are */
   size_t threads;
@@ -82,16 +82,16 @@ static void allow_all_processors(const struct thread_pool *pool) { (void)pool; }
 /* ---- Threads ------------------------------------------------------------- */
 
 static bool waits_given(const struct thread_pool *pool) {
-  return pool->given != NULL && pool->given_state == GIVEN_WAITS;
+  return pool->given != NULL && pool->given_state == THREAD_POOL_WAITS;
 }
 
 /* Does what is given to one thread. */
 static void do_given(struct thread_pool *pool) {
-  pool->given_state = GIVEN_BEGAN;
+  pool->given_state = THREAD_POOL_BEGAN;
   (void)pthread_mutex_unlock(&pool->lock);
   pool->given(pool->given_user);
   (void)pthread_mutex_lock(&pool->lock);
-  pool->given_state = GIVEN_ENDED;
+  pool->given_state = THREAD_POOL_ENDED;
   (void)pthread_cond_signal(&pool->is_idle);
 }
 
@@ -206,20 +206,22 @@ bool thread_pool_give(struct thread_pool **kept, thread_pool_work *work,
   (void)pthread_mutex_lock(&pool->lock);
   pool->given = work;
   pool->given_user = user;
-  pool->given_state = GIVEN_WAITS;
+  pool->given_state = THREAD_POOL_WAITS;
   (void)pthread_mutex_unlock(&pool->lock);
   (void)pthread_cond_signal(&pool->wake);
   return true;
 }
 
-bool thread_pool_take_back(struct thread_pool *pool) {
-  (void)pthread_mutex_lock(&pool->lock);
-  while (pool->given_state == GIVEN_BEGAN)
+enum thread_pool_given thread_pool_take_back(struct thread_pool *pool) {
+  bool is_here = pool->process == getpid();
+  if (is_here)
+    (void)pthread_mutex_lock(&pool->lock);
+  while (is_here && pool->given_state == THREAD_POOL_BEGAN)
     (void)pthread_cond_wait(&pool->is_idle, &pool->lock);
-  bool is_done = pool->given_state == GIVEN_ENDED;
   pool->given = NULL;
-  (void)pthread_mutex_unlock(&pool->lock);
-  return is_done;
+  if (is_here)
+    (void)pthread_mutex_unlock(&pool->lock);
+  return pool->given_state;
 }
 
 void thread_pool_end(struct thread_pool *pool) {

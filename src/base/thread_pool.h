@@ -36,9 +36,15 @@ void thread_pool_withdraw(struct thread_pool *pool);
 bool thread_pool_give(struct thread_pool **pool, thread_pool_work *work,
                       void *user);
 
-/* Takes that work back if it has not begun, or waits until it ends.  Returns
- * whether it was done. */
-bool thread_pool_take_back(struct thread_pool *pool);
+/* Takes that work back if it has not begun, or waits until it ends.  Returns how
+ * far it came: it began, but does not end, in a process that was forked
+ * meanwhile. */
+enum thread_pool_given {
+  THREAD_POOL_WAITS,
+  THREAD_POOL_BEGAN,
+  THREAD_POOL_ENDED
+};
+enum thread_pool_given thread_pool_take_back(struct thread_pool *pool);
 
 /* Ends the threads, once all to which work is offered have done their share,
  * and frees the pool, which may be NULL. */

@@ -17,16 +17,15 @@ static bool find_smooth_set(struct smooth_curves *c) {
                                 in->crease_deg, NULL) == RECTO_OK;
   if (ok) {
     surface->facing->camera = camera; /* whose scale is final */
+    *surface->facing->large = large_face_normals_start();
     ok = zero_set_find(&c->set, in->sheet, surface->facing, NULL) == RECTO_OK;
   }
-  smooth_surface_fini(surface);
   return ok;
 }
 
 static bool cut_curves(struct smooth_curves *c) {
   const struct smooth_curves_input *in = &c->in;
   const struct camera *camera = &in->sheet->camera;
-  c->curves.set = &c->set;
   return contour_curves_join(&c->curves, &c->set, in->crease_deg) &&
          (in->exact ||
           (thin_loops_remove(&c->curves, &c->set, in->sheet, in->topology) &&
@@ -35,8 +34,17 @@ static bool cut_curves(struct smooth_curves *c) {
          page_crossings_cut(&c->curves, camera);
 }
 
+/* Gives up what was found, which a thread of another process may have left half
+ * done. */
+static void forget_curves(struct smooth_curves *c) {
+  c->set = (struct zero_set){.node = {0}};
+  c->chains = (struct outline_chains){.next = NULL};
+  c->curves = (struct contour_curves){.set = &c->set};
+}
+
 static void find_smooth_curves(void *user) {
   struct smooth_curves *c = user;
+  forget_curves(c);
   c->ok = find_smooth_set(c) && cut_curves(c) &&
           (c->has_folds || outline_chains_link(&c->chains, &c->set));
 }
@@ -63,18 +71,21 @@ void smooth_curves_begin(struct smooth_curves *c,
 recto_status smooth_curves_find(struct smooth_curves *c,
                                 const struct smooth_curves_input *input,
                                 recto_error *error) {
-  c->in = *input;
-  if (c->is_begun)
-    parallel_aside_finish(&c->aside, true);
-  else
+  if (c->is_begun) {
+    (void)parallel_aside_finish(&c->aside, true);
+  } else {
+    c->in = *input;
+    c->has_folds = has_folds(input->sheet);
     find_smooth_curves(c);
+  }
   c->is_begun = false;
+  smooth_surface_fini(input->surface);
   return c->ok ? RECTO_OK : error_memory(error);
 }
 
 void smooth_curves_fini(struct smooth_curves *c) {
-  if (c->is_begun)
-    parallel_aside_finish(&c->aside, false);
+  if (c->is_begun && !parallel_aside_finish(&c->aside, false))
+    forget_curves(c);
   c->is_begun = false;
   outline_chains_fini(&c->chains);
   contour_curves_fini(&c->curves);
