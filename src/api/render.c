@@ -44,7 +44,7 @@ struct render {
   struct topology topology; /* owned unless the preparation is shared */
   struct camera camera;
   struct smooth_surface surface; /* where it is known before the contours */
-  struct smooth_curves curves;   /* of it */
+  struct smooth_curves *curves;  /* of it; NULL: none are begun */
   struct visible_part visible;
   struct sheet sheet;
   struct face_sizes sizes; /* of the faces that were laid out */
@@ -208,7 +208,7 @@ static recto_status solve_visibility(struct render *render,
   const recto_options *options = render->options;
   const struct smooth_curves_input curves = curves_input(render);
   if (draws_smooth_contours(render))
-    smooth_curves_begin(&render->curves, &curves);
+    render->curves = smooth_curves_begin(&curves);
   struct solver_request request = solver_request_to_draw(options);
   request.fragments = needs_fragments(render);
   request.threads = parallel_threads();
@@ -395,7 +395,7 @@ static recto_status run_and_report(struct render *render, recto_error *error) {
     stats_add_seconds(render->report, "render_wall_s", clock_wall() - wall);
     warn_and_report(render);
   }
-  smooth_curves_fini(&render->curves);
+  smooth_curves_end(render->curves);
   map_fini(&render->map);
   (void)poll_now();
   sheet_fini(&render->sheet);

@@ -15,7 +15,7 @@ render_contours_input(struct sheet *sheet, struct smooth_surface *surface,
                                                options->ink.min_stroke_mm == 0};
 }
 
-recto_status render_contours_add(struct map *map, struct smooth_curves *curves,
+recto_status render_contours_add(struct map *map, struct smooth_curves **curves,
                                  const struct smooth_curves_input *input,
                                  const recto_options *options,
                                  struct report *report, recto_error *error) {
@@ -23,9 +23,10 @@ recto_status render_contours_add(struct map *map, struct smooth_curves *curves,
       .hidden_max = options->ink.hidden ? options->ink.hidden_by_max : 0,
       .intersections = (options->ink.edges & RECTO_EDGE_INTERSECTION) != 0};
   struct smooth_contours_counts counts;
-  recto_status status = smooth_contours_add(input->sheet, map, curves, input,
-                                            how, &counts, error);
-  smooth_curves_fini(curves);
+  recto_status status =
+      smooth_contours_add(map, curves, input, how, &counts, error);
+  smooth_curves_end(*curves);
+  *curves = NULL;
   report_count(report, "contours", "segments", counts.segments);
   report_count(report, "contours", "curves", counts.curves);
   report_count(report, "contours", "pieces", counts.pieces);

@@ -36,8 +36,8 @@ void thread_pool_withdraw(struct thread_pool *pool);
 bool thread_pool_give(struct thread_pool **pool, thread_pool_work *work,
                       void *user);
 
-/* Takes that work back if it has not begun, or waits until it ends.  Returns how
- * far it came: it began, but does not end, in a process that was forked
+/* Takes that work back if it has not begun, or waits until it ends.  Returns
+ * how far it came: it began, but does not end, in a process that was forked
  * meanwhile. */
 enum thread_pool_given {
   THREAD_POOL_WAITS,

@@ -67,8 +67,8 @@
  * Derivation  an eighth of a millimetre, less than half of a common pen's
  *             width: a gap that ink fills.
  * Users       visibility/fit/border_ends.c,
- *             visibility/contour/doubled_contours.c,
- *             visibility/contour/page_loop.h, visibility/fold/fold_lines.c,
+ *             visibility/contour/doubled_cells.h,
+ *             visibility/contour/page_loop.h, visibility/fold/fold_chains.c,
  *             visibility/fold/intersection_gaps.c,
  *             visibility/fold/nearest_contours.c,
  *             visibility/fold/outline_gaps.c, visibility/smooth_contours.c

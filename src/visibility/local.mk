@@ -64,6 +64,7 @@ librecto_core_la_SOURCES += \
   %D%/fold/outline_chains.c %D%/fold/outline_chains.h \
   %D%/fold/outline_ends.c %D%/fold/outline_ends.h \
   %D%/fold/outline_gaps.c %D%/fold/outline_gaps.h \
+  %D%/fold/outlined_curves.h \
   %D%/fragments/face_union.c %D%/fragments/face_union.h \
   %D%/fragments/fragments.c %D%/fragments/fragments.h \
   %D%/fragments/fragments_union.c \

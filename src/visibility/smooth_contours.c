@@ -25,6 +25,7 @@
 #include "visibility/fold/fold_lines.h"
 #include "visibility/fold/intersection_gaps.h"
 #include "visibility/fold/outline_gaps.h"
+#include "visibility/fold/outlined_curves.h"
 #include "visibility/index/partial_grid.h"
 #include "visibility/zero_set/folded_faces.h"
 
@@ -335,43 +336,46 @@ static void forget_intersections(struct sheet *sheet) {
       sheet->edge.item[e].edge_class = 0;
 }
 
-recto_status smooth_contours_add(struct sheet *sheet, struct map *map,
-                                 struct smooth_curves *found,
+recto_status smooth_contours_add(struct map *map, struct smooth_curves **curves,
                                  const struct smooth_curves_input *input,
                                  struct smooth_contours_options options,
                                  struct smooth_contours_counts *counts,
                                  recto_error *error) {
+  struct sheet *sheet = input->sheet;
   uint32_t first = (uint32_t)sheet->edge.count;
-  const struct topology *topology = input->topology;
-  struct zero_set *set = &found->set;
-  struct contour_curves *curves = &found->curves;
-  recto_status status = smooth_curves_find(found, input, error);
+  struct outlined_curves *found = NULL;
+  recto_status status = smooth_curves_find(curves, input, &found, error);
+  *counts = (struct smooth_contours_counts){.segments = 0};
+  if (found == NULL)
+    return status;
   struct contour_pieces pieces = {
       .sheet = sheet,
       .map = map,
-      .set = set,
+      .set = &found->set,
       .chains = &found->chains,
-      .curves = curves,
+      .curves = &found->curves,
       .divided = {.sheet = sheet,
-                  .curves = curves,
+                  .curves = &found->curves,
                   .projection = projection_of(&sheet->camera),
                   .exact = input->exact},
       .occluders = {.sheet = sheet,
                     .grid = &pieces.grid.grid,
                     .query = &pieces.query,
-                    .near = {.scene = sheet->scene, .topology = topology},
+                    .near = {.scene = sheet->scene,
+                             .topology = input->topology},
                     /* Their number is asked for by is_too_deep alone. */
                     .most = options.hidden_max > 0 ? INT_MAX : 1},
       .exact = input->exact,
       .options = options};
-  if (status == RECTO_OK &&
-      !(add_pieces(&pieces) && end_at_contours(sheet, map, topology, first)))
+  if (!(add_pieces(&pieces) &&
+        end_at_contours(sheet, map, input->topology, first)))
     status = error_memory(error);
   if (!options.intersections)
     forget_intersections(sheet);
   *counts = (struct smooth_contours_counts){
-      set->segment.count, curves->curve.count, pieces.divided.piece.count,
-      curves->compared + pieces.occluders.near.searched};
+      found->set.segment.count, found->curves.curve.count,
+      pieces.divided.piece.count,
+      found->curves.compared + pieces.occluders.near.searched};
   fini_pieces(&pieces);
   return status;
 }

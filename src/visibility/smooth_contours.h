@@ -28,15 +28,15 @@ struct smooth_contours_options {
  * little off the surface, so that the triangles about them do not decide.
  * Visible fragments are made to end at the visible pieces (fit_fragments.h).
  * map     of the sheet; its edges are known
- * curves  found here, unless that was begun before (smooth_curves.h)
- * input   their surface, of the sheet's scene and view, and more
+ * curves  as of smooth_curves_find
+ * input   of the curves: the sheet, its surface and more
  * Errors  RECTO_ERROR_MEMORY, RECTO_ERROR_CANCELLED.
  * Cost    linear in the mesh; near linear in the contours
  * Source  doc/decisions/0039 */
-USE_RESULT recto_status smooth_contours_add(
-    struct sheet *sheet, struct map *map, struct smooth_curves *curves,
-    const struct smooth_curves_input *input,
-    struct smooth_contours_options options,
-    struct smooth_contours_counts *counts, recto_error *error);
+USE_RESULT recto_status
+smooth_contours_add(struct map *map, struct smooth_curves **curves,
+                    const struct smooth_curves_input *input,
+                    struct smooth_contours_options options,
+                    struct smooth_contours_counts *counts, recto_error *error);
 
 #endif

@@ -8,7 +8,8 @@
 #include "base/union_find.h"
 
 /* Joins the points of all edges: those of a part lead to one of them. */
-static void join_parts(const struct topology *topology, uint32_t *part) {
+static void join_points_of_edges(const struct topology *topology,
+                                 uint32_t *part) {
   const struct topology_edge *edge = topology->edge.item;
   for (size_t e = 0; e < topology->edge.count; e++) {
     uint32_t a = edge[e].point[0], b = edge[e].point[1];
@@ -83,7 +84,7 @@ bool topology_coarse_parts(const struct topology *topology,
   uint32_t *part = union_find_create(points);
   bool ok = part != NULL;
   if (ok)
-    join_parts(topology, part);
+    join_points_of_edges(topology, part);
   if (ok && !mark_one_part(topology, class_masks, part, points, coarse))
     ok = mark_coarse_parts(topology, class_masks, part, points, coarse);
   mem_free(part);

@@ -75,7 +75,7 @@ static uint32_t find_covering_contour(const struct doubled_contours *d,
 }
 
 /* How far from an edge what covers it is, at most. */
-static double reach_of(const struct doubled_contours *d, uint32_t edge) {
+static double reach_of_cover(const struct doubled_contours *d, uint32_t edge) {
   return fmax(d->beyond, WITHIN_SHARE * (double)d->height[edge - d->first]);
 }
 
@@ -95,7 +95,7 @@ static struct doubled_place place_of_cell(const struct doubled_contours *d,
                                 .dx = x / length,
                                 .dy = y / length,
                                 .along = d->along[index] + t * length,
-                                .reach = reach_of(d, cell->edge)};
+                                .reach = reach_of_cover(d, cell->edge)};
 }
 
 /* Whether two edges are so near each other along a curve that no place of one
@@ -112,7 +112,8 @@ static bool may_be_covered(const struct doubled_contours *d, uint32_t edge) {
       sheet_ends(d->sheet, d->sheet->edge.item[edge].point);
   struct box2 box = box2_of_segment(of.p, of.q);
   double x = ((double)box.x0 + box.x1) / 2, y = ((double)box.y0 + box.y1) / 2;
-  double reach = reach_of(d, edge) + 1, wide = x - box.x0, high = y - box.y0;
+  double reach = reach_of_cover(d, edge) + 1, wide = x - box.x0,
+         high = y - box.y0;
   double farthest = fmin((double)of.p.z, (double)of.q.z);
   farthest -= 0x1p-50 * fabs(farthest); /* more than rounding */
   struct segment_walk walk =

@@ -165,7 +165,7 @@ struct chain_look {
   bool ok;
 };
 
-static bool is_seen(struct chain_look *l, const struct fold_sample *s) {
+static bool is_sample_seen(struct chain_look *l, const struct fold_sample *s) {
   return fold_chains_is_seen(l->chains->in, l->query, s, &l->ok);
 }
 
@@ -183,7 +183,7 @@ static bool open_ring(struct chain_look *l) {
   if (at == count)
     for (at = 0; l->ok && at < count &&
                  !added_folds_beside(l->added, &s->item[at]) &&
-                 is_seen(l, &s->item[at]);)
+                 is_sample_seen(l, &s->item[at]);)
       at++;
   if (!l->ok || at == count)
     return !l->ok;
@@ -197,10 +197,10 @@ static bool open_ring(struct chain_look *l) {
  * is asked first. */
 static bool may_sample_lack(struct chain_look *l, struct fold_sample *s) {
   bool was_hidden = l->is_hidden;
-  if (was_hidden && !is_seen(l, s))
+  if (was_hidden && !is_sample_seen(l, s))
     return false;
   fold_chains_look_beside(l->chains->joints, s);
-  l->is_hidden = !s->is_beside && !was_hidden && !is_seen(l, s);
+  l->is_hidden = !s->is_beside && !was_hidden && !is_sample_seen(l, s);
   return !s->is_beside && !l->is_hidden;
 }
 

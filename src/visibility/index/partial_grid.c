@@ -97,9 +97,9 @@ static struct cell_counts cells_left(const struct wanted_triangles *all) {
 /* Lists a triangle in those of its cells that are wanted.
  * looked_at  adds the cells that may list it
  * Returns false when memory ran out. */
-static bool list_in_cells(const struct partial_grid *p, uint32_t t,
-                          struct cell_range r, struct wanted_range *own,
-                          uint64_t *looked_at) {
+static bool list_in_wanted_cells(const struct partial_grid *p, uint32_t t,
+                                 struct cell_range r, struct wanted_range *own,
+                                 uint64_t *looked_at) {
   bool is_wide = triangle_grid_is_wide(r);
   for (int y = r.y0; y <= r.y1; y++) {
     int x0 = r.x0, x1 = r.x1;
@@ -146,7 +146,7 @@ static bool list_wanted_of_range(void *user, struct parallel_range range) {
     struct cell_range r =
         cells_of_box(&grid, box2_of_triangle(&sheet, (uint32_t)t));
     if (triangle_grid_is_wide(r) || is_any_wanted(&grid, dilated, r))
-      ok = list_in_cells(all->partial, (uint32_t)t, r, own, &looked_at);
+      ok = list_in_wanted_cells(all->partial, (uint32_t)t, r, own, &looked_at);
     else
       looked_at += (uint64_t)(r.x1 - r.x0 + r.y1 - r.y0 + 1);
     if (looked_at > left.looked_at || own->in.count > left.listed)
@@ -193,8 +193,8 @@ static void put_into_lists(const struct wanted_triangles *all,
   }
 }
 
-static bool make_lists(struct triangle_grid *grid,
-                       const struct wanted_triangles *all) {
+static bool make_wanted_lists(struct triangle_grid *grid,
+                              const struct wanted_triangles *all) {
   size_t cells = triangle_grid_cell_count(grid);
   if (!number_lists_init(&grid->lists, cells))
     return false;
@@ -213,7 +213,8 @@ bool partial_grid_fill(struct partial_grid *p, const struct sheet *sheet) {
                                  .range =
                                      mem_calloc(ranges, sizeof *all.range)};
   bool ok = all.range != NULL && fit_cells(p, &all) &&
-            make_lists(&p->grid, &all) && triangle_grid_split(&p->grid, false);
+            make_wanted_lists(&p->grid, &all) &&
+            triangle_grid_split(&p->grid, false);
   for (size_t r = 0; all.range != NULL && r < ranges; r++)
     ARRAY_FREE(&all.range[r].in);
   mem_free(all.range);

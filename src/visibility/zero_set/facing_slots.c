@@ -1,5 +1,5 @@
-/* facing_slots.c - which corners share a normal of the smooth surface, and which
- * normals are needed. */
+/* facing_slots.c - which corners share a normal of the smooth surface, and
+ * which normals are needed. */
 #include "visibility/zero_set/facing.h"
 
 /* Joins the corners of two faces at both ends of their smooth edge. */

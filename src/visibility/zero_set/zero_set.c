@@ -183,7 +183,6 @@ static bool cross_faces(struct zero_finder *z) {
 
 static void free_finder(struct zero_finder *z) {
   curvature_noise_fini(&z->curvature);
-  folded_faces_fini(&z->folded);
   ranked_set_fini(&z->near_edge);
   mem_free(z->edge_node);
   mem_free(z->point_node);
@@ -193,14 +192,14 @@ static void free_finder(struct zero_finder *z) {
 }
 
 recto_status zero_set_find(struct zero_set *set, const struct sheet *sheet,
+                           const struct folded_faces *folded,
                            const struct facing *facing, recto_error *error) {
   struct zero_finder z = {.set = set,
                           .facing = facing,
-                          .folded = {.sheet = sheet},
+                          .folded = *folded,
                           .projection = projection_of(facing->camera),
                           .mesh_is_inside = sheet->clipped_page == 0};
-  bool ok = folded_faces_mark(&z.folded) &&
-            curvature_noise_find(&z.curvature, facing) && reserve_nodes(&z) &&
+  bool ok = curvature_noise_find(&z.curvature, facing) && reserve_nodes(&z) &&
             cross_faces(&z) && facing_each_odd_edge(facing, cross_edge, &z);
   free_finder(&z);
   return ok ? RECTO_OK : error_memory(error);

@@ -12,15 +12,18 @@
 
 #include "view/extent.h"
 #include "view/sheet.h"
+#include "visibility/zero_set/folded_faces.h"
 #include "visibility/zero_set/zero_segments.h"
 
 /* Finds the contour.
  * set     zero-initialised; the caller frees it
  * sheet   laid out from the mesh
+ * folded  its folded faces; of no others are the sheet's edges and points read
  * Errors  RECTO_ERROR_MEMORY.
  * Cost    linear in the corners */
 USE_RESULT recto_status zero_set_find(struct zero_set *set,
                                       const struct sheet *sheet,
+                                      const struct folded_faces *folded,
                                       const struct facing *facing,
                                       recto_error *error);
 
