@@ -12,7 +12,11 @@
  * order.  A thread that would have to wait for those of another opens the next
  * part meanwhile.  The parts are taken up to the first that is not plain to its
  * end, after which none is begun; where that begins something else, it is read
- * again. */
+ * again.
+ *
+ * Before that, room is made for as many statements as the parts have if these
+ * are like the run so far.  A part that there is no room for ends what is read
+ * at once, and is read again with more room. */
 #include <pthread.h>
 #include <stdatomic.h>
 #include <string.h>
